@@ -91,9 +91,7 @@ class Cylinder:
 
     def height(self, x, y):
         """z(x) [m], the same for every y."""
-        return np.broadcast_to(
-            np.square(x) / (2 * self.radius), np.broadcast_shapes(np.shape(x), np.shape(y))
-        )
+        return np.broadcast_to(np.square(x) / (2 * self.radius), np.broadcast_shapes(np.shape(x), np.shape(y)))
 
     def slope(self, x, y):
         """dz/dx [1]."""

@@ -43,9 +43,7 @@ class SelfAffine:
     @model_validator(mode="after")
     def _wavelengths_in_order(self):
         if self.shortest is not None and not self.shortest <= self.longest / 2:
-            raise ValueError(
-                f"shortest = {self.shortest:g} must be at most half of longest = {self.longest:g}"
-            )
+            raise ValueError(f"shortest = {self.shortest:g} must be at most half of longest = {self.longest:g}")
         return self
 
     @property
@@ -65,9 +63,7 @@ class SelfAffine:
         """C_2D(q) [m^4], zero outside q_min <= q <= q_max [rad/m]."""
         norm = 2 * pi * power_integral(-2 * self.hurst - 1, self.q_min, q_max)
         inside = (q >= self.q_min) & (q <= q_max)
-        return np.where(
-            inside, self.rms_height**2 / norm * np.where(inside, q, 1.0) ** (-2 * self.hurst - 2), 0.0
-        )
+        return np.where(inside, self.rms_height**2 / norm * np.where(inside, q, 1.0) ** (-2 * self.hurst - 2), 0.0)
 
     def rms_slope(self, q_max) -> float:
         """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m]."""

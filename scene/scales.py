@@ -22,7 +22,5 @@ def elastic_contact(scene: Scene) -> ElasticContact:
     shape, motion = scene.indenter, scene.motion
     n, g = shape.exponent, shape.mdr_coefficient
     stiffness = 2 * n / (n + 1) * scene.elastomer.indentation_modulus * g
-    radius = (
-        (motion.depth / g) ** (1 / n) if motion.load is None else (motion.load / stiffness) ** (1 / (n + 1))
-    )
+    radius = (motion.depth / g) ** (1 / n) if motion.load is None else (motion.load / stiffness) ** (1 / (n + 1))
     return ElasticContact(radius, g * radius**n, stiffness * radius ** (n + 1))
