@@ -1,0 +1,79 @@
+"""Steady sliding over a linear viscoelastic half-space, of which rest is the limit: physics put on a grid.
+
+In the frame of the indenter the contact is steady. A retardation mode of time lambda turns the elastic kernel into
+that kernel convolved downstream with exp(-s/l)/l, l = speed * lambda. Pressure is constant on a pixel, and the gap
+is collocated behind the pixel's centre by (1/2) tanh(l) pixels: at the trailing edge when l is many pixels, which
+keeps the operator definite, and at the centre when l is far below one, which keeps it accurate. With several modes
+l is their mean weighted by compliance, and the shift is in proportion to the delayed share of the compliance.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import influence
+from .convolution import FreeConvolution, PeriodicFilter
+from .grid import Grid
+
+
+@dataclass(frozen=True)
+class Flow:
+    """The elastomer as it flows past.
+
+    modulus : relaxed E* [Pa]
+    instantaneous : share of the relaxed compliance that follows at once
+    shares, lengths : of the retardation modes (K,), and speed times retardation time (K,) [m]; none at rest
+    """
+
+    modulus: float
+    instantaneous: float
+    shares: np.ndarray
+    lengths: np.ndarray
+
+    @classmethod
+    def of(cls, elastomer, speed: float) -> "Flow":
+        """At a speed [m/s]; at rest every mode has relaxed and the solid is elastic."""
+        instantaneous, compliances, times = elastomer.retardation()
+        if speed == 0 or len(times) == 0:
+            return cls(elastomer.indentation_modulus, 1.0, np.empty(0), np.empty(0))
+        relaxed = instantaneous + compliances.sum()
+        return cls(elastomer.indentation_modulus, instantaneous / relaxed, compliances / relaxed, speed * times)
+
+    @property
+    def at_rest(self) -> bool:
+        return len(self.lengths) == 0
+
+    def collocation(self, grid: Grid) -> float:
+        """How far [m] behind a pixel's centre the gap is measured."""
+        if self.at_rest:
+            return 0.0
+        delayed = self.shares.sum()
+        length = self.shares @ self.lengths / delayed
+        return delayed * grid.pixel / 2 * np.tanh(length / grid.pixel)
+
+    def operator(self, grid: Grid, threads: int) -> FreeConvolution:
+        """Pressure / E* on the pixels -> displacement / pixel at the points of collocation."""
+        n = grid.points
+        if self.at_rest:
+            return FreeConvolution(influence.elastic(n, n), threads)
+        shift = self.collocation(grid) / grid.pixel
+        kernel = np.zeros((n, 2 * n))
+        if self.instantaneous:
+            kernel += self.instantaneous * influence.elastic(n, n, shift)
+        for share, length in zip(self.shares, self.lengths, strict=True):
+            kernel += share * influence.retarded(n, n, length / grid.pixel, shift)
+        return FreeConvolution(kernel, threads)
+
+    def preconditioner(self, grid: Grid, threads: int) -> PeriodicFilter:
+        """Approximate inverse of the operator: |q|/2 over the discrete compliance of the modes."""
+
+        def symbol(q_y, q_x):
+            q = np.hypot(q_y, q_x)
+            q[0, 0] = np.pi / grid.points  # half the lowest: a mean pressure on a free surface does push it in
+            compliance = np.full(np.broadcast_shapes(q_y.shape, q_x.shape), complex(self.instantaneous))
+            for share, length in zip(self.shares, self.lengths * grid.points / grid.extent, strict=True):
+                decay = np.exp(-1 / length)
+                compliance += share * -np.expm1(-1 / length) / (1 - decay * np.exp(-1j * q_x))
+            return q / 2 / compliance
+
+        return PeriodicFilter((grid.points, grid.points), symbol, threads)

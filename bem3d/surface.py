@@ -1,0 +1,95 @@
+"""Rough surfaces in two dimensions: one draw from the spectrum of a scene, evaluated wherever a grid asks."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scene import SelfAffine, SolveError
+
+MOST_WAVES = 2048  # wavelengths of the cut-off on the period, each way: 135 MB of amplitudes
+CORE = 16  # shells in which the density varies much across the cell of a wave vector
+CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell
+
+
+@dataclass(frozen=True)
+class RoughSurface:
+    """Periodic sum of cosines with fixed amplitudes and random phases.
+
+    step : spacing of the lattice of wave vectors [rad/m], 2 pi / period
+    amplitudes : complex (2K+1, K+1), rows k_y = -K..K, columns k_x = 0..K; a half plane of wave vectors [m]
+    """
+
+    step: float
+    amplitudes: np.ndarray
+
+    @classmethod
+    def draw(cls, roughness: SelfAffine, q_max: float) -> "RoughSurface":
+        """One surface with the cut-off q_max [rad/m].
+
+        Each wave vector carries the power of its cell of the lattice, int C_2D d^2q, so that the rms height over a
+        period is exactly that of the spectrum and its density is C_2D at every q. Phases are drawn shell by shell:
+        a higher cut-off adds detail to the same surface. Raises SolveError when it would not fit in memory.
+        """
+        top = int(q_max / roughness.q_min * (1 + 1e-12))
+        if top > MOST_WAVES:
+            raise SolveError(
+                f"the surface has {top} waves of its cut-off on longest = {roughness.longest:g} m, "
+                f"{MOST_WAVES} fit in memory; take a longer shortest or a shorter longest wave"
+            )
+        k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
+        k = np.hypot(k_x, k_y)
+        drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))
+        power = np.where(drawn, _cell_means(roughness, k_x, k_y, q_max), 0.0)
+        power *= roughness.rms_height**2 / power.sum()
+        order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))
+        stream = np.random.default_rng(np.random.SeedSequence(roughness.seed, spawn_key=(2,)))
+        phases = np.empty(k.size)
+        phases[order] = 2 * np.pi * stream.random(k.size)
+        return cls(roughness.q_min, np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape)))
+
+    @property
+    def _wave_numbers(self):
+        top = self.amplitudes.shape[1] - 1
+        return self.step * np.arange(-top, top + 1), self.step * np.arange(top + 1)
+
+    def heights(self, x, y):
+        """h [m], (ny, nx), on the grid of coordinates x (nx,) and y (ny,) [m]."""
+        return self._sum(self.amplitudes, x, y)
+
+    def slopes(self, x, y):
+        """dh/dx [1], (ny, nx)."""
+        return self._sum(1j * self._wave_numbers[1] * self.amplitudes, x, y)
+
+    def _sum(self, amplitudes, x, y):
+        q_y, q_x = self._wave_numbers
+        return (np.exp(1j * np.outer(y, q_y)) @ amplitudes @ np.exp(1j * np.outer(q_x, x))).real
+
+    @property
+    def rms_height(self) -> float:
+        """Over a period [m]."""
+        return float(np.sqrt(np.sum(np.abs(self.amplitudes) ** 2) / 2))
+
+    @property
+    def rms_slope(self) -> float:
+        """Spectral rms of the full gradient over a period [1]."""
+        q_y, q_x = self._wave_numbers
+        square = q_y[:, None] ** 2 + q_x[None, :] ** 2
+        return float(np.sqrt(np.sum(square * np.abs(self.amplitudes) ** 2) / 2))
+
+
+def _cell_means(roughness, k_x, k_y, q_max):
+    """Mean of C_2D over the unit cell around each lattice point."""
+
+    def mean(samples, k_x, k_y):
+        offsets = (np.arange(samples) + 0.5) / samples - 0.5
+        total = np.zeros(k_x.shape)
+        for along in offsets:
+            for aside in offsets:
+                q = roughness.q_min * np.hypot(k_x + along, k_y + aside)
+                total += roughness.density_2d(q, q_max)
+        return total / samples**2
+
+    power = mean(OUTER_SAMPLES, k_x, k_y)
+    core = np.maximum(k_x, np.abs(k_y)) <= CORE
+    power[core] = mean(CORE_SAMPLES, k_x[core], k_y[core])
+    return power

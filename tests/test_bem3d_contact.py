@@ -1,0 +1,78 @@
+"""The complementarity solver against dense problems whose conditions are checked by plain matrix products."""
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from bem3d import contact, influence
+
+TOLERANCE = 1e-8
+N = 12
+
+
+def dense(kernel):
+    """The convolution as a matrix, point by point."""
+    ny, nx = kernel.shape[0], kernel.shape[1] // 2
+    y, x = (a.ravel() for a in np.mgrid[:ny, :nx])
+    return kernel[np.abs(y[:, None] - y[None, :]), nx + x[:, None] - x[None, :]]
+
+
+def rough_heights(seed):
+    y, x = np.mgrid[:N, :N] - (N - 1) / 2
+    return (x**2 + y**2) / 60 + 0.1 * np.random.default_rng(seed).standard_normal((N, N))
+
+
+def problem(length, seed=0):
+    kernel = influence.elastic(N, N) if length == 0 else influence.retarded(N, N, length, 0.5 * np.tanh(length))
+    matrix, z = dense(kernel), rough_heights(seed)
+    return matrix, z, lambda p: (matrix @ p.ravel()).reshape(N, N)
+
+
+@pytest.mark.parametrize("length", [0, 0.05, 1.0, 30.0, 1e4])
+@pytest.mark.parametrize("given", [{"depth": 0.3}, {"load": 2.0}])
+def test_every_condition_of_contact_holds_in_plain_arithmetic(length, given):
+    matrix, z, operator = problem(length)
+    start = np.where(z < 0.2, 1.0, 0.0)
+    found = contact.solve(operator, z, start, TOLERANCE, **given, symmetric=length == 0)
+    p = found.pressure
+    gap = (matrix @ p.ravel()).reshape(N, N) + z - found.depth
+    scale = found.depth - z.min()
+    assert p.min() >= 0
+    assert p.max() > 0
+    assert gap.min() >= -TOLERANCE * scale
+    assert np.abs(gap[p > 0]).max() <= TOLERANCE * scale
+    assert found.violation <= TOLERANCE
+    if "load" in given:
+        assert p.sum() == pytest.approx(given["load"], rel=1e-12)
+
+
+def test_symmetric_problem_agrees_with_nonnegative_least_squares():
+    # min p'Ap/2 - t'p over p >= 0 is least squares with A = L L', b = L^-1 t: another algorithm, not ours
+    matrix, z, operator = problem(0)
+    root = np.linalg.cholesky(matrix)
+    expected, _ = nnls(root.T, np.linalg.solve(root, (0.3 - z).ravel()), maxiter=10_000)
+    found = contact.solve(operator, z, np.where(z < 0.3, 1.0, 0.0), 1e-10, depth=0.3, symmetric=True)
+    np.testing.assert_allclose(found.pressure.ravel(), expected, atol=1e-7 * expected.max())
+
+
+@pytest.mark.parametrize("length", [0, 30.0])
+def test_the_start_does_not_matter(length):
+    _, z, operator = problem(length, seed=3)
+    starts = (np.ones((N, N)), np.where(z == z.min(), 1.0, 0.0), np.random.default_rng(0).random((N, N)))
+    answers = [
+        contact.solve(operator, z, start, TOLERANCE, depth=0.3, symmetric=length == 0).pressure for start in starts
+    ]
+    for other in answers[1:]:
+        np.testing.assert_allclose(other, answers[0], atol=1e-5 * answers[0].max())
+
+
+def test_equal_heights_everywhere_give_the_pressure_of_a_flat_punch():
+    matrix, _, operator = problem(0)
+    found = contact.solve(operator, np.zeros((N, N)), np.ones((N, N)), 1e-10, depth=1.0, symmetric=True)
+    np.testing.assert_allclose(found.pressure.ravel(), np.linalg.solve(matrix, np.ones(N * N)), rtol=1e-7)
+
+
+def test_a_tolerance_below_rounding_is_an_error_and_not_an_answer():
+    _, z, operator = problem(1.0)
+    with pytest.raises(contact.NotConverged, match="violation"):
+        contact.solve(operator, z, np.ones((N, N)), 1e-19, depth=0.3)

@@ -1,0 +1,149 @@
+"""Steady sliding in three dimensions against published solutions and the laws that any solution obeys."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from scene import Cone, Elastic, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+
+G, R, TAU = 1e6, 10e-3, 1e-3
+D = 1e-4
+A = np.sqrt(R * D)
+HERTZ = 4 / 3 * 4 * G * np.sqrt(R) * D**1.5
+PUBLISHED = 5e-3  # asked for: 0.5 % with 36 or more points across the contact
+SLOW = 0.02  # the contact's edge is known to a pixel
+ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=1e-3, seed=2)
+
+
+def across(points):
+    """Solver with that many points over 2 a, on an extent that holds the geometric overlap 2 sqrt(2) a."""
+    n = int(np.ceil(points * 3.2 / 2))
+    return BEM(points=n, extent=2 * A * n / points)
+
+
+def sphere_at(ratio, **other):
+    """Kelvin sphere at depth a^2/R and v tau / a = ratio."""
+    return Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=ratio * A / TAU, depth=D), **other)
+
+
+@pytest.mark.parametrize(("ratio", "force", "friction"), [(0.1, 1.0036, 0.0936), (10.0, 4.522, 0.652)])
+@pytest.mark.parametrize("points", [36, 72])
+def test_kelvin_sphere_reaches_the_reference_values(ratio, force, friction, points):
+    result = across(points).solve(sphere_at(ratio))
+    assert result.normal_force / HERTZ == pytest.approx(force, rel=PUBLISHED)
+    assert result.friction_coefficient * R / A == pytest.approx(friction, rel=PUBLISHED)
+
+
+@pytest.mark.parametrize("ratio", [1e-5, 1e-3, 0.01, 1.0, 100.0, 1000.0])
+def test_every_speed_converges_to_the_stated_residual(ratio):
+    result = BEM(points=96).solve(sphere_at(ratio))
+    assert result.residual <= 1e-5
+    assert result.normal_force > HERTZ * 0.999
+    assert result.friction_force > 0
+
+
+def test_slow_sphere_has_friction_v_tau_over_R():
+    # F_x -> v tau E* int_0^a g'^2 dx with g = x^2/R, so mu = v tau / R; half of what one dimension gives
+    coarse, fine = (BEM(points=n).solve(sphere_at(1e-3)).friction_coefficient for n in (96, 192))
+    assert fine == pytest.approx(1e-3 * A / R, rel=SLOW)
+    # first order in the pixel, which is 12 times the memory length here: what is left shrinks with it
+    assert 2 * fine - coarse == pytest.approx(1e-3 * A / R, rel=SLOW / 5)
+
+
+def test_slow_cone_has_friction_half_pi_tan_theta_v_tau_over_a():
+    theta, a = np.radians(10), 1e-3
+    depth = np.pi / 2 * np.tan(theta) * a
+    scene = Scene(Cone(theta), Kelvin(G, TAU), Slide(speed=1e-3 * a / TAU, depth=depth))
+    expected = np.pi / 2 * np.tan(theta) * 1e-3
+    assert BEM(points=192).solve(scene).friction_coefficient == pytest.approx(expected, rel=SLOW)
+
+
+def test_elastic_sphere_slides_without_friction_at_any_speed():
+    scene = Scene(Sphere(R), Elastic(G), Slide(speed=1.0, depth=D))
+    result = BEM(points=64).solve(scene)
+    assert abs(result.friction_coefficient) < 1e-12
+
+
+def test_friction_on_a_rough_elastic_contact_is_only_discretization_and_vanishes_with_the_pixel():
+    scene = Scene(Sphere(R), Elastic(G), Slide(speed=1.0, depth=D), ROUGH)
+    coarse, fine = (abs(BEM(points=n, extent=6e-3).solve(scene).friction_coefficient) for n in (48, 192))
+    assert fine < coarse / 4
+    assert fine < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("memory", "depth", "moment"),
+    [(1e-4, 0.099824e-3, 0.045249e-3), (1e-3, 0.091508e-3, 0.157664e-3), (1e-2, 0.070553e-3, 0.041906e-3)],
+)
+def test_sphere_on_a_standard_linear_solid_agrees_with_two_other_codes(memory, depth, moment):
+    # memory = v tau_c, tau_c = 2 tau_e; force control at 0.533333 N, 192 points: 0.3 % in depth, 1 % in friction
+    solid = StandardLinearSolid(G, 2 * G, TAU)
+    scene = Scene(Sphere(R), solid, Slide(speed=memory / (2 * TAU), load=0.533333))
+    result = BEM(points=192).solve(scene)
+    assert result.depth == pytest.approx(depth, rel=3e-3)
+    assert result.friction_coefficient * R == pytest.approx(moment, rel=1e-2)
+
+
+def test_standard_linear_solid_equals_its_prony_form():
+    slide = Slide(speed=0.5, load=1.0)
+    one = BEM(points=64).solve(Scene(Sphere(R), StandardLinearSolid(G, 5 * G, TAU), slide, ROUGH))
+    other = BEM(points=64).solve(Scene(Sphere(R), Prony(G, (4 * G,), (TAU,)), slide, ROUGH))
+    split = BEM(points=64).solve(Scene(Sphere(R), Prony(G, (3 * G, G), (TAU, TAU)), slide, ROUGH))
+    assert other.friction_force == pytest.approx(one.friction_force, rel=1e-9)
+    assert split.friction_force == pytest.approx(one.friction_force, rel=1e-6)
+
+
+def test_very_stiff_glass_behaves_as_kelvin():
+    kelvin = BEM(points=64).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=0.5, load=1.0)))
+    # retardation time equals tau when tau_e = tau G_r/G_g
+    glass = StandardLinearSolid(G, 1e6 * G, TAU * 1e-6)
+    stiff = BEM(points=64).solve(Scene(Sphere(R), glass, Slide(speed=0.5, load=1.0)))
+    assert stiff.friction_force == pytest.approx(kelvin.friction_force, rel=1e-4)
+    assert stiff.depth == pytest.approx(kelvin.depth, rel=1e-4)
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.5, 3.0])
+def test_rough_sphere_settles_as_the_pixel_shrinks(speed):
+    scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=2.0), ROUGH)
+    mu = [BEM(points=n, extent=6.4e-3).solve(scene).friction_coefficient for n in (48, 96, 192)]
+    assert abs(mu[2] - mu[1]) < abs(mu[1] - mu[0]) + 2e-4
+    assert mu[1] == pytest.approx(mu[2], rel=0.02)
+
+
+@pytest.mark.parametrize(("length", "force"), [(1e-6, 1e9), (1e6, 1e-3), (3.7, 1.0)])
+def test_answers_scale_exactly_with_the_units(length, force):
+    scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=1.0, load=1.0), ROUGH)
+    other = Scene(
+        Sphere(R * length),
+        Kelvin(G * force / length**2, TAU),
+        Slide(speed=length, load=force),
+        replace(ROUGH, rms_height=5e-5 * length, longest=1e-2 * length, shortest=1e-3 * length),
+    )
+    a, b = BEM(points=64).solve(scene), BEM(points=64).solve(other)
+    assert b.friction_coefficient == pytest.approx(a.friction_coefficient, rel=1e-6)
+    assert b.depth / length == pytest.approx(a.depth, rel=1e-6)
+
+
+def test_roughness_of_no_height_is_no_roughness():
+    smooth = BEM(points=48).solve(sphere_at(1.0))
+    flat = BEM(points=48).solve(sphere_at(1.0, roughness=replace(ROUGH, rms_height=0.0)))
+    assert flat.friction_force == smooth.friction_force
+
+
+@pytest.mark.parametrize("points", [97, 101])
+def test_odd_and_prime_grids_agree_with_even_ones(points):
+    scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=1.0, load=1.0), ROUGH)
+    even = BEM(points=96, extent=5e-3).solve(scene)
+    odd = BEM(points=points, extent=5e-3).solve(scene)
+    assert odd.friction_coefficient == pytest.approx(even.friction_coefficient, rel=0.02)
+
+
+def test_a_finer_tolerance_changes_the_answer_by_no_more_than_the_looser_one_states():
+    scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=1.0, load=1.0), ROUGH)
+    loose = BEM(points=64, extent=5e-3).solve(scene)
+    tight = BEM(points=64, extent=5e-3, tolerance=1e-9).solve(scene)
+    assert tight.residual <= 1e-9
+    assert loose.friction_coefficient == pytest.approx(tight.friction_coefficient, rel=1e-4)
+    assert loose.depth == pytest.approx(tight.depth, rel=1e-4)

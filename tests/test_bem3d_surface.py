@@ -1,0 +1,78 @@
+"""One draw of a rough surface carries exactly the spectrum that it was drawn from."""
+
+import numpy as np
+import pytest
+
+from bem3d.surface import RoughSurface
+from scene import SelfAffine
+
+L = 10e-3
+ROUNDING = 1e-10
+LATTICE = 0.03  # relative, at H = 1: the longest waves are few and sit at the centres of their cells
+SHELL = 0.05  # relative: a ring of lattice points is not a circle
+
+
+def rough(**other):
+    return SelfAffine(**{"hurst": 0.4, "rms_height": 5e-5, "longest": L, "shortest": L / 20, "seed": 7, **other})
+
+
+def draw(roughness):
+    return RoughSurface.draw(roughness, roughness.q_max(0.0))
+
+
+def sampled(surface, n):
+    axis = np.arange(n) * L / n
+    return surface.heights(axis, axis)
+
+
+@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.5, 1.0])
+def test_rms_height_over_a_period_is_exactly_that_of_the_spectrum(hurst):
+    surface = draw(rough(hurst=hurst))
+    heights = sampled(surface, 50)
+    assert heights.mean() == pytest.approx(0, abs=5e-5 * ROUNDING)
+    assert heights.std() == pytest.approx(5e-5, rel=ROUNDING)
+    assert surface.rms_height == pytest.approx(5e-5, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.5, 1.0])
+def test_rms_slope_follows_the_continuous_spectrum(hurst):
+    r = rough(hurst=hurst, shortest=L / 60)
+    assert draw(r).rms_slope == pytest.approx(r.rms_slope(r.q_max(0.0)), rel=LATTICE)
+
+
+def test_power_on_a_ring_of_wave_vectors_is_the_density():
+    r = rough(shortest=L / 100)
+    surface = draw(r)
+    top = surface.amplitudes.shape[1] - 1
+    k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
+    k = np.hypot(k_x, k_y)
+    ring = (k > 30) & (k < 60)
+    power = np.sum(np.abs(surface.amplitudes[ring]) ** 2) / 2
+    q = r.q_min * np.linspace(30, 60, 2001)
+    expected = np.trapezoid(2 * np.pi * q * r.density_2d(q, r.q_max(0.0)), q)
+    assert power == pytest.approx(expected, rel=SHELL)
+
+
+def test_slopes_are_the_derivative_of_heights():
+    surface, x = draw(rough()), np.linspace(-3e-3, 4e-3, 9)
+    step = 1e-8
+    difference = (surface.heights(x + step, x) - surface.heights(x - step, x)) / (2 * step)
+    np.testing.assert_allclose(surface.slopes(x, x), difference, atol=1e-6)
+
+
+def test_surface_repeats_after_the_longest_wave():
+    surface, x = draw(rough()), np.linspace(0, 3e-3, 5)
+    np.testing.assert_allclose(surface.heights(x + L, x - 2 * L), surface.heights(x, x), atol=5e-5 * ROUNDING)
+
+
+def test_a_higher_cut_off_adds_detail_to_the_same_surface():
+    coarse, fine = draw(rough()), draw(rough(shortest=L / 40))
+    top = coarse.amplitudes.shape[1] - 1
+    same = np.abs(coarse.amplitudes) > 0
+    inner = fine.amplitudes[top : 3 * top + 1, : top + 1]
+    np.testing.assert_allclose(np.angle(inner[same]), np.angle(coarse.amplitudes[same]), atol=ROUNDING)
+
+
+def test_another_seed_is_another_surface():
+    x = np.linspace(0, L, 5)
+    assert not np.allclose(draw(rough(seed=1)).heights(x, x), draw(rough(seed=2)).heights(x, x))

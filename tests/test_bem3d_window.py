@@ -1,0 +1,98 @@
+"""The window follows the contact, wherever it is; what cannot be trusted is an error that says how to mend it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from scene import (
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+)
+
+ROUGH = SelfAffine(hurst=0.2, rms_height=2e-4, longest=1e-2, shortest=5e-4, seed=2)
+LIGHT = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1e-2), ROUGH)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("load", [1e-2, 0.1, 1.0])
+def test_fitted_window_leaves_no_asperity_out(seed, load):
+    # the same pixels on a window far larger than any contact
+    scene = replace(LIGHT, motion=Indent(load=load), roughness=replace(ROUGH, seed=seed))
+    fitted = BEM(points=128).solve(scene)
+    wide = 12e-3
+    points = 2 * round(wide / (2 * max(fitted.measures["pixel"], wide / 512)))
+    everything = BEM(points=points, extent=wide).solve(scene)
+    assert fitted.depth == pytest.approx(everything.depth, abs=2e-3 * ROUGH.rms_height)
+
+
+def test_a_single_asperity_off_the_axis_is_resolved():
+    result = BEM(points=64).solve(replace(LIGHT, motion=Indent(load=1e-7)))
+    assert max(map(abs, result.settings["centre"])) > result.settings["extent"]
+    assert result.measures["contact_points"] > 100
+
+
+def test_fast_sliding_at_a_load_still_has_points_across_its_small_contact():
+    result = BEM(points=64).solve(Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=1e4, load=1.0)))
+    assert result.measures["points_across_contact"] > 40
+
+
+def test_contact_at_the_edge_of_a_stated_extent_is_an_error():
+    with pytest.raises(SolveError, match=r"extent = 0.002 m.*larger"):
+        BEM(points=64, extent=2e-3).solve(Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0)))
+
+
+def test_a_depth_that_touches_nothing_is_an_error():
+    crater = replace(ROUGH, seed=5)
+    lowest = BEM(points=64).solve(replace(LIGHT, motion=Indent(load=1e-6), roughness=crater)).depth
+    assert lowest < 0  # peaks reach below the macroscopic tip, so any positive depth touches
+    raised = Scene(Sphere(1e-6), Elastic(1e6), Indent(depth=1e-9), replace(ROUGH, longest=1e-2, shortest=1e-3))
+    with pytest.raises(SolveError):
+        BEM(points=32, extent=1e-8).solve(raised)
+
+
+def test_waves_shorter_than_two_pixels_are_refused_with_the_points_needed():
+    with pytest.raises(Refused, match=r"shortest = 0.0005 m.*points = 40"):
+        BEM(points=32, extent=1e-2).solve(LIGHT)
+    with pytest.raises(SolveError, match=r"shortest = 2e-05 m.*points = "):
+        BEM(points=32).solve(replace(LIGHT, motion=Indent(load=1.0), roughness=replace(ROUGH, shortest=2e-5)))
+
+
+def test_a_spectrum_too_wide_for_memory_is_an_error_before_it_is_drawn():
+    with pytest.raises(SolveError, match="10000 waves"):
+        BEM(points=32).solve(replace(LIGHT, motion=Indent(load=1.0), roughness=replace(ROUGH, shortest=1e-6)))
+
+
+def test_a_contact_of_a_few_points_is_an_error():
+    with pytest.raises(SolveError, match="take more points"):
+        BEM(points=64, extent=1e-2).solve(replace(LIGHT, motion=Indent(load=1e-9)))
+
+
+def test_a_cylinder_is_refused_by_name():
+    scene = Scene(Cylinder(1e-2), Elastic(1e6), Indent(load=1.0))
+    with pytest.raises(Refused, match="BEM cannot solve this scene: indenter = Cylinder"):
+        BEM().solve(scene)
+
+
+def test_without_a_shortest_wave_the_grid_cuts_the_spectrum_off_and_the_result_says_so():
+    result = BEM(points=64).solve(replace(LIGHT, motion=Indent(load=1.0), roughness=replace(ROUGH, shortest=None)))
+    assert result.settings["cutoff"] == "nyquist"
+    assert result.measures["points_per_shortest_wave"] == pytest.approx(2)
+    assert BEM(points=64).solve(replace(LIGHT, motion=Indent(load=1.0))).settings["cutoff"] == "resolved"
+
+
+@pytest.mark.parametrize(
+    ("field", "value"), [("points", 8), ("points", 64.5), ("extent", -1.0), ("extent", np.inf), ("tolerance", 0.5)]
+)
+def test_a_mistaken_setting_is_named(field, value):
+    with pytest.raises(ValueError, match=field):
+        BEM(**{field: value})
