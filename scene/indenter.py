@@ -38,7 +38,7 @@ class Axisymmetric:
         (sqrt(pi)/2) n Gamma(n/2) / Gamma((n+1)/2): 2 for a sphere, pi/2 for a cone.
         """
         n = self.exponent
-        return self.coefficient * sqrt(pi) / 2 * n * gamma(n / 2) / gamma((n + 1) / 2)
+        return self.coefficient * (sqrt(pi) / 2 * n * gamma(n / 2) / gamma((n + 1) / 2))
 
 
 @dataclass(frozen=True, config=CLOSED)

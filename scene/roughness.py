@@ -11,7 +11,7 @@ from .quantities import CLOSED, Finite, NonNegative, Positive, Whole
 
 
 def power_integral(exponent, lower, upper):
-    """int_lower^upper q^exponent dq for 0 < lower <= upper, arrays allowed; exact also where exponent is near -1."""
+    """int_lower^upper q^exponent dq for 0 < lower <= upper, arrays allowed; exact also near exponent = -1."""
     p = exponent + 1
     ratio = np.log(upper / lower)
     return lower**p * (np.expm1(p * ratio) / p if p else ratio)

@@ -1,0 +1,153 @@
+"""Steady flow of a one-dimensional Kelvin foundation past a rigid, piecewise linear profile, solved exactly.
+
+The elastomer enters undisturbed at the left and flows along +x. With l = v tau, the length that it travels in
+one relaxation time, and K the relaxed stiffness per length, an element displaced by u carries the force per
+length f = K (u + l u'), Eq. 5 of Popov et al., Sci. Rep. 4, 3750 (2014). Where it touches, u = d - g and
+f = K (d - g - l g') >= 0, Eq. 6; where it does not, f = 0 and u decays as exp(-x/l). In one formula,
+u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)), so that the force is a convex, increasing function of d.
+"""
+
+from math import exp, expm1, inf, log, nan
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+_NOWHERE = -1.0
+
+
+class Contact(NamedTuple):
+    """What one sweep adds up, for stiffness K = 1 per length; multiply forces by K [Pa].
+
+    force : int f dx / K [m^2]
+    dissipation : friction force as the energy lost per length slid, int l u'^2 dx / K [m^2], the wake included;
+        a sum of terms >= 0, free of cancellation at low speed and exactly zero for an elastic foundation
+    traction : the same friction force from its definition, -int g' f dx / K [m^2], Eq. 8; agrees to rounding
+    stiffness : d(force)/d(depth) [m]
+    length : of the real contact [m]
+    slope_square : int g'^2 dx over the real contact [m]
+    first, last : where contact begins and ends, from the first node [m]; nan without contact
+    displacement : u at the nodes (N,) [m]
+    touching : which nodes touch (N,)
+    """
+
+    force: float
+    dissipation: float
+    traction: float
+    stiffness: float
+    length: float
+    slope_square: float
+    first: float
+    last: float
+    displacement: np.ndarray
+    touching: np.ndarray
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _landing(here, there, slope, pixel, u, memory, decay):
+    """Where in an interval the free surface meets the profile, from its left node; _NOWHERE if it does not.
+
+    here, there : d - g at the left and the right node; u : displacement of the free surface at the left node.
+    The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from the left never oversteps.
+    """
+    if u == 0.0:
+        if here > 0.0:
+            return 0.0
+        return min(here / slope, pixel) if there > 0.0 else _NOWHERE
+    if memory * slope >= u:
+        return _NOWHERE
+    clearance = u - here
+    if clearance <= 0.0:
+        return 0.0
+    closest = memory * log(u / (memory * slope)) if slope > 0.0 else inf
+    if closest < pixel:
+        met = -clearance - slope * closest - u * expm1(-closest / memory) > 0.0
+    else:
+        closest = pixel
+        met = there > u * decay
+    if not met:
+        return _NOWHERE
+    t = min(here / slope, pixel) if slope < 0.0 and here < 0.0 else 0.0
+    for _ in range(100):
+        overlap = -clearance - slope * t - u * expm1(-t / memory)
+        rate = u / memory * exp(-t / memory) - slope
+        if overlap >= 0.0 or rate <= 0.0:
+            break
+        next_t = t - overlap / rate
+        if next_t >= closest:
+            return closest
+        if next_t <= t:
+            break
+        t = next_t
+    return t
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sweep(heights, pixel, memory, depth, displacement, touching):
+    decay = exp(-pixel / memory) if memory > 0.0 else 0.0
+    force = traction = length = slope_square = lost = reach = 0.0
+    first = last = nan
+    touches = False
+    u = 0.0  # of the free surface at the node
+    left = 0.0  # displacement at which the surface last left the profile
+    for i in range(heights.size - 1):
+        here = depth - heights[i]
+        there = depth - heights[i + 1]
+        slope = (heights[i + 1] - heights[i]) / pixel
+        displacement[i] = here if touches else u
+        touching[i] = touches
+        begin, start = 0.0, here
+        if not touches:
+            begin = _landing(here, there, slope, pixel, u, memory, decay)
+            if begin == _NOWHERE:
+                u *= decay
+                continue
+            start = max(here - slope * begin if u > 0.0 else here, 0.0)
+            lost += 0.5 * (left - start) * (left + start)
+            reach += memory * (1.0 - start / left) if left > 0.0 else memory
+            if first != first:
+                first = i * pixel + begin
+            touches = True
+        end, finish = pixel, there
+        if slope > 0.0:
+            pressing = start - memory * slope
+            if pressing <= 0.0:
+                end, finish = begin, start
+            elif begin + pressing / slope < pixel:
+                end, finish = begin + pressing / slope, memory * slope
+        # Of a first touch just before a node only the heights know the width.
+        width = (start - finish) / slope if slope < 0.0 and begin > 0.0 else end - begin
+        pushed = width * (0.5 * (start + finish) - memory * slope)
+        force += pushed
+        traction -= slope * pushed
+        length += width
+        slope_square += slope * slope * width
+        if end < pixel:
+            touches = False
+            left = finish
+            u = left * exp(-(pixel - end) / memory) if memory > 0.0 else 0.0
+            last = i * pixel + end
+    i = heights.size - 1
+    displacement[i] = depth - heights[i] if touches else u
+    touching[i] = touches
+    if touches:
+        last = i * pixel
+        left = displacement[i]
+    lost += 0.5 * left * left
+    return force, memory * slope_square + lost, traction, length + reach, length, slope_square, first, last
+
+
+def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
+    """Solve steady flow along +x past a rigid profile, linear between its nodes.
+
+    heights : g at equidistant nodes (N,) [m]
+    pixel : their spacing [m]
+    memory : l = v tau >= 0 [m]; zero is the elastic foundation
+    depth : d [m], against the same zero as the heights
+
+    The elastomer is at rest before the first node, and relaxes freely behind the last one.
+    """
+    displacement = np.empty(heights.size)
+    touching = np.empty(heights.size, dtype=np.bool_)
+    sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching)
+    return Contact(*sums, displacement, touching)

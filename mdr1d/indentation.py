@@ -1,0 +1,75 @@
+"""Pressing a profile into the foundation, by a depth or with a load."""
+
+from math import ceil
+
+from scene import Scene, SolveError
+
+from .foundation import Contact, sweep
+from .profile import Profile, contact_extent, greatest_depth
+
+# Relative misfit of the load: where Newton stops, and what is still an answer.
+_AIM, _ACCEPTED = 1e-13, 1e-10
+_MOST_SWEEPS = 200
+
+
+def at_depth(scene: Scene, body: Profile, memory: float) -> tuple[float, Contact, int]:
+    """Press the profile in to the scene's depth.
+
+    memory : v tau [m]
+
+    Returns the approach past the first touch [m], the contact and the number of sweeps. Raises SolveError if the
+    contact leaves the grid or there is none.
+    """
+    depth = scene.motion.depth
+    if depth > body.rim:
+        raise _too_short(scene, body)
+    # Heights from the first touch on: a light contact keeps its digits.
+    contact = sweep(body.heights - body.lowest, body.pixel, memory, depth - body.lowest)
+    if not contact.force > 0:
+        raise SolveError(
+            f"motion.depth = {depth:g} does not press the indenter in: its lowest point lies at {body.lowest:g} m "
+            "above the macroscopic tip; a greater depth is needed, or a load"
+        )
+    return depth - body.lowest, contact, 1
+
+
+def under_load(scene: Scene, body: Profile, memory: float) -> tuple[float, Contact, int]:
+    """Press the profile in with the scene's load; arguments and returns as of at_depth.
+
+    The force is a convex, increasing function of the approach while contact stays off the ends of the grid:
+    Newton's method goes down to the root from above it, and from below steps above it. Raises SolveError if the
+    contact leaves the grid or the load is not met to a relative 1e-10.
+    """
+    load = scene.motion.load / scene.elastomer.indentation_modulus
+    heights = body.heights - body.lowest
+    most = body.rim - body.lowest
+    approach = min(greatest_depth(scene, body.surface) - body.lowest, most)
+    best, sweeps = None, 0
+    while sweeps < _MOST_SWEEPS:
+        contact = sweep(heights, body.pixel, memory, approach)
+        sweeps += 1
+        if approach >= most and contact.force < load:
+            raise _too_short(scene, body)
+        misfit = abs(contact.force / load - 1)
+        stalled = best is not None and misfit >= best[0]
+        if not stalled:
+            best = misfit, approach, contact
+        if misfit <= _AIM or (stalled and best[0] <= _ACCEPTED):
+            break
+        approach = min(approach - (contact.force - load) / contact.stiffness, most)
+    misfit, approach, contact = best
+    if not misfit <= _ACCEPTED:
+        raise SolveError(
+            f"motion.load = {scene.motion.load:g} is met only to a relative {misfit:.1e} after {sweeps} sweeps: "
+            "the lengths of the scene differ by more than rounding allows; prescribe the depth"
+        )
+    return approach, contact, sweeps
+
+
+def _too_short(scene: Scene, body: Profile) -> SolveError:
+    extent = contact_extent(scene, body.surface)
+    return SolveError(
+        f"the contact leaves the grid, whose extent is {body.x[-1] - body.x[0]:g} m: "
+        f"extent = {extent:.6g} holds it, with points = {ceil(extent / body.pixel)} on the same pixel"
+        + ("" if body.surface is None else f"; the period roughness.longest is {scene.roughness.longest:g} m")
+    )

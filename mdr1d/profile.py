@@ -1,0 +1,127 @@
+"""From the three-dimensional indenter to the one-dimensional profile g(x) = c_n |x|^n + h(x), Eqs. 1 and 2."""
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+
+from scene import Scene
+from scene.scales import elastic_contact
+
+from .surface import Surface, draw
+
+# Room beyond the farthest point that contact can reach.
+_MARGIN = 1.05
+# Quotients of lengths that are whole numbers but for rounding.
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Nodes x = -half, ..., half times the pixel: one lies at the tip.
+
+    pixel : spacing of the nodes [m]
+    half : nodes on each side of the tip
+    period : nodes in a period of the roughness, a whole number; None on a smooth indenter
+    """
+
+    pixel: float
+    half: int
+    period: int | None = None
+
+    @property
+    def extent(self) -> float:
+        """Distance of the last node from the first [m]."""
+        return 2 * self.half * self.pixel
+
+    @property
+    def x(self) -> np.ndarray:
+        """Coordinates of the nodes (2 half + 1,) [m]."""
+        return np.arange(-self.half, self.half + 1) * self.pixel
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Rigid profile on a grid, linear between its nodes.
+
+    x, heights : nodes and g at them (N,) [m]
+    pixel : spacing of the nodes [m]
+    lowest : least height [m], of the point that touches first
+    rim : least height at the ends of the grid and beyond them [m]; at a lesser depth contact fits the grid
+    surface : the rough line; None on a smooth indenter
+    """
+
+    x: np.ndarray
+    heights: np.ndarray
+    pixel: float
+    lowest: float
+    rim: float
+    surface: Surface | None
+
+
+def greatest_depth(scene: Scene, surface: Surface | None) -> float:
+    """The prescribed depth, or a depth [m] at which the prescribed load is surely met.
+
+    Viscosity only stiffens the contact, and the profile lies nowhere above c_n |x|^n + max h: the load is met no
+    deeper than max h below the smooth elastic depth.
+    """
+    return elastic_contact(scene).depth + (0.0 if scene.motion.load is None else _extremes(surface)[1])
+
+
+def contact_extent(scene: Scene, surface: Surface | None) -> float:
+    """An extent [m] around the tip that no contact leaves, with 5 % to spare.
+
+    Contact lies where the profile is below the depth, c_n |x|^n < d - min h.
+    """
+    return 2 * _MARGIN * _radius(scene.indenter, greatest_depth(scene, surface) - _extremes(surface)[0])
+
+
+def lay_out(scene: Scene, points: int, extent: float | None) -> Grid:
+    """Lay out `points` spacings over an extent [m], refined until they divide the period of the roughness.
+
+    Without an extent it is the period where the grid is the cut-off, as in the paper, and else the least that
+    surely holds the contact.
+    """
+    rough = scene.roughness
+    if extent is None and rough is not None and rough.shortest is None:
+        extent = rough.longest
+    if extent is None:
+        extent = contact_extent(scene, None if rough is None else _well_resolved(rough))
+    if rough is None:
+        half = ceil(points / 2)
+        return Grid(extent / (2 * half), half)
+    period = ceil(rough.longest * points / extent * (1 - _ROUNDING))
+    pixel = rough.longest / period
+    return Grid(pixel, ceil(extent / (2 * pixel) * (1 - _ROUNDING)), period)
+
+
+def map_profile(scene: Scene, grid: Grid) -> Profile:
+    """Map the indenter to its one-dimensional profile and add the rough line, repeated as far as the grid goes."""
+    heights = _macroscopic(scene.indenter, grid.x)
+    if grid.period is None:
+        rim = min(heights[0], heights[-1])
+        return Profile(grid.x, heights, grid.pixel, float(heights.min()), float(rim), None)
+    surface = draw(scene.roughness, grid.period)
+    heights += surface.heights[np.arange(-grid.half, grid.half + 1) % grid.period]
+    # The shape only rises outwards and the roughness repeats: the first period beyond has the lowest point.
+    beyond = np.arange(grid.half, grid.half + grid.period)
+    rise = _macroscopic(scene.indenter, beyond * grid.pixel)
+    rim = min((rise + surface.heights[side % grid.period]).min() for side in (beyond, -beyond))
+    return Profile(grid.x, heights, grid.pixel, float(heights.min()), float(rim), surface)
+
+
+def _macroscopic(shape, x):
+    return shape.mdr_coefficient * np.abs(x) ** shape.exponent
+
+
+def _radius(shape, height):
+    return (height / shape.mdr_coefficient) ** (1 / shape.exponent)
+
+
+def _extremes(surface: Surface | None):
+    return (float(surface.heights.min()), float(surface.heights.max())) if surface else (0.0, 0.0)
+
+
+def _well_resolved(rough) -> Surface:
+    """The surface on 16 nodes a shortest wave: its extremes are those of any grid, to within the margin."""
+    return draw(rough, ceil(16 * rough.longest / rough.shortest))

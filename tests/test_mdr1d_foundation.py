@@ -1,0 +1,168 @@
+"""The sweep along a rough profile against a plain fine march, and the identities of the steady state."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from mdr1d import MDR, lay_out, map_profile, sweep
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+
+MODULUS = 1e6
+TIME = 1e-3
+ROUGH = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-4, shortest=5e-5, seed=4)
+SCENE = Scene(
+    Sphere(radius=1e-2),
+    Kelvin(modulus=MODULUS, relaxation_time=TIME),
+    Slide(speed=0.1, load=1.0),
+    ROUGH,
+)
+# Memory over the smooth contact radius of 0.3 mm: far below a pixel to far above the contact.
+MEMORIES = [0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-1, 1e3]
+# The march finds the edges of contact to a part in 200 of a pixel.
+MARCH = 2e-4
+ROUNDING = 1e-11
+
+
+def rough_profile(points=160, seed=4):
+    scene = replace(SCENE, roughness=replace(ROUGH, seed=seed))
+    body = map_profile(scene, lay_out(scene, points, 1.6e-3))
+    return body.heights, body.pixel
+
+
+def march(heights, pixel, memory, depth, parts=200):
+    """u_i = max(d - g_i, e u_{i-1}) on a finer grid, forces by the midpoint rule: no events, no algebra."""
+    count = heights.size
+    fine = np.interp(np.arange((count - 1) * parts + 1) / parts, np.arange(count), heights)
+    step = pixel / parts
+    decay = np.exp(-step / memory) if memory else 0.0
+    u, touches, before = np.empty(fine.size), np.empty(fine.size, bool), 0.0
+    for i, here in enumerate(depth - fine):
+        u[i] = max(here, decay * before, 0.0)
+        touches[i] = here > 0 and here >= decay * before
+        before = u[i]
+    # f = K (u + l u') where both ends of a step touch; elsewhere the surface is free.
+    pair = touches[1:] & touches[:-1]
+    f = np.where(pair, (u[1:] + u[:-1]) / 2 + memory * np.diff(u) / step, 0.0)
+    return f.sum() * step, -(f * np.diff(fine)).sum(), pair.sum() * step
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+@pytest.mark.parametrize("approach", [3e-5, 6e-5])
+def test_the_sweep_agrees_with_a_fine_march(memory, approach):
+    heights, pixel = rough_profile()
+    depth = approach + heights.min()
+    contact = sweep(heights, pixel, memory, depth)
+    force, friction, length = march(heights, pixel, memory, depth)
+    steepest = np.abs(np.diff(heights)).max() / pixel
+    spots = np.count_nonzero(np.diff(contact.touching.astype(int)) == 1)
+    assert spots >= 2
+    # A step lost at the edge of a spot carries a force in proportion to the memory.
+    edges = 20 * pixel / 200 * (memory * steepest + approach)
+    assert contact.force == pytest.approx(force, rel=MARCH, abs=edges)
+    assert contact.dissipation == pytest.approx(friction, rel=MARCH, abs=edges * steepest)
+    assert contact.length == pytest.approx(length, abs=20 * pixel / 200)
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_the_march_converges_to_the_sweep(memory):
+    heights, pixel = rough_profile(points=80)
+    depth = heights.min() + 2e-5
+    contact = sweep(heights, pixel, memory, depth)
+    coarse, fine = (march(heights, pixel, memory, depth, parts)[0] for parts in (20, 2000))
+    assert abs(fine - contact.force) <= 0.1 * abs(coarse - contact.force) + ROUNDING * contact.force
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_friction_by_traction_is_the_energy_lost_per_length(memory):
+    heights, pixel = rough_profile()
+    contact = sweep(heights, pixel, memory, heights.min() + 2e-5)
+    steepest = np.abs(np.diff(heights)).max() / pixel
+    assert contact.dissipation >= 0
+    assert contact.traction == pytest.approx(
+        contact.dissipation, rel=ROUNDING, abs=ROUNDING * steepest * contact.force
+    )
+
+
+@pytest.mark.parametrize("memory", [1e-6, 1e-5, 1e-4, 1e-3])
+def test_the_force_is_the_stiffness_times_the_displaced_area(memory):
+    # int f = K int u, since u vanishes on both sides; the wake behind the grid adds l times the last u.
+    heights, pixel = rough_profile(points=20000)
+    contact = sweep(heights, pixel, memory, heights.min() + 2e-5)
+    area = np.trapezoid(contact.displacement, dx=pixel) + memory * contact.displacement[-1]
+    # The trapezoid rule of the exponential wake, (pixel / memory)^2 / 12, and of a kink at each edge.
+    assert contact.force == pytest.approx(area, rel=max((pixel / memory) ** 2, 1e-6))
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_the_force_is_convex_and_increasing_in_the_depth_with_the_stated_stiffness(memory):
+    heights, pixel = rough_profile(seed=11)
+    depths = heights.min() + np.linspace(0, 3e-5, 200)
+    contacts = [sweep(heights, pixel, memory, d) for d in depths]
+    force = np.array([c.force for c in contacts])
+    stiffness = np.array([c.stiffness for c in contacts])
+    scale = ROUNDING * force[-1]
+    assert np.all(np.diff(force) > 0)
+    # A convex function lies between its tangents: rise / run is between the slopes at both ends.
+    rise, run = np.diff(force), np.diff(depths)
+    assert np.all(stiffness[:-1] * run <= rise + scale)
+    assert np.all(rise <= stiffness[1:] * run + scale)
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_contact_conditions_hold_at_every_node(memory):
+    heights, pixel = rough_profile()
+    depth = heights.min() + 2e-5
+    contact = sweep(heights, pixel, memory, depth)
+    clearance = contact.displacement - (depth - heights)
+    assert np.all(contact.displacement >= 0)
+    assert np.all(clearance >= -ROUNDING * depth)
+    assert np.all(clearance[contact.touching] == 0)
+
+
+def test_extreme_memories_join_the_elastic_and_the_viscous_limit():
+    heights, pixel = rough_profile()
+    depth = heights.min() + 2e-5
+    elastic = sweep(heights, pixel, 0.0, depth)
+    # Far below a pixel: force, friction / memory and length no longer depend on the memory.
+    for memory in (1e-300, 1e-30, 1e-15):
+        contact = sweep(heights, pixel, memory, depth)
+        assert contact.force == pytest.approx(elastic.force, rel=1e-6)
+        assert contact.length == pytest.approx(elastic.length, rel=1e-6)
+    thin, thinner = (sweep(heights, pixel, memory, depth).dissipation / memory for memory in (1e-15, 1e-17))
+    assert thin == pytest.approx(thinner, rel=1e-6)
+    # Far above the contact: a viscous fluid, whose forces are in proportion to the speed.
+    thick, thicker = (sweep(heights, pixel, memory, depth) for memory in (1e6, 1e9))
+    assert thick.force / 1e6 == pytest.approx(thicker.force / 1e9, rel=1e-6)
+    assert thick.dissipation / thick.force == pytest.approx(thicker.dissipation / thicker.force, rel=1e-6)
+
+
+@pytest.mark.parametrize(("lift", "lands"), [(-1e-9, True), (1e-9, False)])
+def test_contact_that_begins_and_ends_within_one_interval_is_found(lift, lands):
+    # Lengths in pixels, l = 1, d = 1. The surface leaves a flank of slope 0.7 where f = 1 - g - l g' vanishes,
+    # and meets the next, flatter flank although both nodes of that stay clear of it.
+    steep = 0.7
+    u = steep * np.exp(-(1 - (1 / steep - 1)))
+    node = 1 - steep
+
+    def least_clearance(slope):
+        return slope * (1 + np.log(u / slope)) - node
+
+    slope = brentq(least_clearance, 0.05, u) + lift
+    assert 0 < np.log(u / slope) < 1
+    assert u * np.exp(-1) > node - slope
+    heights = np.array([2.0, 0.0, steep, steep + slope, 5.0])
+    assert (sweep(heights, 1.0, 1.0, 1.0).last > 2) is lands
+
+
+def test_the_depth_found_for_a_load_carries_that_load():
+    fixed = MDR(extent=4e-3)
+    for speed in (0.0, 1e-3, 0.1, 10.0):
+        by_load = fixed.solve(replace(SCENE, motion=Slide(speed=speed, load=1.0)))
+        by_depth = fixed.solve(replace(SCENE, motion=Slide(speed=speed, depth=by_load.depth)))
+        again = fixed.solve(replace(SCENE, motion=Slide(speed=speed, load=by_depth.normal_force)))
+        assert by_load.residual <= 1e-10
+        assert by_depth.normal_force == pytest.approx(1.0, rel=ROUNDING)
+        assert by_depth.friction_force == pytest.approx(by_load.friction_force, rel=ROUNDING)
+        assert again.depth == pytest.approx(by_load.depth, rel=ROUNDING)

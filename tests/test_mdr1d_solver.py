@@ -1,0 +1,254 @@
+"""The solver as seen from outside: what it refuses, what it reports, and the cases that break others."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from mdr1d import MDR, draw
+from scene import (
+    Cone,
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    StandardLinearSolid,
+)
+
+KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
+SOLID = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-3)
+PRONY = Prony(equilibrium_modulus=1e6, moduli=(1e6,), relaxation_times=(1e-3,))
+SMOOTH = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.3, load=1.0))
+ROUGH = replace(SMOOTH, roughness=SelfAffine(hurst=0.8, rms_height=5e-6, longest=4e-3, shortest=1e-4, seed=3))
+PAPER = replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=None))
+
+ROUNDING = 1e-11
+
+
+def test_a_result_says_what_it_was_solved_with():
+    result = MDR(points=500).solve(PAPER)
+    assert result.solver == MDR().name == "MDR"
+    assert result.scene is PAPER
+    assert result.settings == {"points": 500, "extent": 4e-3, "pixel": 8e-6, "cutoff": "nyquist"}
+    assert result.residual <= 1e-10
+    assert result.normal_force == pytest.approx(1.0, rel=1e-10)
+    assert 1 <= result.applications <= 20
+    assert result.seconds >= 0
+    measures = result.measures
+    assert measures["pixel"] == 8e-6
+    assert measures["points_per_shortest_wave"] == pytest.approx(2.0)
+    assert measures["rms_height"] == pytest.approx(5e-6)
+    assert measures["rms_slope"] < measures["rms_slope_spectral"]
+    assert 0 < measures["contact_fraction"] <= 1
+    assert measures["contact_length"] <= measures["points_across_contact"] * 8e-6 * (1 + ROUNDING)
+    assert all(isinstance(value, float) for value in measures.values())
+    fields = result.fields
+    assert set(fields) == {"x", "profile", "displacement", "contact"}
+    assert {field.shape for field in fields.values()} == {(501,)}
+    assert fields["x"][250] == 0
+    contact = fields["contact"]
+    np.testing.assert_allclose(
+        fields["displacement"][contact], result.depth - fields["profile"][contact], atol=1e-15
+    )
+
+
+def test_smooth_and_resolved_scenes_say_so():
+    smooth, resolved = MDR().solve(SMOOTH), MDR().solve(ROUGH)
+    assert smooth.settings["cutoff"] is None
+    assert "rms_height" not in smooth.measures
+    assert resolved.settings["cutoff"] == "resolved"
+    assert resolved.measures["points_per_shortest_wave"] == pytest.approx(1e-4 / resolved.settings["pixel"])
+    assert resolved.settings["points"] >= 5000
+
+
+@pytest.mark.parametrize("elastomer", [SOLID, PRONY])
+def test_sliding_on_solids_with_a_glassy_modulus_is_refused_by_name(elastomer):
+    scene = replace(SMOOTH, elastomer=elastomer)
+    with pytest.raises(Refused, match=rf"MDR cannot .*speed = 0.3.*{type(elastomer).__name__}"):
+        MDR().solve(scene)
+    assert MDR().refusals(replace(scene, motion=Slide(speed=0.0, load=1.0))) == []
+    assert MDR().refusals(replace(scene, motion=Indent(load=1.0))) == []
+
+
+def test_a_cylinder_is_refused_by_name_and_every_reason_is_given():
+    scene = Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=1.0, load=1.0), ROUGH.roughness)
+    reasons = MDR().refusals(scene)
+    assert len(reasons) == 2
+    assert "Cylinder" in reasons[1]
+    assert "Sphere, Cone or PowerLaw" in reasons[1]
+    with pytest.raises(Refused, match=r"StandardLinearSolid.*Cylinder"):
+        MDR().solve(scene)
+
+
+def test_a_grid_too_coarse_for_the_spectrum_is_refused_with_the_points_it_takes():
+    for scene in (ROUGH, PAPER):
+        for extent in (None, 1.7e-3, 9.1e-3, 0.2):
+            solver = MDR(points=8, extent=extent)
+            reasons = solver.refusals(scene)
+            if not reasons:
+                assert scene is PAPER
+                continue
+            assert "longest = 0.004" in reasons[0]
+            points = int(re.search(r"at least points = (\d+)", reasons[0])[1])
+            assert replace(solver, points=points).refusals(scene) == []
+            assert replace(solver, points=points // 2).refusals(scene) != []
+
+
+def test_a_spectrum_or_grid_beyond_memory_is_refused():
+    broad = replace(ROUGH, roughness=replace(ROUGH.roughness, longest=1.0, shortest=1e-9))
+    assert "raise shortest" in MDR().refusals(broad)[0]
+    assert "pixels, more than" in MDR(extent=1e-9).refusals(PAPER)[0]
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"points": 7}, "greater than or equal to 8"),
+        ({"points": 10.5}, "valid integer"),
+        ({"points": True}, "valid integer"),
+        ({"extent": 0.0}, "greater than 0"),
+        ({"extent": -1.0}, "greater than 0"),
+        ({"extent": float("nan")}, "finite"),
+        ({"pixels": 100}, "pixels"),
+    ],
+)
+def test_bad_settings_are_named(settings, said):
+    with pytest.raises(ValidationError, match=said):
+        MDR(**settings)
+
+
+@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
+@pytest.mark.parametrize("motion", [Slide(speed=0.3, load=1.0), Slide(speed=0.0, depth=2e-4)])
+def test_contact_that_leaves_the_grid_is_an_error_whose_advice_works(scene, motion):
+    scene = replace(scene, motion=motion)
+    solver = MDR(points=400, extent=2e-4)
+    with pytest.raises(SolveError, match=r"extent is 0\.0002") as error:
+        solver.solve(scene)
+    advice = re.search(r"extent = (\S+) holds it, with points = (\d+)", str(error.value))
+    result = MDR(points=int(advice[2]), extent=float(advice[1])).solve(scene)
+    assert result.measures["pixel"] == pytest.approx(5e-7, rel=0.01)
+
+
+def test_a_spot_that_would_touch_beyond_the_grid_counts_as_leaving_it():
+    # So blunt a sphere that asperities decide: the ends of a short grid stay clear, and others reach deeper.
+    blunt = replace(PAPER, indenter=Sphere(radius=1e3), motion=Indent(depth=1e-6))
+    lines = [draw(replace(blunt.roughness, seed=seed), 400).heights for seed in range(50)]
+    seed = next(s for s, h in enumerate(lines) if min(h[50], h[-50]) > 2e-6 and h[60:-60].min() < 0)
+    scene = replace(blunt, roughness=replace(blunt.roughness, seed=seed))
+    with pytest.raises(SolveError, match="leaves the grid"):
+        MDR(points=100, extent=1e-3).solve(scene)
+
+
+def test_a_depth_that_does_not_reach_the_indenter_is_an_error():
+    # On so sharp a cone the one asperity at the tip decides; its height has the sign of the draw.
+    scene = replace(ROUGH, indenter=Cone(angle=1.4), motion=Indent(depth=1e-12))
+    seed = next(s for s in range(20) if draw(replace(ROUGH.roughness, seed=s), 4000).heights[0] > 2e-6)
+    with pytest.raises(SolveError, match=r"motion\.depth = 1e-12 .* a greater depth"):
+        MDR(points=400, extent=4e-3).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
+
+
+def test_roughness_of_no_height_is_the_smooth_answer():
+    for scene in (ROUGH, PAPER):
+        for motion in (SMOOTH.motion, Indent(depth=5e-5)):
+            smooth = MDR().solve(replace(SMOOTH, motion=motion))
+            rough = replace(scene.roughness, rms_height=0.0)
+            result = MDR().solve(replace(scene, motion=motion, roughness=rough))
+            # Two grids, each of second order.
+            assert result.normal_force == pytest.approx(smooth.normal_force, rel=1e-6)
+            assert result.depth == pytest.approx(smooth.depth, rel=1e-6)
+            assert result.friction_force == pytest.approx(smooth.friction_force, rel=1e-6, abs=1e-15)
+            assert result.measures["rms_slope"] == 0
+
+
+@pytest.mark.parametrize("scene", [ROUGH, PAPER])
+def test_elastic_sliding_has_no_friction_on_a_rough_indenter(scene):
+    result = MDR().solve(replace(scene, elastomer=Elastic(modulus=1e6)))
+    at_rest = MDR().solve(replace(scene, motion=Slide(speed=0.0, load=1.0)))
+    for found in (result, at_rest):
+        assert abs(found.friction_coefficient) <= ROUNDING
+        assert abs(found.measures["friction_by_traction"]) <= ROUNDING
+    assert at_rest.depth == result.depth
+
+
+@pytest.mark.parametrize("scene", [ROUGH, PAPER])
+def test_a_depth_far_below_the_roughness_is_carried_by_a_few_asperities(scene):
+    shallow = Slide(speed=0.3, depth=1e-7)
+    smooth = MDR().solve(replace(SMOOTH, motion=shallow))
+    result = MDR().solve(replace(scene, motion=shallow))
+    # The lowest asperity hangs below the tip by many times the depth.
+    assert result.depth < 0.1 * scene.roughness.rms_height
+    assert result.normal_force > 3 * smooth.normal_force
+    assert result.friction_force > 0
+
+
+@pytest.mark.parametrize("speed", [0.0, 1e-3, 1e3, 1e9])
+@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
+def test_tiny_and_huge_loads_are_met(scene, speed):
+    for load in (1e-12, 1e-6, 1e2):
+        solver = MDR() if scene is not PAPER else MDR(points=20000, extent=0.02)
+        result = solver.solve(replace(scene, motion=Slide(speed=speed, load=load)))
+        assert result.residual <= 1e-10
+        assert result.normal_force == pytest.approx(load, rel=1e-10)
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e9])
+@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
+def test_results_do_not_depend_on_the_units(scene, scale):
+    # Lengths scale; forces scale with their square.
+    rough = scene.roughness and replace(
+        scene.roughness,
+        rms_height=scene.roughness.rms_height * scale,
+        longest=scene.roughness.longest * scale,
+        shortest=scene.roughness.shortest and scene.roughness.shortest * scale,
+    )
+    motion = Slide(speed=0.3 * scale, load=scale**2)
+    scaled = MDR().solve(Scene(Sphere(radius=1e-2 * scale), KELVIN, motion, rough))
+    plain = MDR().solve(scene)
+    assert scaled.settings["points"] == plain.settings["points"]
+    assert scaled.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=ROUNDING)
+    assert scaled.depth / scale == pytest.approx(plain.depth, rel=ROUNDING)
+    assert scaled.measures["contact_length"] / scale == pytest.approx(plain.measures["contact_length"], rel=1e-9)
+
+
+def test_only_the_product_of_speed_and_relaxation_time_and_the_load_over_the_modulus_count():
+    plain = MDR().solve(ROUGH)
+    other = Kelvin(modulus=3e9, relaxation_time=2e-7)
+    scaled = MDR().solve(replace(ROUGH, elastomer=other, motion=Slide(speed=1500.0, load=3e3)))
+    assert scaled.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=1e-9)
+    assert scaled.depth == pytest.approx(plain.depth, rel=1e-9)
+
+
+def test_roughness_repeats_over_an_extent_of_several_periods():
+    short = replace(ROUGH, roughness=replace(ROUGH.roughness, longest=5e-4, shortest=5e-5))
+    one = MDR().solve(short)
+    wide = MDR(extent=5e-3, points=10000).solve(short)
+    step = round(5e-4 / wide.settings["pixel"])
+    roughness = wide.fields["profile"] - wide.fields["x"] ** 2 / 1e-2
+    np.testing.assert_allclose(roughness[step:], roughness[:-step], atol=1e-15)
+    assert wide.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-3)
+    assert wide.depth == pytest.approx(one.depth, rel=1e-4)
+
+
+def test_a_resolved_surface_is_solved_the_same_on_finer_grids():
+    found = [MDR(points=n, extent=4e-3).solve(ROUGH) for n in (500, 2000, 8000, 32000)]
+    errors = [abs(r.friction_coefficient / found[-1].friction_coefficient - 1) for r in found[:-1]]
+    # Second order: a factor 16 for each fourfold grid, and no worse than half of it in practice.
+    assert errors[1] < errors[0] / 8
+    assert errors[2] < errors[1] / 8
+    assert errors[2] < 1e-4
+
+
+def test_a_shape_between_cone_and_sphere_is_solved_on_rough_ground():
+    result = MDR().solve(replace(ROUGH, indenter=PowerLaw(coefficient=0.5, exponent=1.3)))
+    assert result.residual <= 1e-10
+    assert result.friction_force > 0
