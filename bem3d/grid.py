@@ -19,7 +19,7 @@ class Grid:
 
         Its centre is moved to a whole pixel, so that the tip of an indenter lies alike on every grid.
         """
-        extent = margin * box.side
+        extent = float(margin * box.side)
         pixel = extent / points
         x, y = (float(round(at / pixel) * pixel) for at in box.centre)
         return cls(points, extent, (x, y))

@@ -77,7 +77,7 @@ class BEM:
             "pixel": pixel,
             "contact_area": float(contact_points * pixel**2),
             "contact_points": float(contact_points),
-            "points_across_contact": grid.box(pressure > 0).side / pixel,
+            "points_across_contact": float(grid.box(pressure > 0).side / pixel),
             "rounds": float(answer.rounds),
         }
         if surface is not None:
