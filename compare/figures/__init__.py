@@ -1,0 +1,1 @@
+"""Figures of a judgement, a module each: figure(judgement) -> Figure, sheets(judgement), caption(judgement)."""

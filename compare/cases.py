@@ -1,0 +1,151 @@
+"""A case: one scene, how it departs from the paper, what is varied around it, and the settings of both solvers."""
+
+from importlib.resources import as_file, files
+from math import sqrt
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field, model_validator
+from pydantic.dataclasses import dataclass
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Scene, SelfAffine, Slide
+from scene.indenter import Indenter
+from scene.motion import Motion
+from scene.protocol import refuse
+from scene.quantities import CLOSED, Positive, Whole
+from scene.reading import read
+from scene.rheology import Elastomer
+from scene.scales import elastic_contact
+
+Count = Annotated[Whole, Field(ge=1)]
+Factors = Annotated[tuple[Positive, ...], Field(min_length=1)]
+Speeds = Annotated[tuple[Positive, ...], Field(min_length=1)]
+
+
+def _distinct(study):
+    for name in ("speeds", "pressing", "load_speeds", "depths"):
+        values = getattr(study, name)
+        if values is not None and len(set(values)) < len(values):
+            raise ValueError(f"{name} = {list(values)}: a value stands there twice")
+    return study
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Study:
+    """What is varied around the scene. Whatever is absent follows from the scene; see `Case.plan`.
+
+    speeds : of the curve of friction against speed [m/s]
+    pressing : factors on the scene's load (or depth) for the curves of friction against load
+    load_speeds : speeds of those curves [m/s]
+    depths : of the force-depth curve, factors on the smooth elastic depth of the scene
+    surfaces : rough surfaces averaged in three dimensions, at least 1
+    profiles : rough profiles averaged in one dimension, at least 1
+    """
+
+    speeds: Speeds | None = None
+    pressing: Factors | None = None
+    load_speeds: Speeds | None = None
+    depths: Factors | None = None
+    surfaces: Count = 3
+    profiles: Count = 50
+
+    _no_value_twice = model_validator(mode="after")(_distinct)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Every value that is solved at: as in Study, and smooth_speeds [m/s] of the smooth body."""
+
+    speeds: tuple[float, ...]
+    pressing: tuple[float, ...]
+    load_speeds: tuple[float, ...]
+    depths: tuple[float, ...]
+    smooth_speeds: tuple[float, ...]
+    surfaces: int
+    profiles: int
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Case:
+    """The content of a case file. A file that holds a scene and nothing else is a case.
+
+    title, notes : for the report; each note says how the case departs from the paper
+    indenter, elastomer, motion, roughness : the scene
+    study, bem, mdr : what is varied, and the settings of the two solvers
+    """
+
+    title: str = ""
+    notes: tuple[str, ...] = ()
+    indenter: Indenter
+    elastomer: Elastomer
+    motion: Motion
+    roughness: SelfAffine | None = None
+    study: Study = Study()
+    bem: BEM = BEM(points=128)
+    mdr: MDR = MDR(points=5000)
+
+    @property
+    def scene(self) -> Scene:
+        return Scene(self.indenter, self.elastomer, self.motion, self.roughness)
+
+    @property
+    def slides(self) -> bool:
+        """Whether there is friction to speak of: sliding, on a solid that relaxes."""
+        return isinstance(self.motion, Slide) and len(self.elastomer.retardation()[2]) > 0
+
+    def refuse(self) -> None:
+        """Raise Refused, with the reasons, if one of the two solvers lacks what the scene asks for."""
+        refuse(self.mdr, self.scene)
+        refuse(self.bem, self.scene)
+
+    def plan(self) -> Plan:
+        """What is given in [study], the rest derived from the scene.
+
+        Speeds are multiples of the scene's own (at rest: of a tenth of a/tau); the curves of friction against load
+        span two decades of load; only what slides has speeds. Raises Refused.
+        """
+        self.refuse()
+        given, contact = self.study, elastic_contact(self.scene)
+        depths = given.depths or (0.25, 0.5, 1.0, 1.5, 2.0)
+        pressing = given.pressing or self._pressing()
+        surfaces, profiles = (given.surfaces, given.profiles) if self.roughness else (1, 1)
+        if not self.slides:
+            return Plan((), (), (), depths, (), surfaces, profiles)
+        times = self.elastomer.retardation()[2]
+        natural = contact.radius / float(max(times))
+        own = self.motion.speed or natural / 10
+        return Plan(
+            speeds=given.speeds or tuple(own * f for f in (0.03, 0.1, 0.3, 1.0, 3.0, 10.0)),
+            pressing=pressing,
+            load_speeds=given.load_speeds or (own / 3, own, own * 3),
+            depths=depths,
+            smooth_speeds=tuple(natural * f for f in (0.01, 0.1, 1.0, 10.0, 100.0)) if len(times) == 1 else (),
+            surfaces=surfaces,
+            profiles=profiles,
+        )
+
+    def _pressing(self):
+        loads = (0.1, 1 / sqrt(10), 1.0, sqrt(10), 10.0)
+        if self.motion.load is not None:
+            return loads
+        n = self.indenter.exponent
+        return tuple(load ** (n / (n + 1)) for load in loads)
+
+
+def read_case(path: str | Path) -> Case:
+    """A case from a TOML file; without a title it is called by the file's name. Raises InvalidInput, Refused."""
+    case = read(path, Case)
+    case.refuse()
+    return case
+
+
+def shipped_cases() -> dict[str, Case]:
+    """The cases that come with the package, by name: the paper's rough sphere and rough cone."""
+    folder = files("compare") / "scenes"
+    cases = {}
+    for name in ("paper-sphere", "paper-cone"):
+        with as_file(folder / f"{name}.toml") as path:
+            cases[name] = read_case(path)
+    return cases

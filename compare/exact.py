@@ -1,0 +1,146 @@
+"""Closed forms, one function each, and `Exact`: the smooth contact at rest behind the protocol of a solver.
+
+Shapes enter as the MDR image of a body of revolution, g(x) = coefficient * |x|**exponent.
+"""
+
+import time
+from math import pi, sqrt
+
+import numpy as np
+from pydantic.dataclasses import dataclass
+
+from scene import Elastic, Result, Scene
+from scene.protocol import refuse
+from scene.quantities import CLOSED
+from scene.scales import elastic_contact
+
+
+def contact_radius(load, modulus, coefficient, exponent):
+    """Radius a [m] of a smooth contact under a load [N]: a^(n+1) = F (n+1) / (8 G c n).
+
+    modulus : static shear modulus G [Pa] of an incompressible half-space. Eq. 16 of Popov et al.,
+    Sci. Rep. 4, 3750 (2014); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).
+    """
+    n = exponent
+    return (load * (n + 1) / (8 * modulus * coefficient * n)) ** (1 / (n + 1))
+
+
+def depth_at_load(load, modulus, coefficient, exponent):
+    """Depth d = c a^n [m] of a smooth contact under a load [N]; Eq. 16, second half, with the same symbols."""
+    return coefficient * contact_radius(load, modulus, coefficient, exponent) ** exponent
+
+
+def load_at_depth(depth, indentation_modulus, coefficient, exponent):
+    """Galin-Sneddon load F = [2n/(n+1)] E* c a^(n+1) [N] with c a^n = d, depth d [m], E* [Pa]."""
+    n = exponent
+    radius = (depth / coefficient) ** (1 / n)
+    return 2 * n / (n + 1) * indentation_modulus * coefficient * radius ** (n + 1)
+
+
+def mean_lag(elastomer):
+    """Lag [s] by which a slowly driven elastomer trails its relaxed answer: sum_k J_k lambda_k / J(infinity).
+
+    The relaxation time of a Kelvin body; retardation less relaxation time of a standard linear solid.
+    """
+    instantaneous, compliances, times = elastomer.retardation()
+    return float(compliances @ times / (instantaneous + compliances.sum()))
+
+
+def slow_friction_3d(speed, radius, lag, indentation_modulus, coefficient, exponent):
+    """Friction force [N] of a smooth body of revolution sliding slowly on a viscoelastic half-space.
+
+    F_x -> v tau E* int_0^a g'^2 dx, to first order in v tau / a, with tau the mean lag [s] and the contact radius
+    a [m]: mu = v tau / R for a sphere, (pi/2) tan(theta) v tau / a for a cone.
+    """
+    n = exponent
+    slope_squared = (n * coefficient) ** 2 * radius ** (2 * n - 1) / (2 * n - 1)
+    return speed * lag * indentation_modulus * slope_squared
+
+
+def slow_friction_1d(speed, radius, lag, indentation_modulus, coefficient, exponent):
+    """The same friction force [N] in the MDR, Eq. 10: F_x -> 4 G tau v int_{-a}^{a} g'^2 dx with 4G = E*.
+
+    Exactly twice slow_friction_3d.
+    """
+    return 2 * slow_friction_3d(speed, radius, lag, indentation_modulus, coefficient, exponent)
+
+
+def similarity_variable(load, speed, relaxation_time, modulus, rms_slope, coefficient, exponent):
+    """xi of Eq. 18, corrected: (v tau s / sqrt 2) (8G/F)^(n/(n+1)) ((n+1)/(c n))^(1/(n+1)), s the rms slope.
+
+    modulus : static shear modulus G [Pa]. The printed sqrt(2 s) is read as sqrt(2) s throughout.
+    """
+    n = exponent
+    shape = ((n + 1) / (coefficient * n)) ** (1 / (n + 1))
+    return speed * relaxation_time * rms_slope / sqrt(2) * (8 * modulus / load) ** (n / (n + 1)) * shape
+
+
+def master_curve(xi, alpha=1.5):
+    """mu / (sqrt 2 rms slope) = (1 + xi^-alpha)^(-1/alpha), Eq. 19; for small xi it is xi, Eq. 17."""
+    return (1 + np.asarray(xi, float) ** -alpha) ** (-1 / alpha)
+
+
+def shift_exponent(exponent):
+    """d ln p / d ln v = -(n+1)/n of a Kelvin body, p(v) of Eq. 23: xi is a function of F p(v) alone."""
+    return -(exponent + 1) / exponent
+
+
+def edge_slope(indenter, radius):
+    """Slope dz/dr [1] of the body of revolution at a radius [m]: the natural unit of its friction coefficient."""
+    return indenter.coefficient * indenter.exponent * radius ** (indenter.exponent - 1)
+
+
+@dataclass(frozen=True, config=CLOSED)
+class Exact:
+    """Galin-Sneddon: smooth bodies of revolution at rest, or sliding on an elastic solid, which is the same."""
+
+    @property
+    def name(self) -> str:
+        return "exact"
+
+    def refusals(self, scene: Scene) -> list[str]:
+        """Why there is no closed form for the scene, one sentence each."""
+        reasons = []
+        if not hasattr(scene.indenter, "exponent"):
+            reasons.append(f"{type(scene.indenter).__name__} is not a body of revolution")
+        if scene.roughness is not None:
+            reasons.append("roughness has no closed form")
+        if scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
+            reasons.append(
+                f"sliding at speed = {scene.motion.speed:g} m/s on a viscoelastic solid has no closed form"
+            )
+        return reasons
+
+    def solve(self, scene: Scene) -> Result:
+        """The smooth relaxed contact, its pressure p = (E*/pi) int_r^a g'/sqrt(x^2 - r^2) dx. Raises Refused.
+
+        Result.fields: r [m], pressure [Pa].
+        """
+        refuse(self, scene)
+        start = time.process_time()
+        contact = elastic_contact(scene)
+        r = np.linspace(0, contact.radius, 101)[1:]
+        pressure = _pressure(scene, contact.radius, r)
+        return Result(
+            scene=scene,
+            solver=self.name,
+            settings={},
+            normal_force=contact.load,
+            depth=contact.depth,
+            friction_force=0.0,
+            residual=0.0,
+            applications=0.0,
+            seconds=time.process_time() - start,
+            measures={"contact_area": pi * contact.radius**2, "contact_length": 2 * contact.radius},
+            fields={"r": r, "pressure": pressure},
+        )
+
+
+def _pressure(scene, radius, r):
+    """Substituting x^2 = r^2 + s^2 leaves the smooth integrand g'(x)/x, for Gauss-Legendre in s = r sinh(u)."""
+    shape = scene.indenter
+    n, c = shape.exponent, shape.mdr_coefficient
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    top = np.arccosh(radius / r)[:, None]
+    x = r[:, None] * np.cosh(top * (nodes + 1) / 2)
+    return scene.elastomer.indentation_modulus / pi * np.sum(weights * top / 2 * n * c * x ** (n - 1), axis=1)

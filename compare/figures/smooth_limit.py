@@ -1,0 +1,72 @@
+"""Friction of the smooth body from slow to fast, and the ratio of one dimension to three, which tends to 2."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from scene.scales import elastic_contact
+
+from .. import exact, metrics
+from ..verdict import Judgement, smooth_speed
+from . import style
+
+NAME = "smooth-limit"
+
+
+def figure(judgement: Judgement) -> Figure | None:
+    """Above: mu over the slope at the contact's edge. Below: 1D over 3D. None unless something slides."""
+    pairs = metrics.pairs(judgement.table, "smooth")
+    if not pairs:
+        return None
+    drawing = style.canvas(style.SINGLE, 3.9)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
+    above.set(xscale="log", yscale="log", ylabel=r"$\mu$ / slope at the edge [1]")
+    slope = exact.edge_slope(judgement.case.indenter, elastic_contact(judgement.case.scene).radius)
+    x = [smooth_speed(judgement.case, a) for a, _ in pairs]
+    for index, solver in enumerate(("MDR", "BEM")):
+        friction = [pair[index].friction_coefficient.mean / slope for pair in pairs]
+        above.plot(x, friction, color=style.COLOUR[solver], marker=style.MARKER[solver], linestyle="none",
+                   label=style.LABEL[solver])  # fmt: skip
+    # Straight through the slow half, where the first order in the speed is meant to hold.
+    slow = np.array([min(x), 0.5])
+    for solver, limit in zip(("MDR", "BEM"), _limits(judgement), strict=True):
+        above.plot(slow, limit * slow / slope, style.LINE[solver], color=style.COLOUR[solver], linewidth=0.8,
+                   label="its limit at low speed")  # fmt: skip
+    ratios = [metrics.ratio(a.friction_coefficient, b.friction_coefficient)[0] for a, b in pairs]
+    below.axhline(2, color="0.45", linewidth=0.9, linestyle="-")
+    below.annotate("2, derived", (max(x), 2), xytext=(0, 2), textcoords="offset points", ha="right", fontsize=7)
+    below.plot(x, ratios, color="black", marker="o")
+    below.set(
+        xlabel=r"$v\tau / a$ [1]", ylabel="1D / 3D [1]", ylim=(min(0.9, *ratios) - 0.1, max(2.2, *ratios) + 0.1)
+    )
+    above.legend()
+    for axes in (above, below):
+        style.decades(axes)
+    return drawing
+
+
+def sheets(judgement: Judgement):
+    """Every point of the figure."""
+    rows = [record for record in judgement.table if record.kind == "smooth"]
+    return {NAME: [{"v_tau_over_a": smooth_speed(judgement.case, r)} | r.columns for r in rows]} if rows else {}
+
+
+def caption(judgement: Judgement) -> str:
+    """What the figure shows."""
+    return (
+        "The smooth body at the scene's load or depth: friction over the slope of the body at the edge of the "
+        "smooth relaxed contact of radius a. Lines: closed forms of first order in the speed. At low speed the "
+        "ratio of one dimension to three tends to 2. Smooth: there is no scatter."
+    )
+
+
+def _limits(judgement):
+    """mu per unit of v tau / a at low speed, 1D and 3D."""
+    case, contact = judgement.case, elastic_contact(judgement.case.scene)
+    shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
+    modulus = case.elastomer.indentation_modulus
+    # The speed at which v tau = a.
+    speed = contact.radius / float(case.elastomer.retardation()[2][0])
+    return [
+        law(speed, contact.radius, exact.mean_lag(case.elastomer), modulus, *shape) / contact.load
+        for law in (exact.slow_friction_1d, exact.slow_friction_3d)
+    ]

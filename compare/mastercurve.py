@@ -1,0 +1,233 @@
+"""Collapse of ln mu (ln F) at several speeds onto one curve by horizontal shifts, Eq. 23, and whether it holds.
+
+All shifts are found at once, with the curve itself projected out (variable projection; Golub and Pereyra 1973).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import nan, sqrt
+
+import numpy as np
+from scipy.optimize import least_squares
+
+# Smooth enough for Eq. 19 over three decades of xi, to 1 % in mu, and stiff enough not to follow the scatter.
+DEGREE = 4
+# Neighbouring curves share at least this part of the shorter one's range of ln F: a fit that wants less is no fit.
+LEAST_OVERLAP = 0.25
+# Exponents of the speed from which the fit starts.
+STARTS = np.linspace(-3.0, 3.0, 7)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Friction against load at one speed [m/s]: ln F, ln mu and its standard error, NaN if unknown, each (N,)."""
+
+    speed: float
+    log_load: np.ndarray
+    log_friction: np.ndarray
+    error: np.ndarray
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """How far curves are from one: rms of ln mu, and chi square per degree of freedom, NaN without errors."""
+
+    rms: float
+    chi_square: float
+    freedom: int
+
+    @property
+    def verdict(self) -> str:
+        """holds, fails or undecided: whether the misfit is no more than scatter, to two standard deviations."""
+        if not np.isfinite(self.chi_square):
+            return "undecided"
+        return "holds" if self.chi_square <= 1 + 2 * sqrt(2 / self.freedom) else "fails"
+
+
+@dataclass(frozen=True)
+class Collapse:
+    """What horizontal shifting achieves.
+
+    speeds : (K,) [m/s], ascending
+    shifts, shift_errors : ln p(v)/p(v_ref) (K,) and standard errors; reference is the middle speed
+    reference : its index
+    before, after : misfit to one common curve, without and with the shifts
+    scatter : rms standard error of ln mu, NaN if unknown
+    exponent, exponent_error : of p ~ v^exponent, by generalised least squares
+    overlaps : whether neighbouring curves still share a stretch of the common curve
+    separable : False if straight parallel lines fit within scatter: then a horizontal shift is a vertical one
+    curves : what was fitted
+    degree : of the common polynomial
+    """
+
+    speeds: np.ndarray
+    shifts: np.ndarray
+    shift_errors: np.ndarray
+    reference: int
+    before: Misfit
+    after: Misfit
+    scatter: float
+    exponent: float
+    exponent_error: float
+    overlaps: bool
+    separable: bool
+    curves: tuple[Curve, ...]
+    degree: int
+
+    @property
+    def verdict(self) -> str:
+        """holds, fails or undecided: whether horizontal shifts bring the curves onto one."""
+        return self.after.verdict if self.overlaps and self.separable else "undecided"
+
+
+def collapse(curves: Sequence[Curve], degree: int = DEGREE) -> Collapse:
+    """Shift curves onto one polynomial of a degree in ln F + b_v, jointly, b = 0 at the middle speed.
+
+    Points weigh by 1/error, or all alike where an error is unknown. Raises ValueError with fewer than two curves
+    or fewer points than unknowns.
+    """
+    curves = tuple(sorted(curves, key=lambda curve: curve.speed))
+    unknowns = len(curves) - 1 + degree + 1
+    if len(curves) < 2 or sum(curve.log_load.size for curve in curves) <= unknowns:
+        raise ValueError(f"{len(curves)} curves with too few points for {unknowns} unknowns: add loads or speeds")
+    fit = _Fit(curves, degree)
+    lower, upper = _bounds(curves)
+    speeds = np.array([curve.speed for curve in curves])
+    best = _best(fit, np.diff(np.log(speeds)), lower, upper)
+    inside = np.all(np.minimum(best.x - lower, upper - best.x) > 1e-3 * (upper - lower))
+    covariance = _covariance(fit, best)
+    reference = len(curves) // 2
+    shifts, covariance = _from_increments(best.x, covariance, reference)
+    exponent, exponent_error = _exponent(np.log(speeds / speeds[reference]), shifts, covariance, reference)
+    return Collapse(
+        speeds=speeds,
+        shifts=shifts,
+        shift_errors=np.sqrt(np.diag(covariance)) if fit.known else np.full(len(curves), nan),
+        reference=reference,
+        before=fit.misfit(np.zeros_like(best.x), shifts=0),
+        after=fit.misfit(best.x, shifts=best.x.size),
+        scatter=_rms(fit.error) if fit.known else nan,
+        exponent=exponent,
+        exponent_error=exponent_error if fit.known else nan,
+        overlaps=bool(inside),
+        separable=not _straight(fit),
+        curves=curves,
+        degree=degree,
+    )
+
+
+def misfit_at(result: Collapse, exponent: float) -> Misfit:
+    """Misfit once shifted by a power of the speed; NaN where that leaves neighbours without the least overlap."""
+    increments = exponent * np.diff(np.log(result.speeds))
+    lower, upper = _bounds(result.curves)
+    if np.any((increments < lower) | (increments > upper)):
+        return Misfit(nan, nan, 0)
+    return _Fit(result.curves, result.degree).misfit(increments, shifts=0)
+
+
+def shifted(result: Collapse) -> list[np.ndarray]:
+    """ln F + b_v of each curve."""
+    return [curve.log_load + shift for curve, shift in zip(result.curves, result.shifts, strict=True)]
+
+
+class _Fit:
+    """Misfit of the curves to their best common polynomial, given the increments of the shifts."""
+
+    def __init__(self, curves, degree):
+        self.degree = degree
+        self.owner = np.repeat(np.arange(len(curves)), [curve.log_load.size for curve in curves])
+        self.log_load = np.concatenate([curve.log_load for curve in curves])
+        self.log_friction = np.concatenate([curve.log_friction for curve in curves])
+        self.error = np.concatenate([curve.error for curve in curves])
+        self.known = bool(np.all(np.isfinite(self.error) & (self.error > 0)))
+        self.weight = 1 / self.error if self.known else np.ones_like(self.log_load)
+
+    def misfits(self, increments):
+        """ln mu minus the best polynomial, (N,)."""
+        x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
+        middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
+        basis = np.polynomial.chebyshev.chebvander((x - middle) / half, self.degree)
+        weighted = basis * self.weight[:, None]
+        coefficients = np.linalg.lstsq(weighted, self.log_friction * self.weight)[0]
+        return self.log_friction - basis @ coefficients
+
+    def residuals(self, increments):
+        return self.misfits(increments) * self.weight
+
+    def misfit(self, increments, shifts):
+        """shifts : how many of the increments were fitted."""
+        misfits = self.misfits(increments)
+        freedom = misfits.size - self.degree - 1 - shifts
+        chi_square = float(np.sum(np.square(misfits * self.weight)) / freedom) if self.known else nan
+        return Misfit(_rms(misfits), chi_square, freedom)
+
+
+def _bounds(curves):
+    """Increments that leave neighbouring curves the least overlap."""
+    lower, upper = [], []
+    for left, right in pairwise(curves):
+        a, b = left.log_load, right.log_load
+        shared = LEAST_OVERLAP * min(np.ptp(a), np.ptp(b))
+        lower.append(a.min() - b.max() + shared)
+        upper.append(a.max() - b.min() - shared)
+    return np.array(lower), np.array(upper)
+
+
+def _best(fit, lengths, lower, upper):
+    """The least misfit from several starts, each a power of the speed: one alone can end in a local minimum."""
+    margin = 1e-3 * (upper - lower)
+    attempts = []
+    for start in STARTS:
+        guess = np.clip(start * lengths, lower + margin, upper - margin)
+        solved = least_squares(
+            fit.residuals, guess, bounds=(lower, upper), jac="3-point", xtol=1e-14, ftol=1e-14, gtol=1e-14
+        )
+        attempts.append(solved)
+    return min(attempts, key=lambda attempt: attempt.cost)
+
+
+def _covariance(fit, best):
+    """Of the increments, from the projected Jacobian; widened where the misfit exceeds the errors."""
+    freedom = fit.log_load.size - best.x.size - fit.degree - 1
+    reduced = 2 * best.cost / freedom
+    return np.linalg.pinv(best.jac.T @ best.jac) * (max(1.0, reduced) if fit.known else reduced)
+
+
+def _from_increments(increments, covariance, reference):
+    """Shifts against the reference speed, and their covariance."""
+    count = len(increments) + 1
+    sums = np.tril(np.ones((count, count - 1)), -1)
+    sums -= sums[reference]
+    return sums @ increments, sums @ covariance @ sums.T
+
+
+def _exponent(log_speed, shifts, covariance, reference):
+    """Slope of the shifts through the reference; with the full covariance it does not depend on which that is."""
+    others = np.arange(len(shifts)) != reference
+    inverse = np.linalg.pinv(covariance[np.ix_(others, others)], hermitian=True)
+    weight = log_speed[others] @ inverse
+    information = weight @ log_speed[others]
+    if not information > 0:
+        return nan, nan
+    return float(weight @ shifts[others] / information), 1 / sqrt(information)
+
+
+def _straight(fit):
+    """Whether parallel straight lines, one intercept each, fit as well as the errors ask for.
+
+    Without errors the question is whether they fit to rounding.
+    """
+    intercepts = np.equal.outer(fit.owner, np.unique(fit.owner)).astype(float)
+    basis = np.column_stack([intercepts, fit.log_load])
+    weighted = basis * fit.weight[:, None]
+    coefficients = np.linalg.lstsq(weighted, fit.log_friction * fit.weight)[0]
+    misfits = (fit.log_friction - basis @ coefficients) * fit.weight
+    freedom = misfits.size - basis.shape[1]
+    if not fit.known:
+        return _rms(misfits) < 1e-9
+    return misfits @ misfits / freedom < 1 + 2 * sqrt(2 / freedom)
+
+
+def _rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))

@@ -1,0 +1,166 @@
+"""What has been solved, on disk: one file a task, named by everything that its answer depends on."""
+
+import hashlib
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from math import nan
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from pydantic import TypeAdapter
+
+from scene import Result, Scene
+
+from .study import Task
+
+SCENES = TypeAdapter(tuple[Scene, ...])
+NUMBERS = ("normal_force", "depth", "friction_force", "residual", "applications", "seconds")
+
+
+@dataclass(frozen=True)
+class Row:
+    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed."""
+
+    normal_force: float = nan
+    depth: float = nan
+    friction_force: float = nan
+    residual: float = nan
+    applications: float = nan
+    seconds: float = nan
+    measures: Mapping[str, float] = field(default_factory=dict)
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    reason: str | None = None
+
+    @property
+    def friction_coefficient(self) -> float:
+        """mu = F_x / F_N; NaN where nothing carries a load."""
+        return self.friction_force / self.normal_force if self.normal_force else nan
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The rows of a task, one a scene, and the fields of its first scene if the task keeps them."""
+
+    rows: tuple[Row, ...]
+    fields: Mapping[str, np.ndarray] = field(default_factory=dict, repr=False)
+
+
+def row(result: Result) -> Row:
+    """The numbers of a result, as plain Python numbers."""
+    return Row(
+        **{name: float(getattr(result, name)) for name in NUMBERS},
+        measures={name: float(value) for name, value in result.measures.items()},
+        settings={name: _plain(value) for name, value in result.settings.items()},
+    )
+
+
+def code_digest(folder: Path) -> str:
+    """Digest of every Python source below a folder, or of one file: names and content."""
+    paths = sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]
+    whole = hashlib.sha256()
+    for path in paths:
+        name = str(path.relative_to(folder)) if folder.is_dir() else path.name
+        whole.update(f"{name}\0{path.stat().st_size}\0".encode())
+        whole.update(path.read_bytes())
+    return whole.hexdigest()
+
+
+def key(task: Task) -> str:
+    """Name of a task's file: digest of its scenes, its solver's name and settings, and the code of both."""
+    everything = {
+        "scenes": SCENES.dump_python(task.scenes, mode="json"),
+        "solver": task.solver.name,
+        "settings": asdict(task.solver),
+        "code": [_package_digest("scene"), _package_digest(type(task.solver).__module__.split(".")[0])],
+        "version": version("mdr-bem-crosscheck"),
+    }
+    canonical = json.dumps(everything, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Store:
+    """A folder of outcomes. A file appears whole or not at all; one that cannot be read counts as absent."""
+
+    folder: Path
+
+    def get(self, task: Task) -> Outcome | None:
+        """The stored outcome of a task, or None: also for a task that keeps fields that are not there."""
+        try:
+            content = json.loads(self._path(task, "json").read_text(encoding="utf-8"))
+            rows = tuple(_row_from_json(entry) for entry in content["rows"])
+            if len(rows) != len(task.scenes):
+                return None
+            kept = task.keeps_fields and rows[0].reason is None
+            return Outcome(rows, _read_fields(self._path(task, "npz")) if kept else {})
+        except (OSError, ValueError, KeyError, TypeError, EOFError):
+            return None
+
+    def put(self, task: Task, outcome: Outcome) -> None:
+        """Write an outcome, fields first: the numbers alone say that a task is done."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        if outcome.fields:
+            write(self._path(task, "npz"), lambda file: np.savez_compressed(file, **outcome.fields))
+        content = {"task": task.label, "rows": [_row_to_json(entry) for entry in outcome.rows]}
+        text = json.dumps(content, indent=1, allow_nan=False)
+        write(self._path(task, "json"), lambda file: file.write(text.encode()))
+
+    def _path(self, task, suffix):
+        return self.folder / f"{key(task)}.{suffix}"
+
+
+def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
+    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            fill(file)
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+@cache
+def _package_digest(package):
+    """Read once a process: the code that runs is the code that was imported."""
+    spec = find_spec(package)
+    return code_digest(
+        Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
+    )
+
+
+def _plain(value):
+    value = value.item() if isinstance(value, np.generic) else value
+    return value if isinstance(value, str | int | float | bool | None) else str(value)
+
+
+def _row_to_json(entry):
+    """NaN and infinities are no JSON: they are stored as null, and come back as NaN."""
+    content = asdict(entry)
+    content["measures"] = {name: _finite(value) for name, value in entry.measures.items()}
+    content["settings"] = {name: _finite(value) for name, value in entry.settings.items()}
+    return content | {name: _finite(content[name]) for name in NUMBERS}
+
+
+def _finite(value):
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def _row_from_json(content):
+    numbers = {name: nan if content[name] is None else float(content[name]) for name in NUMBERS}
+    measures = {name: nan if value is None else float(value) for name, value in content["measures"].items()}
+    return Row(**numbers, measures=measures, settings=content["settings"], reason=content["reason"])
+
+
+def _read_fields(path):
+    with np.load(path, allow_pickle=False) as archive:
+        return {name: archive[name] for name in archive.files}

@@ -1,0 +1,165 @@
+"""Solving tasks in worker processes; what the store has is not solved again."""
+
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Protocol
+
+from scene import SolveError
+
+from .store import Outcome, Row, Store, row
+from .study import Task
+
+# A worker solves on one thread; two workers with two threads each are slower than either alone.
+ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
+
+
+class Progress(Protocol):
+    """What a sweep tells while it runs."""
+
+    def planned(self, tasks: Sequence[Task]) -> None:
+        """The tasks that have to be solved; those that the store has are not among them."""
+
+    def started(self, task: Task) -> None:
+        """A worker has begun a task."""
+
+    def finished(self, task: Task, outcome: Outcome) -> None:
+        """A task is solved and stored."""
+
+    def interrupted(self) -> None:
+        """Nothing more is started; the solves under way are waited for."""
+
+
+class Silent:
+    """Progress that tells nothing."""
+
+    def planned(self, tasks):
+        pass
+
+    def started(self, task):
+        pass
+
+    def finished(self, task, outcome):
+        pass
+
+    def interrupted(self):
+        pass
+
+
+@dataclass(frozen=True)
+class Swept:
+    """Outcomes by task, how many tasks were solved, how many the store had, and the wall time [s]."""
+
+    outcomes: Mapping[Task, Outcome]
+    solved: int
+    reused: int
+    seconds: float
+
+
+def sweep(
+    tasks: Sequence[Task], store: Store, workers: int | None = None, progress: Progress | None = None
+) -> Swept:
+    """Solve tasks, longest first, storing each as it ends.
+
+    workers : processes, one thread each; absent, as many as there are processors
+
+    A SolveError becomes a row of NaN with its reason; any other exception is a fault and is raised. On an
+    interrupt nothing more is started; what is being solved is finished and stored; KeyboardInterrupt is raised.
+    """
+    progress = progress or Silent()
+    start = time.perf_counter()
+    stored = {task: store.get(task) for task in tasks}
+    outcomes = {task: outcome for task, outcome in stored.items() if outcome is not None}
+    waiting = sorted((task for task in stored if task not in outcomes), key=lambda task: -task.work)
+    solved = len(waiting)
+    progress.planned(waiting)
+    if waiting:
+        workers = min(workers or os.cpu_count() or 1, solved)
+        for task, outcome in _run(waiting, workers, progress):
+            store.put(task, outcome)
+            outcomes[task] = outcome
+            progress.finished(task, outcome)
+    return Swept(outcomes, solved, len(stored) - solved, time.perf_counter() - start)
+
+
+def solve(task: Task) -> Outcome:
+    """What a worker does: every scene of a task, one after the other."""
+    rows, fields = [], {}
+    for scene in task.scenes:
+        try:
+            result = task.solver.solve(scene)
+        except SolveError as error:
+            rows.append(Row(reason=str(error) or type(error).__name__))
+            continue
+        if task.keeps_fields and not rows:
+            fields = dict(result.fields)
+        rows.append(row(result))
+    return Outcome(tuple(rows), fields)
+
+
+def _run(waiting: Sequence[Task], workers: int, progress: Progress) -> Iterator[tuple[Task, Outcome]]:
+    """Never more tasks handed out than there are workers: what has not started is not in any queue."""
+    context = multiprocessing.get_context("spawn")
+    upcoming, running = iter(waiting), {}
+    with _environment(ONE_THREAD), ProcessPoolExecutor(workers, context, _leave_interrupts_to_the_parent) as pool:
+
+        def hand_out():
+            for task in upcoming:
+                with _interrupts_held():
+                    running[pool.submit(solve, task)] = task
+                progress.started(task)
+                return
+
+        for _ in range(workers):
+            hand_out()
+        interrupted = False
+        while running:
+            try:
+                done, _ = wait(running, return_when=FIRST_COMPLETED)
+            except KeyboardInterrupt:
+                interrupted = True
+                progress.interrupted()
+                continue
+            for future in done:
+                yield running.pop(future), future.result()
+                if not interrupted:
+                    hand_out()
+        if interrupted:
+            raise KeyboardInterrupt
+
+
+def _leave_interrupts_to_the_parent():
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _interrupts_held():
+    """A process started meanwhile inherits the mask: an interrupt from the keyboard does not end it at birth."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _environment(variables):
+    """Variables that processes started meanwhile inherit: libraries read them when they are first imported."""
+    before = {name: os.environ.get(name) for name in variables}
+    os.environ.update(variables)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

@@ -1,0 +1,241 @@
+"""The judgement of a case: the few numbers that matter, each with its error and what it means."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot, nan
+
+import numpy as np
+
+from . import exact, metrics
+from .cases import Case
+from .mastercurve import Collapse, Curve, Misfit, collapse, misfit_at
+from .metrics import Record
+from .study import Point
+from .sweep import Swept
+
+# Solver's name -> dimension, as the report writes it.
+DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number that matters.
+
+    name, written : what it is, and value and error in words, "undecided" where one of them is missing
+    value, error : SI units or 1; the text says what the error is, NaN if undecided
+    text : how it was measured and what it means
+    """
+
+    name: str
+    written: str
+    value: float
+    error: float
+    text: str
+
+
+def plus_minus(value: float, error: float, unit: str = "") -> str:
+    """value ± error unit, to two digits of the error; the unit may be %."""
+    scale, unit = (100, " %") if unit == "%" else (1, f" {unit}" if unit else "")
+    if not np.isfinite(value):
+        return "undecided"
+    if not np.isfinite(error):
+        return f"{value * scale:.3g}{unit}, error undecided"
+    digits = 4 if error == 0 else int(np.clip(1 - np.floor(np.log10(error * scale)), 0, 6))
+    return f"{value * scale:.{digits}f} ± {error * scale:.{digits}f}{unit}"
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Everything that figures and report need.
+
+    case : what was asked
+    table : every point of every curve
+    collapses : by solver's name; a solver whose curves could not be fitted is missing
+    numbers : the few that matter
+    checks : how far they can be trusted
+    fields : of the scene's own point, by solver's name
+    failures : what was solved and the reason why it failed
+    seconds : processor time [s] of all solves by solver's name, those of earlier runs included
+    """
+
+    case: Case
+    table: tuple[Record, ...]
+    collapses: Mapping[str, Collapse]
+    numbers: tuple[Number, ...]
+    checks: tuple[Number, ...]
+    fields: Mapping[str, Mapping[str, np.ndarray]]
+    failures: tuple[tuple[str, str], ...]
+    seconds: Mapping[str, float]
+
+
+def judge(case: Case, points: Sequence[Point], swept: Swept) -> Judgement:
+    """Judge a case from the outcomes of all its points."""
+    table = tuple(metrics.records(points, swept.outcomes))
+    collapses = _collapses(table)
+    numbers = [
+        *_smooth_limit(case, table),
+        *_own_ratio(case, table),
+        *_force_depth(table, smooth=case.roughness is None),
+        *(_collapse_number(case, name, result) for name, result in collapses.items()),
+    ]
+    checks = [*_discretisation(case, table)]
+    if case.roughness:
+        checks = [*_force_depth(table, smooth=True), *checks]
+    tasks = {task: swept.outcomes[task] for point in points for task in point.tasks}
+    failures = [(task.label, row.reason) for task, outcome in tasks.items() for row in outcome.rows if row.reason]
+    fields = {task.solver.name: outcome.fields for task, outcome in tasks.items() if outcome.fields}
+    return Judgement(
+        case, table, collapses, tuple(numbers), tuple(checks), fields, tuple(failures), _seconds(tasks)
+    )
+
+
+def load_curves(table: Sequence[Record], solver: str) -> list[Curve]:
+    """ln mu against ln F at each speed, points without friction or load left out."""
+    curves = []
+    for speed, records in metrics.by_speed(metrics.select(table, "load", solver)).items():
+        kept = [r for r in records if r.normal_force.mean > 0 and r.friction_coefficient.mean > 0]
+        friction = np.array([r.friction_coefficient.mean for r in kept])
+        error = np.array([r.friction_coefficient.error for r in kept])
+        load = np.array([r.normal_force.mean for r in kept])
+        curves.append(Curve(speed, np.log(load), np.log(friction), error / friction))
+    return curves
+
+
+def _seconds(outcomes):
+    """A task that several curves share counts once."""
+    spent: dict[str, float] = {}
+    for task, outcome in outcomes.items():
+        total = float(np.nansum([row.seconds for row in outcome.rows]))
+        spent[task.solver.name] = spent.get(task.solver.name, 0.0) + total
+    return spent
+
+
+def _collapses(table):
+    found = {}
+    for solver in DIMENSIONS:
+        try:
+            found[solver] = collapse([curve for curve in load_curves(table, solver) if curve.log_load.size > 1])
+        except ValueError:
+            continue
+    return found
+
+
+def _smooth_limit(case, table):
+    found = metrics.pairs(table, "smooth")
+    if not found:
+        return
+    slow = min(found, key=lambda pair: pair[0].speed)
+    value, _ = metrics.ratio(slow[0].friction_coefficient, slow[1].friction_coefficient)
+    error = value * metrics.discretisation(table, slow[1], "friction_coefficient")
+    yield Number(
+        "1D / 3D friction of the smooth body, slow",
+        plus_minus(value, error) + ", tends to 2",
+        value,
+        error,
+        f"Measured at v tau / a = {smooth_speed(case, slow[0]):.2g}; as the speed tends to zero it tends to 2. "
+        "The error is the change of the 3D value when the pixel is halved.",
+    )
+
+
+def smooth_speed(case: Case, record: Record) -> float:
+    """v tau / a with the radius of the smooth relaxed contact; tau is the retardation time."""
+    contact = exact.elastic_contact(case.scene)
+    return record.speed * float(case.elastomer.retardation()[2][0]) / contact.radius
+
+
+def _own_ratio(case, table):
+    if not (case.slides and case.motion.speed > 0):
+        return
+    for above, below in metrics.pairs(table, "own"):
+        if not below.friction_coefficient.mean > 0:
+            return
+        value, error = metrics.ratio(above.friction_coefficient, below.friction_coefficient)
+        grid = value * metrics.discretisation(table, below, "friction_coefficient")
+        text = "The body is smooth: the error is that of the 3D grid."
+        total = grid
+        if not below.smooth:
+            total = hypot(error, grid) if np.isfinite(grid) else error
+            known = (
+                "together with the error of the 3D grid" if np.isfinite(grid) else "without that of the 3D grid"
+            )
+            text = (
+                f"Means over {above.normal_force.count} profiles (1D), {below.normal_force.count} surfaces (3D). "
+                f"The error is the standard error of the means {known}."
+            )
+        yield Number("1D / 3D friction at the scene's own point", plus_minus(value, total), value, total, text)
+
+
+def _force_depth(table, smooth):
+    found = [pair for pair in metrics.pairs(table, "force-depth", smooth) if pair[1].normal_force.mean > 0]
+    if not found:
+        return
+    above, below = max(found, key=lambda pair: abs(_force_deviation(*pair)[0]))
+    value, error = _force_deviation(above, below)
+    body, meaning = "rough", "the standard error of the means"
+    if smooth:
+        exact_there = [r for r in metrics.select(table, "force-depth", "exact") if r.depth == below.depth]
+        error = abs(_force_deviation(below, exact_there[0])[0]) if exact_there else nan
+        body, meaning = "smooth", "how far the 3D force is from the closed form"
+    yield Number(
+        f"1D / 3D force at the same depth, {body}, less 1",
+        plus_minus(value, error, "%"),
+        value,
+        error,
+        f"The largest of {len(found)} depths, at {below.depth * 1e6:.3g} µm; the error is {meaning}.",
+    )
+
+
+def _force_deviation(above, below):
+    return metrics.relative_deviation(above.normal_force, below.normal_force)
+
+
+def _collapse_number(case, solver, result):
+    predicted = exact.shift_exponent(case.indenter.exponent)
+    as_predicted = misfit_at(result, predicted)
+    scatter = f"{result.scatter:.1%}" if np.isfinite(result.scatter) else "unknown"
+    fitted = plus_minus(result.exponent if result.overlaps and result.separable else nan, result.exponent_error)
+    there = f"{as_predicted.rms:.1%}" if np.isfinite(as_predicted.rms) else "no overlap"
+    return Number(
+        f"misfit of the collapse by Eq. 23, {DIMENSIONS[solver]}",
+        f"{there} shifted as predicted, {result.after.rms:.1%} at best (scatter {scatter}); "
+        f"exponent {fitted} (predicted {predicted:.4g})",
+        as_predicted.rms,
+        result.scatter,
+        f"Rms misfit of ln mu (ln F) to one curve, {result.before.rms:.0%} before shifting. Shifted as Eq. 23 "
+        f"predicts, p ~ v^{predicted:.4g}: {_said(as_predicted)} Best shifts: {explain(result)} "
+        "The scatter is the rms standard error of the points; the same surfaces stand behind all of them.",
+    )
+
+
+def _said(misfit: Misfit):
+    if misfit.verdict == "undecided":
+        return "undecided."
+    said = "collapse" if misfit.verdict == "holds" else "do not collapse"
+    return f"the curves {said} within their scatter (chi square {misfit.chi_square:.3g} per degree of freedom)."
+
+
+def explain(result: Collapse) -> str:
+    """Whether a collapse by horizontal shifts holds, in words."""
+    if not result.overlaps:
+        return "undecided, since the misfit only falls as the curves are pulled apart."
+    if not result.separable:
+        return "undecided, since straight parallel lines fit: horizontal and vertical shifts cannot be told apart."
+    if result.verdict == "undecided":
+        return "undecided, since one surface has no scatter to compare with."
+    return _said(result.after)
+
+
+def _discretisation(case, table):
+    quantity = "normal_force" if case.motion.load is None else "depth_reached"
+    if case.slides and case.motion.speed > 0:
+        quantity = "friction_coefficient"
+    for own in metrics.select(table, "own", "BEM"):
+        value = metrics.discretisation(table, own, quantity)
+        yield Number(
+            f"change of the 3D {quantity.removesuffix('_reached').replace('_', ' ')} with the pixel halved",
+            f"{value:.2%}" if np.isfinite(value) else "undecided",
+            value,
+            nan,
+            f"The scene's own point, one surface, {own.points} against {2 * own.points} points a side: an "
+            "estimate of the error of discretisation, no bound.",
+        )

@@ -1,0 +1,144 @@
+"""A case file holds what it should, and each mistake in it is named before anything is solved."""
+
+from dataclasses import replace
+from math import pi
+
+import pytest
+from typer.testing import CliRunner
+
+from compare.__main__ import app
+from compare.cases import read_case, shipped_cases
+from scene import Cone, Elastic, Indent, Kelvin, Refused, Slide, Sphere
+from scene.scales import elastic_contact
+
+SCENE = """
+[indenter]
+type = "sphere"
+radius = 1e-2
+[elastomer]
+type = "kelvin"
+modulus = 1e6
+relaxation_time = 1e-3
+[motion]
+type = "slide"
+speed = 0.1
+load = 1.0
+[roughness]
+hurst = 0.2
+rms_height = 1e-6
+longest = 1e-2
+shortest = 1e-3
+seed = 5
+"""
+
+
+@pytest.fixture
+def case(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(SCENE)
+    return read_case(path)
+
+
+def test_shipped_cases_are_the_paper_s_sphere_and_cone():
+    cases = shipped_cases()
+    assert cases["paper-sphere"].indenter == Sphere(radius=1e-2)
+    assert cases["paper-cone"].indenter == Cone(angle=10 * pi / 180)
+    for name, hurst in (("paper-sphere", 0.2), ("paper-cone", 0.1)):
+        case = cases[name]
+        assert case.elastomer == Kelvin(modulus=1e6, relaxation_time=1e-3)
+        assert case.motion == Slide(speed=0.1, load=1.0)
+        assert (case.roughness.hurst, case.roughness.rms_height, case.roughness.longest) == (hurst, 5e-5, 1e-2)
+        assert max(case.plan().pressing) * case.motion.load == 10.0
+        assert case.title
+        assert any("resolved" in note for note in case.notes)
+
+
+def test_a_scene_alone_is_a_case(case):
+    plan = case.plan()
+    assert case.scene.motion.speed in plan.speeds
+    assert case.scene.motion.speed in plan.load_speeds
+    assert 1.0 in plan.pressing
+    assert 1.0 in plan.depths
+    radius = elastic_contact(case.scene).radius
+    assert min(plan.smooth_speeds) * 1e-3 == pytest.approx(0.01 * radius)
+    assert max(plan.smooth_speeds) * 1e-3 == pytest.approx(100 * radius)
+
+
+def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):
+    contact = elastic_contact(case.scene)
+    deep = replace(case, motion=Slide(speed=0.1, depth=contact.depth))
+    for factor, load in zip(deep.plan().pressing, case.plan().pressing, strict=True):
+        pressed = replace(deep.scene, motion=Slide(speed=0.1, depth=factor * contact.depth))
+        assert elastic_contact(pressed).load == pytest.approx(load * contact.load)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"motion": Indent(load=1.0)}, {"elastomer": Elastic(modulus=1e6)}],
+    ids=["at rest", "elastic"],
+)
+def test_without_friction_there_are_no_speeds(case, change):
+    plan = replace(case, **change).plan()
+    assert not plan.speeds + plan.load_speeds + plan.smooth_speeds
+    assert plan.depths
+
+
+def test_a_smooth_case_has_one_surface_and_a_start_from_rest_has_speeds(case):
+    smooth = replace(case, roughness=None).plan()
+    assert (smooth.surfaces, smooth.profiles) == (1, 1)
+    assert min(replace(case, motion=Slide(speed=0.0, load=1.0)).plan().speeds) > 0
+
+
+MISTAKES = {
+    "a field that does not exist": (SCENE + "[study]\nsurface = 3\n", "study.surface = 3"),
+    "a value of the wrong sign": (SCENE.replace("radius = 1e-2", "radius = -1.0"), "radius = -1.0"),
+    "a value of the wrong type": (SCENE + '[study]\nsurfaces = "many"\n', "study.surfaces = 'many'"),
+    "too few surfaces": (SCENE + "[study]\nsurfaces = 0\n", "greater than or equal to 1"),
+    "a value that stands there twice": (SCENE + "[study]\nspeeds = [0.1, 0.1]\n", "twice"),
+    "an empty list": (SCENE + "[study]\ndepths = []\n", "study.depths"),
+    "an unknown setting of a solver": (SCENE + "[bem]\npoint = 64\n", "bem.point"),
+    "a missing table": (SCENE.replace("[motion]", "[study]\n[movement]"), "motion"),
+    "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N] and depth [m]"),
+    "no TOML": ("radius 3", "TOML"),
+    "a shape that has no third dimension": (SCENE.replace('"sphere"', '"cylinder"'), "Cylinder"),
+    "a solid that a solver lacks": (
+        SCENE.replace(
+            'type = "kelvin"\nmodulus = 1e6',
+            'type = "prony"\nequilibrium_modulus = 1e6\nmoduli = [1e6]\nrelaxation_times = [1e-3]',
+        ).replace("\nrelaxation_time = 1e-3", ""),
+        "Prony",
+    ),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_named_with_exit_status_2_and_nothing_is_written(tmp_path, mistake):
+    text, said = MISTAKES[mistake]
+    path = tmp_path / "case.toml"
+    path.write_text(text)
+    answer = CliRunner().invoke(app, ["run", str(path), "--output", str(tmp_path / "out")])
+    assert answer.exit_code == 2
+    assert said in answer.stderr
+    assert not answer.stdout
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_file_that_is_not_there_is_a_mistake_too(tmp_path):
+    answer = CliRunner().invoke(app, ["run", str(tmp_path / "nowhere.toml")])
+    assert answer.exit_code == 2
+    assert "nowhere.toml" in answer.stderr
+
+
+def test_a_folder_that_cannot_be_made_is_a_mistake_too(tmp_path):
+    (tmp_path / "case.toml").write_text(SCENE)
+    (tmp_path / "taken").write_text("")
+    answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "taken")])
+    assert answer.exit_code == 2
+    assert "--output" in answer.stderr
+
+
+def test_what_a_solver_lacks_is_refused(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(SCENE.replace('"sphere"', '"cylinder"'))
+    with pytest.raises(Refused, match="Cylinder"):
+        read_case(path)

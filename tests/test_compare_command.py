@@ -1,0 +1,92 @@
+"""The command as a person runs it: in a process of its own, from a file to a report."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from test_compare_cases import SCENE
+
+TINY = (
+    SCENE
+    + """
+[study]
+speeds = [0.1, 1.0]
+pressing = [0.5, 1.0, 2.0, 4.0]
+load_speeds = [0.1, 0.3]
+depths = [0.5, 1.0]
+surfaces = 2
+profiles = 2
+[bem]
+points = 32
+[mdr]
+points = 1000
+"""
+)
+# A machine under load starts processes slowly.
+PATIENCE = 120
+
+
+def start(folder, *arguments):
+    return subprocess.Popen(
+        [sys.executable, "-m", "compare", *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env=os.environ | {"PYTHONWARNINGS": "error"},
+    )
+
+
+def finish(process):
+    said, complained = process.communicate(timeout=PATIENCE)
+    return process.returncode, said, complained
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "tiny.toml").write_text(TINY)
+    return tmp_path
+
+
+def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
+    process = start(folder, "run", "tiny.toml", "--workers", "1")
+    solved = folder / "crosscheck-report" / "solved"
+    deadline = time.monotonic() + PATIENCE
+    while len(list(solved.glob("*.json"))) < 3 and time.monotonic() < deadline:
+        time.sleep(0.02)
+    # As from a keyboard: every process of the run gets it.
+    os.killpg(process.pid, signal.SIGINT)
+    status, _, complained = finish(process)
+    assert status == 130
+    assert "resumes" in complained
+    assert "Traceback" not in complained
+    kept = len(list(solved.glob("*.json")))
+
+    status, said, complained = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
+    assert (status, complained) == (0, "")
+    now, reused = map(int, re.search(r"(\d+) tasks solved, (\d+) reused", said).groups())
+    assert reused == kept >= 3
+    assert now > 0
+    assert str(folder / "crosscheck-report" / "report.html") in said
+    assert "tends to 2" in said
+    assert "1D / 3D friction at the scene's own point" in said
+    assert (folder / "crosscheck-report" / "tiny" / "collapse.pdf").exists()
+    manifest = json.loads((folder / "crosscheck-report" / "manifest.json").read_text())
+    assert manifest["tasks"] == {"solved": now, "reused": reused}
+
+
+def test_help_and_version_are_quick_and_load_nothing_heavy(folder):
+    code = "import sys, compare.__main__; print({'numpy', 'scipy', 'matplotlib'} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.strip() == "set()"
+    status, said, _ = finish(start(folder, "--version"))
+    assert status == 0
+    assert re.fullmatch(r"\d+\.\d+\.\d+\n", said)
+    status, said, _ = finish(start(folder, "--help"))
+    assert status == 0
+    assert "run" in said

@@ -1,0 +1,135 @@
+"""Closed forms against integrals and derivatives that are written out here."""
+
+from math import pi, sqrt, tan
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from compare import exact
+from compare.exact import Exact
+from scene import Cone, Cylinder, Elastic, Indent, Kelvin, PowerLaw, Refused, Scene, SelfAffine, Slide, Sphere
+from scene import StandardLinearSolid as Solid
+
+SHAPES = [Sphere(radius=2e-2), Cone(angle=0.2), PowerLaw(coefficient=30.0, exponent=3.0)]
+RUBBER = Kelvin(modulus=1e6, relaxation_time=1e-3)
+# Sums and powers of a few numbers.
+ROUNDING = 1e-12
+# The pressure falls to zero at the edge of the contact with an infinite slope: the midpoint sum pays for that.
+RING_SUM = 3e-3
+
+
+def g(shape, x):
+    """The MDR profile from its defining integral, with r = x sin(t)."""
+    slope = shape.coefficient * shape.exponent
+    return x * quad(lambda t: slope * (x * np.sin(t)) ** (shape.exponent - 1), 0, pi / 2)[0]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_load_is_the_integral_of_the_depth_of_the_profile(shape):
+    depth, stiffness = 1e-4, RUBBER.indentation_modulus
+    answer = Exact().solve(Scene(shape, RUBBER, Indent(depth=depth)))
+    radius = answer.measures["contact_length"] / 2
+    assert g(shape, radius) == pytest.approx(depth, rel=1e-10)
+    load = 2 * stiffness * quad(lambda x: depth - g(shape, x), 0, radius)[0]
+    assert answer.normal_force == pytest.approx(load, rel=1e-9)
+    again = exact.load_at_depth(depth, stiffness, shape.mdr_coefficient, shape.exponent)
+    assert again == pytest.approx(load, rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_eq_16_inverts_the_load(shape):
+    profile = shape.mdr_coefficient, shape.exponent
+    depth = exact.depth_at_load(0.7, 1e6, *profile)
+    assert exact.load_at_depth(depth, 4e6, *profile) == pytest.approx(0.7, rel=ROUNDING)
+    assert exact.contact_radius(0.7, 1e6, *profile) == pytest.approx((depth / profile[0]) ** (1 / profile[1]))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pressure_carries_the_load(shape):
+    answer = Exact().solve(Scene(shape, RUBBER, Indent(load=1.0)))
+    r, p = answer.fields["r"], answer.fields["pressure"]
+    middle = (p[1:] + p[:-1]) / 2
+    assert pi * np.sum(middle * np.diff(r**2)) == pytest.approx(1.0, rel=RING_SUM)
+    assert np.all(p >= 0)
+
+
+def test_hertz_and_sneddon_are_the_two_shapes_everyone_knows():
+    stiffness, depth = RUBBER.indentation_modulus, 1e-4
+    sphere = Exact().solve(Scene(Sphere(radius=2e-2), RUBBER, Indent(depth=depth)))
+    assert sphere.normal_force == pytest.approx(4 / 3 * stiffness * sqrt(2e-2) * depth**1.5, rel=ROUNDING)
+    cone = Exact().solve(Scene(Cone(angle=0.2), RUBBER, Indent(depth=depth)))
+    assert cone.normal_force == pytest.approx(2 / pi * stiffness * depth**2 / tan(0.2), rel=ROUNDING)
+    r, p = cone.fields["r"], cone.fields["pressure"]
+    radius = cone.measures["contact_length"] / 2
+    assert p == pytest.approx(stiffness * tan(0.2) / 2 * np.arccosh(radius / r), rel=1e-10, abs=1e-6)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_slow_friction_is_the_integral_of_the_squared_slope_and_twice_it_in_one_dimension(shape):
+    radius, step = 1e-3, 1e-9
+    integral = quad(lambda x: ((g(shape, x + step) - g(shape, x)) / step) ** 2, 0, radius)[0]
+    arguments = (0.1, radius, 1e-3, 4e6, shape.mdr_coefficient, shape.exponent)
+    three = exact.slow_friction_3d(*arguments)
+    # Forward differences of step / radius = 1e-6.
+    assert three == pytest.approx(0.1 * 1e-3 * 4e6 * integral, rel=1e-4)
+    assert exact.slow_friction_1d(*arguments) == 2 * three
+
+
+def test_slow_friction_coefficients_are_those_of_sphere_and_cone():
+    speed, lag, load = 0.1, 1e-4, 0.7
+    for shape, expected in (
+        (Sphere(radius=2e-2), lambda a: speed * lag / 2e-2),
+        (Cone(angle=0.2), lambda a: pi / 2 * tan(0.2) * speed * lag / a),
+    ):
+        profile = shape.mdr_coefficient, shape.exponent
+        radius = exact.contact_radius(load, 1e6, *profile)
+        mu = exact.slow_friction_3d(speed, radius, lag, 4e6, *profile) / load
+        assert mu == pytest.approx(expected(radius), rel=ROUNDING)
+
+
+def test_mean_lag_is_the_loss_at_low_frequency():
+    solid = Solid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-5)
+    omega = 1e-4 / 1e-3
+    tangent = solid.complex_modulus(omega)
+    assert exact.mean_lag(solid) == pytest.approx(tangent.imag / tangent.real / omega, rel=1e-6)
+    assert exact.mean_lag(RUBBER) == pytest.approx(RUBBER.relaxation_time, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_similarity_variable_is_the_low_speed_friction_of_eq_12(shape):
+    load, speed, time, modulus, slope = 2.0, 0.3, 1e-3, 1e6, 0.4
+    profile = shape.mdr_coefficient, shape.exponent
+    radius = exact.contact_radius(load, modulus, *profile)
+    mu = 4 * modulus * (2 * radius) * speed * time / load * slope**2
+    xi = exact.similarity_variable(load, speed, time, modulus, slope, *profile)
+    assert xi == pytest.approx(mu / (sqrt(2) * slope), rel=ROUNDING)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_shift_exponent_leaves_the_similarity_variable_alone(shape):
+    profile = shape.mdr_coefficient, shape.exponent
+    factor = 7.0
+    # F p(v) is kept: F grows as p falls.
+    load = 2.0 * factor ** -exact.shift_exponent(shape.exponent)
+    before = exact.similarity_variable(2.0, 0.1, 1e-3, 1e6, 0.4, *profile)
+    after = exact.similarity_variable(load, 0.1 * factor, 1e-3, 1e6, 0.4, *profile)
+    assert after == pytest.approx(before, rel=ROUNDING)
+
+
+def test_master_curve_joins_its_two_limits():
+    assert exact.master_curve(1e-4) == pytest.approx(1e-4, rel=1e-5)
+    assert exact.master_curve(1e4) == pytest.approx(1.0, rel=1e-5)
+    assert exact.master_curve(1.0, alpha=2.0) == pytest.approx(1 / sqrt(2))
+
+
+def test_what_has_no_closed_form_is_refused_by_name():
+    rough = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2)
+    for scene, word in (
+        (Scene(Sphere(radius=1e-2), RUBBER, Slide(speed=0.1, load=1.0)), "speed = 0.1"),
+        (Scene(Sphere(radius=1e-2), RUBBER, Indent(load=1.0), rough), "roughness"),
+        (Scene(Cylinder(radius=1e-2), RUBBER, Indent(load=1.0)), "Cylinder"),
+    ):
+        with pytest.raises(Refused, match=word):
+            Exact().solve(scene)
+    assert not Exact().refusals(Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Slide(speed=0.1, load=1.0)))
