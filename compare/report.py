@@ -29,11 +29,12 @@ PAGE, MANIFEST = "report.html", "manifest.json"
 
 @dataclass(frozen=True)
 class Drawn:
-    """One figure on the page: name, caption, and its PNG as base64."""
+    """One figure on the page: name, caption, its PNG as base64, and its width [inch]."""
 
     name: str
     caption: str
     image: str
+    inches: float
 
 
 @dataclass(frozen=True)
@@ -111,7 +112,9 @@ def _draw(folder, module, judgement):
         )
     for name, content in module.sheets(judgement).items():
         _write_csv(folder / f"{name}.csv", content)
-    return Drawn(module.NAME, module.caption(judgement), base64.b64encode(image.getvalue()).decode())
+    return Drawn(
+        module.NAME, module.caption(judgement), base64.b64encode(image.getvalue()).decode(), drawing.get_figwidth()
+    )
 
 
 def _write_csv(path, content):

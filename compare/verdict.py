@@ -52,7 +52,7 @@ class Judgement:
     table : every point of every curve
     collapses : by solver's name; a solver whose curves could not be fitted is missing
     numbers : the few that matter
-    checks : how far they can be trusted
+    checks : what stands behind them, and how far they can be trusted
     fields : of the scene's own point, by solver's name
     failures : what was solved and the reason why it failed
     seconds : processor time [s] of all solves by solver's name, those of earlier runs included
@@ -76,11 +76,12 @@ def judge(case: Case, points: Sequence[Point], swept: Swept) -> Judgement:
         *_smooth_limit(case, table),
         *_own_ratio(case, table),
         *_force_depth(table, smooth=case.roughness is None),
-        *(_collapse_number(case, name, result) for name, result in collapses.items()),
+        *_misfits(case, collapses),
     ]
     checks = [*_discretisation(case, table)]
     if case.roughness:
         checks = [*_force_depth(table, smooth=True), *checks]
+    checks = [*(_collapse_number(case, name, result) for name, result in collapses.items()), *checks]
     tasks = {task: swept.outcomes[task] for point in points for task in point.tasks}
     failures = [(task.label, row.reason) for task, outcome in tasks.items() for row in outcome.rows if row.reason]
     fields = {task.solver.name: outcome.fields for task, outcome in tasks.items() if outcome.fields}
@@ -189,15 +190,38 @@ def _force_deviation(above, below):
     return metrics.relative_deviation(above.normal_force, below.normal_force)
 
 
+def _misfits(case, collapses):
+    """How far the curves of both dimensions miss one another once shifted as Eq. 23 predicts."""
+    predicted = exact.shift_exponent(case.indenter.exponent)
+    misfits = {solver: misfit_at(result, predicted).rms for solver, result in collapses.items()}
+    if not misfits:
+        return
+    scatters = {solver: result.scatter for solver, result in collapses.items()}
+    written = [
+        f"{DIMENSIONS[solver]} {_percent(misfit, 'no overlap')} (scatter {_percent(scatters[solver], 'unknown')})"
+        for solver, misfit in misfits.items()
+    ]
+    yield Number(
+        "misfit of the curves shifted as Eq. 23 predicts",
+        ", ".join(written),
+        misfits.get("BEM", nan),
+        scatters.get("BEM", nan),
+        "Rms of ln mu (ln F) about one curve; value and error are those of 3D. A misfit beyond the scatter "
+        "between surfaces means that the curves are not one.",
+    )
+
+
+def _percent(value, otherwise):
+    return f"{value:.1%}" if np.isfinite(value) else otherwise
+
+
 def _collapse_number(case, solver, result):
     predicted = exact.shift_exponent(case.indenter.exponent)
     as_predicted = misfit_at(result, predicted)
-    scatter = f"{result.scatter:.1%}" if np.isfinite(result.scatter) else "unknown"
     fitted = plus_minus(result.exponent if result.overlaps and result.separable else nan, result.exponent_error)
-    there = f"{as_predicted.rms:.1%}" if np.isfinite(as_predicted.rms) else "no overlap"
     return Number(
-        f"misfit of the collapse by Eq. 23, {DIMENSIONS[solver]}",
-        f"{there} shifted as predicted, {result.after.rms:.1%} at best (scatter {scatter}); "
+        f"collapse by horizontal shifts, {DIMENSIONS[solver]}",
+        f"misfit {_percent(as_predicted.rms, 'without overlap')} as predicted, {result.after.rms:.1%} at best; "
         f"exponent {fitted} (predicted {predicted:.4g})",
         as_predicted.rms,
         result.scatter,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from bem3d.surface import RoughSurface
 from scene import Cone, Elastic, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 G, R, TAU = 1e6, 10e-3, 1e-3
@@ -58,6 +59,19 @@ def test_slow_cone_has_friction_half_pi_tan_theta_v_tau_over_a():
     scene = Scene(Cone(theta), Kelvin(G, TAU), Slide(speed=1e-3 * a / TAU, depth=depth))
     expected = np.pi / 2 * np.tan(theta) * 1e-3
     assert BEM(points=192).solve(scene).friction_coefficient == pytest.approx(expected, rel=SLOW)
+
+
+def test_slow_rough_sphere_has_friction_v_tau_times_the_curvature_under_the_static_pressure():
+    # first order in the speed: F_x = v tau int p d2z/dx2 dA, with the pressure of the contact at rest
+    surface = RoughSurface.draw(ROUGH, ROUGH.q_max(0.0))
+    speed, load, step = 0.01, 1.0, 1e-7
+    at_rest = BEM(points=128).solve(Scene(Sphere(R), Elastic(G), Slide(speed=speed, load=load), ROUGH))
+    x, y, p = (at_rest.fields[name] for name in ("x", "y", "pressure"))
+    curvature = 1 / R + (surface.slopes(x + step, y) - surface.slopes(x - step, y)) / (2 * step)
+    expected = speed * TAU * np.sum(p * curvature) / p.sum()
+    assert expected > 3 * speed * TAU / R  # the roughness decides
+    result = BEM(points=256).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=load), ROUGH))
+    assert result.friction_coefficient == pytest.approx(expected, rel=SLOW)
 
 
 def test_elastic_sphere_slides_without_friction_at_any_speed():

@@ -196,7 +196,7 @@ def test_failures_are_listed_with_their_reason_and_left_out():
 def test_one_surface_is_undecided_never_certain():
     judgement, _ = solved(replace(CASE, study=replace(CASE.study, surfaces=1)))
     assert "undecided" in number(judgement, "1D / 3D friction at the scene's own point").written
-    assert "scatter unknown" in number(judgement, "misfit of the collapse by Eq. 23, 3D").written
+    assert "(scatter unknown)" in number(judgement, "misfit of the curves shifted as Eq. 23 predicts").written
     assert judgement.collapses["BEM"].verdict == "undecided"
 
 
