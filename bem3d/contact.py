@@ -11,8 +11,11 @@ import numpy as np
 
 from .krylov import conjugate_gradients, gmres
 
-ROUNDS = 400  # sets of contact tried before giving up; 5 to 60 are usual
-INNER_REDUCTION = 1e-2  # of the error on one set of contact: more is wasted while the set still changes
+ROUNDS = 400  # sets of contact tried before giving up; 5 to 30 are usual
+ACCURACY = 0.5  # of the error on one set of contact: more is wasted while the set still changes
+READMITTED = 0.1  # of the contact: when more of what was dropped penetrates, the solves were too rough,
+CLOSER = 30.0  # and from then on are closer by this factor
+PATIENCE = 30  # rounds after which they are closer by half, each time: rough solves can cycle, close ones do not
 INNER_ITERATIONS = 60
 
 
@@ -41,7 +44,7 @@ def solve(
     precondition: Callable | None = None,
     symmetric: bool = False,
 ) -> Contact:
-    """Solve on a set of contact; drop what pulls; only when nothing pulls, add what penetrates ("drop first").
+    """Solve roughly on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
 
     start : pressure to begin with (ny, nx), >= 0; its support is the first set of contact
     tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z)
@@ -52,7 +55,8 @@ def solve(
     Raises NotConverged.
     """
     krylov = conjugate_gradients if symmetric else gmres
-    pressure = _balanced(start, load)
+    pressure, accuracy = _balanced(start, load), ACCURACY
+    dropped = np.zeros(heights.shape, bool)
     for rounds in range(1, ROUNDS + 1):
         contact = pressure > 0
         free = operator(pressure) + heights
@@ -63,15 +67,22 @@ def solve(
         outside = -gap.min(where=~contact, initial=0.0)
         if inside <= aim and outside <= aim:
             return Contact(pressure, gap, float(level), float(max(inside, outside) / aim * tolerance), rounds)
-        if inside <= max(aim, INNER_REDUCTION * outside):
-            contact |= gap < -aim
+        if rounds % PATIENCE == 0:
+            accuracy /= 2
+        if inside <= max(aim, accuracy * outside):
+            penetrating = gap < -aim
+            if np.count_nonzero(penetrating & dropped) > READMITTED * np.count_nonzero(contact):
+                accuracy /= CLOSER
+            contact |= penetrating
+            dropped[:] = False
         on_set = _OnSet(operator, precondition, contact, mean_free=depth is None)
         correction = krylov(
-            on_set.operator, -on_set.restrict(gap), on_set.precondition, INNER_REDUCTION, aim, INNER_ITERATIONS
+            on_set.operator, -on_set.restrict(gap), on_set.precondition, accuracy, aim, INNER_ITERATIONS
         )
         pressure = np.maximum(pressure + on_set.extend(correction), 0.0)
-        if not pressure.any():
-            raise NotConverged("every point left the contact")
+        dropped |= contact & (pressure == 0)
+        if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
+            pressure, accuracy = np.maximum(level - heights, 0.0), accuracy / 4
         pressure = _balanced(pressure, load)
     violation = max(inside, outside) / aim * tolerance
     raise NotConverged(f"after {ROUNDS} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")

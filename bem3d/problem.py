@@ -52,6 +52,14 @@ class Problem:
         """Pressure over E* -> displacement over the pixel."""
         return self.flow.operator(grid, self.threads)
 
+    def lost(self, grid: Grid, pressure: np.ndarray) -> float:
+        """Energy [J] lost per length [m] slid under a pressure [Pa]: friction without looking at the indenter."""
+        loss = self.flow.loss(grid, self.threads)
+        if loss is None:
+            return 0.0
+        self.work += grid.points**2
+        return float(np.sum(pressure * loss(pressure)) * grid.pixel**2 / self.flow.modulus)
+
     def solve(self, finest: Grid, tolerance: float) -> contact.Contact:
         """From the coarsest grid to the finest, each started from the one before; in units of `solve_on`."""
         grids = [finest]

@@ -2,9 +2,10 @@
 
 In the frame of the indenter the contact is steady. A retardation mode of time lambda turns the elastic kernel into
 that kernel convolved downstream with exp(-s/l)/l, l = speed * lambda. Pressure is constant on a pixel, and the gap
-is collocated behind the pixel's centre by (1/2) tanh(l) pixels: at the trailing edge when l is many pixels, which
-keeps the operator definite, and at the centre when l is far below one, which keeps it accurate. With several modes
-l is their mean weighted by compliance, and the shift is in proportion to the delayed share of the compliance.
+is collocated behind the pixel's centre by the lag of the shortest wave that the grid carries: -arg(J(q))/q at
+q = pi/pixel, J the compliance. Seen from there that wave follows without delay, so the operator stays definite
+when the memory is many pixels long (half a pixel, the trailing edge) and accurate when it is short or the solid is
+glassy (the centre).
 """
 
 from dataclasses import dataclass
@@ -44,12 +45,10 @@ class Flow:
         return len(self.lengths) == 0
 
     def collocation(self, grid: Grid) -> float:
-        """How far [m] behind a pixel's centre the gap is measured."""
-        if self.at_rest:
-            return 0.0
-        delayed = self.shares.sum()
-        length = self.shares @ self.lengths / delayed
-        return delayed * grid.pixel / 2 * np.tanh(length / grid.pixel)
+        """How far [m] behind a pixel's centre the gap is measured: from 0 to half a pixel."""
+        q = np.pi / grid.pixel
+        compliance = self.instantaneous + np.sum(self.shares / (1 + 1j * q * self.lengths))
+        return float(-np.angle(compliance) / q)
 
     def operator(self, grid: Grid, threads: int) -> FreeConvolution:
         """Pressure / E* on the pixels -> displacement / pixel at the points of collocation."""
@@ -62,6 +61,22 @@ class Flow:
             kernel += self.instantaneous * influence.elastic(n, n, shift)
         for share, length in zip(self.shares, self.lengths, strict=True):
             kernel += share * influence.retarded(n, n, length / grid.pixel, shift)
+        return FreeConvolution(kernel, threads)
+
+    def loss(self, grid: Grid, threads: int) -> FreeConvolution | None:
+        """Pressure / E* -> slope of the displacement along the flow, as far as it dissipates; None at rest.
+
+        A mode's displacement obeys w + l dw/dx = w_elastic, so its slope is (w_elastic - w)/l without any
+        difference quotient. Of its kernel only the part even in x does work on the pressure: int p dw/dx dA is the
+        energy lost per length slid, the sum of the loss compliance over the spectrum of the pressure.
+        """
+        if self.at_rest:
+            return None
+        n = grid.points
+        elastic = influence.elastic(n, n)
+        kernel = np.zeros((n, 2 * n))
+        for share, length in zip(self.shares, self.lengths / grid.pixel, strict=True):
+            kernel += share * (elastic - influence.retarded(n, n, length, 0.0)) / length
         return FreeConvolution(kernel, threads)
 
     def preconditioner(self, grid: Grid, threads: int) -> PeriodicFilter:

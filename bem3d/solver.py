@@ -78,6 +78,7 @@ class BEM:
             "contact_area": float(contact_points * pixel**2),
             "contact_points": float(contact_points),
             "points_across_contact": float(grid.box(pressure > 0).side / pixel),
+            "friction_by_loss": problem.lost(grid, pressure),
             "rounds": float(answer.rounds),
         }
         if surface is not None:

@@ -12,7 +12,9 @@ PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the
 MARGIN = 1.15  # window over contact
 SETTLED = 0.8  # share of its window that a contact must fill, margin included, for the window to stay
 ATTEMPTS = 12  # windows tried
-SAMPLES = 2048  # points a side at most, at which the surroundings are searched
+RING = 3.0  # outer over inner side of a ring of the surroundings
+RING_POINTS = 96  # a side, for the displacement in a ring: 16 pixels from the contact at least
+SAMPLES = 2048  # points a side at most, at which a ring is searched for what penetrates
 FEWEST = 9  # points in contact below which forces are no more than a guess
 OVERLAP = 1e-2  # of the depth below the lowest point: what may penetrate outside, felt below 1e-3 in the forces
 
@@ -82,27 +84,42 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
 def left_out(problem: Problem, grid: Grid, answer) -> Box | None:
     """A box around what the indenter penetrates outside the grid, None when there is nothing.
 
-    The displacement out there is that of the pressure found, on a coarse grid: it is smooth away from the contact.
+    The displacement out there is that of the pressure found. It is smooth away from the contact, so rings of
+    growing width around the window are searched, each on a grid as coarse as its distance allows.
     """
     surface = problem.surface(grid)
     if surface is None:
         return None
-    around = surroundings(problem)
-    fine = Grid.around(around, int(np.clip(around.side / grid.pixel, COARSEST, SAMPLES)), 1.0)
-    coarse = Grid.around(around, COARSEST, 1.0)
+    around, missed = surroundings(problem), None
+    farthest = 2 * (around.right + max(map(abs, grid.centre)))
+    inner = grid.extent
+    while inner < farthest:
+        outer = min(RING * inner, farthest)
+        found = _penetrating(problem, grid, answer, surface, inner, outer)
+        missed = found if missed is None else missed if found is None else missed.union(found)
+        inner = outer
+    return missed
+
+
+def _penetrating(problem, grid, answer, surface, inner, outer):
+    """A box around what is penetrated between two squares of these sides [m] around the window's centre."""
+    coarse = Grid(RING_POINTS, outer, grid.centre)
+    # No finer than the roughness asks for, nor than the solution itself was.
+    step = max(grid.pixel, np.pi / problem.scene.roughness.q_max(grid.pixel) / 4)
+    fine = Grid(int(np.clip(outer / step, RING_POINTS, SAMPLES)), outer, grid.centre)
     displacement = fine.resample(problem.operator(coarse)(_binned(grid, answer.pressure, coarse)) * coarse.pixel)
-    gap = displacement + problem.heights(fine, surface) - answer.depth * grid.pixel
-    inside_x = np.abs(fine.x - grid.centre[0]) < grid.extent / 2
-    inside_y = np.abs(fine.y - grid.centre[1]) < grid.extent / 2
-    allowed = OVERLAP * (answer.depth * grid.pixel - problem.heights(grid, surface).min())
+    depth = answer.depth * grid.pixel
+    gap = displacement + problem.heights(fine, surface) - depth
+    allowed = OVERLAP * (depth - problem.heights(grid, surface).min())
+    inside_x = np.abs(fine.x - grid.centre[0]) < inner / 2
+    inside_y = np.abs(fine.y - grid.centre[1]) < inner / 2
     penetrating = (gap < -allowed) & ~(inside_y[:, None] & inside_x[None, :])
     return fine.box(penetrating) if penetrating.any() else None
 
 
 def _binned(grid, pressure, coarse):
-    """Pressure of one grid averaged over the pixels of another that surrounds it, the force kept."""
-    edges_x = coarse.centre[0] + (np.arange(coarse.points + 1) / coarse.points - 0.5) * coarse.extent
-    edges_y = coarse.centre[1] + (np.arange(coarse.points + 1) / coarse.points - 0.5) * coarse.extent
-    y, x = np.meshgrid(grid.y, grid.x, indexing="ij")
-    force, _, _ = np.histogram2d(y.ravel(), x.ravel(), bins=(edges_y, edges_x), weights=pressure.ravel())
+    """Pressure of one grid averaged over the pixels of another around the same centre, the force kept."""
+    edges = (np.arange(coarse.points + 1) / coarse.points - 0.5) * coarse.extent
+    y, x = np.meshgrid(grid.y - grid.centre[1], grid.x - grid.centre[0], indexing="ij")
+    force, _, _ = np.histogram2d(y.ravel(), x.ravel(), bins=(edges, edges), weights=pressure.ravel())
     return force * (grid.pixel / coarse.pixel) ** 2

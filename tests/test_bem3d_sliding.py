@@ -14,6 +14,7 @@ D = 1e-4
 A = np.sqrt(R * D)
 HERTZ = 4 / 3 * 4 * G * np.sqrt(R) * D**1.5
 PUBLISHED = 5e-3  # asked for: 0.5 % with 36 or more points across the contact
+WORK = 450  # measured: 25 to 405, most on the smooth trailing edges of fast contacts
 SLOW = 0.02  # the contact's edge is known to a pixel
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=1e-3, seed=2)
 
@@ -47,10 +48,9 @@ def test_every_speed_converges_to_the_stated_residual(ratio):
 
 def test_slow_sphere_has_friction_v_tau_over_R():
     # F_x -> v tau E* int_0^a g'^2 dx with g = x^2/R, so mu = v tau / R; half of what one dimension gives
-    coarse, fine = (BEM(points=n).solve(sphere_at(1e-3)).friction_coefficient for n in (96, 192))
-    assert fine == pytest.approx(1e-3 * A / R, rel=SLOW)
-    # first order in the pixel, which is 12 times the memory length here: what is left shrinks with it
-    assert 2 * fine - coarse == pytest.approx(1e-3 * A / R, rel=SLOW / 5)
+    # on pixels of 25 times the memory length
+    result = BEM(points=96).solve(sphere_at(1e-3))
+    assert result.friction_coefficient == pytest.approx(1e-3 * A / R, rel=5e-3)
 
 
 def test_slow_cone_has_friction_half_pi_tan_theta_v_tau_over_a():
@@ -161,3 +161,41 @@ def test_a_finer_tolerance_changes_the_answer_by_no_more_than_the_looser_one_sta
     assert tight.residual <= 1e-9
     assert loose.friction_coefficient == pytest.approx(tight.friction_coefficient, rel=1e-4)
     assert loose.depth == pytest.approx(tight.depth, rel=1e-4)
+
+
+@pytest.mark.parametrize("roughness", [None, ROUGH], ids=["smooth", "rough"])
+@pytest.mark.parametrize(
+    "solid",
+    [Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU / 10), Prony(G, (G, 9 * G), (TAU, TAU / 100))],
+    ids=["Kelvin", "standard linear", "two modes"],
+)
+@pytest.mark.parametrize("speed", [0.03, 1.0, 30.0])
+def test_friction_from_the_slope_and_from_the_energy_lost_agree(solid, speed, roughness):
+    # two estimates from one pressure: on a Kelvin solid the second feels the singular edge of the contact
+    tolerance = 0.05 if isinstance(solid, Kelvin) else 0.03
+    result = BEM(points=128).solve(Scene(Sphere(R), solid, Slide(speed=speed, load=2.0), roughness))
+    assert result.measures["friction_by_loss"] == pytest.approx(result.friction_force, rel=tolerance)
+
+
+def test_nothing_is_lost_at_rest_or_in_an_elastic_solid():
+    for scene in (
+        Scene(Sphere(R), Elastic(G), Slide(speed=1.0, load=1.0), ROUGH),
+        sphere_at(0.0, roughness=ROUGH),
+    ):
+        assert BEM(points=48).solve(scene).measures["friction_by_loss"] == 0.0
+
+
+@pytest.mark.parametrize("memory", [1e-4, 1e-3, 1e-2])
+def test_a_coarse_grid_is_enough_where_the_glass_is_resolved(memory):
+    published = {1e-4: 0.045249e-3, 1e-3: 0.157664e-3, 1e-2: 0.041906e-3}[memory]
+    scene = Scene(Sphere(R), StandardLinearSolid(G, 2 * G, TAU), Slide(speed=memory / (2 * TAU), load=0.533333))
+    result = BEM(points=48).solve(scene)
+    assert result.friction_coefficient * R == pytest.approx(published, rel=5e-3)
+
+
+@pytest.mark.parametrize("speed", [1e-3, 0.1, 1.0, 10.0, 1e3])
+@pytest.mark.parametrize("roughness", [None, replace(ROUGH, shortest=4e-4)], ids=["smooth", "rough"])
+def test_the_work_of_a_solve_is_bounded_at_every_speed(speed, roughness):
+    # operator applications in equivalents of the finest grid, those spent on finding the window included
+    result = BEM(points=256).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=10.0), roughness))
+    assert result.applications <= WORK
