@@ -1,19 +1,24 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
+from .fractional import Fractional
 from .indenter import Cone, Cylinder, PowerLaw, Sphere
 from .motion import Indent, Slide
 from .protocol import Refused, SolveError, Solver
 from .result import Result
-from .rheology import Elastic, Kelvin, Prony, StandardLinearSolid
+from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import SelfAffine
 from .scene import Scene
+from .table import Table, read_table
+from .tabulated import Tabulated
 
 __all__ = [
     "Cone",
     "Cylinder",
     "Elastic",
+    "Fractional",
     "Indent",
     "Kelvin",
+    "KelvinChain",
     "PowerLaw",
     "Prony",
     "Refused",
@@ -25,4 +30,7 @@ __all__ = [
     "Solver",
     "Sphere",
     "StandardLinearSolid",
+    "Table",
+    "Tabulated",
+    "read_table",
 ]

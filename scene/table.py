@@ -1,0 +1,84 @@
+"""Measured storage and loss moduli, in Python or in a text file."""
+
+import re
+from math import isfinite
+from pathlib import Path
+
+from pydantic import model_validator
+from pydantic.dataclasses import dataclass
+
+from .quantities import CLOSED, Positive
+
+COLUMNS = ("frequency", "storage", "loss")
+_LEAST_FREQUENCIES = 4
+_SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
+Column = tuple[Positive, ...]
+
+
+@dataclass(frozen=True, config=CLOSED, repr=False)
+class Table:
+    """Measured moduli: frequency, storage and loss modulus, equally many, all > 0; at least 4 frequencies.
+
+    In any order; a frequency may stand there more than once, and then each of its rows counts.
+    """
+
+    frequency: Column
+    storage: Column
+    loss: Column
+
+    @model_validator(mode="after")
+    def _rows(self):
+        lengths = [len(getattr(self, name)) for name in COLUMNS]
+        if len(set(lengths)) > 1:
+            raise ValueError(f"frequency, storage and loss have {lengths} values: they must be equally many")
+        if len(set(self.frequency)) < _LEAST_FREQUENCIES:
+            raise ValueError(f"{len(set(self.frequency))} frequencies: at least {_LEAST_FREQUENCIES} are needed")
+        return self
+
+    def __repr__(self):
+        return f"Table({len(self.frequency)} rows from {min(self.frequency):g} to {max(self.frequency):g})"
+
+
+def read_table(path: str | Path) -> Table:
+    """A table from a text or CSV file: a row of frequency, storage and loss modulus a line.
+
+    Cells are separated by commas, semicolons, tabs or blanks, with decimal points. Lines without a number before
+    the first row, empty lines, and what follows a # are skipped. Raises ValueError naming file and line.
+    """
+    return Table(**columns(path))
+
+
+def columns(path: str | Path) -> dict[str, tuple[float, ...]]:
+    """The columns of such a file by their names, not yet checked as a whole."""
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise ValueError(f"{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{path}: not a text file in UTF-8") from error
+    rows = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        cells = _SEPARATOR.split(line.partition("#")[0].strip())
+        heading = not rows and not any(_is_number(cell) for cell in cells)
+        if cells != [""] and not heading:
+            rows.append(_row(cells, f"{path}, line {number}"))
+    return dict(zip(COLUMNS, zip(*rows, strict=True) if rows else ((), (), ()), strict=True))
+
+
+def _is_number(cell):
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _row(cells, where):
+    if len(cells) != len(COLUMNS):
+        raise ValueError(f"{where}: {len(cells)} columns; frequency, storage and loss are needed, and no others")
+    for name, cell in zip(COLUMNS, cells, strict=True):
+        if not _is_number(cell):
+            raise ValueError(f"{where}: {name} = {cell!r} is not a number")
+        if not (isfinite(float(cell)) and float(cell) > 0):
+            raise ValueError(f"{where}: {name} = {cell} must be finite and greater than 0")
+    return tuple(float(cell) for cell in cells)

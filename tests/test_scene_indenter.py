@@ -1,0 +1,110 @@
+"""Macroscopic shapes: heights, slopes and the one-dimensional image."""
+
+from math import pi, tan
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from scene import Cone, Cylinder, Elastic, Indent, PowerLaw, Scene, Slide, Sphere
+from scene.scales import elastic_contact
+
+ROUNDING = 1e-13
+R, ANGLE = 1e-2, 0.2
+AXISYMMETRIC = [Sphere(R), Cone(ANGLE), PowerLaw(2e3, 3.5), PowerLaw(0.3, 1.0), PowerLaw(1e5, 4.0)]
+X, Y = np.meshgrid(np.linspace(-1e-3, 1e-3, 8), np.linspace(-2e-3, 1e-3, 6))
+
+
+def test_heights_are_those_of_the_named_bodies():
+    r = np.hypot(X, Y)
+    np.testing.assert_allclose(Sphere(R).height(X, Y), r**2 / (2 * R), rtol=ROUNDING)
+    np.testing.assert_allclose(Cone(ANGLE).height(X, Y), r * tan(ANGLE), rtol=ROUNDING)
+    np.testing.assert_allclose(PowerLaw(2e3, 3.5).height(X, Y), 2e3 * r**3.5, rtol=ROUNDING)
+    np.testing.assert_allclose(Cylinder(R).height(X, Y), X**2 / (2 * R), rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("shape", [*AXISYMMETRIC, Cylinder(R)], ids=repr)
+def test_the_slope_is_the_derivative_of_the_height_along_x(shape):
+    step = 1e-9
+    difference = (shape.height(X + step, Y) - shape.height(X - step, Y)) / (2 * step)
+    # A central difference: rounding of heights over the step, and its square.
+    np.testing.assert_allclose(shape.slope(X, Y), difference, rtol=1e-5, atol=1e-8)
+
+
+@pytest.mark.parametrize("shape", AXISYMMETRIC, ids=repr)
+def test_at_the_tip_height_and_slope_vanish_and_no_number_is_lost(shape):
+    assert shape.height(0.0, 0.0) == 0
+    assert shape.slope(0.0, 0.0) == 0
+    assert shape.slope(0.0, 1e-3) == 0
+
+
+@pytest.mark.parametrize("shape", AXISYMMETRIC, ids=repr)
+def test_the_radius_at_a_height_is_where_that_height_is_reached(shape):
+    heights = np.geomspace(1e-9, 1e-3, 5)
+    np.testing.assert_allclose(shape.height(shape.radius_at(heights), 0.0), heights, rtol=1e-12)
+
+
+@pytest.mark.parametrize("shape", [*AXISYMMETRIC, Cylinder(R)], ids=repr)
+def test_coordinates_of_any_broadcastable_shapes_are_taken(shape):
+    x, y = np.linspace(0, 1e-3, 5), np.linspace(0, 1e-3, 3)[:, None]
+    assert shape.height(x, y).shape == shape.slope(x, y).shape == (3, 5)
+
+
+@pytest.mark.parametrize("shape", AXISYMMETRIC, ids=repr)
+def test_the_one_dimensional_image_is_the_abel_integral_of_the_slope(shape):
+    # g(x) = |x| int_0^|x| z'(r)/sqrt(x^2 - r^2) dr; with r = x sin(t) an integrand without a singularity.
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    x = 7e-4
+    radii = x * np.sin(pi / 4 * (nodes + 1))
+    integral = x * pi / 4 * weights @ shape.slope(radii, 0.0)
+    assert shape.mdr_coefficient * x**shape.exponent == pytest.approx(integral, rel=1e-6)
+
+
+def test_the_image_of_a_sphere_is_twice_and_of_a_cone_half_pi_as_steep():
+    assert Sphere(R).mdr_coefficient == pytest.approx(1 / R, rel=ROUNDING)
+    assert Cone(ANGLE).mdr_coefficient == pytest.approx(pi / 2 * tan(ANGLE), rel=ROUNDING)
+
+
+def test_a_power_law_of_two_is_a_sphere_and_of_one_a_cone():
+    for one, other in ((PowerLaw(1 / (2 * R), 2.0), Sphere(R)), (PowerLaw(tan(ANGLE), 1.0), Cone(ANGLE))):
+        np.testing.assert_allclose(one.height(X, Y), other.height(X, Y), rtol=ROUNDING)
+        np.testing.assert_allclose(one.slope(X, Y), other.slope(X, Y), rtol=ROUNDING)
+        assert one.mdr_coefficient == other.mdr_coefficient
+
+
+@pytest.mark.parametrize("shape", AXISYMMETRIC, ids=repr)
+def test_the_smooth_contact_at_a_load_is_the_one_at_its_depth_and_stiffness_is_that_of_a_punch(shape):
+    solid = Elastic(1e6)
+    by_load = elastic_contact(Scene(shape, solid, Indent(load=1.0)))
+    by_depth = elastic_contact(Scene(shape, solid, Slide(speed=1.0, depth=by_load.depth)))
+    assert by_depth.load == pytest.approx(1.0, rel=1e-12)
+    assert by_depth.radius == pytest.approx(by_load.radius, rel=1e-12)
+    # dF/dd = 2 E* a for every body of revolution.
+    loads = [
+        elastic_contact(Scene(shape, solid, Indent(depth=by_load.depth * f))).load for f in (1 - 1e-5, 1 + 1e-5)
+    ]
+    stiffness = (loads[1] - loads[0]) / (2e-5 * by_load.depth)
+    assert stiffness == pytest.approx(2 * solid.indentation_modulus * by_load.radius, rel=1e-8)
+
+
+def test_hertz_is_recovered():
+    contact = elastic_contact(Scene(Sphere(R), Elastic(1e6), Indent(depth=1e-4)))
+    assert contact.load == pytest.approx(4 / 3 * 4e6 * np.sqrt(R) * 1e-4**1.5, rel=ROUNDING)
+    assert contact.radius == pytest.approx(np.sqrt(R * 1e-4), rel=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: Sphere(radius=0.0), r"radius\n.*greater than 0"),
+        (lambda: Sphere(radius=float("inf")), r"radius\n.*finite"),
+        (lambda: Cone(angle=pi / 2), r"angle\n.*less than 1\.57"),
+        (lambda: Cone(angle=-0.1), r"angle\n.*greater than 0"),
+        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent\n.*greater than or equal to 1"),
+        (lambda: PowerLaw(coefficient=1.0, exponent=101.0), r"exponent\n.*less than or equal to 100"),
+        (lambda: Cylinder(radius=-1.0), r"radius\n.*greater than 0"),
+    ],
+)
+def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
+    with pytest.raises(ValidationError, match=said):
+        make()

@@ -1,0 +1,188 @@
+"""A scene in Python and in TOML: the same fields, the same mistakes, each named with what is allowed."""
+
+from dataclasses import FrozenInstanceError, replace
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter, ValidationError
+
+from scene import (
+    Cone,
+    Cylinder,
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    PowerLaw,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
+from scene.reading import InvalidInput, read
+
+INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
+ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
+MOTION = '[motion]\ntype = "slide"\nspeed = 0.1\nload = 1.0\n'
+ROUGHNESS = "[roughness]\nhurst = 0.2\nrms_height = 5e-5\nlongest = 1e-2\n"
+SCENE = INDENTER + ELASTOMER + MOTION
+WHOLE = SCENE + ROUGHNESS
+
+
+def scene_from(tmp_path, text):
+    path = tmp_path / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return read(path, Scene)
+
+
+def test_a_file_says_what_python_says(tmp_path):
+    expected = Scene(
+        Sphere(1e-2),
+        Kelvin(1e6, 1e-3),
+        Slide(speed=0.1, load=1.0),
+        SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2),
+    )
+    assert scene_from(tmp_path, WHOLE) == expected
+    assert scene_from(tmp_path, SCENE) == replace(expected, roughness=None)
+
+
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        ('type = "elastic"\nmodulus = 1000000', Elastic(1e6)),
+        (
+            'type = "standard-linear-solid"\nrubbery_modulus = 1e6\nglassy_modulus = 1e9\nrelaxation_time = 1',
+            StandardLinearSolid(1e6, 1e9, 1.0),
+        ),
+        (
+            'type = "prony"\nequilibrium_modulus = 1e6\nmoduli = [1e6, 2]\nrelaxation_times = [1, 0.1]',
+            Prony(1e6, (1e6, 2.0), (1.0, 0.1)),
+        ),
+        (
+            'type = "kelvin-chain"\ninstantaneous_compliance = 0\ncompliances = [1e-6]\nretardation_times = [1]',
+            KelvinChain(0.0, (1e-6,), (1.0,)),
+        ),
+        (
+            'type = "fractional"\nmodulus = 1e6\nrelaxation_time = 1e-3\nexponent = 0.1\n'
+            "lowest_frequency = 1e-2\nhighest_frequency = 1e6",
+            Fractional(
+                modulus=1e6, relaxation_time=1e-3, exponent=0.1, lowest_frequency=1e-2, highest_frequency=1e6
+            ),
+        ),
+    ],
+)
+def test_every_solid_can_be_read(tmp_path, table, expected):
+    assert scene_from(tmp_path, f"{INDENTER}{MOTION}[elastomer]\n{table}\n").elastomer == expected
+
+
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        ('type = "cone"\nangle = 0.2', Cone(0.2)),
+        ('type = "power-law"\ncoefficient = 3\nexponent = 2.5', PowerLaw(3.0, 2.5)),
+        ('type = "cylinder"\nradius = 1', Cylinder(1.0)),
+    ],
+)
+def test_every_indenter_can_be_read(tmp_path, table, expected):
+    assert scene_from(tmp_path, f"{ELASTOMER}{MOTION}[indenter]\n{table}\n").indenter == expected
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("radius = 1e-2", "radius = -1.0", r"indenter.sphere.radius = -1.0: .*greater than 0"),
+        ("radius = 1e-2", 'radius = "wide"', r"indenter.sphere.radius = 'wide': .*valid number"),
+        ("radius = 1e-2", "radius = true", r"indenter.sphere.radius = True: .*valid number"),
+        ("radius = 1e-2", "radius = inf", r"indenter.sphere.radius = inf: .*finite"),
+        ("radius = 1e-2", "", r"indenter.sphere.radius: Field required"),
+        ("radius = 1e-2", "radius = 1\nangle = 1", r"indenter.sphere.angle = 1: Unexpected keyword"),
+        ('"sphere"', '"ball"', r"indenter: .*'ball'.*'sphere', 'cone', 'power-law', 'cylinder'"),
+        ('type = "sphere"', "", r"indenter: Unable to extract tag"),
+        ('"kelvin"', '"jelly"', r"elastomer: .*'elastic', 'kelvin', .*'kelvin-chain', 'fractional', 'tabulated'"),
+        ("load = 1.0", "", r"motion.slide: load = None, depth = None: give exactly one of load \[N\] and depth"),
+        ("load = 1.0", "load = 1.0\ndepth = 1e-4", r"load = 1.0, depth = 0.0001: give exactly one"),
+        ("load = 1.0", "load = 0", r"motion.slide.load = 0.*greater than 0"),
+        ("speed = 0.1", "speed = -0.1", r"motion.slide.speed = -0.1: .*greater than or equal to 0"),
+        ("[motion]", "[movement]", r"motion: Field required"),
+        (
+            "longest = 1e-2",
+            "longest = 1e-2\nshortest = 1",
+            r"roughness: shortest = 1 must be at most half of longest",
+        ),
+        ("longest = 1e-2", "longest = 1e-2\nseed = 0.5", r"roughness.seed = 0.5: .*valid integer"),
+        ("hurst = 0.2", "hurst = 2", r"roughness.hurst = 2.*less than or equal to 1"),
+    ],
+)
+def test_a_mistake_is_named_with_its_place_value_and_what_is_allowed(tmp_path, old, new, said):
+    assert old in WHOLE
+    with pytest.raises(InvalidInput, match=said):
+        scene_from(tmp_path, WHOLE.replace(old, new))
+
+
+def test_every_mistake_is_named_at_once_each_on_a_line_with_the_file(tmp_path):
+    text = WHOLE.replace("radius = 1e-2", "radius = -1").replace("hurst = 0.2", "hurst = 2")
+    with pytest.raises(InvalidInput) as caught:
+        scene_from(tmp_path, text)
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 2
+    assert all("scene.toml: " in line for line in lines)
+
+
+def test_what_is_no_toml_or_no_file_is_said(tmp_path):
+    with pytest.raises(InvalidInput, match=r"not valid TOML: .*line 1"):
+        scene_from(tmp_path, "radius 3")
+    (tmp_path / "scene.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(InvalidInput, match="not valid TOML"):
+        read(tmp_path / "scene.toml", Scene)
+    with pytest.raises(InvalidInput, match=r"nowhere\.toml: No such file"):
+        read(tmp_path / "nowhere.toml", Scene)
+    with pytest.raises(InvalidInput, match="directory"):
+        read(tmp_path, Scene)
+
+
+# Types of fields, in Python
+
+
+@pytest.mark.parametrize("number", [2, 2.0, np.float64(2), np.float32(2), np.int64(2)])
+def test_any_real_number_is_taken_and_kept_as_a_float(number):
+    assert Sphere(number).radius == 2.0
+    assert type(Sphere(number).radius) is float
+
+
+@pytest.mark.parametrize("value", [True, "2", None, 2j, [2.0], float("nan"), float("inf")])
+def test_nothing_else_is_taken_for_a_number(value):
+    with pytest.raises(ValidationError):
+        Sphere(value)
+
+
+@pytest.mark.parametrize("value", [True, "2", 2.0, np.float64(2)])
+def test_nothing_but_a_whole_number_is_taken_for_one(value):
+    rough = SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, seed=np.int64(2))
+    assert type(rough.seed) is int
+    with pytest.raises(ValidationError, match="seed"):
+        replace(rough, seed=value)
+
+
+@pytest.mark.parametrize("make", [Indent, lambda **pressed: Slide(speed=1.0, **pressed)])
+def test_either_the_load_or_the_depth_is_given(make):
+    assert make(load=2).load == 2.0
+    assert make(depth=1e-4).depth == 1e-4
+    for wrong in ({}, {"load": 1.0, "depth": 1.0}):
+        with pytest.raises(ValidationError, match="exactly one of load"):
+            make(**wrong)
+
+
+def test_what_is_pressed_in_does_not_move_and_sliding_may_start_from_rest():
+    assert Indent(load=1.0).speed == 0
+    assert Slide(speed=0, load=1.0).speed == 0
+
+
+def test_a_scene_cannot_be_changed_and_survives_its_own_json():
+    scene = Scene(Sphere(1e-2), Prony(1e6, (1e6,), (1.0,)), Slide(speed=0.1, load=1.0))
+    with pytest.raises(FrozenInstanceError):
+        scene.motion.speed = 2.0
+    adapter = TypeAdapter(Scene)
+    assert adapter.validate_json(adapter.dump_json(scene)) == scene

@@ -1,0 +1,407 @@
+"""Linear solids: one list of modes, and everything that must follow from it."""
+
+from dataclasses import replace
+from decimal import Decimal, localcontext
+from timeit import timeit
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from scene import (
+    Elastic,
+    Fractional,
+    Kelvin,
+    KelvinChain,
+    Prony,
+    StandardLinearSolid,
+    Table,
+    Tabulated,
+)
+from scene.modes import Relaxation, Retardation
+
+ROUNDING = 1e-13  # some tens of roundings; sums of terms of one sign
+EXACT = 1e-14  # of a single mode against 80 digits, a few roundings
+G = 1e6
+FREQUENCIES = np.geomspace(1e-10, 1e10, 2001)
+TIMES = np.geomspace(1e-12, 1e12, 481)
+
+MEASURED = Table(
+    frequency=(1.0, 10.0, 100.0, 1e3, 1e4),
+    storage=(1.0e6, 1.1e6, 1.9e6, 3.3e6, 4.1e6),
+    loss=(0.05e6, 0.35e6, 0.9e6, 0.75e6, 0.2e6),
+)
+SOLIDS = {
+    "elastic": Elastic(G),
+    "kelvin": Kelvin(G, 1e-3),
+    "standard linear": StandardLinearSolid(G, 1e9, 1e-3),
+    "prony": Prony(G, (1e3, 3e9, 2e6), (1e-6, 1e2, 1e-4)),
+    "chain": KelvinChain(1e-9, (1e-6, 1e-8, 1e-7), (1e-2, 1e3, 1e-5)),
+    "chain without a spring": KelvinChain(0.0, (1e-6, 1e-8), (1e-2, 1e3)),
+    "fractional": Fractional(
+        modulus=G, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-4, highest_frequency=1e6
+    ),
+    "tabulated": Tabulated(table=MEASURED, frequency_unit="Hz", kind="shear"),
+}
+every_solid = pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
+
+
+def spread(count=30, decades=15, ratio=1e6, seed=0, rest=G, viscosity=0.0):
+    """Random branches over so many decades, moduli scattered by that ratio."""
+    rng = np.random.default_rng(seed)
+    times = 10 ** np.append(rng.uniform(-decades, 0, count - 2), (-decades, 0)) * 1e3
+    form = Relaxation.of(rest, rest * ratio ** rng.uniform(-1, 1, count), times)
+    return replace(form, viscosity=viscosity)
+
+
+FORMS = {
+    "30 modes over 15 decades": spread(),
+    "tiny moduli": spread(ratio=1e20, seed=1),
+    "glass of 1e12 times the rubber": Relaxation.of(
+        1.0, np.geomspace(1e12, 1.0, 30), np.geomspace(1e-15, 1.0, 30)
+    ),
+    "equal moduli a decade apart": Relaxation.of(G, np.full(16, G), np.geomspace(1e-12, 1e3, 16)),
+    "nearly equal times": Relaxation.of(G, np.full(10, G), 1e-3 * (1 + 1e-9 * np.arange(10) ** 2)),
+    "neighbouring numbers": Relaxation.of(G, (G, 2 * G), (1e-3, np.nextafter(1e-3, 1))),
+    "close pairs": Relaxation.of(
+        G, np.tile((G, 1e-3 * G), 8), (np.geomspace(1e-9, 1e3, 8)[:, None] * (1, 1 + 1e-8)).ravel()
+    ),
+    "one mode": Relaxation.of(G, (9 * G,), (1e-3,)),
+    "a dashpot": spread(viscosity=1e-4, seed=2),
+    "a dashpot alone": replace(Relaxation.of(G), viscosity=1e3),
+}
+every_form = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
+
+
+def worst(found, expected):
+    """Largest relative deviation, each number against its own."""
+    return np.max(np.abs(np.asarray(found) / np.asarray(expected) - 1), initial=0.0)
+
+
+# Everything follows from one list of modes
+
+
+@every_solid
+def test_modulus_times_complex_compliance_is_one_over_twenty_decades(solid):
+    instantaneous, compliances, times = solid.retardation()
+    compliance = instantaneous + (compliances / (1 + 1j * FREQUENCIES[:, None] * times)).sum(axis=1)
+    np.testing.assert_allclose(solid.complex_modulus(FREQUENCIES) * compliance, 1.0, rtol=1e-12)
+
+
+@every_solid
+def test_storage_and_loss_are_not_negative_and_storage_never_falls(solid):
+    modulus = solid.complex_modulus(FREQUENCIES)
+    assert np.all(modulus.real > 0)
+    assert np.all(modulus.imag >= 0)
+    assert np.all(np.diff(modulus.real) >= -ROUNDING * modulus.real[1:])
+
+
+@every_solid
+def test_the_modulus_ends_at_the_static_and_the_glassy_one(solid):
+    assert solid.complex_modulus(0.0) == pytest.approx(solid.static_modulus, rel=ROUNDING)
+    assert solid.relaxation_modulus(1e30) == pytest.approx(solid.static_modulus, rel=ROUNDING)
+    assert solid.relaxation_modulus(0.0) == pytest.approx(solid.glassy_modulus, rel=ROUNDING)
+    assert solid.creep_compliance(1e30) == pytest.approx(1 / solid.static_modulus, rel=ROUNDING)
+    assert solid.creep_compliance(0.0) == pytest.approx(1 / solid.glassy_modulus, rel=ROUNDING)
+    assert solid.indentation_modulus == 4 * solid.static_modulus
+    fast = solid.complex_modulus(1e30)
+    if np.isfinite(solid.glassy_modulus):
+        assert solid.viscosity == 0
+        assert fast.real == pytest.approx(solid.glassy_modulus, rel=ROUNDING)
+    else:
+        assert fast.imag == pytest.approx(1e30 * solid.viscosity, rel=ROUNDING)
+
+
+@every_solid
+def test_relaxation_falls_creep_rises_and_their_product_does_not_exceed_one(solid):
+    relaxed, crept = solid.relaxation_modulus(TIMES), solid.creep_compliance(TIMES)
+    assert np.all(np.diff(relaxed) <= ROUNDING * relaxed[1:])
+    assert np.all(np.diff(crept) >= -ROUNDING * crept[1:])
+    assert np.all(relaxed * crept <= 1 + ROUNDING)
+
+
+@every_solid
+def test_convolving_relaxation_with_creep_gives_time(solid):
+    # int_0^t G(t - s) J(s) ds = t, the dashpot's share viscosity * J(t) included.
+    times = np.concatenate([solid.relaxation()[2], solid.retardation()[2], [1.0]])
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    for t in (times.min() / 3, np.median(times), times.max() * 3):
+        # Both ends are resolved over all times that there are.
+        half = np.geomspace(1e-30, 1.0, 400) * t / 2
+        panels = np.concatenate([[0.0], half, t - half[-2::-1], [t]])
+        low, width = panels[:-1, None], np.diff(panels)[:, None]
+        s = low + width * (nodes + 1) / 2
+        young = np.where(low < t / 2, t - s, (panels[1:, None] - s) + (t - panels[1:, None]))
+        integral = np.sum(
+            width / 2 * weights * solid.relaxation_modulus(young.clip(1e-300)) * solid.creep_compliance(s)
+        )
+        assert integral + solid.viscosity * solid.creep_compliance(t) == pytest.approx(t, rel=1e-9)
+
+
+def test_storage_follows_from_loss_by_kramers_and_kronig():
+    # G' - G_0 = (2 omega^2/pi) P int G''(x)/(x (omega^2 - x^2)) dx; omega lies midway between nodes in ln x, where
+    # the trapezoidal rule of a principal value converges exponentially.
+    solid = SOLIDS["prony"]
+    step = 0.1
+    for omega in (1e-3, 1e2, 1e5):
+        x = omega * np.exp(step * (np.arange(-600, 600) + 0.5))
+        integral = step * np.sum(solid.complex_modulus(x).imag / (omega**2 - x**2))
+        storage = solid.static_modulus + 2 * omega**2 / np.pi * integral
+        assert storage == pytest.approx(solid.complex_modulus(omega).real, rel=1e-9)
+
+
+@every_solid
+def test_any_shape_of_time_and_frequency_is_taken(solid):
+    for shape in ((), (0,), (2, 3)):
+        t = np.full(shape, 0.7)
+        assert np.shape(solid.relaxation_modulus(t)) == shape
+        assert np.shape(solid.creep_compliance(t)) == shape
+        assert np.shape(solid.complex_modulus(t)) == shape
+
+
+@every_solid
+def test_a_negative_time_is_refused_by_value(solid):
+    for function in (solid.relaxation_modulus, solid.creep_compliance):
+        with pytest.raises(ValueError, match=r"-0\.5"):
+            function([1.0, -0.5])
+
+
+@every_solid
+def test_modes_are_found_once_and_cannot_be_changed(solid):
+    assert timeit(solid.retardation, number=100) < 0.1
+    for array in (*solid.relaxation()[1:], *solid.retardation()[1:]):
+        assert not array.flags.writeable
+        assert array.dtype == float
+
+
+# Closed forms
+
+
+def test_a_kelvin_body_is_a_spring_beside_a_dashpot():
+    body = Kelvin(G, 1e-3)
+    np.testing.assert_allclose(body.complex_modulus(FREQUENCIES), G * (1 + 1e-3j * FREQUENCIES), rtol=ROUNDING)
+    rest, moduli, times = body.relaxation()
+    assert (rest, len(moduli), len(times)) == (pytest.approx(G, rel=ROUNDING), 0, 0)
+    assert body.viscosity == pytest.approx(G * 1e-3, rel=ROUNDING)
+    assert body.glassy_modulus == np.inf
+
+
+def test_a_standard_linear_solid_retards_more_slowly_by_its_ratio_of_moduli():
+    solid = StandardLinearSolid(G, 1e9, 1e-3)
+    instantaneous, compliances, times = solid.retardation()
+    assert instantaneous == pytest.approx(1e-9, rel=ROUNDING)
+    np.testing.assert_allclose(compliances, [1e-6 - 1e-9], rtol=ROUNDING)
+    np.testing.assert_allclose(times, [1.0], rtol=ROUNDING)
+
+
+def test_a_standard_linear_solid_is_a_prony_series_of_one_mode_and_a_chain_of_one_element():
+    solid = StandardLinearSolid(G, 5 * G, 1e-3)
+    one = Prony(G, (4 * G,), (1e-3,))
+    chain = KelvinChain(0.2 / G, (0.8 / G,), (5e-3,))
+    for other in (one, chain):
+        np.testing.assert_allclose(
+            other.complex_modulus(FREQUENCIES), solid.complex_modulus(FREQUENCIES), rtol=ROUNDING
+        )
+
+
+def test_branches_of_equal_times_are_one_in_either_form_and_in_any_order():
+    parts = Prony(G, (2e6, 1e5, 3e6), (1e-3, 1e-6, 1e-3))
+    whole = Prony(G, (1e5, 5e6), (1e-6, 1e-3))
+    chain = KelvinChain(1e-9, (2e-6, 1e-8, 3e-6), (1.0, 1e-2, 1.0))
+    merged = KelvinChain(1e-9, (1e-8, 5e-6), (1e-2, 1.0))
+    for one, other in ((parts, whole), (chain, merged)):
+        for first, second in zip(
+            one.retardation() + one.relaxation(), other.retardation() + other.relaxation(), strict=True
+        ):
+            np.testing.assert_allclose(first, second, rtol=EXACT)
+
+
+def test_stiffness_against_indentation_is_four_times_the_shear_modulus_of_rubber():
+    assert Elastic(G).indentation_modulus == 4 * G
+    assert Elastic(G, poisson_ratio=0.0).indentation_modulus == 2 * G
+
+
+# Relaxation into retardation and back
+
+
+def by_decimals(form):
+    """Retardation times and compliances to 60 digits, by bisection of the gap between two poles."""
+    with localcontext(prec=80):
+        moduli, times = ([Decimal(float(value)) for value in array] for array in (form.moduli, form.times))
+        poles, weights = times, [g * t for g, t in zip(moduli, times, strict=True)]
+        if form.viscosity:
+            poles, weights = [Decimal(0), *poles], [Decimal(form.viscosity), *weights]
+        rest = Decimal(float(form.equilibrium))
+        highest = poles[-1] + sum(weights) / rest
+        found = []
+        for low, high in zip(poles, [*poles[1:], highest], strict=True):
+            # In the logarithm of the odds (x - low)/(high - x): both ends are resolved.
+            left, right, width = Decimal("1e-60"), Decimal("1e60"), high - low
+            for _ in range(210):
+                odds = (left * right).sqrt()
+                x = low + width * odds / (1 + odds)
+                excess = rest - sum(w / (x - p) for w, p in zip(weights, poles, strict=True))
+                left, right = (left, odds) if excess > 0 else (odds, right)
+            found.append((x, 1 / sum(w * x / (x - p) ** 2 for w, p in zip(weights, poles, strict=True))))
+        return found
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "30 modes over 15 decades",
+        "tiny moduli",
+        "nearly equal times",
+        "neighbouring numbers",
+        "close pairs",
+        "a dashpot",
+    ],
+)
+def test_every_mode_has_its_digits(name):
+    form = FORMS[name]
+    creep = form.retardation()
+    for time, compliance, (x, residue) in zip(creep.times, creep.compliances, by_decimals(form), strict=True):
+        assert abs(float(x / Decimal(float(time)) - 1)) <= EXACT
+        assert abs(float(residue / Decimal(float(compliance)) - 1)) <= EXACT
+
+
+@every_form
+def test_conversion_keeps_the_complex_modulus_over_twenty_decades(form):
+    creep = form.retardation()
+    product = form.complex_modulus(FREQUENCIES) * creep.complex_compliance(FREQUENCIES)
+    np.testing.assert_allclose(product, 1.0, rtol=1e-12)
+    again = creep.relaxation().complex_modulus(FREQUENCIES) / form.complex_modulus(FREQUENCIES)
+    np.testing.assert_allclose(again, 1.0, rtol=1e-12)
+
+
+@every_form
+def test_retardation_times_lie_between_relaxation_times(form):
+    # The dashpot counts as a branch of time zero. Neighbouring numbers leave no number in between.
+    low = np.append(0.0, form.times) if form.viscosity else form.times
+    times = form.retardation().times
+    assert len(times) == len(low)
+    assert np.all(times >= low)
+    assert np.all(times[:-1] <= low[1:])
+
+
+@every_form
+def test_sums_over_both_spectra_agree(form):
+    creep = form.retardation()
+    assert (creep.instantaneous + creep.compliances.sum()) * form.equilibrium == pytest.approx(1, rel=ROUNDING)
+    assert creep.instantaneous == pytest.approx(1 / form.glassy, rel=ROUNDING)
+    # -dG/ds and dJ/ds at s = 0: sum G_k tau_k + viscosity = G_0^2 sum J_k lambda_k.
+    flow = form.viscosity + form.moduli @ form.times
+    assert form.equilibrium**2 * (creep.compliances @ creep.times) == pytest.approx(flow, rel=ROUNDING)
+    # Product of zeros over product of poles is the ratio of the moduli at the ends.
+    if not form.viscosity:
+        ratio = np.log(creep.times / form.times).sum()
+        assert ratio == pytest.approx(np.log(form.glassy / form.equilibrium), rel=ROUNDING, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("viscosity", [0.0, 1e-5])
+def test_relaxation_to_retardation_and_back_is_where_it_began(seed, viscosity):
+    # Modes as near as 1/K of a decade with a modulus 1e-3 of its neighbours lose three of sixteen digits.
+    rng = np.random.default_rng(seed)
+    times = np.geomspace(1e-12, 1e3, 30) * 10 ** rng.uniform(-0.1, 0.1, 30)
+    form = replace(Relaxation.of(G, G * 10 ** rng.uniform(-3, 3, 30), times), viscosity=viscosity)
+    again = form.retardation().relaxation()
+    assert again.viscosity == pytest.approx(viscosity, rel=1e-12)
+    assert worst(again.equilibrium, form.equilibrium) <= 1e-12
+    assert worst(again.times, form.times) <= 1e-12
+    assert worst(again.moduli, form.moduli) <= 1e-12
+
+
+@pytest.mark.parametrize("instantaneous", [0.0, 1e-9])
+def test_retardation_to_relaxation_and_back_is_where_it_began(instantaneous):
+    form = Retardation.of(instantaneous, np.geomspace(1e-8, 1e-5, 20), np.geomspace(1e-9, 1e6, 20))
+    between = form.relaxation()
+    again = between.retardation()
+    # Without a spring a dashpot takes the place of one branch.
+    assert (len(between.times), between.viscosity > 0) == ((20, False) if instantaneous else (19, True))
+    assert again.instantaneous == pytest.approx(instantaneous, rel=1e-12)
+    assert worst(again.times, form.times) <= 1e-12
+    assert worst(again.compliances, form.compliances) <= 1e-12
+
+
+@every_form
+@pytest.mark.parametrize("power", [-70, 70])
+def test_units_do_not_matter(form, power):
+    # Powers of two scale without rounding, and then so must every digit.
+    unit = 2.0**power
+    scaled = Relaxation(form.equilibrium / unit, form.moduli / unit, form.times * unit, form.viscosity)
+    creep, other = form.retardation(), scaled.retardation()
+    np.testing.assert_array_equal(other.times, creep.times * unit)
+    np.testing.assert_allclose(other.compliances, creep.compliances * unit, rtol=1e-15)
+    assert other.instantaneous == creep.instantaneous * unit
+
+
+@pytest.mark.parametrize("power", [-20, 20])
+def test_decimal_units_do_not_matter_either(power):
+    form, unit = FORMS["30 modes over 15 decades"], 10.0**power
+    other = Relaxation.of(form.equilibrium * unit, form.moduli * unit, form.times * unit).retardation()
+    creep = form.retardation()
+    assert worst(other.times, creep.times * unit) <= 1e-12
+    assert worst(other.compliances, creep.compliances / unit) <= 1e-12
+
+
+def test_an_eigenvalue_problem_loses_digits_of_slow_modes_that_are_kept_here():
+    # They drown in the rounding of the fast ones: the tests above can fail.
+    form = FORMS["glass of 1e12 times the rubber"]
+    rates = 1 / form.times
+    share = np.sqrt(form.moduli / form.glassy * rates)
+    eigenvalues = np.linalg.eigvalsh(np.diag(rates) - np.outer(share, share))
+    times = form.retardation().times
+    assert worst(np.sort(1 / np.abs(eigenvalues)), times) > 1e-7
+    assert (
+        worst(form.equilibrium**2 * (form.retardation().compliances @ times), form.moduli @ form.times) < ROUNDING
+    )
+
+
+# What is refused
+
+
+def prony(**changed):
+    return Prony(**{"equilibrium_modulus": G, "moduli": (G,), "relaxation_times": (1.0,), **changed})
+
+
+def chain(**changed):
+    good = {"instantaneous_compliance": 0.0, "compliances": (1.0,), "retardation_times": (1.0,)}
+    return KelvinChain(**good | changed)
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: Elastic(modulus=-1.0), r"modulus\n.*greater than 0"),
+        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio\n.*less than or equal to 0\.5"),
+        (lambda: Elastic(G, poisson_ratio=-1.0), r"poisson_ratio\n.*greater than -1"),
+        (lambda: Kelvin(modulus=G, relaxation_time=0.0), r"relaxation_time\n.*greater than 0"),
+        (lambda: Kelvin(modulus=G, relaxation_time=float("nan")), r"relaxation_time\n.*finite"),
+        (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
+        (lambda: prony(moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
+        (lambda: prony(moduli=(G, G)), "relaxation_times has 1 values, moduli has 2: each modulus"),
+        (lambda: prony(equilibrium_modulus=0.0), r"equilibrium_modulus\n.*greater than 0"),
+        (lambda: prony(moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
+        (lambda: chain(instantaneous_compliance=-1e-9), r"instantaneous_compliance\n.*greater than or equal to 0"),
+        (lambda: chain(retardation_times=(1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
+        (lambda: chain(compliances=(0.0,)), r"compliances\.0\n.*greater than 0"),
+    ],
+)
+def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
+    with pytest.raises(ValidationError, match=said):
+        make()
+
+
+def test_numbers_beyond_the_range_of_numbers_are_an_error_and_no_answer():
+    with pytest.raises((ArithmeticError, RuntimeWarning)):
+        Relaxation.of(1.0, (1e300, 1.0), (1e300, 1.0)).retardation()
+
+
+@every_solid
+def test_a_solid_is_its_fields_and_a_changed_one_is_another(solid):
+    same, other = replace(solid), replace(solid, poisson_ratio=0.25)
+    assert same == solid
+    assert hash(same) == hash(solid)
+    assert other != solid
+    assert "type" not in repr(solid)

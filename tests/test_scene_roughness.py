@@ -1,0 +1,105 @@
+"""Self-affine spectra: both densities carry the rms height and the rms slope, in either dimension."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from scene import SelfAffine
+from scene.roughness import power_integral
+
+ROUNDING = 1e-12
+ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed=3)
+# The ends, the exponents at which an integral turns into a logarithm, and as near to those as numbers go.
+HURSTS = [0.0, 1e-16, 1e-9, 0.2, 0.5 - 1e-9, 0.5, np.nextafter(0.5, 1), 0.8, 1 - 1e-9, 1.0]
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
+
+
+def integral(function, rough):
+    """Over the wave numbers of the spectrum, in the logarithm of them, where powers are smooth."""
+    low, high = np.log(rough.q_min), np.log(rough.q_max(0.0))
+    # Not a rounding outside.
+    q = np.exp((low + high) / 2 + (high - low) / 2 * NODES)
+    return (high - low) / 2 * WEIGHTS @ (q * function(q))
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_both_densities_integrate_to_the_rms_height(hurst):
+    rough = replace(ROUGH, hurst=hurst)
+    top = rough.q_max(0.0)
+    line = 2 * integral(lambda q: rough.density_1d(q, top), rough)
+    surface = 2 * np.pi * integral(lambda q: q * rough.density_2d(q, top), rough)
+    assert line == pytest.approx(rough.rms_height**2, rel=ROUNDING)
+    assert surface == pytest.approx(rough.rms_height**2, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_both_densities_integrate_to_the_rms_slope(hurst):
+    rough = replace(ROUGH, hurst=hurst)
+    top = rough.q_max(0.0)
+    line = 2 * integral(lambda q: q**2 * rough.density_1d(q, top), rough)
+    surface = 2 * np.pi * integral(lambda q: q**3 * rough.density_2d(q, top), rough)
+    assert line == pytest.approx(rough.rms_slope(top) ** 2, rel=ROUNDING)
+    assert surface == pytest.approx(rough.rms_slope(top) ** 2, rel=ROUNDING)
+
+
+def test_the_density_of_the_line_is_pi_q_that_of_the_surface():
+    top = ROUGH.q_max(0.0)
+    q = np.linspace(0, 2 * top, 50)
+    np.testing.assert_allclose(ROUGH.density_1d(q, top), np.pi * q * ROUGH.density_2d(q, top), rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_the_density_falls_with_the_power_of_its_hurst_exponent_and_ends_at_the_cut_offs(hurst):
+    rough = replace(ROUGH, hurst=hurst)
+    top = rough.q_max(0.0)
+    q = rough.q_min * np.array([2.0, 4.0])
+    first, second = rough.density_2d(q, top)
+    assert second / first == pytest.approx(2 ** (-2 * hurst - 2), rel=ROUNDING)
+    outside = rough.density_2d(np.array([0.0, 0.99 * rough.q_min, 1.01 * top]), top)
+    np.testing.assert_array_equal(outside, 0.0)
+    assert np.all(rough.density_2d(np.array([rough.q_min, top]), top) > 0)
+
+
+def test_nothing_jumps_where_an_integral_turns_into_a_logarithm():
+    for hurst in (0.0, 0.5, 1.0):
+        slopes = [replace(ROUGH, hurst=h).rms_slope(1e5) for h in (hurst, abs(hurst - 1e-7))]
+        assert slopes[1] == pytest.approx(slopes[0], rel=1e-5)
+
+
+@pytest.mark.parametrize("exponent", [-3.0, -1 - 1e-12, -1.0, -1 + 1e-12, 0.0, 2.5])
+def test_the_integral_of_a_power_is_exact_also_near_the_logarithm(exponent):
+    low, high = 2.0, 500.0
+    t = np.log(low) + (NODES + 1) / 2 * np.log(high / low)
+    expected = np.log(high / low) / 2 * WEIGHTS @ np.exp((exponent + 1) * t)
+    assert power_integral(exponent, low, high) == pytest.approx(expected, rel=ROUNDING)
+
+
+def test_the_cut_off_is_the_shortest_wave_or_else_the_nyquist_wave_number():
+    assert ROUGH.q_max(1e-6) == 2 * np.pi / 1e-4
+    assert replace(ROUGH, shortest=None).q_max(1e-6) == np.pi / 1e-6
+    assert ROUGH.q_min == 2 * np.pi / 1e-2
+
+
+def test_without_height_there_is_no_slope():
+    flat = replace(ROUGH, rms_height=0.0)
+    assert flat.rms_slope(1e5) == 0
+    np.testing.assert_array_equal(flat.density_2d(np.array([1e3, 1e4]), 1e5), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"hurst": 1.1}, r"hurst\n.*less than or equal to 1"),
+        ({"hurst": -0.1}, r"hurst\n.*greater than or equal to 0"),
+        ({"rms_height": -1e-9}, r"rms_height\n.*greater than or equal to 0"),
+        ({"longest": 0.0}, r"longest\n.*greater than 0"),
+        ({"shortest": 6e-3}, r"shortest = 0\.006 must be at most half of longest = 0\.01"),
+        ({"seed": -1}, r"seed\n.*greater than or equal to 0"),
+        ({"seed": 1.5}, r"seed\n.*valid integer"),
+    ],
+)
+def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(change, said):
+    with pytest.raises(ValidationError, match=said):
+        replace(ROUGH, **change)

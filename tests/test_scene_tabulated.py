@@ -1,0 +1,275 @@
+"""A measured solid: read from text, fitted with modes that are physical, refused where it cannot be."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from scene import Fractional, Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
+from scene.reading import InvalidInput, read
+
+SOLID = Prony(1e6, (1e6, 3e6, 1e7, 1e8), (1e2, 1.0, 1.37e-2, 1e-5))
+OMEGA = np.geomspace(1e-3, 1e6, 46)
+NEGLIGIBLE = 1e-3  # rms misfit at which the fit stops adding modes
+NOISE = 0.03
+
+
+def table(solid=SOLID, omega=OMEGA, noise=0.0, seed=0):
+    modulus = solid.complex_modulus(omega)
+    scatter = np.exp(noise * np.random.default_rng(seed).standard_normal((2, len(omega))))
+    return Table(frequency=omega, storage=modulus.real * scatter[0], loss=modulus.imag * scatter[1])
+
+
+def fitted(measured=None, **settings):
+    settings = {"frequency_unit": "rad/s", "kind": "shear", **settings}
+    return Tabulated(table=table() if measured is None else measured, **settings)
+
+
+def deviation(solid, expected=SOLID, omega=OMEGA):
+    found, law = solid.complex_modulus(omega), expected.complex_modulus(omega)
+    return np.sqrt(np.mean(np.append(found.real / law.real - 1, found.imag / law.imag - 1) ** 2))
+
+
+# The fit
+
+
+def test_the_solid_behind_an_exact_table_is_found():
+    solid = fitted()
+    assert solid.rms_error <= NEGLIGIBLE
+    assert deviation(solid, omega=np.geomspace(1e-3, 1e6, 1000)) <= 1.5 * NEGLIGIBLE
+    assert solid.static_modulus == pytest.approx(SOLID.static_modulus, rel=3 * NEGLIGIBLE)
+    assert solid.glassy_modulus == pytest.approx(SOLID.glassy_modulus, rel=3 * NEGLIGIBLE)
+
+
+def test_one_mode_stays_one_or_two_close_to_it():
+    solid = fitted(table(StandardLinearSolid(1e6, 1e9, 1e-3), np.geomspace(1e-2, 1e8, 61)))
+    rest, moduli, times = solid.relaxation()
+    assert len(times) <= 3
+    assert np.average(np.log(times), weights=moduli) == pytest.approx(np.log(1e-3), abs=0.05)
+    assert rest == pytest.approx(1e6, rel=3 * NEGLIGIBLE)
+
+
+def test_the_stated_errors_are_those_at_the_rows():
+    solid = fitted(table(noise=NOISE))
+    omega, measured = solid.measured()
+    found = solid.complex_modulus(omega)
+    misfit = np.append(found.real / measured.real, found.imag / measured.imag) - 1
+    assert solid.rms_error == pytest.approx(np.sqrt(np.mean(misfit**2)))
+    assert solid.error == pytest.approx(np.abs(misfit).max())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_noise_is_smoothed_and_shows_in_the_stated_error(seed):
+    solid = fitted(table(noise=NOISE, seed=seed))
+    assert 0.5 * NOISE < solid.rms_error < 1.2 * NOISE
+    assert deviation(solid) < 0.6 * NOISE
+    assert np.all(solid.relaxation()[1] > 0)
+
+
+def test_a_power_law_over_eight_decades_is_followed_with_few_modes():
+    law = Fractional(
+        modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-6, highest_frequency=1e10
+    )
+    omega = np.geomspace(1e-2, 1e6, 60)
+    solid = fitted(table(law, omega))
+    assert solid.rms_error <= NEGLIGIBLE
+    assert len(solid.relaxation()[2]) <= 5 * 8
+
+
+def test_units_of_frequency_and_kind_of_modulus_are_applied():
+    in_shear, rubber = fitted(), table()
+    hertz = replace(rubber, frequency=tuple(OMEGA / (2 * np.pi)))
+    tensile = replace(hertz, storage=np.multiply(2.8, rubber.storage), loss=np.multiply(2.8, rubber.loss))
+    np.testing.assert_allclose(
+        fitted(hertz, frequency_unit="Hz").complex_modulus(OMEGA), in_shear.complex_modulus(OMEGA), rtol=1e-6
+    )
+    stretched = fitted(tensile, frequency_unit="Hz", kind="tensile", poisson_ratio=0.4)
+    np.testing.assert_allclose(stretched.complex_modulus(OMEGA), in_shear.complex_modulus(OMEGA), rtol=1e-6)
+
+
+@pytest.mark.parametrize("unit", [1e-20, 1e20])
+def test_units_do_not_matter_to_the_fit(unit):
+    rubber = table()
+    scaled = Table(
+        frequency=np.divide(rubber.frequency, unit),
+        storage=np.multiply(unit, rubber.storage),
+        loss=np.multiply(unit, rubber.loss),
+    )
+    assert fitted(scaled).rms_error == pytest.approx(fitted().rms_error, rel=1e-4)
+    np.testing.assert_allclose(
+        fitted(scaled).complex_modulus(OMEGA / unit) / unit, fitted().complex_modulus(OMEGA), rtol=1e-6
+    )
+
+
+def test_the_order_of_rows_does_not_matter_and_repeated_rows_only_weigh_more():
+    rubber, order = table(noise=NOISE), np.random.default_rng(1).permutation(len(OMEGA))
+    shuffled = Table(*(np.array(column)[order] for column in (rubber.frequency, rubber.storage, rubber.loss)))
+    doubled = Table(*(column * 2 for column in (rubber.frequency, rubber.storage, rubber.loss)))
+    for other in (shuffled, doubled):
+        np.testing.assert_allclose(
+            fitted(other).complex_modulus(OMEGA), fitted(rubber).complex_modulus(OMEGA), rtol=1e-6
+        )
+
+
+def test_a_known_modulus_at_rest_is_kept():
+    glass = table(omega=np.geomspace(1.0, 1e7, 40))
+    solid = fitted(glass, equilibrium_modulus=1.2e6)
+    assert solid.static_modulus == 1.2e6
+    assert solid.rms_error <= 0.1
+
+
+# What no passive solid can do is refused
+
+
+def test_a_liquid_has_no_modulus_at_rest():
+    z = OMEGA * 1e-2
+    liquid = Table(frequency=OMEGA, storage=1e6 * z**2 / (1 + z**2), loss=1e6 * z / (1 + z**2))
+    with pytest.raises(ValidationError, match="modulus at rest open: state equilibrium_modulus"):
+        fitted(liquid)
+    assert fitted(liquid, equilibrium_modulus=1e-6).static_modulus == 1e-6
+
+
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        lambda t: replace(t, storage=t.loss, loss=t.storage),
+        lambda t: replace(t, storage=t.storage[::-1]),
+        lambda t: replace(t, loss=np.multiply(3, t.loss)),
+        lambda t: replace(t, frequency=np.sqrt(t.frequency)),
+    ],
+    ids=["columns exchanged", "storage falls", "loss in other units", "frequency not what it says"],
+)
+def test_a_table_that_contradicts_itself_is_refused(mistake):
+    with pytest.raises(ValidationError, match=r"Table\(46 rows .* off by .* more than tolerance = 0\.1"):
+        fitted(mistake(table()))
+
+
+def test_scatter_beyond_the_tolerance_is_refused_until_it_is_allowed():
+    coarse = table(noise=0.2)
+    with pytest.raises(ValidationError, match="raise tolerance"):
+        fitted(coarse)
+    assert fitted(coarse, tolerance=0.4).rms_error < 0.4
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"frequency": (1.0, 2.0)}, r"have \[2, 46, 46\] values"),
+        ({"storage": (1e6,) * 45 + (-1.0,)}, r"storage\.45\n.*greater than 0"),
+        ({"loss": (1e6,) * 45 + (0.0,)}, r"loss\.45\n.*greater than 0"),
+        ({"loss": (1e6,) * 45 + (float("nan"),)}, r"loss\.45\n.*finite"),
+        ({"frequency": (1.0, 2.0, 3.0) * 15 + (1.0,)}, "3 frequencies: at least 4"),
+    ],
+)
+def test_a_wrong_table_is_refused_with_its_place(change, said):
+    with pytest.raises(ValidationError, match=said):
+        replace(table(), **change)
+
+
+@pytest.mark.parametrize("missing", ["frequency_unit", "kind"])
+def test_the_unit_and_the_kind_must_be_said(missing):
+    settings = {"frequency_unit": "Hz", "kind": "shear"}
+    del settings[missing]
+    with pytest.raises(ValidationError, match=rf"{missing}\n.*required"):
+        Tabulated(table=table(), **settings)
+    with pytest.raises(ValidationError, match="'rad/s' or 'Hz'"):
+        fitted(frequency_unit="rpm")
+
+
+# Text files
+
+ROWS = "\n".join(f"{f:.17g},{s:.17g},{loss:.17g}" for f, s, loss in zip(*vars(table()).values(), strict=False))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        ROWS,
+        "frequency (Hz), G' (Pa), G'' (Pa)\nHz;Pa;Pa\n" + ROWS,
+        "# rubber\n\n" + ROWS.replace("\n", "  # again\n\n") + "\n\n",
+        ROWS.replace(",", "; "),
+        ROWS.replace(",", "\t"),
+        "  " + ROWS.replace(",", "   ").replace("\n", "\r\n  "),
+        "\ufeff" + ROWS,
+    ],
+    ids=["csv", "headings", "comments", "semicolons", "tabs", "blanks", "byte order mark"],
+)
+def test_text_in_any_usual_form_is_the_same_table(tmp_path, text):
+    path = tmp_path / "rubber.csv"
+    path.write_bytes(text.encode())
+    assert read_table(path) == table()
+    assert fitted(str(path)) == fitted(path) == fitted()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("1,2,3\n4,five,6", r"line 2: storage = 'five' is not a number"),
+        ("1,2,3\n4,,6", r"line 2: storage = '' is not a number"),
+        ("1,2,3\n4,5,nan", r"line 2: loss = nan must be finite and greater than 0"),
+        ("1,2,3\n4,-5,6", r"line 2: storage = -5 must be finite and greater than 0"),
+        ("f,G,H\n0,5,6", r"line 2: frequency = 0 must be"),
+        ("1,2,3,4", r"line 1: 4 columns; frequency, storage and loss"),
+        ("0,1;2,5;3,5", r"line 1: 6 columns"),
+        ("1,2", r"line 1: 2 columns"),
+        ("1,2,3\n2,3,4\nthe end", r"line 3: 2 columns"),
+        ("", "0 frequencies: at least 4"),
+        ("1,2,3\n2,2,3", "2 frequencies: at least 4"),
+    ],
+)
+def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
+    path = tmp_path / "rubber.csv"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=said):
+        read_table(path)
+    with pytest.raises(ValidationError, match=rf"table\n.*{said}|table\n.*frequencies"):
+        fitted(path)
+
+
+def test_a_file_that_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(ValidationError, match=r"nowhere\.csv: No such file"):
+        fitted(tmp_path / "nowhere.csv")
+    (tmp_path / "picture.csv").write_bytes(b"\xff\xfe\x00\x01")
+    with pytest.raises(ValidationError, match=r"picture\.csv: not a text file"):
+        fitted(tmp_path / "picture.csv")
+
+
+SCENE = """
+[indenter]
+type = "sphere"
+radius = 1e-2
+[motion]
+type = "slide"
+speed = 0.1
+load = 1.0
+[elastomer]
+type = "tabulated"
+frequency_unit = "rad/s"
+kind = "shear"
+table = """
+
+
+def test_a_scene_names_a_file_or_holds_the_numbers(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rubber.csv").write_text(ROWS)
+    by_name, by_numbers = tmp_path / "name.toml", tmp_path / "numbers.toml"
+    by_name.write_text(SCENE + '"rubber.csv"')
+    columns = ", ".join(f"{name} = {list(values)}" for name, values in vars(table()).items() if name[0] != "_")
+    by_numbers.write_text(SCENE + "{" + columns + "}")
+    assert read(by_name, Scene) == read(by_numbers, Scene)
+    (tmp_path / "rubber.csv").write_text("1,2,3\n1,2,x")
+    with pytest.raises(
+        InvalidInput, match=r"table = 'rubber\.csv': rubber\.csv, line 2: loss = 'x' is not a number"
+    ):
+        read(by_name, Scene)
+
+
+def test_a_solid_keeps_the_numbers_and_says_little(tmp_path):
+    path = tmp_path / "rubber.csv"
+    path.write_text(ROWS)
+    solid = fitted(path)
+    path.unlink()
+    assert replace(solid, poisson_ratio=0.4).static_modulus == solid.static_modulus
+    assert len(repr(solid)) < 200
+    assert "46 rows from 0.001 to 1e+06" in repr(solid)
