@@ -1,8 +1,24 @@
-"""One-dimensional solver: the method of dimensionality reduction on a Kelvin foundation, solved exactly."""
+"""One-dimensional solver: the method of dimensionality reduction on a viscoelastic foundation, solved exactly."""
 
 from .foundation import Contact, sweep
+from .maxwell import sweep_modes
+from .modes import Modes, modes_of
 from .profile import Grid, Profile, lay_out, map_profile
 from .solver import MDR
 from .surface import Surface, amplitudes, draw
 
-__all__ = ["MDR", "Contact", "Grid", "Profile", "Surface", "amplitudes", "draw", "lay_out", "map_profile", "sweep"]
+__all__ = [
+    "MDR",
+    "Contact",
+    "Grid",
+    "Modes",
+    "Profile",
+    "Surface",
+    "amplitudes",
+    "draw",
+    "lay_out",
+    "map_profile",
+    "modes_of",
+    "sweep",
+    "sweep_modes",
+]

@@ -13,15 +13,18 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-_NOWHERE = -1.0
+# How every loop of this package is compiled: this module is its only door to numba.
+compiled = njit(cache=True, nogil=True, error_model="numpy")
+
+NOWHERE = -1.0
 
 
 class Contact(NamedTuple):
     """What one sweep adds up, for stiffness K = 1 per length; multiply forces by K [Pa].
 
     force : int f dx / K [m^2]
-    dissipation : friction force as the energy lost per length slid, int l u'^2 dx / K [m^2], the wake included;
-        a sum of terms >= 0, free of cancellation at low speed and exactly zero for an elastic foundation
+    dissipation : friction force as the energy lost per length slid [m^2], int l u'^2 dx of a Kelvin foundation,
+        the wake included; a sum of terms >= 0, free of cancellation, and exactly zero for an elastic foundation
     traction : the same friction force from its definition, -int g' f dx / K [m^2], Eq. 8; agrees to rounding
     stiffness : d(force)/d(depth) [m]
     length : of the real contact [m]
@@ -43,9 +46,9 @@ class Contact(NamedTuple):
     touching: np.ndarray
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled
 def _landing(here, there, slope, pixel, u, memory, decay):
-    """Where in an interval the free surface meets the profile, from its left node; _NOWHERE if it does not.
+    """Where in an interval the free surface meets the profile, from its left node; NOWHERE if it does not.
 
     here, there : d - g at the left and the right node; u : displacement of the free surface at the left node.
     The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from the left never oversteps.
@@ -53,9 +56,9 @@ def _landing(here, there, slope, pixel, u, memory, decay):
     if u == 0.0:
         if here > 0.0:
             return 0.0
-        return min(here / slope, pixel) if there > 0.0 else _NOWHERE
+        return min(here / slope, pixel) if there > 0.0 else NOWHERE
     if memory * slope >= u:
-        return _NOWHERE
+        return NOWHERE
     clearance = u - here
     if clearance <= 0.0:
         return 0.0
@@ -66,7 +69,7 @@ def _landing(here, there, slope, pixel, u, memory, decay):
         closest = pixel
         met = there > u * decay
     if not met:
-        return _NOWHERE
+        return NOWHERE
     t = min(here / slope, pixel) if slope < 0.0 and here < 0.0 else 0.0
     for _ in range(100):
         overlap = -clearance - slope * t - u * expm1(-t / memory)
@@ -82,7 +85,7 @@ def _landing(here, there, slope, pixel, u, memory, decay):
     return t
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled
 def _sweep(heights, pixel, memory, depth, displacement, touching):
     decay = exp(-pixel / memory) if memory > 0.0 else 0.0
     force = traction = length = slope_square = lost = reach = 0.0
@@ -99,7 +102,7 @@ def _sweep(heights, pixel, memory, depth, displacement, touching):
         begin, start = 0.0, here
         if not touches:
             begin = _landing(here, there, slope, pixel, u, memory, decay)
-            if begin == _NOWHERE:
+            if begin == NOWHERE:
                 u *= decay
                 continue
             start = max(here - slope * begin if u > 0.0 else here, 0.0)

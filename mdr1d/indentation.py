@@ -1,21 +1,27 @@
 """Pressing a profile into the foundation, by a depth or with a load."""
 
+from collections.abc import Callable
 from math import ceil
+
+import numpy as np
 
 from scene import Scene, SolveError
 
-from .foundation import Contact, sweep
+from .foundation import Contact
 from .profile import Profile, contact_extent, greatest_depth
+
+# Heights [m] at the nodes, pixel [m] and depth [m] to the contact.
+Sweep = Callable[[np.ndarray, float, float], Contact]
 
 # Relative misfit of the load: where Newton stops, and what is still an answer.
 _AIM, _ACCEPTED = 1e-13, 1e-10
 _MOST_SWEEPS = 200
 
 
-def at_depth(scene: Scene, body: Profile, memory: float) -> tuple[float, Contact, int]:
+def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact, int]:
     """Press the profile in to the scene's depth.
 
-    memory : v tau [m]
+    sweep : of the foundation that flows past
 
     Returns the approach past the first touch [m], the contact and the number of sweeps. Raises SolveError if the
     contact leaves the grid or there is none.
@@ -24,7 +30,7 @@ def at_depth(scene: Scene, body: Profile, memory: float) -> tuple[float, Contact
     if depth > body.rim:
         raise _too_short(scene, body)
     # Heights from the first touch on: a light contact keeps its digits.
-    contact = sweep(body.heights - body.lowest, body.pixel, memory, depth - body.lowest)
+    contact = sweep(body.heights - body.lowest, body.pixel, depth - body.lowest)
     if not contact.force > 0:
         raise SolveError(
             f"motion.depth = {depth:g} does not press the indenter in: its lowest point lies at {body.lowest:g} m "
@@ -33,7 +39,7 @@ def at_depth(scene: Scene, body: Profile, memory: float) -> tuple[float, Contact
     return depth - body.lowest, contact, 1
 
 
-def under_load(scene: Scene, body: Profile, memory: float) -> tuple[float, Contact, int]:
+def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact, int]:
     """Press the profile in with the scene's load; arguments and returns as of at_depth.
 
     The force is a convex, increasing function of the approach while contact stays off the ends of the grid:
@@ -46,7 +52,7 @@ def under_load(scene: Scene, body: Profile, memory: float) -> tuple[float, Conta
     approach = min(greatest_depth(scene, body.surface) - body.lowest, most)
     best, sweeps = None, 0
     while sweeps < _MOST_SWEEPS:
-        contact = sweep(heights, body.pixel, memory, approach)
+        contact = sweep(heights, body.pixel, approach)
         sweeps += 1
         if approach >= most and contact.force < load:
             raise _too_short(scene, body)

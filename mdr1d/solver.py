@@ -7,12 +7,14 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Elastic, Kelvin, Result, Scene
+from scene import Cylinder, Result, Scene
 from scene.protocol import refuse
 from scene.quantities import CLOSED, Positive, Whole
 
-from .foundation import Contact
-from .indentation import at_depth, under_load
+from .foundation import Contact, sweep
+from .indentation import Sweep, at_depth, under_load
+from .maxwell import sweep_modes
+from .modes import modes_of
 from .profile import Grid, Profile, lay_out, map_profile
 
 # One period of roughness must fit into memory, and have waves at all.
@@ -28,10 +30,10 @@ class MDR:
     extent : length of the grid, centred on the tip [m]; by default the period of the roughness if the grid is
         its cut-off (as in the paper), else the least that surely holds the contact
 
-    Solves any elastomer at rest, with its relaxed modulus, and Elastic and Kelvin in steady sliding. The contact
-    is exact on a profile that is linear between nodes; against a smooth shape the error is of second order in the
-    pixel. Result.residual is the relative misfit of a prescribed load, at most 1e-10, and zero at a prescribed
-    depth; Result.applications counts sweeps along the profile.
+    Solves any elastomer, at rest with its relaxed modulus and in steady sliding. The contact is exact on a profile
+    that is linear between nodes; against a smooth shape the error is of second order in the pixel.
+    Result.residual is the relative misfit of a prescribed load, at most 1e-10, and zero at a prescribed depth;
+    Result.applications counts sweeps along the profile.
 
     Result.measures: pixel, contact_length [m], contact_fraction (of the span from the first to the last contact),
     points_across_contact (pixels in that span), rms_slope_contact (of the profile over the real contact),
@@ -51,12 +53,6 @@ class MDR:
     def refusals(self, scene: Scene) -> list[str]:
         """Why the scene cannot be solved, one sentence each; empty when it can."""
         reasons = []
-        if scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic | Kelvin):
-            given = type(scene.elastomer).__name__
-            reasons.append(
-                f"sliding (motion.speed = {scene.motion.speed:g}) on a {given} elastomer is not in this solver: "
-                "Elastic and Kelvin are, and so is any elastomer at rest"
-            )
         if isinstance(scene.indenter, Cylinder):
             reasons.append(
                 "a Cylinder is no body of revolution, so it has no one-dimensional profile: "
@@ -79,10 +75,8 @@ class MDR:
         layout = lay_out(scene, self.points, self.extent)
         body = map_profile(scene, layout)
         modulus = scene.elastomer.indentation_modulus
-        creeps = isinstance(scene.elastomer, Kelvin)
-        memory = scene.motion.speed * scene.elastomer.relaxation_time if creeps else 0.0
         press = at_depth if scene.motion.load is None else under_load
-        approach, contact, sweeps = press(scene, body, memory)
+        approach, contact, sweeps = press(scene, body, _flow(scene))
         seconds = process_time() - start
         force, load = modulus * contact.force, scene.motion.load
         return Result(
@@ -108,6 +102,17 @@ class MDR:
                 "contact": contact.touching,
             },
         )
+
+
+def _flow(scene: Scene) -> Sweep:
+    """The sweep for the elastomer at its speed: Kelvin's own where no Maxwell branch remembers anything."""
+    elastomer, speed = scene.elastomer, scene.motion.speed
+    equilibrium, moduli, _ = elastomer.relaxation()
+    if speed > 0 and moduli.size:
+        modes = modes_of(elastomer)
+        return lambda heights, pixel, depth: sweep_modes(heights, pixel, modes, speed, depth)
+    memory = speed * elastomer.viscosity / equilibrium
+    return lambda heights, pixel, depth: sweep(heights, pixel, memory, depth)
 
 
 def _too_broad(scene: Scene) -> list[str]:

@@ -10,7 +10,7 @@ from math import frexp
 
 import numpy as np
 
-_ROUNDING = 16 * np.finfo(float).eps
+_ROUNDING = 2 * np.finfo(float).eps
 _STEPS = 400
 
 

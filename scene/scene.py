@@ -14,7 +14,7 @@ class Scene:
     """A rigid indenter on a viscoelastic half-space that flows past it along +x. SI units throughout.
 
     indenter : Sphere, Cone, PowerLaw or Cylinder
-    elastomer : Elastic, Kelvin, StandardLinearSolid or Prony
+    elastomer : Elastic, Kelvin, StandardLinearSolid, Prony, KelvinChain, Fractional or Tabulated
     motion : Indent or Slide
     roughness : SelfAffine; absent, the indenter is smooth
     """

@@ -101,13 +101,6 @@ MISTAKES = {
     "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N] and depth [m]"),
     "no TOML": ("radius 3", "TOML"),
     "a shape that has no third dimension": (SCENE.replace('"sphere"', '"cylinder"'), "Cylinder"),
-    "a solid that a solver lacks": (
-        SCENE.replace(
-            'type = "kelvin"\nmodulus = 1e6',
-            'type = "prony"\nequilibrium_modulus = 1e6\nmoduli = [1e6]\nrelaxation_times = [1e-3]',
-        ).replace("\nrelaxation_time = 1e-3", ""),
-        "Prony",
-    ),
 }
 
 
