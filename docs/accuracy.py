@@ -181,8 +181,9 @@ SECTIONS: dict[str, tuple[str, Callable[[], str]]] = {
         slow_sphere,
     ),
     "A rough sphere on finer grids": (
-        "3D, one surface, H = 0.2, h₀ = 50 µm, waves from 10 mm to 0.5 mm, on 7 mm: friction against that of "
-        "the finest grid. There is no independent reference for a rough sphere in sliding.",
+        "3D, one surface, H = 0.2, h₀ = 50 µm, waves from 10 mm to 0.5 mm, on 7 mm: friction against that of the "
+        "finest grid. At low speed a rough sphere has an independent reference too, vτ times the curvature of the "
+        "surface averaged with the pressure at rest, which the tests hold; at other speeds there is none.",
         rough,
     ),
     "The paper's Fig. 4": (
