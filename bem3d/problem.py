@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from scene import Scene, SolveError
+from scene import EmptyContact, Scene, SolveError
 from scene.scales import elastic_contact
 
 from . import contact
@@ -12,10 +12,6 @@ from .surface import RoughSurface
 
 COARSEST = 64  # points a side from which a solve starts, or all there are below twice as many
 COARSE_TOLERANCE = 1e-3  # on all grids but the finest: they only provide the start
-
-
-class EmptyContact(SolveError):
-    """At the prescribed depth nothing touches."""
 
 
 class Problem:

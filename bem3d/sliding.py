@@ -16,6 +16,9 @@ from . import influence
 from .convolution import FreeConvolution, PeriodicFilter
 from .grid import Grid
 
+SHORTEST = 1e-9  # memory [pixel]: what is shorter changes nothing that is solved
+LEAST_DIFFERENCE = 1e-4  # memory [pixel] down to which the loss is taken from a difference of kernels
+
 
 @dataclass(frozen=True)
 class Flow:
@@ -50,6 +53,10 @@ class Flow:
         compliance = self.instantaneous + np.sum(self.shares / (1 + 1j * q * self.lengths))
         return float(-np.angle(compliance) / q)
 
+    def lag(self, grid: Grid) -> float:
+        """That of the grid's shortest wave in quarters of its period: 0 of an elastic solid, 1 of a fluid."""
+        return self.collocation(grid) / (grid.pixel / 2)
+
     def operator(self, grid: Grid, threads: int) -> FreeConvolution:
         """Pressure / E* on the pixels -> displacement / pixel at the points of collocation."""
         n = grid.points
@@ -60,7 +67,7 @@ class Flow:
         if self.instantaneous:
             kernel += self.instantaneous * influence.elastic(n, n, shift)
         for share, length in zip(self.shares, self.lengths, strict=True):
-            kernel += share * influence.retarded(n, n, length / grid.pixel, shift)
+            kernel += share * influence.retarded(n, n, max(length / grid.pixel, SHORTEST), shift)
         return FreeConvolution(kernel, threads)
 
     def loss(self, grid: Grid, threads: int) -> FreeConvolution | None:
@@ -76,7 +83,9 @@ class Flow:
         elastic = influence.elastic(n, n)
         kernel = np.zeros((n, 2 * n))
         for share, length in zip(self.shares, self.lengths / grid.pixel, strict=True):
-            kernel += share * (elastic - influence.retarded(n, n, length, 0.0)) / length
+            # Of shorter memory the difference has no digits, but what counts of it is in proportion to the length.
+            seen = max(length, LEAST_DIFFERENCE)
+            kernel += share * (elastic - influence.retarded(n, n, seen, 0.0)) / seen * (length / seen)
         return FreeConvolution(kernel, threads)
 
     def preconditioner(self, grid: Grid, threads: int) -> PeriodicFilter:
@@ -87,8 +96,9 @@ class Flow:
             q[0, 0] = np.pi / grid.points  # half the lowest: a mean pressure on a free surface does push it in
             compliance = np.full(np.broadcast_shapes(q_y.shape, q_x.shape), complex(self.instantaneous))
             for share, length in zip(self.shares, self.lengths * grid.points / grid.extent, strict=True):
-                decay = np.exp(-1 / length)
-                compliance += share * -np.expm1(-1 / length) / (1 - decay * np.exp(-1j * q_x))
+                gone = -np.expm1(-1 / max(length, SHORTEST))
+                # 1 - exp(-1/length - i q_x), with its digits where both are small.
+                compliance += share * gone / (gone - (1 - gone) * np.expm1(-1j * q_x))
             return q / 2 / compliance
 
         return PeriodicFilter((grid.points, grid.points), symbol, threads)

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from scene import SolveError
+from scene import EmptyContact, SolveError
 from scene.scales import elastic_contact
 
 from .grid import Box, Grid
-from .problem import COARSE_TOLERANCE, COARSEST, EmptyContact, Problem
+from .problem import COARSE_TOLERANCE, COARSEST, Problem
 
 PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the surroundings allow for
 MARGIN = 1.15  # window over contact

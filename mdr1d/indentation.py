@@ -5,7 +5,7 @@ from math import ceil
 
 import numpy as np
 
-from scene import Scene, SolveError
+from scene import EmptyContact, Scene, SolveError
 
 from .foundation import Contact
 from .profile import Profile, contact_extent, greatest_depth
@@ -32,7 +32,7 @@ def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact,
     # Heights from the first touch on: a light contact keeps its digits.
     contact = sweep(body.heights - body.lowest, body.pixel, depth - body.lowest)
     if not contact.force > 0:
-        raise SolveError(
+        raise EmptyContact(
             f"motion.depth = {depth:g} does not press the indenter in: its lowest point lies at {body.lowest:g} m "
             "above the macroscopic tip; a greater depth is needed, or a load"
         )

@@ -7,8 +7,8 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Result, Scene
-from scene.protocol import refuse
+from scene import Cylinder, Result, Scene, SolveError
+from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
 from .foundation import Contact, sweep
@@ -17,6 +17,10 @@ from .maxwell import sweep_modes
 from .modes import modes_of
 from .profile import Grid, Profile, lay_out, map_profile
 
+# Span of a smooth contact over its grid below which the grid is drawn closer, and the room then left around it.
+_LEAST_SHARE, _ROOM = 0.2, 1.05
+# Pixels across a contact below which its forces are those of the pixels.
+_LEAST_PIXELS = 5
 # One period of roughness must fit into memory, and have waves at all.
 _MOST_NODES, _LEAST_NODES = 2**25, 4
 
@@ -43,7 +47,7 @@ class MDR:
     Result.fields: x, profile, displacement [m] and contact (bool) at the nodes.
     """
 
-    points: Annotated[Whole, Field(ge=8)] = 5000
+    points: Annotated[Whole, Field(ge=8, le=2**25)] = 5000
     extent: Positive | None = None
 
     @property
@@ -72,11 +76,9 @@ class MDR:
         """
         refuse(self, scene)
         start = process_time()
-        layout = lay_out(scene, self.points, self.extent)
-        body = map_profile(scene, layout)
+        with trusted():
+            layout, body, approach, contact, sweeps = self._pressed(scene)
         modulus = scene.elastomer.indentation_modulus
-        press = at_depth if scene.motion.load is None else under_load
-        approach, contact, sweeps = press(scene, body, _flow(scene))
         seconds = process_time() - start
         force, load = modulus * contact.force, scene.motion.load
         return Result(
@@ -103,6 +105,26 @@ class MDR:
             },
         )
 
+    def _pressed(self, scene: Scene):
+        """The contact, on a grid drawn closer around the tip while viscosity keeps a smooth contact small."""
+        press = at_depth if scene.motion.load is None else under_load
+        sweep, total, extent = _flow(scene), 0, self.extent
+        while True:
+            layout = lay_out(scene, self.points, extent)
+            body = map_profile(scene, layout)
+            approach, contact, sweeps = press(scene, body, sweep)
+            total += sweeps
+            span = contact.last - contact.first
+            free = self.extent is None and scene.roughness is None
+            if not (free and span < _LEAST_SHARE * layout.extent):
+                break
+            reach = max(abs(end - layout.extent / 2) for end in (contact.first, contact.last))
+            # A contact of a few pixels is known to a pixel at best.
+            extent = 2 * _ROOM * (reach + _LEAST_PIXELS * layout.pixel)
+        if body.surface is None:
+            _check_resolved(body, span)
+        return layout, body, approach, contact, total
+
 
 def _flow(scene: Scene) -> Sweep:
     """The sweep for the elastomer at its speed: Kelvin's own where no Maxwell branch remembers anything."""
@@ -113,6 +135,15 @@ def _flow(scene: Scene) -> Sweep:
         return lambda heights, pixel, depth: sweep_modes(heights, pixel, modes, speed, depth)
     memory = speed * elastomer.viscosity / equilibrium
     return lambda heights, pixel, depth: sweep(heights, pixel, memory, depth)
+
+
+def _check_resolved(body: Profile, span: float) -> None:
+    """A rough profile is what its nodes make it and may touch on less than a pixel; a smooth shape may not."""
+    if span < _LEAST_PIXELS * body.pixel:
+        raise SolveError(
+            f"the contact spans {span / body.pixel:.2g} pixels of {body.pixel:g} m, {_LEAST_PIXELS} are needed: "
+            "take more points or a smaller extent"
+        )
 
 
 def _too_broad(scene: Scene) -> list[str]:

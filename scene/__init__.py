@@ -3,7 +3,7 @@
 from .fractional import Fractional
 from .indenter import Cone, Cylinder, PowerLaw, Sphere
 from .motion import Indent, Slide
-from .protocol import Refused, SolveError, Solver
+from .protocol import EmptyContact, Refused, SolveError, Solver
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import SelfAffine
@@ -15,6 +15,7 @@ __all__ = [
     "Cone",
     "Cylinder",
     "Elastic",
+    "EmptyContact",
     "Fractional",
     "Indent",
     "Kelvin",

@@ -1,6 +1,9 @@
 """What a solver is, and the two ways in which it may decline to answer."""
 
+from contextlib import contextmanager
 from typing import Protocol
+
+import numpy as np
 
 from .result import Result
 from .scene import Scene
@@ -12,6 +15,10 @@ class Refused(ValueError):
 
 class SolveError(RuntimeError):
     """The solve did not reach an answer that can be trusted; the message says what to change."""
+
+
+class EmptyContact(SolveError):
+    """At the prescribed depth nothing touches: the forces are zero."""
 
 
 class Solver(Protocol):
@@ -26,6 +33,19 @@ class Solver(Protocol):
 
     def solve(self, scene: Scene) -> Result:
         """The answer. Raises Refused before, SolveError after the attempt."""
+
+
+@contextmanager
+def trusted():
+    """Turn a fault of arithmetic into a SolveError: numbers so far apart that their quotients leave the range."""
+    try:
+        with np.errstate(over="raise", invalid="raise", divide="raise"):
+            yield
+    except (ArithmeticError, np.linalg.LinAlgError, MemoryError) as fault:
+        raise SolveError(
+            f"the numbers of the scene are too far apart to be computed with ({type(fault).__name__}: {fault}); "
+            "check the units of its lengths, moduli, times and loads"
+        ) from fault
 
 
 def refuse(solver: Solver, scene: Scene) -> None:

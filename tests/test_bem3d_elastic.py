@@ -72,6 +72,14 @@ def test_pressure_of_a_sphere_is_the_half_ellipse_of_hertz():
     np.testing.assert_allclose(result.fields["pressure"][inner], expected, rtol=0.01)
 
 
+@pytest.mark.parametrize("shape", CLOSED)
+def test_contact_area_is_that_of_the_closed_form(shape):
+    indenter, _, a = CLOSED[shape]
+    result = pressed(indenter, 128, a, depth=D)
+    # the rim is known to a pixel: 4/128 of the area
+    assert result.measures["contact_area"] == pytest.approx(np.pi * a**2, rel=0.04)
+
+
 def test_the_extent_follows_from_the_scene():
     indenter, force, _ = CLOSED["sphere"]
     result = BEM(points=96).solve(Scene(indenter, Elastic(G), Indent(depth=D)))

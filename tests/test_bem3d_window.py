@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from bem3d.surface import RoughSurface
+from mdr1d import draw
 from scene import (
     Cylinder,
     Elastic,
@@ -88,6 +90,24 @@ def test_without_a_shortest_wave_the_grid_cuts_the_spectrum_off_and_the_result_s
     assert result.settings["cutoff"] == "nyquist"
     assert result.measures["points_per_shortest_wave"] == pytest.approx(2)
     assert BEM(points=64).solve(replace(LIGHT, motion=Indent(load=1.0))).settings["cutoff"] == "resolved"
+
+
+@pytest.mark.parametrize(
+    "motion", [Indent(load=1e300), Indent(depth=1e300), Slide(speed=0.1, load=1e-300)], ids=str
+)
+def test_numbers_beyond_the_range_of_arithmetic_are_an_error_and_not_an_answer(motion):
+    with pytest.raises(SolveError, match="too far apart"):
+        BEM(points=32).solve(Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), motion))
+
+
+def test_a_line_and_a_surface_of_one_seed_share_no_phases():
+    rough = replace(ROUGH, seed=11)
+    surface = RoughSurface.draw(rough, rough.q_max(0.0))
+    waves = np.fft.rfft(draw(rough, 400).heights)[1:21]
+    for phases in (np.angle(surface.amplitudes), -np.angle(surface.amplitudes)):
+        nearest = np.abs(phases.ravel()[:, None] - np.angle(waves)[None, :]).min(axis=0)
+        # by chance one of 860 phases lies within 1e-9 of one of 20 with a probability of 1e-5
+        assert nearest.min() > 1e-9
 
 
 @pytest.mark.parametrize(

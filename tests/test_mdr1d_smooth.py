@@ -7,7 +7,19 @@ import pytest
 from scipy.integrate import quad
 
 from mdr1d import MDR
-from scene import Cone, Elastic, Indent, Kelvin, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
+from scene import (
+    Cone,
+    Elastic,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Prony,
+    Scene,
+    Slide,
+    SolveError,
+    Sphere,
+    StandardLinearSolid,
+)
 
 MODULUS = 1e6
 STIFFNESS = 4 * MODULUS  # E* of an incompressible solid
@@ -175,3 +187,21 @@ def test_a_steep_power_law_approaches_the_flat_punch():
     radius = (1e-4 / shape.mdr_coefficient) ** 0.01
     # The law itself: 2n/(n+1) E* a d; one pixel is a sizeable part of such an edge.
     assert result.normal_force == pytest.approx(200 / 101 * STIFFNESS * radius * 1e-4, rel=1e-3)
+
+
+@pytest.mark.parametrize("ratio", [1e3, 1e6, 1e9, 1e12])
+def test_a_fast_contact_far_smaller_than_the_one_at_rest_has_its_own_grid(ratio):
+    # a fluid: d = F/(K l), a = sqrt(R d), mu = int g'^2 / int |g'| = 4a/(3R) over the front half
+    radius, memory = 1e-2, ratio * 1e-3
+    scene = Scene(Sphere(radius=radius), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=ratio, load=1.0))
+    result = MDR(points=2000).solve(scene)
+    assert result.measures["points_across_contact"] > 200
+    expected = 4 / 3 * sqrt(1.0 / (4e6 * memory * radius))
+    # elasticity adds terms of the order of the contact radius over the memory length
+    assert result.friction_coefficient == pytest.approx(expected, rel=1e-6 + 1e-3 / memory)
+
+
+def test_a_smooth_contact_on_a_stated_extent_too_wide_for_it_is_an_error():
+    scene = Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Indent(load=1e-9))
+    with pytest.raises(SolveError, match="take more points"):
+        MDR(points=100, extent=1e-2).solve(scene)
