@@ -1,5 +1,6 @@
 """The command `crosscheck`."""
 
+import signal
 from pathlib import Path
 from typing import Annotated
 
@@ -7,7 +8,7 @@ import typer
 
 app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False)
 
-MISTAKE, INTERRUPTED = 2, 130
+FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
 
 
 def _version(wanted: bool) -> None:
@@ -39,22 +40,37 @@ def run(
     from scene import Refused
     from scene.reading import InvalidInput
 
-    from .run import crosscheck_cases, named_cases
+    from .run import crosscheck_cases, make_folders, named_cases
 
+    _interrupt_on("SIGTERM", "SIGHUP")
     try:
         cases = named_cases(scene)
-        output.mkdir(parents=True, exist_ok=True)
+        make_folders(cases, output)
     except (InvalidInput, Refused) as mistake:
         typer.echo(f"crosscheck: {mistake}", err=True)
         raise typer.Exit(MISTAKE) from mistake
     except OSError as error:
-        typer.echo(f"crosscheck: --output {output}: {error.strerror}", err=True)
+        typer.echo(f"crosscheck: --output {output}: {_said(error)}", err=True)
         raise typer.Exit(MISTAKE) from error
     try:
         crosscheck_cases(cases, output, workers)
     except KeyboardInterrupt as interrupt:
         typer.echo("Interrupted. What is solved is kept: the same command resumes from there.", err=True)
         raise typer.Exit(INTERRUPTED) from interrupt
+    except OSError as error:
+        typer.echo(f"crosscheck: {_said(error)}. What is solved and stored is kept.", err=True)
+        raise typer.Exit(FAILED) from error
+
+
+def _interrupt_on(*names: str) -> None:
+    """Let signals do what Ctrl-C does, unless they are ignored, as by nohup."""
+    for number in (getattr(signal, name) for name in names if hasattr(signal, name)):
+        if signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
+
+
+def _said(error: OSError) -> str:
+    return f"{error.filename}: {error.strerror}" if error.filename else str(error)
 
 
 def main() -> None:

@@ -5,7 +5,7 @@ from math import sqrt
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -30,6 +30,11 @@ def _distinct(study):
         if values is not None and len(set(values)) < len(values):
             raise ValueError(f"{name} = {list(values)}: a value stands there twice")
     return study
+
+
+def _rough(roughness):
+    """Roughness of no height is none."""
+    return roughness if roughness and roughness.rms_height else None
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -81,7 +86,7 @@ class Case:
     indenter: Indenter
     elastomer: Elastomer
     motion: Motion
-    roughness: SelfAffine | None = None
+    roughness: Annotated[SelfAffine | None, AfterValidator(_rough)] = None
     study: Study = Study()
     bem: BEM = BEM(points=128)
     mdr: MDR = MDR(points=5000)

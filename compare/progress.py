@@ -4,6 +4,7 @@ import time
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.table import Column
 
 # Seconds between lines where there is no terminal to draw a bar on.
 PAUSE = 5.0
@@ -54,14 +55,17 @@ class Bar:
 
     def __init__(self, console: Console):
         self.running, self.doing = [], ""
+        # Where there is little room, what is being solved is cut off first, then the bar, never the times.
+        what = Column(ratio=1, no_wrap=True, overflow="ellipsis")
         self.bar = Progress(
             BarColumn(bar_width=24),
-            TextColumn("{task.percentage:3.0f} %"),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(),
-            TextColumn("{task.description}", markup=False),
+            TextColumn("{task.percentage:3.0f} %", table_column=Column(no_wrap=True, min_width=5)),
+            TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=7)),
+            TextColumn("left", table_column=Column(no_wrap=True, min_width=4)),
+            TimeRemainingColumn(table_column=Column(no_wrap=True, min_width=7)),
+            TextColumn("{task.description}", markup=False, table_column=what),
             console=console,
+            expand=True,
             transient=True,
         )
 
@@ -89,4 +93,4 @@ class Bar:
         self._tell()
 
     def _tell(self):
-        self.bar.update(self.total, description=self.doing + "; ".join(task.label for task in self.running))
+        self.bar.update(self.total, description=self.doing + (self.running[0].label if self.running else ""))

@@ -21,6 +21,7 @@ from scene import Result, Scene
 from .study import Task
 
 SCENES = TypeAdapter(tuple[Scene, ...])
+PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "numba")
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "applications", "seconds")
 
 
@@ -73,13 +74,13 @@ def code_digest(folder: Path) -> str:
 
 
 def key(task: Task) -> str:
-    """Name of a task's file: digest of its scenes, its solver's name and settings, and the code of both."""
+    """Name of a task's file: digest of its scenes, solver's name and settings, the code of both, and versions."""
     everything = {
         "scenes": SCENES.dump_python(task.scenes, mode="json"),
         "solver": task.solver.name,
         "settings": asdict(task.solver),
         "code": [_package_digest("scene"), _package_digest(type(task.solver).__module__.split(".")[0])],
-        "version": version("mdr-bem-crosscheck"),
+        "versions": _versions(),
     }
     canonical = json.dumps(everything, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(canonical.encode()).hexdigest()
@@ -93,20 +94,21 @@ class Store:
 
     def get(self, task: Task) -> Outcome | None:
         """The stored outcome of a task, or None: also for a task that keeps fields that are not there."""
+        numbers, fields = self._path(task, "json"), self._path(task, "npz")
         try:
-            content = json.loads(self._path(task, "json").read_text(encoding="utf-8"))
+            content = json.loads(numbers.read_text(encoding="utf-8"))
             rows = tuple(_row_from_json(entry) for entry in content["rows"])
             if len(rows) != len(task.scenes):
                 return None
-            kept = task.keeps_fields and rows[0].reason is None
-            return Outcome(rows, _read_fields(self._path(task, "npz")) if kept else {})
-        except (OSError, ValueError, KeyError, TypeError, EOFError):
+            return Outcome(rows, _read_fields(fields) if task.keeps_fields else {})
+        # A damaged archive raises nearly anything, from zlib.error to RuntimeError.
+        except Exception:
             return None
 
     def put(self, task: Task, outcome: Outcome) -> None:
         """Write an outcome, fields first: the numbers alone say that a task is done."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        if outcome.fields:
+        if outcome.fields or task.keeps_fields:
             write(self._path(task, "npz"), lambda file: np.savez_compressed(file, **outcome.fields))
         content = {"task": task.label, "rows": [_row_to_json(entry) for entry in outcome.rows]}
         text = json.dumps(content, indent=1, allow_nan=False)
@@ -127,6 +129,11 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
     except BaseException:
         os.unlink(name)
         raise
+
+
+@cache
+def _versions():
+    return {package: version(package) for package in PACKAGES}
 
 
 @cache
@@ -156,11 +163,19 @@ def _finite(value):
 
 
 def _row_from_json(content):
-    numbers = {name: nan if content[name] is None else float(content[name]) for name in NUMBERS}
-    measures = {name: nan if value is None else float(value) for name, value in content["measures"].items()}
-    return Row(**numbers, measures=measures, settings=content["settings"], reason=content["reason"])
+    numbers = {name: _number(content[name]) for name in NUMBERS}
+    measures = {name: _number(value) for name, value in content["measures"].items()}
+    return Row(**numbers, measures=measures, settings=dict(content["settings"]), reason=content["reason"])
+
+
+def _number(value):
+    if value is None:
+        return nan
+    if not isinstance(value, int | float) or not np.isfinite(value):
+        raise ValueError(f"{value!r} is no number that was stored")
+    return float(value)
 
 
 def _read_fields(path):
-    with np.load(path, allow_pickle=False) as archive:
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
         return {name: archive[name] for name in archive.files}

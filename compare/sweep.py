@@ -3,20 +3,26 @@
 import multiprocessing
 import os
 import signal
+import threading
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from typing import Protocol
 
-from scene import SolveError
+from scene import EmptyContact, SolveError
 
 from .store import Outcome, Row, Store, row
 from .study import Task
 
 # A worker solves on one thread; two workers with two threads each are slower than either alone.
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
+# What a terminal sends to every process of a run: workers leave it to their parent.
+FROM_THE_TERMINAL = {getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)}
+# Seconds after which an interrupt is noticed.
+PULSE = 0.2
 
 
 class Progress(Protocol):
@@ -68,8 +74,9 @@ def sweep(
 
     workers : processes, one thread each; absent, as many as there are processors
 
-    A SolveError becomes a row of NaN with its reason; any other exception is a fault and is raised. On an
-    interrupt nothing more is started; what is being solved is finished and stored; KeyboardInterrupt is raised.
+    An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
+    exception is a fault and is raised. On an interrupt, any signal that raises KeyboardInterrupt, nothing more is
+    started; what is being solved is finished and stored; KeyboardInterrupt is raised. A second ends it at once.
     """
     progress = progress or Silent()
     start = time.perf_counter()
@@ -80,10 +87,11 @@ def sweep(
     progress.planned(waiting)
     if waiting:
         workers = min(workers or os.cpu_count() or 1, solved)
-        for task, outcome in _run(waiting, workers, progress):
-            store.put(task, outcome)
-            outcomes[task] = outcome
-            progress.finished(task, outcome)
+        with closing(_run(waiting, workers, progress)) as solving:
+            for task, outcome in solving:
+                store.put(task, outcome)
+                outcomes[task] = outcome
+                progress.finished(task, outcome)
     return Swept(outcomes, solved, len(stored) - solved, time.perf_counter() - start)
 
 
@@ -93,6 +101,9 @@ def solve(task: Task) -> Outcome:
     for scene in task.scenes:
         try:
             result = task.solver.solve(scene)
+        except EmptyContact:
+            rows.append(Row(0.0, scene.motion.depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
+            continue
         except SolveError as error:
             rows.append(Row(reason=str(error) or type(error).__name__))
             continue
@@ -105,8 +116,15 @@ def solve(task: Task) -> Outcome:
 def _run(waiting: Sequence[Task], workers: int, progress: Progress) -> Iterator[tuple[Task, Outcome]]:
     """Never more tasks handed out than there are workers: what has not started is not in any queue."""
     context = multiprocessing.get_context("spawn")
-    upcoming, running = iter(waiting), {}
-    with _environment(ONE_THREAD), ProcessPoolExecutor(workers, context, _leave_interrupts_to_the_parent) as pool:
+    upcoming, running, interrupted = iter(waiting), {}, False
+    tether, ours = context.Pipe(duplex=False)
+    with (
+        _interrupts_caught() as caught,
+        _environment(ONE_THREAD),
+        tether,
+        ours,
+        ProcessPoolExecutor(workers, context, _tie_to_the_parent, (tether,)) as pool,
+    ):
 
         def hand_out():
             for task in upcoming:
@@ -115,26 +133,55 @@ def _run(waiting: Sequence[Task], workers: int, progress: Progress) -> Iterator[
                 progress.started(task)
                 return
 
-        for _ in range(workers):
-            hand_out()
-        interrupted = False
-        while running:
-            try:
-                done, _ = wait(running, return_when=FIRST_COMPLETED)
-            except KeyboardInterrupt:
-                interrupted = True
-                progress.interrupted()
-                continue
-            for future in done:
-                yield running.pop(future), future.result()
-                if not interrupted:
-                    hand_out()
-        if interrupted:
-            raise KeyboardInterrupt
+        try:
+            for _ in range(workers):
+                hand_out()
+            while running:
+                if len(caught) > 1:
+                    raise KeyboardInterrupt
+                if caught and not interrupted:
+                    interrupted = True
+                    progress.interrupted()
+                for future in wait(running, PULSE, FIRST_COMPLETED).done:
+                    yield running.pop(future), future.result()
+                    if not caught:
+                        hand_out()
+            if caught:
+                raise KeyboardInterrupt
+        except BaseException as error:
+            ours.close()
+            if caught and isinstance(error, BrokenProcessPool):
+                raise KeyboardInterrupt from error
+            raise
 
 
-def _leave_interrupts_to_the_parent():
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _tie_to_the_parent(tether):
+    """In a worker: it ends at once when the parent closes its end of the pipe, or ends in whatever way."""
+
+    def end_with_the_parent():
+        tether.poll(None)
+        os._exit(1)
+
+    for number in FROM_THE_TERMINAL:
+        signal.signal(number, signal.SIG_IGN)
+    threading.Thread(target=end_with_the_parent, daemon=True).start()
+
+
+@contextmanager
+def _interrupts_caught():
+    """The list of the signals that came meanwhile and would have raised KeyboardInterrupt."""
+    caught = []
+    if threading.current_thread() is not threading.main_thread():
+        yield caught
+        return
+    raising = [n for n in signal.valid_signals() if signal.getsignal(n) is signal.default_int_handler]
+    for number in raising:
+        signal.signal(number, lambda number, frame: caught.append(number))
+    try:
+        yield caught
+    finally:
+        for number in raising:
+            signal.signal(number, signal.default_int_handler)
 
 
 @contextmanager
@@ -143,7 +190,7 @@ def _interrupts_held():
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, FROM_THE_TERMINAL)
     try:
         yield
     finally:

@@ -1,10 +1,16 @@
 """Reading TOML files into validated objects, with every mistake named at once."""
 
 import tomllib
+from copy import deepcopy
+from functools import reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
+
+# Stands for what is missing; nothing allows it.
+MISSING = "\0"
 
 
 class InvalidInput(ValueError):
@@ -23,19 +29,61 @@ def read(path: str | Path, what: Any):
         raise InvalidInput(f"{path}: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InvalidInput(f"{path} is not valid TOML: {error}") from error
+    adapter = TypeAdapter(what)
     try:
-        return TypeAdapter(what).validate_python(content)
+        return adapter.validate_python(content)
     except ValidationError as error:
-        raise InvalidInput("\n".join(f"{path}: {line}" for line in mistakes(error))) from error
+        lines = mistakes(error, content, adapter)
+        raise InvalidInput("\n".join(f"{path}: {line}" for line in lines)) from error
 
 
-def mistakes(error: ValidationError) -> list[str]:
+def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> list[str]:
     """One line a mistake: where it is, what stands there, what is allowed."""
     lines = []
-    for mistake in error.errors(include_url=False):
-        where = ".".join(str(part) for part in mistake["loc"]) or "the file"
-        value = mistake["input"]
+    for mistake in _with_what_is_missing(error, content, adapter).errors(include_url=False):
+        kind, value, allowed = mistake["type"], mistake["input"], mistake["msg"].removeprefix("Value error, ")
+        where = _place(mistake["loc"], content)
+        if kind == "union_tag_invalid":
+            where, value = (*where, "type"), value["type"]
+            allowed = f"one of {mistake['ctx']['expected_tags']}"
+        elif kind.endswith("attributes_type") or kind == "dataclass_type":
+            allowed = "a table"
+        elif kind == "int_type" and isinstance(value, float):
+            allowed += ", written without a decimal point"
+        allowed = allowed.replace("valid tuple", "list")
+        said = f" = {value!r}: "
+        if value == MISSING:
+            said, allowed = ": missing, ", allowed.removeprefix("Input should be ")
         # A whole table says nothing that its own message does not.
-        said = "" if isinstance(value, dict) or mistake["type"] == "missing" else f" = {value!r}"
-        lines.append(f"{where}{said}: {mistake['msg'].removeprefix('Value error, ')}")
+        said = ": " if isinstance(value, dict) else said
+        lines.append((".".join(map(str, where)) or "the file") + said + allowed)
     return lines
+
+
+def _with_what_is_missing(error, content, adapter):
+    """The same mistakes where what is missing is there, but wrong: its message then says what is allowed."""
+    filled = deepcopy(content)
+    for mistake in error.errors(include_url=False):
+        where = _place(mistake["loc"], content)
+        if mistake["type"] == "union_tag_not_found":
+            where = (*where, "type")
+        elif mistake["type"] != "missing":
+            continue
+        reduce(getitem, where[:-1], filled)[where[-1]] = MISSING
+    try:
+        adapter.validate_python(filled)
+    except ValidationError as fuller:
+        return fuller
+    return error
+
+
+def _place(location, content):
+    """The names on the way to a mistake as they stand in the file: the type of a table is none of them."""
+    where = ()
+    for part in location:
+        if isinstance(content, dict) and part not in content and part == content.get("type"):
+            continue
+        where = (*where, part)
+        inside = (isinstance(content, dict) and part in content) or isinstance(content, list)
+        content = content[part] if inside else None
+    return where

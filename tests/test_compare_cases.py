@@ -8,7 +8,9 @@ from typer.testing import CliRunner
 
 from compare.__main__ import app
 from compare.cases import read_case, shipped_cases
+from compare.run import named_cases
 from scene import Cone, Elastic, Indent, Kelvin, Refused, Slide, Sphere
+from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
 SCENE = """
@@ -128,6 +130,29 @@ def test_a_folder_that_cannot_be_made_is_a_mistake_too(tmp_path):
     answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "taken")])
     assert answer.exit_code == 2
     assert "--output" in answer.stderr
+
+
+@pytest.mark.parametrize("name", ["solved", "case", "report.html"])
+def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved(tmp_path, name):
+    (tmp_path / "case.toml").write_text(SCENE)
+    (tmp_path / "out").mkdir()
+    taken = tmp_path / "out" / name
+    taken.mkdir() if name == "report.html" else taken.write_text("")
+    answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")])
+    assert answer.exit_code == 2
+    assert f"{taken}: " in answer.stderr
+
+
+def test_numbers_too_far_apart_are_a_mistake(tmp_path):
+    (tmp_path / "case.toml").write_text(SCENE.replace("load = 1.0", "depth = 1e300"))
+    with pytest.raises(InvalidInput, match="far apart"):
+        named_cases(tmp_path / "case.toml")
+
+
+def test_roughness_of_no_height_is_none(case):
+    flat = replace(case, roughness=replace(case.roughness, rms_height=0.0))
+    assert flat == replace(case, roughness=None)
+    assert flat.plan().surfaces == 1
 
 
 def test_what_a_solver_lacks_is_refused(tmp_path):

@@ -31,6 +31,19 @@ points = 1000
 PATIENCE = 120
 
 
+def heed_signals():
+    """Whoever runs the tests in the background ignores interrupts, and what is started inherits that."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert condition()
+
+
 def start(folder, *arguments):
     return subprocess.Popen(
         [sys.executable, "-m", "compare", *arguments],
@@ -39,6 +52,7 @@ def start(folder, *arguments):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        preexec_fn=heed_signals,
         env=os.environ | {"PYTHONWARNINGS": "error"},
     )
 
@@ -57,9 +71,7 @@ def folder(tmp_path):
 def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     process = start(folder, "run", "tiny.toml", "--workers", "1")
     solved = folder / "crosscheck-report" / "solved"
-    deadline = time.monotonic() + PATIENCE
-    while len(list(solved.glob("*.json"))) < 3 and time.monotonic() < deadline:
-        time.sleep(0.02)
+    wait_for(lambda: len(list(solved.glob("*.json"))) >= 3)
     # As from a keyboard: every process of the run gets it.
     os.killpg(process.pid, signal.SIGINT)
     status, _, complained = finish(process)
@@ -79,6 +91,15 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert (folder / "crosscheck-report" / "tiny" / "collapse.pdf").exists()
     manifest = json.loads((folder / "crosscheck-report" / "manifest.json").read_text())
     assert manifest["tasks"] == {"solved": now, "reused": reused}
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
+def test_no_worker_outlives_its_parent(folder, number, status):
+    process = start(folder, "run", "tiny.toml", "--workers", "2")
+    wait_for(lambda: any((folder / "crosscheck-report" / "solved").glob("*.json")))
+    process.send_signal(number)
+    # The output ends when the last process that holds it has ended.
+    assert finish(process)[0] == status
 
 
 def test_help_and_version_are_quick_and_load_nothing_heavy(folder):

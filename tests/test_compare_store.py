@@ -63,6 +63,39 @@ def test_a_file_of_something_else_counts_as_absent(tmp_path):
         assert store.get(TASK) is None
 
 
+@pytest.mark.parametrize("text", ["NaN", "Infinity", '"NaN"', "true and more", "[]"])
+def test_what_is_no_number_counts_as_absent(tmp_path, text):
+    store = Store(tmp_path)
+    store.put(TASK, Outcome((ROW,)))
+    (path,) = tmp_path.glob("*.json")
+    whole = path.read_text()
+    for old in ('"depth": 0.0001', '"pixel": 1e-06'):
+        assert old in whole
+        path.write_text(whole.replace(old, f"{old.split()[0]} {text}"))
+        assert store.get(TASK) is None
+
+
+def test_damaged_fields_count_as_absent_whichever_byte_it_is(tmp_path):
+    store, picture = Store(tmp_path), replace(TASK, keeps_fields=True)
+    store.put(picture, Outcome((ROW,), {"x": np.arange(300.0)}))
+    (path,) = tmp_path.glob("*.npz")
+    whole = path.read_bytes()
+    for cut in (0, 1, len(whole) // 2, len(whole) - 3):
+        path.write_bytes(whole[:cut])
+        assert store.get(picture) is None
+    for place in range(0, len(whole), 7):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
+        found = store.get(picture)
+        # A date may change; a number may not.
+        assert found is None or np.array_equal(found.fields["x"], np.arange(300.0))
+
+
+def test_a_task_whose_fields_are_empty_is_done(tmp_path):
+    store, picture = Store(tmp_path), replace(TASK, keeps_fields=True)
+    store.put(picture, Outcome((ROW,)))
+    assert store.get(picture).fields == {}
+
+
 def test_a_write_that_breaks_off_leaves_the_old_file_and_no_other(tmp_path):
     path = tmp_path / "numbers.json"
     path.write_text("old")

@@ -1,15 +1,17 @@
 """Tasks are solved once, in parallel, and one that fails takes no other with it."""
 
 import os
+import signal
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from pydantic.dataclasses import dataclass
 
 from compare.store import Store
 from compare.study import Task
 from compare.sweep import ONE_THREAD, solve, sweep
-from scene import Indent, Kelvin, Result, Scene, SolveError, Sphere
+from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
 
@@ -124,6 +126,32 @@ def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path)
     assert heard.said[1:] == [("started", 3.0), ("finished", 3.0)]
     again = sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1)
     assert (again.solved, again.reused) == (2, 1)
+
+
+def test_an_empty_contact_is_an_answer_with_forces_of_zero():
+    class Floats:
+        def solve(self, scene):
+            raise EmptyContact("nothing touches")
+
+    (row,) = solve(Task(Floats(), (replace(SCENE, motion=Indent(depth=1e-4)),))).rows
+    assert (row.normal_force, row.friction_force, row.depth, row.reason) == (0.0, 0.0, 1e-4, None)
+    assert np.isnan(row.friction_coefficient)
+
+
+@pytest.mark.parametrize(("presses", "stored"), [(1, 1), (2, 0)])
+def test_one_interrupt_waits_for_what_is_under_way_and_two_do_not(tmp_path, presses, stored):
+    class Impatient(Heard):
+        def started(self, task):
+            super().started(task)
+            for _ in range(presses):
+                signal.raise_signal(signal.SIGINT)
+
+    heard = Impatient()
+    with pytest.raises(KeyboardInterrupt):
+        sweep(loads(1.0, 2.0), Store(tmp_path), workers=1, progress=heard)
+    assert len(list(tmp_path.iterdir())) == stored
+    assert [work for step, work in heard.said if step == "started"] == [2.0]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_a_task_keeps_the_fields_of_its_first_scene_only():
