@@ -15,28 +15,6 @@ from scene.quantities import CLOSED
 from scene.scales import elastic_contact
 
 
-def contact_radius(load, modulus, coefficient, exponent):
-    """Radius a [m] of a smooth contact under a load [N]: a^(n+1) = F (n+1) / (8 G c n).
-
-    modulus : static shear modulus G [Pa] of an incompressible half-space. Eq. 16 of Popov et al.,
-    Sci. Rep. 4, 3750 (2014); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).
-    """
-    n = exponent
-    return (load * (n + 1) / (8 * modulus * coefficient * n)) ** (1 / (n + 1))
-
-
-def depth_at_load(load, modulus, coefficient, exponent):
-    """Depth d = c a^n [m] of a smooth contact under a load [N]; Eq. 16, second half, with the same symbols."""
-    return coefficient * contact_radius(load, modulus, coefficient, exponent) ** exponent
-
-
-def load_at_depth(depth, indentation_modulus, coefficient, exponent):
-    """Galin-Sneddon load F = [2n/(n+1)] E* c a^(n+1) [N] with c a^n = d, depth d [m], E* [Pa]."""
-    n = exponent
-    radius = (depth / coefficient) ** (1 / n)
-    return 2 * n / (n + 1) * indentation_modulus * coefficient * radius ** (n + 1)
-
-
 def mean_lag(elastomer):
     """Lag [s] by which a slowly driven elastomer trails its relaxed answer: sum_k J_k lambda_k / J(infinity).
 
@@ -65,14 +43,16 @@ def slow_friction_1d(speed, radius, lag, indentation_modulus, coefficient, expon
     return 2 * slow_friction_3d(speed, radius, lag, indentation_modulus, coefficient, exponent)
 
 
-def similarity_variable(load, speed, relaxation_time, modulus, rms_slope, coefficient, exponent):
-    """xi of Eq. 18, corrected: (v tau s / sqrt 2) (8G/F)^(n/(n+1)) ((n+1)/(c n))^(1/(n+1)), s the rms slope.
+def similarity_variable(load, speed, relaxation_time, indentation_modulus, rms_slope, coefficient, exponent):
+    """xi of Eq. 18, corrected: (v tau s / sqrt 2) (2E*/F)^(n/(n+1)) ((n+1)/(c n))^(1/(n+1)), s the rms slope.
 
-    modulus : static shear modulus G [Pa]. The printed sqrt(2 s) is read as sqrt(2) s throughout.
+    The paper's 8G is 2E* at a Poisson ratio of 1/2. The printed sqrt(2 s) is read as sqrt(2) s throughout.
     """
     n = exponent
     shape = ((n + 1) / (coefficient * n)) ** (1 / (n + 1))
-    return speed * relaxation_time * rms_slope / sqrt(2) * (8 * modulus / load) ** (n / (n + 1)) * shape
+    return (
+        speed * relaxation_time * rms_slope / sqrt(2) * (2 * indentation_modulus / load) ** (n / (n + 1)) * shape
+    )
 
 
 def master_curve(xi, alpha=1.5):

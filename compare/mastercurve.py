@@ -50,11 +50,12 @@ class Collapse:
     """What horizontal shifting achieves.
 
     speeds : (K,) [m/s], ascending
-    shifts, shift_errors : ln p(v)/p(v_ref) (K,) and standard errors; reference is the middle speed
+    shifts, shift_errors : ln p(v)/p(v_ref) (K,) and standard errors, NaN if unknown or where not the fit but the
+        demand for overlap decides; reference is the middle speed
     reference : its index
     before, after : misfit to one common curve, without and with the shifts
     scatter : rms standard error of ln mu, NaN if unknown
-    exponent, exponent_error : of p ~ v^exponent, by generalised least squares
+    exponent, exponent_error : of p ~ v^exponent, by generalised least squares; its error is NaN where theirs are
     overlaps : whether neighbouring curves still share a stretch of the common curve
     separable : False if straight parallel lines fit within scatter: then a horizontal shift is a vertical one
     curves : what was fitted
@@ -95,7 +96,8 @@ def collapse(curves: Sequence[Curve], degree: int = DEGREE) -> Collapse:
     lower, upper = _bounds(curves)
     speeds = np.array([curve.speed for curve in curves])
     best = _best(fit, np.diff(np.log(speeds)), lower, upper)
-    inside = np.all(np.minimum(best.x - lower, upper - best.x) > 1e-3 * (upper - lower))
+    inside = bool(np.all(np.minimum(best.x - lower, upper - best.x) > 1e-3 * (upper - lower)))
+    certain = fit.known and inside
     covariance = _covariance(fit, best)
     reference = len(curves) // 2
     shifts, covariance = _from_increments(best.x, covariance, reference)
@@ -103,14 +105,14 @@ def collapse(curves: Sequence[Curve], degree: int = DEGREE) -> Collapse:
     return Collapse(
         speeds=speeds,
         shifts=shifts,
-        shift_errors=np.sqrt(np.diag(covariance)) if fit.known else np.full(len(curves), nan),
+        shift_errors=np.sqrt(np.diag(covariance)) if certain else np.full(len(curves), nan),
         reference=reference,
         before=fit.misfit(np.zeros_like(best.x), shifts=0),
         after=fit.misfit(best.x, shifts=best.x.size),
         scatter=_rms(fit.error) if fit.known else nan,
         exponent=exponent,
-        exponent_error=exponent_error if fit.known else nan,
-        overlaps=bool(inside),
+        exponent_error=exponent_error if certain else nan,
+        overlaps=inside,
         separable=not _straight(fit),
         curves=curves,
         degree=degree,

@@ -60,6 +60,7 @@ class Record:
     speed [m/s], load [N] or depth [m] : what was prescribed, NaN what was not
     points : of the solver's grid in one direction, 0 without a grid
     normal_force [N], depth_reached [m], friction_force [N], friction_coefficient : averages over surfaces
+    friction_spread : |by traction - by energy lost| / friction force in 3D, mean over surfaces; NaN elsewhere
     rms_slope : of the roughness as the solver's own measure defines it
     pixel [m], points_across_contact : mean over surfaces, NaN if not measured
     residual : the worst
@@ -78,6 +79,7 @@ class Record:
     depth_reached: Estimate
     friction_force: Estimate
     friction_coefficient: Estimate
+    friction_spread: float
     rms_slope: Estimate
     pixel: float
     points_across_contact: float
@@ -143,6 +145,12 @@ def _place(record):
     return record.smooth, *(None if np.isnan(value) else value for value in prescribed)
 
 
+def _spread(row):
+    """Of the two estimates of a 3D friction force, relative; NaN without both or without friction."""
+    both = [row.measures.get(f"friction_by_{way}", nan) for way in ("traction", "loss")]
+    return abs(both[0] - both[1]) / abs(row.friction_force) if row.friction_force else nan
+
+
 def _record(point: Point, rows: list[Row]) -> Record:
     motion = point.scene.motion
     solver = point.tasks[0].solver
@@ -159,6 +167,7 @@ def _record(point: Point, rows: list[Row]) -> Record:
         depth_reached=estimate(row.depth for row in rows),
         friction_force=estimate(row.friction_force for row in rows),
         friction_coefficient=estimate(row.friction_coefficient for row in rows),
+        friction_spread=estimate(_spread(row) for row in rows).mean,
         rms_slope=estimate(row.measures.get("rms_slope", nan) for row in rows),
         pixel=estimate(row.measures.get("pixel", nan) for row in rows).mean,
         points_across_contact=estimate(row.measures.get("points_across_contact", nan) for row in rows).mean,

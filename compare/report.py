@@ -7,22 +7,45 @@ import json
 import os
 import platform
 import re
+import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from importlib.resources import files
+from math import degrees
 from pathlib import Path
 
 import jinja2
 import numpy as np
+from matplotlib.ticker import EngFormatter
+
+from scene import Indent, Slide
 
 from .figures import collapse, contact, force_depth, friction_load, friction_speed, smooth_limit, style
-from .store import write
+from .store import finite, write
 from .sweep import Swept
 from .verdict import Judgement
 
 FIGURES = (contact, force_depth, friction_speed, friction_load, collapse, smooth_limit)
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "pyfftw", "numba", "matplotlib", "pydantic")
+# Units of the fields of a scene, with prefixes and without; a power law's coefficient has one of its own.
+PREFIXED = (
+    dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest"), "m")
+    | dict.fromkeys(("modulus", "rubbery_modulus", "glassy_modulus", "equilibrium_modulus", "moduli"), "Pa")
+    | dict.fromkeys(("relaxation_time", "relaxation_times", "retardation_times"), "s")
+    | {"load": "N"}
+)
+PLAIN = (
+    dict.fromkeys(("instantaneous_compliance", "compliances"), "1/Pa")
+    | dict.fromkeys(("lowest_frequency", "highest_frequency"), "rad/s")
+    | {"speed": "m/s"}
+)
+WORDS = {
+    "hurst": "Hurst exponent",
+    "longest": "longest wave",
+    "shortest": "shortest wave",
+    "poisson_ratio": "Poisson ratio",
+}
 DOTS_PER_INCH = 220
 PAGE, MANIFEST = "report.html", "manifest.json"
 
@@ -60,7 +83,7 @@ def write_report(folder: Path, judged: Mapping[str, Judgement], swept: Swept) ->
         _write_csv(below / "points.csv", [record.columns for record in judgement.table])
         _write_csv(below / "numbers.csv", [asdict(number) for number in (*judgement.numbers, *judgement.checks)])
         sections.append(Section(name, judgement, drawn))
-    _write_text(folder / MANIFEST, json.dumps(_finite(manifest(sections, swept)), indent=1, allow_nan=False))
+    _write_text(folder / MANIFEST, json.dumps(_storable(manifest(sections, swept)), indent=1, allow_nan=False))
     _write_text(folder / PAGE, page(sections, swept))
     return folder / PAGE
 
@@ -70,7 +93,36 @@ def page(sections: Sequence[Section], swept: Swept) -> str:
     text = (files("compare") / "report.html").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     template = environment.from_string(text)
-    return template.render(sections=sections, swept=swept, versions=versions(), platform=_platform())
+    about = {"versions": versions(), "platform": _platform(), "described": described}
+    return template.render(sections=sections, swept=swept, **about)
+
+
+def described(part: object) -> str:
+    """A part of a scene in words with units: Sphere, radius 10 mm; what is absent is not named."""
+    kind = part.type.replace("-", " ").capitalize()
+    if isinstance(part, Indent | Slide):
+        moved = f" at {_quantity('speed', part.speed)}" if isinstance(part, Slide) else ""
+        held = "load" if part.depth is None else "depth"
+        pressed = f"{'under' if held == 'load' else 'to'} {_quantity(held, getattr(part, held))}"
+        return f"{kind}{moved} {pressed}"
+    said = [
+        f"{WORDS.get(name, name.replace('_', ' '))} {_quantity(name, value)}"
+        for name, value in asdict(part).items()
+        if value is not None and name != "type"
+    ]
+    return ", ".join([kind, *said])
+
+
+def _quantity(name, value):
+    if isinstance(value, tuple):
+        return " ".join(_quantity(name, entry) for entry in value)
+    if isinstance(value, dict):
+        return f"of {len(next(iter(value.values())))} rows"
+    if name == "angle":
+        return f"{degrees(value):.4g}°"
+    if name in PREFIXED:
+        return EngFormatter(PREFIXED[name])(value)
+    return f"{value:.6g} {PLAIN.get(name, '')}".strip() if isinstance(value, float) else str(value)
 
 
 def manifest(sections: Sequence[Section], swept: Swept) -> dict:
@@ -91,7 +143,8 @@ def versions() -> dict[str, str]:
 
 def slug(name: str) -> str:
     """A name as it may stand in a path."""
-    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-") or "case"
+    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    return re.sub(r"[^a-z0-9]+", "-", plain.lower()).strip("-") or "case"
 
 
 def _draw(folder, module, judgement):
@@ -167,11 +220,10 @@ def _seeds(case):
     return {"MDR": list(range(first, first + plan.profiles)), "BEM": list(range(first, first + plan.surfaces))}
 
 
-def _finite(value):
+def _storable(value):
     """JSON knows no NaN: null stands for it."""
     if isinstance(value, Mapping):
-        return {name: _finite(entry) for name, entry in value.items()}
+        return {name: _storable(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(entry) for entry in value]
-    value = _number(value)
-    return None if isinstance(value, float) and not np.isfinite(value) else value
+        return [_storable(entry) for entry in value]
+    return finite(_number(value))

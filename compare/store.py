@@ -153,12 +153,13 @@ def _plain(value):
 def _row_to_json(entry):
     """NaN and infinities are no JSON: they are stored as null, and come back as NaN."""
     content = asdict(entry)
-    content["measures"] = {name: _finite(value) for name, value in entry.measures.items()}
-    content["settings"] = {name: _finite(value) for name, value in entry.settings.items()}
-    return content | {name: _finite(content[name]) for name in NUMBERS}
+    content["measures"] = {name: finite(value) for name, value in entry.measures.items()}
+    content["settings"] = {name: finite(value) for name, value in entry.settings.items()}
+    return content | {name: finite(content[name]) for name in NUMBERS}
 
 
-def _finite(value):
+def finite(value):
+    """A value as JSON can hold it: None for NaN and infinities."""
     return None if isinstance(value, float) and not np.isfinite(value) else value
 
 

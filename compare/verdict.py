@@ -6,6 +6,8 @@ from math import hypot, nan
 
 import numpy as np
 
+from scene.scales import elastic_contact
+
 from . import exact, metrics
 from .cases import Case
 from .mastercurve import Collapse, Curve, Misfit, collapse, misfit_at
@@ -15,6 +17,11 @@ from .sweep import Swept
 
 # Solver's name -> dimension, as the report writes it.
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+# Said wherever that change stands for an error.
+UNDERSTATES = (
+    "The change on halving the pixel understates the error of the coarse grid by 1 / (1 - 2^-p) at order p: "
+    "at first order the error is twice the change."
+)
 
 
 @dataclass(frozen=True)
@@ -78,7 +85,7 @@ def judge(case: Case, points: Sequence[Point], swept: Swept) -> Judgement:
         *_force_depth(table, smooth=case.roughness is None),
         *_misfits(case, collapses),
     ]
-    checks = [*_discretisation(case, table)]
+    checks = [*_discretisation(case, table), *_friction_spread(table)]
     if case.roughness:
         checks = [*_force_depth(table, smooth=True), *checks]
     checks = [*(_collapse_number(case, name, result) for name, result in collapses.items()), *checks]
@@ -133,14 +140,14 @@ def _smooth_limit(case, table):
         plus_minus(value, error) + ", tends to 2",
         value,
         error,
-        f"Measured at v tau / a = {smooth_speed(case, slow[0]):.2g}; as the speed tends to zero it tends to 2. "
-        "The error is the change of the 3D value when the pixel is halved.",
+        f"Measured at v τ / a = {smooth_speed(case, slow[0]):.2g}; as the speed tends to zero it tends to 2. "
+        f"The error is the change of the 3D value when the pixel is halved. {UNDERSTATES}",
     )
 
 
 def smooth_speed(case: Case, record: Record) -> float:
     """v tau / a with the radius of the smooth relaxed contact; tau is the retardation time."""
-    contact = exact.elastic_contact(case.scene)
+    contact = elastic_contact(case.scene)
     return record.speed * float(case.elastomer.retardation()[2][0]) / contact.radius
 
 
@@ -152,37 +159,60 @@ def _own_ratio(case, table):
             return
         value, error = metrics.ratio(above.friction_coefficient, below.friction_coefficient)
         grid = value * metrics.discretisation(table, below, "friction_coefficient")
-        text = "The body is smooth: the error is that of the 3D grid."
+        text = f"The body is smooth: the error is the change of 3D when the pixel is halved. {UNDERSTATES}"
         total = grid
         if not below.smooth:
             total = hypot(error, grid) if np.isfinite(grid) else error
             known = (
-                "together with the error of the 3D grid" if np.isfinite(grid) else "without that of the 3D grid"
+                f"together with the change of 3D when the pixel is halved. {UNDERSTATES}"
+                if np.isfinite(grid)
+                else "without that of the 3D grid."
             )
             text = (
                 f"Means over {above.normal_force.count} profiles (1D), {below.normal_force.count} surfaces (3D). "
-                f"The error is the standard error of the means {known}."
+                f"The error is the standard error of the means {known}"
             )
         yield Number("1D / 3D friction at the scene's own point", plus_minus(value, total), value, total, text)
 
 
 def _force_depth(table, smooth):
     found = [pair for pair in metrics.pairs(table, "force-depth", smooth) if pair[1].normal_force.mean > 0]
-    if not found:
-        return
-    above, below = max(found, key=lambda pair: abs(_force_deviation(*pair)[0]))
-    value, error = _force_deviation(above, below)
-    body, meaning = "rough", "the standard error of the means"
-    if smooth:
-        exact_there = [r for r in metrics.select(table, "force-depth", "exact") if r.depth == below.depth]
-        error = abs(_force_deviation(below, exact_there[0])[0]) if exact_there else nan
-        body, meaning = "smooth", "how far the 3D force is from the closed form"
-    yield Number(
-        f"1D / 3D force at the same depth, {body}, less 1",
+    if found:
+        yield (_smooth_deviation if smooth else _rough_deviation)(table, found)
+
+
+def _rough_deviation(table, found):
+    """The most significant one: where roughness rules, the largest is the noisiest."""
+    deviations = [(pair[1].depth, *_force_deviation(*pair)) for pair in found]
+    known = [(depth, value, error) for depth, value, error in deviations if error > 0]
+    if known:
+        depth, value, error = max(known, key=lambda deviation: abs(deviation[1]) / deviation[2])
+        chosen = f"The most significant of {len(found)} depths, {abs(value) / error:.1f} standard errors from zero"
+    else:
+        depth, value, error = max(deviations, key=lambda deviation: abs(deviation[1]))
+        chosen = f"The largest of {len(found)} depths"
+    return Number(
+        "force at the same depth, 1D over 3D, rough: deviation",
         plus_minus(value, error, "%"),
         value,
         error,
-        f"The largest of {len(found)} depths, at {below.depth * 1e6:.3g} µm; the error is {meaning}.",
+        f"{chosen}, at {depth * 1e6:.3g} µm; the error is the standard error of the means. {len(found)} "
+        "comparisons were made, on the same surfaces, and this one was chosen after the fact.",
+    )
+
+
+def _smooth_deviation(table, found):
+    above, below = max(found, key=lambda pair: abs(_force_deviation(*pair)[0]))
+    value, _ = _force_deviation(above, below)
+    exact_there = [r for r in metrics.select(table, "force-depth", "exact") if r.depth == below.depth]
+    error = abs(_force_deviation(below, exact_there[0])[0]) if exact_there else nan
+    return Number(
+        "force at the same depth, 1D over 3D, smooth: deviation",
+        plus_minus(value, error, "%"),
+        value,
+        error,
+        f"The largest of {len(found)} depths, at {below.depth * 1e6:.3g} µm; the error is how far the 3D force is "
+        "from the closed form.",
     )
 
 
@@ -191,23 +221,24 @@ def _force_deviation(above, below):
 
 
 def _misfits(case, collapses):
-    """How far the curves of both dimensions miss one another once shifted as Eq. 23 predicts."""
+    """How far the curves miss one another once shifted as Eq. 23 predicts; value and error of the last one."""
+    if not collapses:
+        return
     predicted = exact.shift_exponent(case.indenter.exponent)
     misfits = {solver: misfit_at(result, predicted).rms for solver, result in collapses.items()}
-    if not misfits:
-        return
-    scatters = {solver: result.scatter for solver, result in collapses.items()}
     written = [
-        f"{DIMENSIONS[solver]} {_percent(misfit, 'no overlap')} (scatter {_percent(scatters[solver], 'unknown')})"
-        for solver, misfit in misfits.items()
+        f"{DIMENSIONS[solver]} {_percent(misfits[solver], 'no overlap')} "
+        f"(scatter {_percent(result.scatter, 'unknown')})"
+        for solver, result in collapses.items()
     ]
+    *_, last = collapses
     yield Number(
         "misfit of the curves shifted as Eq. 23 predicts",
         ", ".join(written),
-        misfits.get("BEM", nan),
-        scatters.get("BEM", nan),
-        "Rms of ln mu (ln F) about one curve; value and error are those of 3D. A misfit beyond the scatter "
-        "between surfaces means that the curves are not one.",
+        misfits[last],
+        collapses[last].scatter,
+        f"Rms of ln mu (ln F) about one curve; value and error, the scatter between surfaces, are those of "
+        f"{DIMENSIONS[last]}. A misfit beyond the scatter means that the curves are not one.",
     )
 
 
@@ -261,5 +292,22 @@ def _discretisation(case, table):
             value,
             nan,
             f"The scene's own point, one surface, {own.points} against {2 * own.points} points a side: an "
-            "estimate of the error of discretisation, no bound.",
+            f"estimate of the error of discretisation, no bound. {UNDERSTATES}",
         )
+
+
+def _friction_spread(table):
+    found = [record for record in metrics.select(table, "speed", "BEM") if np.isfinite(record.friction_spread)]
+    if not found:
+        return
+    worst = max(found, key=lambda record: record.friction_spread)
+    value = worst.friction_spread
+    yield Number(
+        "spread of the two estimates of 3D friction",
+        f"at most {value:.2%}",
+        value,
+        nan,
+        f"The two estimates of 3D friction, from traction and from energy lost, differ by at most {value:.2%} "
+        f"(at v = {worst.speed:.3g} m/s) over {len(found)} speeds: an indicator of the error of discretisation "
+        "at every point, no bound.",
+    )

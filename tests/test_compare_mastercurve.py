@@ -104,6 +104,8 @@ def test_curves_that_share_no_stretch_are_undecided():
     found = collapse(curves(cubic, -2.5, loads=narrow))
     assert not found.overlaps
     assert found.verdict == "undecided"
+    # What the demand for overlap decides has no error.
+    assert np.all(np.isnan([*found.shift_errors, found.exponent_error]))
     assert misfit_at(found, -2.5).verdict == "undecided"
 
 

@@ -21,7 +21,18 @@ from compare.study import points, tasks
 from compare.sweep import Swept, solve
 from compare.verdict import judge, plus_minus
 from mdr1d import MDR
-from scene import Indent, Kelvin, SelfAffine, Slide, Sphere
+from scene import (
+    Cone,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    PowerLaw,
+    Prony,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
 
 CASE = Case(
     title="A <small> case & more",
@@ -94,7 +105,7 @@ def test_the_smooth_ratio_at_low_speed_is_near_two_and_its_limit_is_said(judged,
 
 def test_smooth_force_and_depth_agree(judged):
     # Hertz in 3D is good to some 1e-3 with 20 points across the contact, and the error says so.
-    found = number(judged[0], "1D / 3D force at the same depth, smooth")
+    found = number(judged[0], "force at the same depth, 1D over 3D, smooth")
     assert abs(found.value) < 5e-3
     assert abs(found.value) == pytest.approx(found.error, rel=0.1)
 
@@ -205,7 +216,7 @@ def test_a_scene_at_rest_has_a_report_of_what_makes_sense(tmp_path):
     page = Page(report.write_report(tmp_path, {"rest": judgement}, swept).read_text())
     assert len(page.images) == 2
     assert "tends to 2" not in page.text
-    assert [n.name for n in judgement.numbers] == ["1D / 3D force at the same depth, smooth, less 1"]
+    assert [n.name for n in judgement.numbers] == ["force at the same depth, 1D over 3D, smooth: deviation"]
     assert [n.name for n in judgement.checks] == ["change of the 3D normal force with the pixel halved"]
 
 
@@ -215,3 +226,30 @@ def test_numbers_are_written_to_the_digits_of_their_error():
     assert plus_minus(123.4, 25.0) == "123 ± 25"
     assert plus_minus(1.5, np.nan) == "1.5, error undecided"
     assert plus_minus(np.nan, 0.1) == "undecided"
+
+
+def test_a_scene_is_written_in_words_with_units():
+    for part, words in (
+        (Sphere(radius=1e-2), "Sphere, radius 10 mm"),
+        (Cone(angle=np.pi / 18), "Cone, angle 10°"),
+        (CASE.elastomer, "Kelvin, modulus 1 MPa, relaxation time 1 ms, Poisson ratio 0.5"),
+        (Slide(speed=0.1, load=1.0), "Slide at 0.1 m/s under 1 N"),
+        (Indent(depth=1.5e-4), "Indent to 150 µm"),
+    ):
+        assert report.described(part) == words
+
+
+def test_every_field_with_a_unit_has_it_on_the_page():
+    for part in (
+        *(CASE.indenter, CASE.elastomer, CASE.roughness, PowerLaw(coefficient=30.0, exponent=3.0)),
+        StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-5),
+        Prony(equilibrium_modulus=1e6, moduli=(1e6,), relaxation_times=(1e-3,)),
+        KelvinChain(instantaneous_compliance=1e-7, compliances=(1e-6,), retardation_times=(1e-3,)),
+    ):
+        bare = {"coefficient", "exponent", "hurst", "seed", "poisson_ratio", "type"}
+        assert vars(part).keys() - bare <= report.PREFIXED.keys() | report.PLAIN.keys()
+
+
+def test_a_name_in_any_latin_script_keeps_its_letters_in_a_path():
+    assert report.slug("my scène ü") == "my-scene-u"
+    assert report.slug("日本") == "case"

@@ -27,6 +27,7 @@ def figure(judgement: Judgement) -> Figure | None:
             panel.set(title=f"{dimension}, {title}", xscale="log", yscale="log", xlabel="shifted force [N]")
             if result:
                 _curves(panel, solver, result, *_shifted(result, column, slope))
+                panel.set_ylim(_range(judgement))
         first = axes[f"{solver} solved"]
         first.set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         if result:
@@ -72,7 +73,8 @@ def caption(judgement: Judgement) -> str:
     return (
         "Curves of friction against load at several speeds: as solved, shifted along ln F as Eq. 23 predicts for "
         "a Kelvin body, and with the shifts that bring them closest to one curve while neighbours overlap; at "
-        "right these shifts with their standard errors, hollow where only the demand for overlap stops them. "
+        "right these shifts with their standard errors, hollow and without error where only the demand for "
+        "overlap stops them. "
         f"Bars are standard errors of the mean. {said}"
     )
 
@@ -104,11 +106,14 @@ def _curves(axes, solver, result, abscissae, misfit):
             label=f"{curve.speed:.3g} m/s",
         )
     text = f"misfit {misfit.rms:.1%}" if np.isfinite(misfit.rms) else "no overlap"
-    # Friction falls with load: the upper right is free, and the lower left for the legend with room made below.
     axes.text(0.97, 0.93, text, transform=axes.transAxes, fontsize=6.5, ha="right")
-    lowest = min(np.exp(curve.log_friction.min()) for curve in result.curves)
-    highest = max(np.exp(curve.log_friction.max()) for curve in result.curves)
-    axes.set_ylim(lowest * (lowest / highest) ** 0.45, highest * (highest / lowest) ** 0.22)
+
+
+def _range(judgement):
+    """Of friction in all panels: it falls with load, so room above is for the misfit, below for the legend."""
+    friction = [curve.log_friction for result in judgement.collapses.values() for curve in result.curves]
+    lowest, highest = np.min(np.concatenate(friction)), np.max(np.concatenate(friction))
+    return np.exp(lowest - 0.45 * (highest - lowest)), np.exp(highest + 0.22 * (highest - lowest))
 
 
 def _shifts(axes, judgement, slope):
@@ -117,7 +122,7 @@ def _shifts(axes, judgement, slope):
         axes.errorbar(
             result.speeds * 1.05 ** (2 * index - 1),
             result.shifts,
-            yerr=np.nan_to_num(result.shift_errors),
+            yerr=result.shift_errors if np.isfinite(result.shift_errors).all() else None,
             color=style.COLOUR[solver],
             marker=style.MARKER[solver],
             markerfacecolor=style.COLOUR[solver] if result.overlaps else "white",

@@ -1,5 +1,6 @@
 """Normal force against depth at rest, rough and smooth, and how far one dimension is from three."""
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from .. import metrics
@@ -16,6 +17,8 @@ def figure(judgement: Judgement) -> Figure | None:
         return None
     drawing = style.canvas(style.SINGLE, 3.9)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    above.set(ylabel="normal force [N]", xscale="log", yscale="log")
+    style.span(above, [r.depth * 1e6 for r in table if r.kind == "force-depth"])
     exact = metrics.select(table, "force-depth", "exact", True)
     if exact:
         above.plot([r.depth * 1e6 for r in exact], [r.normal_force.mean for r in exact], "-", color="0.45", lw=0.9,
@@ -32,7 +35,6 @@ def figure(judgement: Judgement) -> Figure | None:
             style.line(above, [r.depth * 1e6 for r in curve], [r.normal_force for r in curve], solver,
                        label=label, **body)  # fmt: skip
     _deviation(below, table)
-    above.set(ylabel="normal force [N]", xscale="log", yscale="log")
     below.set(xlabel="depth [µm]", ylabel="1D / 3D - 1 [%]")
     above.legend()
     for axes in (above, below):
@@ -49,7 +51,8 @@ def caption(judgement: Judgement) -> str:
     """What the figure shows."""
     return (
         "Force against depth, pressed in at rest. Below: deviation of the one-dimensional force from the "
-        f"three-dimensional one at the same depth. {averaged(judgement, 'force-depth')}"
+        "three-dimensional one at the same depth; an arrow marks an error bar that goes on. "
+        f"{averaged(judgement, 'force-depth')}"
     )
 
 
@@ -65,14 +68,28 @@ def averaged(judgement: Judgement, kind: str) -> str:
     )
 
 
+def _scale(axes, depths, values, errors):
+    """Limits from all values and the better half of the error bars; an arrow where a bar goes on beyond them."""
+    bars = np.where(errors <= np.nanmedian(errors), errors, 0)
+    low, high = min(0, np.nanmin(values - bars)), max(0, np.nanmax(values + bars))
+    margin = 0.15 * (high - low) or 1.0
+    low, high = low - margin, high + margin
+    axes.set_ylim(low, high)
+    for edge, marker, beyond in ((low, "v", values - errors < low), (high, "^", values + errors > high)):
+        axes.plot(depths[beyond], np.full(beyond.sum(), edge), marker, color="black", markersize=4, clip_on=False)
+
+
 def _deviation(axes, table):
     axes.axhline(0, color="0.6", linewidth=0.6)
     for smooth, look in ((False, {"color": "black", "marker": "o"}), (True, {"color": "0.45", "marker": "D"})):
         pairs = metrics.pairs(table, "force-depth", smooth)
         if not pairs:
             continue
-        values = [metrics.relative_deviation(a.normal_force, b.normal_force) for a, b in pairs]
-        errors = [0 if smooth else 100 * error for _, error in values]
-        axes.errorbar([a.depth * 1e6 for a, _ in pairs], [100 * value for value, _ in values], yerr=errors,
+        deviations = [metrics.relative_deviation(a.normal_force, b.normal_force) for a, b in pairs]
+        values, errors = 100 * np.array(deviations).T
+        depths = np.array([a.depth * 1e6 for a, _ in pairs])
+        axes.errorbar(depths, values, yerr=None if smooth else np.nan_to_num(errors),
                       linestyle=":" if smooth else "-", label="smooth" if smooth else "rough", **look)  # fmt: skip
+        if not smooth and np.isfinite(errors).any():
+            _scale(axes, depths, values, errors)
     axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)

@@ -7,7 +7,7 @@ from .. import metrics
 from ..verdict import Judgement
 from . import style
 from .force_depth import averaged
-from .friction_speed import law
+from .friction_speed import LAW, law
 
 NAME = "friction-load"
 
@@ -18,8 +18,11 @@ def figure(judgement: Judgement) -> Figure | None:
         return None
     drawing = style.canvas(style.DOUBLE, 2.9)
     panels = drawing.subplots(1, 2, sharex=True, sharey=True)
+    panels[0].set(xscale="log", yscale="log")
+    loads = [r.normal_force.mean for r in judgement.table if r.kind == "load" and r.normal_force.mean > 0]
+    style.span(panels[0], loads)
     for axes, solver in zip(panels, ("MDR", "BEM"), strict=True):
-        axes.set(xscale="log", yscale="log", xlabel="normal force [N]", title=style.LABEL[solver])
+        axes.set(xlabel="normal force [N]", title=style.LABEL[solver])
         curves = metrics.by_speed(metrics.select(judgement.table, "load", solver))
         shades = style.shades(solver, len(curves))
         for index, (speed, curve) in enumerate(curves.items()):
@@ -50,9 +53,10 @@ def sheets(judgement: Judgement):
 def caption(judgement: Judgement) -> str:
     """What the figure shows."""
     pressed = "" if judgement.case.motion.load is not None else " The depth is prescribed: loads are means."
+    paper = "" if judgement.case.roughness is None else f" Dotted, in the shade of each speed: {LAW}"
     return (
         "Coefficient of friction against normal force at several speeds, left in one and right in three "
-        f"dimensions.{pressed} {averaged(judgement, 'load')}"
+        f"dimensions.{pressed}{paper} {averaged(judgement, 'load')}"
     )
 
 
@@ -63,5 +67,6 @@ def _paper(axes, judgement):
         if not np.isfinite(slope):
             return
         loads = np.array([r.normal_force.mean for r in curve])
-        label = "Eq. 19, roughness alone" if speed == min(curves) else None
-        axes.plot(loads, law(judgement, loads, speed, slope), ":", color=shade, linewidth=1.2, label=label)
+        axes.plot(loads, law(judgement, loads, speed, slope), ":", color=shade, linewidth=1.2)
+    # One entry for the lines of all speeds.
+    axes.plot([], [], ":", color="0.3", linewidth=1.2, label="Eq. 19 at each speed")

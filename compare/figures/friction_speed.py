@@ -11,6 +11,10 @@ from . import style
 from .force_depth import averaged
 
 NAME = "friction-speed"
+LAW = (
+    "Eq. 19 with exponent 1.5 and the rms slope that the 1D profiles have; it leaves the slope of the smooth "
+    "shape out."
+)
 
 
 def figure(judgement: Judgement) -> Figure | None:
@@ -21,6 +25,7 @@ def figure(judgement: Judgement) -> Figure | None:
     drawing = style.canvas(style.SINGLE, 3.9)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
     above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
+    style.span(above, [a.speed for a, _ in pairs])
     for solver in ("MDR", "BEM"):
         curve = metrics.select(judgement.table, "speed", solver)
         style.line(above, [r.speed for r in curve], [r.friction_coefficient for r in curve], solver)
@@ -50,10 +55,7 @@ def caption(judgement: Judgement) -> str:
     """What the figure shows."""
     motion = judgement.case.motion
     held = f"load of {motion.load:g} N" if motion.load is not None else f"depth of {motion.depth * 1e6:g} µm"
-    paper = "" if judgement.case.roughness is None else (
-        " Dotted: Eq. 19 with exponent 1.5 and the rms slope that the 1D profiles have; it leaves the slope of "
-        "the smooth shape out."
-    )  # fmt: skip
+    paper = "" if judgement.case.roughness is None else f" Dotted: {LAW}"
     return (
         f"Coefficient of friction against speed at a {held}; below, the ratio of one dimension to three with its "
         f"standard error.{paper} {averaged(judgement, 'speed')}"
@@ -65,13 +67,13 @@ def law(judgement: Judgement, load, speed, rms_slope):
     case = judgement.case
     time = float(case.elastomer.retardation()[2].max())
     shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
-    xi = exact.similarity_variable(load, speed, time, case.elastomer.static_modulus, rms_slope, *shape)
+    xi = exact.similarity_variable(load, speed, time, case.elastomer.indentation_modulus, rms_slope, *shape)
     return sqrt(2) * rms_slope * exact.master_curve(xi)
 
 
 def _paper(axes, judgement, records):
     rms_slope = records[0].rms_slope.mean
-    if not np.isfinite(rms_slope) or not np.isfinite(records[0].load):
+    if not np.isfinite(rms_slope) or not np.isfinite(records[0].load) or len(records) < 2:
         return
     speed = np.geomspace(records[0].speed, records[-1].speed, 101)
     mu = law(judgement, records[0].load, speed, rms_slope)

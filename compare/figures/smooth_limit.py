@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from scene.scales import elastic_contact
 
 from .. import exact, metrics
-from ..verdict import Judgement, smooth_speed
+from ..verdict import DIMENSIONS, Judgement, smooth_speed
 from . import style
 
 NAME = "smooth-limit"
@@ -22,15 +22,16 @@ def figure(judgement: Judgement) -> Figure | None:
     above.set(xscale="log", yscale="log", ylabel=r"$\mu$ / slope at the edge [1]")
     slope = exact.edge_slope(judgement.case.indenter, elastic_contact(judgement.case.scene).radius)
     x = [smooth_speed(judgement.case, a) for a, _ in pairs]
+    style.span(above, x)
     for index, solver in enumerate(("MDR", "BEM")):
         friction = [pair[index].friction_coefficient.mean / slope for pair in pairs]
         above.plot(x, friction, color=style.COLOUR[solver], marker=style.MARKER[solver], linestyle="none",
                    label=style.LABEL[solver])  # fmt: skip
     # Straight through the slow half, where the first order in the speed is meant to hold.
     slow = np.array([min(x), 0.5])
-    for solver, limit in zip(("MDR", "BEM"), _limits(judgement), strict=True):
+    for (solver, dimension), limit in zip(DIMENSIONS.items(), _limits(judgement), strict=True):
         above.plot(slow, limit * slow / slope, style.LINE[solver], color=style.COLOUR[solver], linewidth=0.8,
-                   label="its limit at low speed")  # fmt: skip
+                   label=f"{dimension} limit")  # fmt: skip
     ratios = [metrics.ratio(a.friction_coefficient, b.friction_coefficient)[0] for a, b in pairs]
     below.axhline(2, color="0.45", linewidth=0.9, linestyle="-")
     below.annotate("2, derived", (max(x), 2), xytext=(0, 2), textcoords="offset points", ha="right", fontsize=7)

@@ -85,6 +85,13 @@ def line(axes: Axes, x, estimates: list[Estimate], solver: str, **other) -> None
         axes.fill_between(x, below, mean + deviation, color=look["color"], alpha=0.13, linewidth=0)
 
 
+def span(axes: Axes, values) -> None:
+    """Limits of a logarithmic x axis around values, also one alone, of which matplotlib makes no range."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    room = (high / low) ** 0.05 if high > low * 1.01 else 2.0
+    axes.set_xlim(low / room, high * room)
+
+
 def decades(axes: Axes) -> None:
     """Readable ticks on logarithmic axes: 1, 2, 5 within two decades, plain numbers where they are short."""
     for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
