@@ -60,9 +60,19 @@ def master_curve(xi, alpha=1.5):
     return (1 + np.asarray(xi, float) ** -alpha) ** (-1 / alpha)
 
 
-def shift_exponent(exponent):
-    """d ln p / d ln v = -(n+1)/n of a Kelvin body, p(v) of Eq. 23: xi is a function of F p(v) alone."""
-    return -(exponent + 1) / exponent
+def shift_exponent(exponent, beta=1.0):
+    """d ln p / d ln v = -beta (n+1)/n, p(v) of Eq. 23, of a solid with G'' ~ omega^beta; 1 of a Kelvin body.
+
+    p(v) ~ G''(q_max v)^(-(n+1)/n), from Eq. 22: its argument is a function of F p(v) alone.
+    """
+    return -beta * (exponent + 1) / exponent
+
+
+def loss_exponent(elastomer, wave_number, speeds):
+    """beta of G'' ~ omega^beta, from the lowest to the highest of some speeds [m/s] at a wave number [rad/m]."""
+    slow, fast = min(speeds), max(speeds)
+    loss = elastomer.complex_modulus(wave_number * np.array([slow, fast])).imag
+    return float(np.log(loss[1] / loss[0]) / np.log(fast / slow))
 
 
 def edge_slope(indenter, radius):

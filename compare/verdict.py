@@ -224,7 +224,7 @@ def _misfits(case, collapses):
     """How far the curves miss one another once shifted as Eq. 23 predicts; value and error of the last one."""
     if not collapses:
         return
-    predicted = exact.shift_exponent(case.indenter.exponent)
+    predicted = predicted_exponent(case)
     misfits = {solver: misfit_at(result, predicted).rms for solver, result in collapses.items()}
     written = [
         f"{DIMENSIONS[solver]} {_percent(misfits[solver], 'no overlap')} "
@@ -242,12 +242,21 @@ def _misfits(case, collapses):
     )
 
 
+def predicted_exponent(case: Case) -> float:
+    """d ln p / d ln v that Eq. 23 predicts for the shortest wave of the case, or of its 1D grid's cut-off."""
+    speeds, rough = case.plan().load_speeds, case.roughness
+    if rough is None or len(speeds) < 2:
+        return exact.shift_exponent(case.indenter.exponent)
+    q_max = rough.q_max(rough.longest / case.mdr.points)
+    return exact.shift_exponent(case.indenter.exponent, exact.loss_exponent(case.elastomer, q_max, speeds))
+
+
 def _percent(value, otherwise):
     return f"{value:.1%}" if np.isfinite(value) else otherwise
 
 
 def _collapse_number(case, solver, result):
-    predicted = exact.shift_exponent(case.indenter.exponent)
+    predicted = predicted_exponent(case)
     as_predicted = misfit_at(result, predicted)
     fitted = plus_minus(result.exponent if result.overlaps and result.separable else nan, result.exponent_error)
     return Number(

@@ -8,7 +8,20 @@ from scipy.integrate import quad
 
 from compare import exact
 from compare.exact import Exact
-from scene import Cone, Cylinder, Elastic, Indent, Kelvin, PowerLaw, Refused, Scene, SelfAffine, Slide, Sphere
+from scene import (
+    Cone,
+    Cylinder,
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+)
 from scene import StandardLinearSolid as Solid
 
 SHAPES = [Sphere(radius=2e-2), Cone(angle=0.2), PowerLaw(coefficient=30.0, exponent=3.0)]
@@ -130,3 +143,16 @@ def test_what_has_no_closed_form_is_refused_by_name():
         with pytest.raises(Refused, match=word):
             Exact().solve(scene)
     assert not Exact().refusals(Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Slide(speed=0.1, load=1.0)))
+
+
+def test_the_loss_exponent_of_a_power_law_shifts_by_beta_times_the_exponent_of_a_kelvin_body():
+    kelvin = Kelvin(modulus=1e6, relaxation_time=1e-3)
+    power = Fractional(
+        modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-2, highest_frequency=1e7
+    )
+    speeds = (0.01, 0.1, 1.0)
+    assert exact.loss_exponent(kelvin, 1e4, speeds) == pytest.approx(1.0, rel=1e-12)
+    beta = exact.loss_exponent(power, 1e4, speeds)
+    assert beta == pytest.approx(0.3, abs=1e-3)
+    # Eq. 25 of the paper: -3 beta / 2 for a sphere
+    assert exact.shift_exponent(2, beta) == pytest.approx(-0.45, abs=2e-3)

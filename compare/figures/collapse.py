@@ -3,9 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from .. import exact
 from ..mastercurve import misfit_at, shifted
-from ..verdict import DIMENSIONS, Judgement, explain
+from ..verdict import DIMENSIONS, Judgement, explain, predicted_exponent
 from . import style
 
 NAME = "collapse"
@@ -19,7 +18,7 @@ def figure(judgement: Judgement) -> Figure | None:
     drawing = style.canvas(style.DOUBLE, 4.2)
     rows = [[f"{solver} {column}" for column in COLUMNS] + ["shift"] for solver in DIMENSIONS]
     axes = drawing.subplot_mosaic(rows, width_ratios=(1, 1, 1, 1.15))
-    slope = exact.shift_exponent(judgement.case.indenter.exponent)
+    slope = predicted_exponent(judgement.case)
     for solver, dimension in DIMENSIONS.items():
         result = judgement.collapses.get(solver)
         for column, title in COLUMNS.items():
