@@ -71,8 +71,8 @@ class MDR:
     def solve(self, scene: Scene) -> Result:
         """Solve the scene.
 
-        Raises Refused for what refusals names; SolveError if the contact leaves the grid or a prescribed depth
-        does not reach the highest asperity.
+        Raises Refused for what refusals names; EmptyContact if a prescribed depth does not reach the highest
+        asperity; SolveError if the contact leaves the grid, or a smooth one spans too few of its pixels.
         """
         refuse(self, scene)
         start = process_time()
