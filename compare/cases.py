@@ -18,6 +18,7 @@ from scene.quantities import CLOSED, Positive, Whole
 from scene.reading import read
 from scene.rheology import Elastomer
 from scene.scales import elastic_contact
+from scene.scene import fit_together
 
 Count = Annotated[Whole, Field(ge=1)]
 Factors = Annotated[tuple[Positive, ...], Field(min_length=1)]
@@ -90,6 +91,8 @@ class Case:
     study: Study = Study()
     bem: BEM = BEM(points=128)
     mdr: MDR = MDR(points=5000)
+
+    _fits = model_validator(mode="after")(fit_together)
 
     @property
     def scene(self) -> Scene:

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Result, Scene, SolveError
+from scene import Cylinder, Plane, Result, Scene, SolveError, Wave
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
@@ -57,10 +57,15 @@ class MDR:
     def refusals(self, scene: Scene) -> list[str]:
         """Why the scene cannot be solved, one sentence each; empty when it can."""
         reasons = []
-        if isinstance(scene.indenter, Cylinder):
+        if isinstance(scene.indenter, Cylinder | Plane):
             reasons.append(
-                "a Cylinder is no body of revolution, so it has no one-dimensional profile: "
-                "use a Sphere, Cone or PowerLaw, or a three-dimensional solver"
+                f"a {type(scene.indenter).__name__} is no body of revolution, so it has no one-dimensional "
+                "profile: use a Sphere, Cone or PowerLaw, or a three-dimensional solver"
+            )
+        elif isinstance(scene.roughness, Wave):
+            reasons.append(
+                f"roughness = {type(scene.roughness).__name__} is not isotropic, so no one-dimensional spectrum "
+                "stands for it: use SelfAffine, or a three-dimensional solver"
             )
         elif scene.roughness is not None:
             reasons += _too_broad(scene) or _unresolved(

@@ -5,7 +5,7 @@ from math import floor, pi, sqrt
 
 import numpy as np
 
-from scene.roughness import SelfAffine, power_integral
+from scene.roughness import SelfAffine
 
 # The spawn key keeps the phases of a line apart from those of a surface drawn with the same seed.
 _LINE = 1
@@ -58,8 +58,8 @@ def amplitudes(roughness: SelfAffine, bandwidth: float) -> np.ndarray:
     # The bandwidth is a quotient: rounding must not cost it its last wave.
     edges = np.arange(floor(bandwidth * (1 + 1e-9)) + 1) + 0.5
     edges[0], edges[-1] = 1.0, bandwidth
-    power = -2 * roughness.hurst - 1
-    shares = power_integral(power, edges[:-1], edges[1:]) / power_integral(power, 1.0, bandwidth)
+    edges = edges * roughness.q_min
+    shares = roughness.share(edges[:-1], edges[1:], bandwidth * roughness.q_min)
     return roughness.rms_height * np.sqrt(2 * shares)
 
 

@@ -1,18 +1,19 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
 from .fractional import Fractional
-from .indenter import Cone, Cylinder, PowerLaw, Sphere
+from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
 from .motion import Indent, Slide
 from .protocol import EmptyContact, Refused, SolveError, Solver
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
-from .roughness import SelfAffine
+from .roughness import CrossedWaves, SelfAffine, Wave
 from .scene import Scene
 from .table import Table, read_table
 from .tabulated import Tabulated
 
 __all__ = [
     "Cone",
+    "CrossedWaves",
     "Cylinder",
     "Elastic",
     "EmptyContact",
@@ -20,6 +21,7 @@ __all__ = [
     "Indent",
     "Kelvin",
     "KelvinChain",
+    "Plane",
     "PowerLaw",
     "Prony",
     "Refused",
@@ -33,5 +35,6 @@ __all__ = [
     "StandardLinearSolid",
     "Table",
     "Tabulated",
+    "Wave",
     "read_table",
 ]

@@ -1,7 +1,7 @@
 """Rigid macroscopic shapes: height z(x, y) >= 0 [m] above the lowest point, and its slope along x."""
 
 from math import gamma, pi, sqrt, tan
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -15,6 +15,7 @@ class Axisymmetric:
 
     coefficient: float
     exponent: float
+    pressed_by: ClassVar[tuple[str, ...]] = ("load", "depth")
 
     def height(self, x, y):
         """z(x, y) [m] for coordinates [m] of any broadcastable shapes."""
@@ -84,8 +85,13 @@ class PowerLaw(Axisymmetric):
 
 @dataclass(frozen=True, config=CLOSED)
 class Cylinder:
-    """Cylinder lying across the sliding direction, as z = x^2 / (2 radius): a line contact. radius [m]."""
+    """Cylinder lying across the sliding direction, as z = x^2 / (2 radius): a line contact. radius [m].
 
+    Forces are per length of the line [N/m]. The surface of a half-space under a line load sinks without bound, so
+    depths are counted from the surface one radius away from an elastic line load.
+    """
+
+    pressed_by: ClassVar[tuple[str, ...]] = ("line_load",)
     radius: Positive
     type: Literal["cylinder"] = Field(default="cylinder", repr=False)
 
@@ -98,4 +104,24 @@ class Cylinder:
         return np.broadcast_to(x / self.radius, np.broadcast_shapes(np.shape(x), np.shape(y)))
 
 
-Indenter = Annotated[Sphere | Cone | PowerLaw | Cylinder, Field(discriminator="type")]
+@dataclass(frozen=True, config=CLOSED)
+class Plane:
+    """Nominally flat plane whose roughness repeats for ever: one period of it is a cell.
+
+    Forces are those of a cell [N]. The depth is that of the mean plane below the mean deformed surface: minus the
+    mean gap.
+    """
+
+    pressed_by: ClassVar[tuple[str, ...]] = ("pressure", "gap")
+    type: Literal["plane"] = Field(default="plane", repr=False)
+
+    def height(self, x, y):
+        """z [m]: zero."""
+        return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+
+    def slope(self, x, y):
+        """dz/dx [1]: zero."""
+        return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+
+
+Indenter = Annotated[Sphere | Cone | PowerLaw | Cylinder | Plane, Field(discriminator="type")]

@@ -80,7 +80,7 @@ def test_a_contact_of_a_few_points_is_an_error():
 
 
 def test_a_cylinder_is_refused_by_name():
-    scene = Scene(Cylinder(1e-2), Elastic(1e6), Indent(load=1.0))
+    scene = Scene(Cylinder(1e-2), Elastic(1e6), Indent(line_load=1.0))
     with pytest.raises(Refused, match="BEM cannot solve this scene: indenter = Cylinder"):
         BEM().solve(scene)
 

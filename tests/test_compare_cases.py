@@ -26,6 +26,7 @@ type = "slide"
 speed = 0.1
 load = 1.0
 [roughness]
+type = "self-affine"
 hurst = 0.2
 rms_height = 1e-6
 longest = 1e-2
@@ -100,9 +101,9 @@ MISTAKES = {
     "an empty list": (SCENE + "[study]\ndepths = []\n", "study.depths"),
     "an unknown setting of a solver": (SCENE + "[bem]\npoint = 64\n", "bem.point"),
     "a missing table": (SCENE.replace("[motion]", "[study]\n[movement]"), "motion"),
-    "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N] and depth [m]"),
+    "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N], depth [m]"),
     "no TOML": ("radius 3", "TOML"),
-    "a shape that has no third dimension": (SCENE.replace('"sphere"', '"cylinder"'), "Cylinder"),
+    "a shape that has no third dimension": (SCENE.replace('"sphere"', '"cylinder"'), "does not press a Cylinder"),
 }
 
 
@@ -157,6 +158,6 @@ def test_roughness_of_no_height_is_none(case):
 
 def test_what_a_solver_lacks_is_refused(tmp_path):
     path = tmp_path / "case.toml"
-    path.write_text(SCENE.replace('"sphere"', '"cylinder"'))
+    path.write_text(SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"))
     with pytest.raises(Refused, match="Cylinder"):
         read_case(path)

@@ -138,7 +138,7 @@ def test_what_has_no_closed_form_is_refused_by_name():
     for scene, word in (
         (Scene(Sphere(radius=1e-2), RUBBER, Slide(speed=0.1, load=1.0)), "speed = 0.1"),
         (Scene(Sphere(radius=1e-2), RUBBER, Indent(load=1.0), rough), "roughness"),
-        (Scene(Cylinder(radius=1e-2), RUBBER, Indent(load=1.0)), "Cylinder"),
+        (Scene(Cylinder(radius=1e-2), RUBBER, Indent(line_load=1.0)), "Cylinder"),
     ):
         with pytest.raises(Refused, match=word):
             Exact().solve(scene)

@@ -16,6 +16,7 @@ from scene import (
     Indent,
     Kelvin,
     KelvinChain,
+    Plane,
     PowerLaw,
     Prony,
     Refused,
@@ -25,6 +26,7 @@ from scene import (
     SolveError,
     Sphere,
     StandardLinearSolid,
+    Wave,
 )
 
 KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
@@ -85,11 +87,21 @@ def test_every_linear_solid_may_slide_or_rest(elastomer):
         assert MDR().solve(replace(scene, motion=motion)).residual <= 1e-10
 
 
-def test_a_cylinder_is_refused_by_name():
-    scene = Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=1.0, load=1.0), ROUGH.roughness)
+WAVY = Wave(amplitude=1e-6, wavelength=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("scene", "word"),
+    [
+        (Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=1.0, line_load=1.0), ROUGH.roughness), "Cylinder"),
+        (Scene(Plane(), SOLID, Slide(speed=1.0, pressure=1.0), ROUGH.roughness), "Plane"),
+        (replace(ROUGH, roughness=WAVY), "Wave"),
+    ],
+)
+def test_what_has_no_one_dimensional_profile_is_refused_by_name(scene, word):
     (reason,) = MDR().refusals(scene)
-    assert "Sphere, Cone or PowerLaw" in reason
-    with pytest.raises(Refused, match=r"MDR cannot .*Cylinder"):
+    assert word in reason
+    with pytest.raises(Refused, match=rf"MDR cannot .*{word}"):
         MDR().solve(scene)
 
 

@@ -14,6 +14,7 @@ from scene import (
     Indent,
     Kelvin,
     KelvinChain,
+    Plane,
     PowerLaw,
     Prony,
     Scene,
@@ -27,7 +28,7 @@ from scene.reading import InvalidInput, read
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
 MOTION = '[motion]\ntype = "slide"\nspeed = 0.1\nload = 1.0\n'
-ROUGHNESS = "[roughness]\nhurst = 0.2\nrms_height = 5e-5\nlongest = 1e-2\n"
+ROUGHNESS = "[roughness]\ntype = 'self-affine'\nhurst = 0.2\nrms_height = 5e-5\nlongest = 1e-2\n"
 SCENE = INDENTER + ELASTOMER + MOTION
 WHOLE = SCENE + ROUGHNESS
 
@@ -84,10 +85,12 @@ def test_every_solid_can_be_read(tmp_path, table, expected):
         ('type = "cone"\nangle = 0.2', Cone(0.2)),
         ('type = "power-law"\ncoefficient = 3\nexponent = 2.5', PowerLaw(3.0, 2.5)),
         ('type = "cylinder"\nradius = 1', Cylinder(1.0)),
+        ('type = "plane"', Plane()),
     ],
 )
 def test_every_indenter_can_be_read(tmp_path, table, expected):
-    assert scene_from(tmp_path, f"{ELASTOMER}{MOTION}[indenter]\n{table}\n").indenter == expected
+    motion = MOTION.replace("load", expected.pressed_by[0]) + ROUGHNESS
+    assert scene_from(tmp_path, f"{ELASTOMER}{motion}[indenter]\n{table}\n").indenter == expected
 
 
 @pytest.mark.parametrize(
@@ -106,8 +109,14 @@ def test_every_indenter_can_be_read(tmp_path, table, expected):
             '"jelly"',
             r"elastomer.type = 'jelly': one of 'elastic', 'kelvin', .*'kelvin-chain', 'fractional', 'tabulated'",
         ),
-        ("load = 1.0", "", r"motion: load = None, depth = None: give exactly one of load \[N\] and depth"),
-        ("load = 1.0", "load = 1.0\ndepth = 1e-4", r"load = 1.0, depth = 0.0001: give exactly one"),
+        ("load = 1.0", "", r"motion: none given: give exactly one of load \[N\], depth \[m\]"),
+        ("load = 1.0", "pressure = 1.0", r"motion.pressure = 1 does not press a Sphere: give load \[N\] or depth"),
+        (
+            '"sphere"\nradius = 1e-2',
+            '"plane"',
+            r"motion.load = 1 does not press a Plane: give pressure",
+        ),
+        ("load = 1.0", "load = 1.0\ndepth = 1e-4", r"load = 1, depth = 0.0001: give exactly one"),
         ("load = 1.0", "load = 0", r"motion.load = 0.*greater than 0"),
         ("speed = 0.1", "speed = -0.1", r"motion.speed = -0.1: .*greater than or equal to 0"),
         ("[motion]", "[movement]", r"motion: missing, a table"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from scene import SelfAffine
+from scene import CrossedWaves, SelfAffine, Wave
 from scene.roughness import power_integral
 
 ROUNDING = 1e-12
@@ -17,16 +17,21 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
 
 
 def integral(function, rough):
-    """Over the wave numbers of the spectrum, in the logarithm of them, where powers are smooth."""
-    low, high = np.log(rough.q_min), np.log(rough.q_max(0.0))
+    """Over the wave numbers of the spectrum, in their logarithm: to the corner and from it."""
+    low, corner, high = np.log([rough.q_min, rough.q_rolloff, rough.q_max(0.0)])
+    return _between(low, corner, function) + _between(corner, high, function)
+
+
+def _between(low, high, function):
     # Not a rounding outside.
     q = np.exp((low + high) / 2 + (high - low) / 2 * NODES)
     return (high - low) / 2 * WEIGHTS @ (q * function(q))
 
 
+@pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
 @pytest.mark.parametrize("hurst", HURSTS)
-def test_both_densities_integrate_to_the_rms_height(hurst):
-    rough = replace(ROUGH, hurst=hurst)
+def test_both_densities_integrate_to_the_rms_height(hurst, rolloff):
+    rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
     top = rough.q_max(0.0)
     line = 2 * integral(lambda q: rough.density_1d(q, top), rough)
     surface = 2 * np.pi * integral(lambda q: q * rough.density_2d(q, top), rough)
@@ -34,9 +39,10 @@ def test_both_densities_integrate_to_the_rms_height(hurst):
     assert surface == pytest.approx(rough.rms_height**2, rel=ROUNDING)
 
 
+@pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
 @pytest.mark.parametrize("hurst", HURSTS)
-def test_both_densities_integrate_to_the_rms_slope(hurst):
-    rough = replace(ROUGH, hurst=hurst)
+def test_both_densities_integrate_to_the_rms_slope(hurst, rolloff):
+    rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
     top = rough.q_max(0.0)
     line = 2 * integral(lambda q: q**2 * rough.density_1d(q, top), rough)
     surface = 2 * np.pi * integral(lambda q: q**3 * rough.density_2d(q, top), rough)
@@ -103,3 +109,22 @@ def test_without_height_there_is_no_slope():
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(change, said):
     with pytest.raises(ValidationError, match=said):
         replace(ROUGH, **change)
+
+
+def test_above_the_rolloff_the_spectrum_is_flat_and_below_it_falls():
+    rough = replace(ROUGH, rolloff=1e-3)
+    top = rough.q_max(0.0)
+    q = rough.q_rolloff * np.array([0.1, 0.5, 1.0, 2.0])
+    density = rough.density_2d(q, top) / rough.density_2d(rough.q_rolloff, top)
+    np.testing.assert_allclose(density, [1, 1, 1, 2 ** (-2 * rough.hurst - 2)], rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("rolloff", [1e-4, 2e-2])
+def test_a_rolloff_outside_the_spectrum_is_named(rolloff):
+    with pytest.raises(ValidationError, match=f"rolloff = {rolloff:g} must be more than shortest"):
+        replace(ROUGH, rolloff=rolloff)
+
+
+@pytest.mark.parametrize(("kind", "mean_square"), [(Wave, 1 / 2), (CrossedWaves, 1 / 4)])
+def test_waves_have_the_rms_height_of_their_cosines(kind, mean_square):
+    assert kind(amplitude=3.0, wavelength=2.0).rms_height == pytest.approx(3 * mean_square**0.5, rel=ROUNDING)
