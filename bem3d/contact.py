@@ -5,10 +5,11 @@ sum(p) = load. The operator A is positive definite; it need not be symmetric.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from . import kernels
 from .krylov import conjugate_gradients, gmres
 
 ROUNDS = 400  # sets of contact tried before giving up; 5 to 30 are usual
@@ -23,6 +24,9 @@ class NotConverged(RuntimeError):
     """No set of contact was found on which all conditions hold to the tolerance."""
 
 
+FUSED = kernels.Fused()
+
+
 @dataclass(frozen=True)
 class Contact:
     """Pressure and gap (ny, nx), depth, violation as `tolerance` measures it, and the sets of contact tried."""
@@ -32,6 +36,10 @@ class Contact:
     depth: float
     violation: float
     rounds: int
+
+    def map(self, taken_over: Callable) -> "Contact":
+        """The same with both arrays taken over, to where they are wanted."""
+        return replace(self, pressure=taken_over(self.pressure), gap=taken_over(self.gap))
 
 
 def solve(
@@ -43,6 +51,7 @@ def solve(
     load: float | None = None,
     precondition: Callable | None = None,
     symmetric: bool = False,
+    sums=FUSED,
 ) -> Contact:
     """Solve roughly on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
 
@@ -51,38 +60,38 @@ def solve(
     depth, load : exactly one; load is sum(p)
     precondition : approximate inverse of the operator on the whole grid
     symmetric : conjugate gradients, else GMRES, on each set
+    sums : see `kernels`
 
     Raises NotConverged.
     """
-    krylov = conjugate_gradients if symmetric else gmres
-    pressure, accuracy = _balanced(start, load), ACCURACY
-    dropped = np.zeros(heights.shape, bool)
+    krylov, xp = conjugate_gradients if symmetric else gmres, sums.xp
+    heights = xp.ascontiguousarray(heights)
+    pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
+    dropped = xp.zeros(heights.shape, bool)
+    gap, displacement, lowest = xp.empty(heights.shape), xp.empty(heights.shape), float(heights.min())
     for rounds in range(1, ROUNDS + 1):
         contact = pressure > 0
-        free = operator(pressure) + heights
-        level = free[contact].mean() if depth is None else depth
-        gap = free - level
-        aim = tolerance * (level - heights.min())
-        inside = np.abs(gap[contact]).max()
-        outside = -gap.min(where=~contact, initial=0.0)
+        operator(pressure, out=displacement)
+        level = float((displacement + heights)[contact].mean()) if depth is None else depth
+        inside, outside = sums.gaps(displacement, heights, level, contact, gap)
+        aim = tolerance * (level - lowest)
         if inside <= aim and outside <= aim:
-            return Contact(pressure, gap, float(level), float(max(inside, outside) / aim * tolerance), rounds)
+            return Contact(pressure, gap, level, max(inside, outside) / aim * tolerance, rounds)
         if rounds % PATIENCE == 0:
             accuracy /= 2
         if inside <= max(aim, accuracy * outside):
             penetrating = gap < -aim
-            if np.count_nonzero(penetrating & dropped) > READMITTED * np.count_nonzero(contact):
+            if xp.count_nonzero(penetrating & dropped) > READMITTED * xp.count_nonzero(contact):
                 accuracy /= CLOSER
             contact |= penetrating
             dropped[:] = False
-        on_set = _OnSet(operator, precondition, contact, mean_free=depth is None)
-        correction = krylov(
-            on_set.operator, -on_set.restrict(gap), on_set.precondition, accuracy, aim, INNER_ITERATIONS
-        )
-        pressure = np.maximum(pressure + on_set.extend(correction), 0.0)
-        dropped |= contact & (pressure == 0)
-        if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
-            pressure, accuracy = np.maximum(level - heights, 0.0), accuracy / 4
+        on_set = _OnSet(operator, precondition, contact, depth is None, sums)
+        correction = krylov(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
+        values = xp.maximum(pressure.reshape(-1)[on_set.where] + correction, 0.0)
+        sums.put(values, on_set.where, pressure)
+        dropped.reshape(-1)[on_set.where[values == 0]] = True
+        if not values.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
+            pressure, accuracy = xp.maximum(level - heights, 0.0), accuracy / 4
         pressure = _balanced(pressure, load)
     violation = max(inside, outside) / aim * tolerance
     raise NotConverged(f"after {ROUNDS} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
@@ -95,26 +104,44 @@ def _balanced(pressure, load):
 class _OnSet:
     """The operator on the points of contact alone; at given load on corrections that keep the load."""
 
-    def __init__(self, operator, precondition, contact, mean_free):
-        self._operator, self._precondition = operator, precondition
-        self._contact, self._mean_free = contact, mean_free
-        self._plane = np.zeros(contact.shape)
+    def __init__(self, operator, precondition, contact, mean_free, sums):
+        self.sums, self.where = sums, sums.xp.flatnonzero(contact)
+        self._operator, self._precondition, self._mean_free = operator, precondition, mean_free
+        self._plane, self._image = sums.xp.zeros(contact.shape), sums.xp.empty(contact.shape)
 
-    def extend(self, values):
-        plane = np.zeros(self._contact.shape)
-        plane[self._contact] = values
-        return plane
-
-    def restrict(self, plane):
-        values = plane[self._contact]
+    def restricted(self, plane):
+        """Its values on the set."""
+        values = plane.reshape(-1)[self.where]
         return values - values.mean() if self._mean_free else values
 
-    def operator(self, values):
-        self._plane[self._contact] = values
-        return self.restrict(self._operator(self._plane))
+    def operator(self, values, out, first, second):
+        """The operator's values into out; what is to be taken off them, and their products with two vectors."""
+        return self._through(self._operator, values, out, first, second)
 
-    def precondition(self, values):
+    def precondition(self, values, out, first, second):
+        """The same with the approximate inverse."""
         if self._precondition is None:
-            return values
-        self._plane[self._contact] = values
-        return self.restrict(self._precondition(self._plane))
+            out[:] = values
+            return 0.0, float((values * first).sum()), float((values * second).sum())
+        return self._through(self._precondition, values, out, first, second)
+
+    def _through(self, product, values, out, first, second):
+        self.sums.put(values, self.where, self._plane)
+        product(self._plane, out=self._image)
+        total, along, beside = self.sums.take(self._image, self.where, out, first, second)
+        # The vectors are free of mean themselves where means are taken off: their products need no correction.
+        return total / out.size if self._mean_free else 0.0, along, beside
+
+    def applied(self, values):
+        """The operator's values, as a new vector."""
+        return self._new(self.operator, values)
+
+    def preconditioned(self, values):
+        """The same with the approximate inverse."""
+        return self._new(self.precondition, values)
+
+    def _new(self, product, values):
+        out = self.sums.xp.empty_like(values)
+        mean, _, _ = product(values, out, values, values)
+        out -= mean
+        return out

@@ -1,28 +1,33 @@
-"""The square of surface on which a contact is sought."""
+"""The piece of surface on which a contact is sought."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 
 @dataclass(frozen=True)
 class Grid:
-    """points x points square pixels on extent x extent [m]; centre (x, y) [m] from the indenter's axis."""
+    """A square of points x points pixels on extent x extent [m], or one row of them.
+
+    centre : (x, y) [m] from the indenter's axis
+    width : of a single row, for contacts that are alike all along y [m]; without it, the grid is a square
+    """
 
     points: int
     extent: float
     centre: tuple[float, float] = (0.0, 0.0)
+    width: float | None = None
 
     @classmethod
-    def around(cls, box: "Box", points: int, margin: float) -> "Grid":
-        """A square `margin` times the longer side of a box.
+    def around(cls, box: "Box", points: int, margin: float, width: float | None = None) -> "Grid":
+        """A square, or a row of this width, `margin` times the longer side of a box.
 
         Its centre is moved to a whole pixel, so that the tip of an indenter lies alike on every grid.
         """
         extent = float(margin * box.side)
         pixel = extent / points
         x, y = (float(round(at / pixel) * pixel) for at in box.centre)
-        return cls(points, extent, (x, y))
+        return cls(points, extent, (x, y), width)
 
     @property
     def pixel(self) -> float:
@@ -30,40 +35,63 @@ class Grid:
         return self.extent / self.points
 
     @property
+    def rows(self) -> int:
+        """Pixels along y."""
+        return self.points if self.width is None else 1
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(rows, points) of every array on this grid."""
+        return self.rows, self.points
+
+    @property
+    def patch(self) -> float:
+        """Area of a pixel [m^2]."""
+        return self.pixel * (self.pixel if self.width is None else self.width)
+
+    @property
     def x(self) -> np.ndarray:
         """Pixel centres along the flow [m], (points,)."""
-        return self.centre[0] + self._offsets
+        return self.centre[0] + self._offsets(self.points)
 
     @property
     def y(self) -> np.ndarray:
-        """Pixel centres across the flow [m], (points,)."""
-        return self.centre[1] + self._offsets
+        """Pixel centres across the flow [m], (rows,)."""
+        return self.centre[1] + self._offsets(self.rows)
 
-    @property
-    def _offsets(self):
-        return (np.arange(self.points) - (self.points - 1) / 2) * self.pixel
+    def _offsets(self, count):
+        return (np.arange(count) - (count - 1) / 2) * self.pixel
 
     def coarser(self) -> "Grid":
-        """The same square with half the points."""
-        return Grid((self.points + 1) // 2, self.extent, self.centre)
+        """The same piece with half the points."""
+        return replace(self, points=(self.points + 1) // 2)
 
     def resample(self, values: np.ndarray) -> np.ndarray:
-        """Values (m, m) of any other grid on the same square, taken over to this one by bilinear interpolation."""
-        position = (np.arange(self.points) + 0.5) * len(values) / self.points - 0.5
-        lower = np.clip(np.floor(position).astype(int), 0, len(values) - 2)
-        share = np.clip(position - lower, 0.0, 1.0)
-        rows = (1 - share)[:, None] * values[lower] + share[:, None] * values[lower + 1]
-        return (1 - share) * rows[:, lower] + share * rows[:, lower + 1]
+        """Values of any other grid on the same piece, taken over to this one by bilinear interpolation."""
+        for axis, count in enumerate(self.shape):
+            values = _interpolated(values, count, axis)
+        return values
 
     def box(self, chosen: np.ndarray) -> "Box":
-        """The smallest box around the chosen pixels; chosen (points, points) bool, at least one True."""
+        """The smallest box around the chosen pixels; chosen (rows, points) bool, at least one True."""
         x, y = self.x[chosen.any(axis=0)], self.y[chosen.any(axis=1)]
-        half = self.pixel / 2
-        return Box(x[0] - half, x[-1] + half, y[0] - half, y[-1] + half)
+        half, across = self.pixel / 2, self.pixel / 2 if self.width is None else 0.0
+        return Box(x[0] - half, x[-1] + half, y[0] - across, y[-1] + across)
 
     def on_rim(self, chosen: np.ndarray) -> bool:
-        """Whether any chosen pixel lies on the rim of the square."""
-        return bool(chosen[[0, -1]].any() or chosen[:, [0, -1]].any())
+        """Whether any chosen pixel lies on the rim; a single row ends at its first and last pixel only."""
+        return bool(chosen[:, [0, -1]].any() or (self.width is None and chosen[[0, -1]].any()))
+
+
+def _interpolated(values, count, axis):
+    given = values.shape[axis]
+    if given == count:
+        return values
+    position = (np.arange(count) + 0.5) * given / count - 0.5
+    lower = np.clip(np.floor(position).astype(int), 0, given - 2)
+    share = np.clip(position - lower, 0.0, 1.0)
+    share = share[:, None] if axis == 0 else share
+    return (1 - share) * values.take(lower, axis) + share * values.take(lower + 1, axis)
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,15 @@
 
 import numpy as np
 
-from scene import EmptyContact, Scene, SolveError
+from scene import CrossedWaves, Cylinder, EmptyContact, Plane, Scene, SolveError, Wave
 from scene.scales import elastic_contact
 
 from . import contact
+from .cell import Cell
+from .engine import Engine
 from .grid import Grid
+from .halfspace import HalfSpace
+from .line import Line
 from .sliding import Flow
 from .surface import RoughSurface
 
@@ -14,14 +18,36 @@ COARSEST = 64  # points a side from which a solve starts, or all there are below
 COARSE_TOLERANCE = 1e-3  # on all grids but the finest: they only provide the start
 
 
+def _medium(indenter, flow, engine):
+    match indenter:
+        case Plane():
+            return Cell(flow, engine)
+        case Cylinder(radius=radius):
+            return Line(flow, engine, datum=radius)
+        case _:
+            return HalfSpace(flow, engine)
+
+
 class Problem:
     """A scene on any grid. `work` counts operator applications times the points they acted on."""
 
-    def __init__(self, scene: Scene, threads: int):
-        self.scene, self.threads = scene, threads
+    def __init__(self, scene: Scene, engine: Engine):
+        self.scene, self.engine = scene, engine
         self.flow = Flow.of(scene.elastomer, scene.motion.speed)
-        self.work = 0
+        self.medium = _medium(scene.indenter, self.flow, engine)
+        self.work, self.transforms = 0, 0
         self._cut_off, self._surface = None, None
+
+    @property
+    def width(self) -> float | None:
+        """Of the single row of pixels [m] that stands for a contact alike all along y; None when it is not."""
+        match self.scene:
+            case Scene(indenter=Cylinder()):
+                return 1.0  # forces are per metre
+            case Scene(indenter=Plane(), roughness=Wave() as wave) if not isinstance(wave, CrossedWaves):
+                return wave.period
+            case _:
+                return None
 
     def surface(self, grid: Grid) -> RoughSurface | None:
         """The rough surface as a grid cuts it off; None for a smooth indenter."""
@@ -30,7 +56,7 @@ class Problem:
             return None
         q_max = rough.q_max(grid.pixel)
         if q_max != self._cut_off:
-            self._cut_off, self._surface = q_max, RoughSurface.draw(rough, q_max)
+            self._cut_off, self._surface = q_max, RoughSurface.of(rough, q_max)
         return self._surface
 
     def heights(self, grid: Grid, surface: RoughSurface | None, shift: float = 0.0) -> np.ndarray:
@@ -44,17 +70,20 @@ class Problem:
         macroscopic = self.scene.indenter.slope(grid.x[None, :], grid.y[:, None])
         return macroscopic if surface is None else macroscopic + surface.slopes(grid.x, grid.y)
 
-    def operator(self, grid: Grid):
-        """Pressure over E* -> displacement over the pixel."""
-        return self.flow.operator(grid, self.threads)
+    def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
+        """Energy lost per length slid under a pressure [Pa], without looking at the indenter [J/m].
 
-    def lost(self, grid: Grid, pressure: np.ndarray) -> float:
-        """Energy [J] lost per length [m] slid under a pressure [Pa]: friction without looking at the indenter."""
-        loss = self.flow.loss(grid, self.threads)
-        if loss is None:
-            return 0.0
-        self.work += grid.points**2
-        return float(np.sum(pressure * loss(pressure)) * grid.pixel**2 / self.flow.modulus)
+        By the slope of the displacement, the sum of the loss compliance over the spectrum of the pressure; and by
+        the work done on the surface on its way from pixel to pixel.
+        """
+        if self.flow.at_rest:
+            return 0.0, 0.0
+        work = []
+        for product in (self.medium.slope(grid), self.medium.gain(grid)):
+            image = self.engine.asnumpy(product(self.engine.asarray(pressure / self.flow.modulus)))
+            work.append(float(np.sum(pressure * image) * grid.patch))
+            self._count(grid, product)
+        return work[0], work[1]
 
     def solve(self, finest: Grid, tolerance: float) -> contact.Contact:
         """From the coarsest grid to the finest, each started from the one before; in units of `solve_on`."""
@@ -71,40 +100,67 @@ class Problem:
 
     def solve_on(self, grid: Grid, surface, start, tolerance) -> contact.Contact:
         """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError."""
-        motion = self.scene.motion
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
-        depth = None if motion.depth is None else motion.depth / grid.pixel
-        load = None if motion.load is None else motion.load / (self.flow.modulus * grid.pixel**2)
-        if depth is not None and depth <= heights.min():
-            raise EmptyContact(
-                f"motion.depth = {motion.depth:g} m leaves the contact empty: the indenter's lowest point is "
-                f"{heights.min() * grid.pixel:g} m above the undeformed surface, take a larger depth"
-            )
-        operator = self.operator(grid)
+        depth, load = self._pressed(grid, heights)
+        operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
+        start = self._first_guess(heights, grid, depth, load) if start is None else grid.resample(start)
+        here = self.engine.asarray
         try:
             return contact.solve(
                 operator,
-                heights,
-                self._first_guess(heights, grid, depth) if start is None else grid.resample(start),
+                here(heights),
+                here(start),
                 tolerance,
                 depth=depth,
                 load=load,
-                precondition=self.flow.preconditioner(grid, self.threads),
+                precondition=preconditioner,
                 symmetric=self.flow.at_rest,
-            )
+                sums=self.engine.sums,
+            ).map(self.engine.asnumpy)
         except contact.NotConverged as error:
-            raise SolveError(f"no converged contact on {grid.points} x {grid.points} points: {error}") from error
+            raise SolveError(f"no converged contact on {grid.points} x {grid.rows} points: {error}") from error
         finally:
-            self.work += operator.applications * grid.points**2
+            self._count(grid, operator)
+            self.transforms += preconditioner.applications * grid.points * grid.rows
 
-    def _first_guess(self, heights, grid, depth):
+    def _count(self, grid, product):
+        self.work += product.applications * grid.points * grid.rows
+        self.transforms += product.applications * grid.points * grid.rows
+
+    def _pressed(self, grid, heights):
+        """Depth [pixel] or load [pixels times E*], the other None. Raises EmptyContact."""
+        motion, prescribed = self.scene.motion, self.scene.motion.pressed_by
+        value, patches = getattr(motion, prescribed), self.flow.modulus * grid.patch
+        if prescribed in ("load", "line_load"):
+            return None, value / patches
+        if prescribed == "pressure":
+            return None, value / self.flow.modulus * grid.points * grid.rows
+        depth = (value if prescribed == "depth" else -value) / grid.pixel
+        lowest = heights.min()
+        if depth <= lowest:
+            wanted = "larger depth" if prescribed == "depth" else f"gap below {-lowest * grid.pixel:g} m"
+            raise EmptyContact(
+                f"motion.{prescribed} = {value:g} m leaves the contact empty: the indenter's lowest point is "
+                f"{(lowest - depth) * grid.pixel:g} m short of the undeformed surface, take a {wanted}"
+            )
+        return depth, None
+
+    def _first_guess(self, heights, grid, depth, load):
         """Pressure in proportion to the overlap with the undeformed surface.
 
-        At given load, on as many of the lowest points as the smooth contact at rest would cover.
+        At given load, on as many of the lowest points as the smooth contact at rest would cover; of a plane, as
+        many as carry the load at its rms slope.
         """
         if depth is None:
-            smooth = elastic_contact(self.scene).radius / grid.pixel
-            count = int(np.clip(np.pi * smooth**2, 4, heights.size / 4))
+            count = int(np.clip(self._smooth_count(grid, load), 4, heights.size - 1))
             depth = np.partition(heights, count, axis=None)[count]
         overlap = np.maximum(depth - heights, 0.0)
         return overlap / np.sqrt(np.count_nonzero(overlap))
+
+    def _smooth_count(self, grid, load):
+        """Pixels in contact, roughly: half of them at a mean pressure of E* rms slope / 2, and so on (Persson)."""
+        if not isinstance(self.scene.indenter, Plane):
+            radius = elastic_contact(self.scene).radius / grid.pixel
+            return min(2 * radius if grid.width else np.pi * radius**2, grid.points * grid.rows / 4)
+        slope = self._surface.rms_slope
+        return grid.points * grid.rows * np.tanh(2 * load / (grid.points * grid.rows) / slope)

@@ -1,58 +1,96 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
 import time
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Result, Scene, SolveError
+from scene import Cylinder, Plane, Result, Scene, SolveError
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
 from . import window
+from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .problem import Problem
+
+LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 
 @dataclass(frozen=True, config=CLOSED)
 class BEM:
-    """Boundary elements on a free viscoelastic half-space under a rigid indenter, at rest or in steady sliding.
+    """Boundary elements on a viscoelastic half-space under a rigid indenter, at rest or in steady sliding.
 
-    points : along each side of a square grid, 16 to 8192
-    extent : side of the square [m], around the indenter's axis; without it, the square is fitted to the contact
+    A body of revolution presses on a free surface, a Cylinder on a free line, a Plane on a cell that repeats.
+
+    points : along each side of a square grid, or along a line, 16 to 16384
+    extent : side of the square [m], around the indenter's axis; without it, the square is fitted to the contact.
+        The cell of a Plane is the period of its roughness
     tolerance : largest |gap| in contact and penetration outside it, over the depth of the indenter's lowest point
         below the undeformed surface; what is left is the `residual` of a result
     threads : of the Fourier transforms
+    precision : of the transforms; in single they are up to 1.7 times faster, need half the memory, and leave 1e-6
+        of the largest displacement as noise in the gap
+    transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
 
     Result.friction_force joins two estimates from one pressure, of which each has its strength: by traction, the
     pressure times the indenter's slope, and by loss, the energy lost per length slid. Traction counts in
     proportion to the lag of the grid's shortest wave, 0 to 1: an elastic contact has some friction by traction on
     a coarse grid and none by loss; a fast Kelvin contact, singular at its edge, loses digits by loss alone.
 
-    Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, friction_by_traction and
-    friction_by_loss [N], whose difference indicates the error, rounds; of a rough indenter also rms_height [m],
-    rms_slope (spectral, of the full gradient), each over a period, and points_per_shortest_wave.
-    Result.fields: x, y (N,) [m] and pressure [Pa], gap [m] (N, N), rows along y.
+    Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
+    preconditioner too, both in equivalents of the finest grid.
+    Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, rounds, transform_pairs;
+    friction_by_traction, friction_by_loss, friction_by_work [N]: by the indenter's slope, by the slope of the
+    displacement, by the work done on the surface from pixel to pixel; friction_disagreement, what the second
+    differs from the third, or from the first as far as that counts, over the normal force: an indicator of the
+    error of mu. Of a rough indenter also rms_height [m], rms_slope (spectral, of the full gradient), each over a
+    period, and points_per_shortest_wave; of a Plane mean_pressure [Pa], mean_gap [m], contact_fraction.
+    Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
+    varies along y.
     """
 
-    points: Annotated[Whole, Field(ge=16, le=8192)] = 256
+    points: Annotated[Whole, Field(ge=16, le=16384)] = 256
     extent: Positive | None = None
     tolerance: Annotated[Positive, Field(ge=1e-12, le=1e-2)] = 1e-5
     threads: Annotated[Whole, Field(ge=1)] = 1
+    precision: Literal["double", "single"] = "double"
+    transforms: Library = "ducc0"
+
+    @model_validator(mode="after")
+    def _within_precision(self):
+        if self.precision == "single" and self.tolerance < LEAST_SINGLE:
+            raise ValueError(
+                f"tolerance = {self.tolerance:g} cannot be reached in single precision: at least {LEAST_SINGLE:g}"
+            )
+        return self
 
     @property
     def name(self) -> str:
         return "BEM"
 
+    @property
+    def engine(self) -> Engine:
+        """Where it computes."""
+        return Engine(self.transforms, self.threads, self.precision)
+
     def refusals(self, scene: Scene) -> list[str]:
         """Why the scene cannot be solved."""
         reasons = []
-        if isinstance(scene.indenter, Cylinder):
-            reasons.append("indenter = Cylinder makes a line contact of infinite load; take a body of revolution")
-        if self.extent is not None:
+        if isinstance(scene.indenter, Cylinder) and scene.roughness is not None:
+            reasons.append("a rough Cylinder is no line contact: leave it out, or take a Sphere or a Plane")
+        if isinstance(scene.indenter, Plane):
+            if self.extent is not None:
+                reasons.append(f"extent = {self.extent:g} m: the cell of a Plane is the period of its roughness")
+            reasons += _unresolved(scene, Grid(self.points, scene.roughness.period))
+        elif self.extent is not None:
             reasons += _unresolved(scene, Grid(self.points, self.extent))
+        try:
+            _ = self.engine.xp
+        except Unavailable as missing:
+            reasons.append(str(missing))
         return reasons
 
     def solve(self, scene: Scene) -> Result:
@@ -60,17 +98,21 @@ class BEM:
         refuse(self, scene)
         started = time.process_time()
         with trusted():
-            problem = Problem(scene, self.threads)
-            grid, answer = self._windowed(problem) if self.extent is None else self._stated(problem)
+            problem = Problem(scene, self.engine)
+            grid, answer = self._answer(problem)
             result = self._result(problem, grid, answer, started)
         if not np.isfinite([result.normal_force, result.friction_force, result.depth]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
         return result
 
-    def _stated(self, problem):
-        grid = Grid(self.points, self.extent)
+    def _answer(self, problem):
+        repeats = isinstance(problem.scene.indenter, Plane)
+        if not repeats and self.extent is None:
+            return self._windowed(problem)
+        extent = problem.scene.roughness.period if repeats else self.extent
+        grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid)
-        window.check(grid, answer)
+        window.check(grid, answer, repeats)
         return grid, answer
 
     def _windowed(self, problem):
@@ -89,48 +131,69 @@ class BEM:
         return problem.solve(grid, self.tolerance)
 
     def _result(self, problem, grid, answer, started):
-        scene, surface, pixel = problem.scene, problem.surface(grid), grid.pixel
         pressure = answer.pressure * problem.flow.modulus
-        contact_points = np.count_nonzero(pressure)
-        traction = float(-np.sum(pressure * problem.slopes(grid, surface)) * pixel**2)
-        loss = problem.lost(grid, pressure)
+        normal_force = float(pressure.sum() * grid.patch)
+        traction = float(-np.sum(pressure * problem.slopes(grid, problem.surface(grid))) * grid.patch)
+        loss, work = problem.lost(grid, pressure)
         lag = problem.flow.lag(grid)
-        measures = {
-            "pixel": pixel,
-            "contact_area": float(contact_points * pixel**2),
-            "contact_points": float(contact_points),
-            "points_across_contact": float(grid.box(pressure > 0).side / pixel),
-            "friction_by_traction": traction,
-            "friction_by_loss": loss,
-            "rounds": float(answer.rounds),
-        }
-        if surface is not None:
-            measures |= {
-                "rms_height": surface.rms_height,
-                "rms_slope": surface.rms_slope,
-                "points_per_shortest_wave": float(2 * np.pi / scene.roughness.q_max(pixel) / pixel),
-            }
-        cutoff = None if surface is None else "resolved" if scene.roughness.shortest else "nyquist"
+        frictions = {"friction_by_traction": traction, "friction_by_loss": loss, "friction_by_work": work}
         return Result(
-            scene=scene,
+            scene=problem.scene,
             solver=self.name,
-            settings={
-                "points": self.points,
-                "extent": grid.extent,
-                "centre": grid.centre,
-                "tolerance": self.tolerance,
-                "threads": self.threads,
-                "cutoff": cutoff,
-            },
-            normal_force=float(pressure.sum() * pixel**2),
-            depth=answer.depth * pixel,
+            settings=self._settings(problem, grid),
+            normal_force=normal_force,
+            depth=answer.depth * grid.pixel,
             friction_force=lag * traction + (1 - lag) * loss,
             residual=answer.violation,
-            applications=problem.work / grid.points**2,
+            applications=problem.work / (grid.points * grid.rows),
             seconds=time.process_time() - started,
-            measures=measures,
-            fields={"x": grid.x, "y": grid.y, "pressure": pressure, "gap": answer.gap * pixel},
+            measures={
+                **_extents(problem, grid, answer),
+                **frictions,
+                "friction_disagreement": max(abs(work - loss), lag * abs(traction - loss)) / normal_force,
+                "rounds": float(answer.rounds),
+                "transform_pairs": problem.transforms / (grid.points * grid.rows),
+            },
+            fields={"x": grid.x, "y": grid.y, "pressure": pressure, "gap": answer.gap * grid.pixel},
         )
+
+    def _settings(self, problem, grid):
+        rough = problem.scene.roughness
+        return {
+            "points": self.points,
+            "extent": grid.extent,
+            "centre": grid.centre,
+            "tolerance": self.tolerance,
+            "threads": self.threads,
+            "precision": self.precision,
+            "transforms": self.transforms,
+            "cutoff": None if problem.surface(grid) is None else "resolved" if rough.shortest else "nyquist",
+        }
+
+
+def _extents(problem, grid, answer):
+    """What was touched, on what grid, by what roughness: measures of a result."""
+    touched = answer.pressure > 0
+    contact_points = np.count_nonzero(touched)
+    measures = {
+        "pixel": grid.pixel,
+        "contact_area": float(contact_points * grid.patch),
+        "contact_points": float(contact_points),
+        "points_across_contact": float(grid.box(touched).side / grid.pixel),
+    }
+    if (surface := problem.surface(grid)) is not None:
+        measures |= {
+            "rms_height": surface.rms_height,
+            "rms_slope": surface.rms_slope,
+            "points_per_shortest_wave": float(2 * np.pi / problem.scene.roughness.q_max(grid.pixel) / grid.pixel),
+        }
+    if isinstance(problem.scene.indenter, Plane):
+        measures |= {
+            "mean_pressure": float(answer.pressure.mean() * problem.flow.modulus),
+            "mean_gap": float(answer.gap.mean() * grid.pixel),
+            "contact_fraction": contact_points / answer.pressure.size,
+        }
+    return measures
 
 
 def _unresolved(scene, grid):

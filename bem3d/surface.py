@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scene import SelfAffine, SolveError
+from scene import CrossedWaves, SelfAffine, SolveError
 
 MOST_WAVES = 2048  # wavelengths of the cut-off on the period, each way: 135 MB of amplitudes
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
@@ -21,6 +21,18 @@ class RoughSurface:
 
     step: float
     amplitudes: np.ndarray
+
+    @classmethod
+    def of(cls, roughness, q_max: float) -> "RoughSurface":
+        """The surface of a scene's roughness, with the cut-off q_max [rad/m] where it has a spectrum."""
+        if isinstance(roughness, SelfAffine):
+            return cls.draw(roughness, q_max)
+        amplitudes = np.zeros((3, 2), complex)
+        if isinstance(roughness, CrossedWaves):  # cos x cos y is half of cos(x + y) and cos(x - y)
+            amplitudes[[0, 2], 1] = roughness.amplitude / 2
+        else:
+            amplitudes[1, 1] = roughness.amplitude
+        return cls(2 * np.pi / roughness.wavelength, amplitudes)
 
     @classmethod
     def draw(cls, roughness: SelfAffine, q_max: float) -> "RoughSurface":
@@ -61,8 +73,27 @@ class RoughSurface:
         return self._sum(1j * self._wave_numbers[1] * self.amplitudes, x, y)
 
     def _sum(self, amplitudes, x, y):
+        if self._spans_a_period(x, y):
+            return self._on_a_period(amplitudes, x, y)
         q_y, q_x = self._wave_numbers
         return (np.exp(1j * np.outer(y, q_y)) @ amplitudes @ np.exp(1j * np.outer(q_x, x))).real
+
+    def _spans_a_period(self, x, y):
+        """Whether the points divide a period evenly, and resolve every wave: then one transform does it."""
+        top = self.amplitudes.shape[1] - 1
+        pixels = 2 * np.pi / (self.step * np.array([len(x), len(y)]))
+        given = np.array([np.ptp(x) / max(len(x) - 1, 1), np.ptp(y) / max(len(y) - 1, 1)])
+        return min(len(x), len(y)) > 2 * top and np.allclose(given, pixels, rtol=1e-9, atol=0)
+
+    def _on_a_period(self, amplitudes, x, y):
+        q_y, q_x = self._wave_numbers
+        top, (ny, nx) = len(q_x) - 1, (len(y), len(x))
+        shifted = amplitudes / 2 * np.exp(1j * (q_y[:, None] * y[0] + q_x * x[0]))
+        waves = np.zeros((ny, nx // 2 + 1), complex)
+        waves[np.arange(-top, top + 1), : top + 1] = shifted
+        # Along y alone, a wave and its mirror image are both in the first column.
+        waves[:, 0] += np.conj(np.roll(waves[::-1, 0], 1))
+        return np.fft.irfft2(waves, s=(ny, nx), norm="forward")
 
     @property
     def rms_height(self) -> float:

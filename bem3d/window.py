@@ -36,7 +36,7 @@ def fitted(problem: Problem, points: int) -> Grid:
     coarse = min(points, COARSEST)
     box, margin = surroundings(problem), 1.0
     for _ in range(ATTEMPTS):
-        grid = Grid.around(box, coarse, margin)
+        grid = Grid.around(box, coarse, margin, problem.width)
         try:
             touched = problem.solve_on(grid, problem.surface(grid), None, COARSE_TOLERANCE).pressure > 0
         except EmptyContact:
@@ -48,13 +48,16 @@ def fitted(problem: Problem, points: int) -> Grid:
             box = found
         else:
             break
-    return Grid.around(box, points, margin)
+    return Grid.around(box, points, margin, problem.width)
 
 
-def check(grid: Grid, answer) -> None:
-    """Raise SolveError if the grid holds too little of the contact or too little of it is resolved."""
+def check(grid: Grid, answer, repeats: bool = False) -> None:
+    """Raise SolveError if the grid holds too little of the contact or too little of it is resolved.
+
+    A surface that repeats has no edge to reach.
+    """
     touched = answer.pressure > 0
-    if grid.on_rim(touched):
+    if not repeats and grid.on_rim(touched):
         raise SolveError(f"the contact reaches the edge of extent = {grid.extent:g} m; take a larger extent")
     if np.count_nonzero(touched) < FEWEST:
         raise SolveError(
@@ -73,8 +76,8 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
     if (missed := left_out(problem, grid, answer)) is not None:
         return Grid.around(box.union(missed), grid.points, MARGIN)
     if grid.on_rim(touched):
-        return Grid.around(box.padded(grid.extent / 8), grid.points, MARGIN)
-    closer = Grid.around(box.padded(grid.pixel), grid.points, MARGIN)
+        return Grid.around(box.padded(grid.extent / 8), grid.points, MARGIN, grid.width)
+    closer = Grid.around(box.padded(grid.pixel), grid.points, MARGIN, grid.width)
     if np.count_nonzero(touched) < FEWEST and closer.extent < SETTLED * grid.extent:
         return closer
     check(grid, answer)
@@ -107,7 +110,9 @@ def _penetrating(problem, grid, answer, surface, inner, outer):
     # No finer than the roughness asks for, nor than the solution itself was.
     step = max(grid.pixel, np.pi / problem.scene.roughness.q_max(grid.pixel) / 4)
     fine = Grid(int(np.clip(outer / step, RING_POINTS, SAMPLES)), outer, grid.centre)
-    displacement = fine.resample(problem.operator(coarse)(_binned(grid, answer.pressure, coarse)) * coarse.pixel)
+    pressure = problem.engine.asarray(_binned(grid, answer.pressure, coarse))
+    displacement = problem.engine.asnumpy(problem.medium.operator(coarse)(pressure))
+    displacement = fine.resample(displacement) * coarse.pixel
     depth = answer.depth * grid.pixel
     gap = displacement + problem.heights(fine, surface) - depth
     allowed = OVERLAP * (depth - problem.heights(grid, surface).min())

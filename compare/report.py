@@ -30,7 +30,7 @@ FIGURES = (contact, force_depth, friction_speed, friction_load, collapse, smooth
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "pyfftw", "numba", "matplotlib", "pydantic")
 # Units of the fields of a scene, with prefixes and without; a power law's coefficient has one of its own.
 PREFIXED = (
-    dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest"), "m")
+    dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest", "rolloff"), "m")
     | dict.fromkeys(("modulus", "rubbery_modulus", "glassy_modulus", "equilibrium_modulus", "moduli"), "Pa")
     | dict.fromkeys(("relaxation_time", "relaxation_times", "retardation_times"), "s")
     | {"load": "N"}
@@ -43,6 +43,7 @@ PLAIN = (
 WORDS = {
     "hurst": "Hurst exponent",
     "longest": "longest wave",
+    "rolloff": "roll-off",
     "shortest": "shortest wave",
     "poisson_ratio": "Poisson ratio",
 }

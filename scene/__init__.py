@@ -2,7 +2,7 @@
 
 from .fractional import Fractional
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
-from .motion import Indent, Slide
+from .motion import Indent, Program, Slide, Stage
 from .protocol import EmptyContact, Refused, SolveError, Solver
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
@@ -23,6 +23,7 @@ __all__ = [
     "KelvinChain",
     "Plane",
     "PowerLaw",
+    "Program",
     "Prony",
     "Refused",
     "Result",
@@ -32,6 +33,7 @@ __all__ = [
     "SolveError",
     "Solver",
     "Sphere",
+    "Stage",
     "StandardLinearSolid",
     "Table",
     "Tabulated",

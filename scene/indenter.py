@@ -103,6 +103,10 @@ class Cylinder:
         """dz/dx [1]."""
         return np.broadcast_to(x / self.radius, np.broadcast_shapes(np.shape(x), np.shape(y)))
 
+    def radius_at(self, height):
+        """Half-width [m] at which the shape reaches a height [m] >= 0."""
+        return np.sqrt(2 * self.radius * height)
+
 
 @dataclass(frozen=True, config=CLOSED)
 class Plane:

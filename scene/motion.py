@@ -1,7 +1,8 @@
-"""How the indenter moves: pressed in to rest, or sliding steadily, and what presses it."""
+"""How the indenter moves: pressed in to rest, sliding steadily or by a program, and what presses it."""
 
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
@@ -26,6 +27,11 @@ class _Pressed:
     def pressed_by(self) -> str:
         """Name of what is prescribed, one of `UNITS`."""
         return next(name for name in UNITS if getattr(self, name) is not None)
+
+    @property
+    def greatest(self) -> float:
+        """The value prescribed, in its unit."""
+        return getattr(self, self.pressed_by)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -61,4 +67,92 @@ class Slide(_Pressed):
     type: Literal["slide"] = Field(default="slide", repr=False)
 
 
-Motion = Annotated[Indent | Slide, Field(discriminator="type")]
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Stage:
+    """One stage of a program: a duration [s] at a constant speed [m/s].
+
+    load [N], depth [m], line_load [N/m] or pressure [Pa] at the end of the stage, ramped linearly from that at its
+    start; absent, it is held.
+    """
+
+    duration: Positive
+    speed: NonNegative = 0.0
+    load: NonNegative | None = None
+    depth: NonNegative | None = None
+    line_load: NonNegative | None = None
+    pressure: NonNegative | None = None
+
+    @property
+    def given(self) -> dict[str, float]:
+        """What the stage prescribes, name -> value at its end."""
+        values = {name: getattr(self, name, None) for name in UNITS}
+        return {name: value for name, value in values.items() if value is not None}
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Program:
+    """A history in time: stages one after the other, from zero load or depth on an undisturbed elastomer.
+
+    One quantity is prescribed throughout. At zero load, and lifted faster than the elastomer recovers, the surfaces
+    separate. A mean gap has no zero to start from: a Plane is pressed by its pressure.
+    """
+
+    stages: Annotated[tuple[Stage, ...], Field(min_length=1)]
+    type: Literal["program"] = Field(default="program", repr=False)
+
+    @model_validator(mode="after")
+    def _one_quantity(self):
+        names = list(dict.fromkeys(name for stage in self.stages for name in stage.given))
+        if len(names) > 1:
+            raise ValueError(f"stages prescribe {' and '.join(names)}: give one and the same throughout")
+        if not names or self.greatest == 0:
+            units = ", ".join(f"{name} [{UNITS[name]}]" for name in UNITS if hasattr(Stage, name))
+            raise ValueError(f"stages press nowhere: give one of {units}, above zero in one stage at least")
+        return self
+
+    @property
+    def pressed_by(self) -> str:
+        """Name of what is prescribed, one of `UNITS`."""
+        return next(name for stage in self.stages for name in stage.given)
+
+    @property
+    def greatest(self) -> float:
+        """The greatest value prescribed, in its unit."""
+        return max(value for stage in self.stages for value in stage.given.values())
+
+    @property
+    def held(self) -> Indent:
+        """The greatest load or depth held for ever."""
+        return Indent(**{self.pressed_by: self.greatest})
+
+    @property
+    def duration(self) -> float:
+        """Of all stages [s]."""
+        return float(self._times[-1])
+
+    @property
+    def length(self) -> float:
+        """Slid in all stages [m]."""
+        return float(self._paths[-1])
+
+    def prescribed(self, time):
+        """Load, depth or pressure at a time [s], any shape, in its unit."""
+        values = [0.0]
+        for stage in self.stages:
+            values.append(stage.given.get(self.pressed_by, values[-1]))
+        return np.interp(time, self._times, values)
+
+    def path(self, time):
+        """Length slid [m] until a time [s], any shape."""
+        return np.interp(time, self._times, self._paths)
+
+    @property
+    def _times(self):
+        return np.cumsum([0.0, *(stage.duration for stage in self.stages)])
+
+    @property
+    def _paths(self):
+        return np.cumsum([0.0, *(stage.speed * stage.duration for stage in self.stages)])
+
+
+Motion = Annotated[Indent | Slide | Program, Field(discriminator="type")]

@@ -1,13 +1,18 @@
-"""Scales of a scene: the relaxed, smooth contact that surrounds every answer. Bodies of revolution only."""
+"""Scales of a scene: the relaxed, smooth contact that surrounds every answer. Not of planes."""
 
 from dataclasses import dataclass
+from math import log, pi, sqrt
 
+from .indenter import Cylinder
 from .scene import Scene
 
 
 @dataclass(frozen=True)
 class ElasticContact:
-    """Relaxed frictionless contact of a smooth body of revolution: radius [m], depth [m], load [N]."""
+    """Relaxed frictionless contact of a smooth body of revolution: radius [m], depth [m], load [N].
+
+    Of a cylinder: half-width [m], depth [m] below the surface one cylinder radius away, load per length [N/m].
+    """
 
     radius: float
     depth: float
@@ -20,7 +25,16 @@ def elastic_contact(scene: Scene) -> ElasticContact:
     d = kappa_n c a^n and F = [2n/(n+1)] E* kappa_n c a^(n+1); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).
     """
     shape, motion = scene.indenter, scene.motion
+    if isinstance(shape, Cylinder):
+        return _line_contact(shape.radius, motion.line_load, scene.elastomer.indentation_modulus)
     n, g = shape.exponent, shape.mdr_coefficient
     stiffness = 2 * n / (n + 1) * scene.elastomer.indentation_modulus * g
     radius = (motion.depth / g) ** (1 / n) if motion.load is None else (motion.load / stiffness) ** (1 / (n + 1))
     return ElasticContact(radius, g * radius**n, stiffness * radius ** (n + 1))
+
+
+def _line_contact(radius, load, modulus):
+    """Hertz: a^2 = 4 P R / (pi E*), d = (P / (pi E*)) (2 ln(2R/a) + 1); Johnson (1985), ch. 4."""
+    half_width = sqrt(4 * load * radius / (pi * modulus))
+    depth = load / (pi * modulus) * (2 * log(2 * radius / half_width) + 1)
+    return ElasticContact(half_width, depth, load)

@@ -16,7 +16,7 @@ def fit_together(parts):
     allowed, given = parts.indenter.pressed_by, motion.pressed_by
     if given not in allowed:
         units = " or ".join(f"{name} [{UNITS[name]}]" for name in allowed)
-        raise ValueError(f"motion.{given} = {getattr(motion, given):g} does not press a {kind}: give {units}")
+        raise ValueError(f"motion.{given} = {motion.greatest:g} does not press a {kind}: give {units}")
     if isinstance(parts.indenter, Plane) and (parts.roughness is None or parts.roughness.rms_height == 0):
         raise ValueError("indenter = Plane without roughness touches everywhere: give roughness")
     return parts
@@ -28,7 +28,7 @@ class Scene:
 
     indenter : Sphere, Cone, PowerLaw, Cylinder or Plane
     elastomer : Elastic, Kelvin, StandardLinearSolid, Prony, KelvinChain, Fractional or Tabulated
-    motion : Indent or Slide
+    motion : Indent, Slide or Program
     roughness : SelfAffine, Wave or CrossedWaves; absent, the indenter is smooth
     """
 

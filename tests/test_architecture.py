@@ -15,8 +15,10 @@ ARROWS = {
     "compare": set(PACKAGES),
 }
 DOORS = {
-    "pyfftw": {"bem3d/convolution.py"},
-    "numba": {"mdr1d/foundation.py"},
+    "pyfftw": {"bem3d/engine.py"},
+    "ducc0": {"bem3d/engine.py"},
+    "cupy": {"bem3d/engine.py"},
+    "numba": {"bem3d/kernels.py", "mdr1d/foundation.py"},  # one a package: neither solver imports the other
     "tomllib": {"scene/reading.py"},
 }
 FILES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))

@@ -13,6 +13,7 @@ from scene import (
     Elastic,
     Indent,
     Kelvin,
+    Plane,
     Refused,
     Scene,
     SelfAffine,
@@ -79,10 +80,15 @@ def test_a_contact_of_a_few_points_is_an_error():
         BEM(points=64, extent=1e-2).solve(replace(LIGHT, motion=Indent(load=1e-9)))
 
 
-def test_a_cylinder_is_refused_by_name():
-    scene = Scene(Cylinder(1e-2), Elastic(1e6), Indent(line_load=1.0))
-    with pytest.raises(Refused, match="BEM cannot solve this scene: indenter = Cylinder"):
-        BEM().solve(scene)
+def test_what_it_lacks_is_refused_by_name():
+    rough_line = Scene(Cylinder(1e-2), Elastic(1e6), Indent(line_load=1.0), ROUGH)
+    with pytest.raises(Refused, match="BEM cannot solve this scene: a rough Cylinder"):
+        BEM().solve(rough_line)
+    plane = Scene(Plane(), Elastic(1e6), Indent(pressure=1e4), ROUGH)
+    with pytest.raises(Refused, match=r"extent = 0.02 m: the cell of a Plane"):
+        BEM(extent=2e-2).solve(plane)
+    with pytest.raises(Refused, match=r"points = 40 would carry it, 160 resolve it"):
+        BEM(points=32).solve(plane)
 
 
 def test_without_a_shortest_wave_the_grid_cuts_the_spectrum_off_and_the_result_says_so():

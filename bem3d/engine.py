@@ -1,0 +1,243 @@
+"""Where arrays live and who transforms them: the only door to the Fourier transforms and to the GPU.
+
+A plane of ny x nx values is convolved as rows, then columns, then rows again. Rows of zeros that pad a plane
+are never transformed, and columns go block by block, forward, through the symbol and back, while in the cache.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from . import kernels
+
+Library = Literal["ducc0", "fftw", "cupy"]
+BLOCK = 32  # lines transformed at a time: half a megabyte at 512 points, padded
+
+
+class Unavailable(RuntimeError):
+    """The library or the device asked for is not here."""
+
+
+@dataclass(frozen=True)
+class Engine:
+    """library : ducc0 or fftw on the processor, cupy on a GPU
+    threads : of the transforms on the processor
+    precision : of the transforms; everything else is computed in double
+    """
+
+    library: Library = "ducc0"
+    threads: int = 1
+    precision: Literal["double", "single"] = "double"
+
+    @property
+    def on_gpu(self) -> bool:
+        return self.library == "cupy"
+
+    @property
+    def xp(self):
+        """The module of arrays: numpy, or cupy. Raises Unavailable."""
+        return _cupy() if self.on_gpu else np
+
+    @property
+    def real(self):
+        """Number type of what is transformed."""
+        return np.float64 if self.precision == "double" else np.float32
+
+    @property
+    def complex(self):
+        """Number type of the transforms."""
+        return np.complex128 if self.precision == "double" else np.complex64
+
+    @property
+    def sums(self):
+        """The sums and updates of an iteration: see `kernels`."""
+        return kernels.Plain(self.xp) if self.on_gpu else kernels.Fused()
+
+    def asarray(self, values):
+        """An array of numpy, here."""
+        return self.xp.asarray(values)
+
+    def asnumpy(self, values) -> np.ndarray:
+        """An array from here, for numpy."""
+        return values.get() if self.on_gpu else np.asarray(values)
+
+    def product(self, symbol, shape, padded):
+        """The product with a symbol in Fourier space: callable, plane (ny, nx) -> plane, `out` optional.
+
+        symbol : (my//2+1, mx//2+1), real or complex, unnormalized; even in q_y
+        shape, padded : (ny, nx) and (my, mx)
+        """
+        if self.on_gpu:
+            return WholePlane(symbol, shape, padded, self.xp, self.complex)
+        return Blocked(symbol, shape, padded, self)
+
+    def transformed(self, kernel, padded):
+        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), rows y = 0..ny-1 of what is even in y."""
+        (ny, mx), my = kernel.shape, padded[0]
+        rows, columns = _DOUBLE._lines(ny, mx, real=True), _DOUBLE._lines(mx // 2 + 1, my, real=False)
+        waves = np.empty((ny, mx // 2 + 1), complex)
+        for block in _blocks(ny):
+            waves[block] = rows.forward(kernel[block])
+        symbol = np.empty((my // 2 + 1, mx // 2 + 1), complex)
+        for block in _blocks(mx // 2 + 1):
+            even = np.zeros((waves[:, block].shape[1], my), complex)
+            even[:, :ny] = waves[:, block].T
+            even[:, my - ny + 1 :] = even[:, ny - 1 : 0 : -1]
+            symbol[:, block] = columns.forward(even)[:, : my // 2 + 1].T
+        return symbol
+
+    def _lines(self, count, length, real):
+        return {"ducc0": _Ducc, "fftw": _Fftw}[self.library](min(BLOCK, count), length, self, real)
+
+    def good_size(self, least: int) -> int:
+        """An even length of quick transforms, at least `least`."""
+        size = 2 * -(-least // 2)
+        while _remainder(size // 2) > 1:
+            size += 2
+        return size
+
+
+_DOUBLE = Engine()
+
+
+def _remainder(size):
+    """What is left of a number without its factors 2, 3 and 5."""
+    for factor in (2, 3, 5):
+        while size % factor == 0:
+            size //= factor
+    return size
+
+
+def _cupy():
+    try:
+        import cupy
+
+        cupy.cuda.runtime.getDeviceCount()
+    except ImportError as error:
+        raise Unavailable("engine = cupy needs the extra gpu: pip install mdr-bem-crosscheck[gpu]") from error
+    except Exception as error:  # cupy's own errors cannot be named without it
+        raise Unavailable(f"engine = cupy finds no GPU: {error}") from error
+    return cupy
+
+
+class WholePlane:
+    """The product in one transform of the padded plane each way; xp: numpy or cupy."""
+
+    def __init__(self, symbol, shape, padded, xp, kind=np.complex128):
+        self.shape, self._padded, self._xp = shape, padded, xp
+        rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
+        self._symbol = xp.asarray(symbol[rows].astype(kind))
+        self._real = np.float32 if kind == np.complex64 else np.float64
+
+    def __call__(self, plane, out=None):
+        """The product (ny, nx)."""
+        fft, (ny, nx) = self._xp.fft, self.shape
+        waves = fft.rfft2(plane.astype(self._real), s=self._padded)
+        image = fft.irfft2(waves * self._symbol, s=self._padded)[:ny, :nx]
+        if out is None:
+            return image.astype(float)
+        out[:] = image
+        return out
+
+
+class Blocked:
+    """The product row by row and column by column, each block of columns while it is in the cache."""
+
+    def __init__(self, symbol, shape, padded, engine):
+        self.shape, self._padded = shape, padded
+        ny, (my, mx) = shape[0], padded
+        width = mx // 2 + 1
+        kind = engine.real if np.isrealobj(symbol) else engine.complex
+        self._symbol = np.ascontiguousarray((symbol / (my * mx)).T.astype(kind))
+        self._waves = _staggered(ny, width, engine.complex)
+        self._rows = engine._lines(ny, mx, real=True)
+        self._columns = engine._lines(width, my, real=False) if my > 1 else None
+
+    def __call__(self, plane, out=None):
+        """The product (ny, nx)."""
+        (ny, nx), waves = self.shape, self._waves
+        out = np.empty(self.shape) if out is None else out
+        for rows in _blocks(ny):
+            waves[rows] = self._rows.forward(plane[rows])
+        if self._columns is None:
+            waves *= self._symbol.T
+        else:
+            self._through_columns()
+        for rows in _blocks(ny):
+            out[rows] = self._rows.backward(waves[rows])[:, :nx]
+        return out
+
+    def _through_columns(self):
+        ny, half = self.shape[0], self._padded[0] // 2 + 1
+        mirrored = self._padded[0] - half  # rows of q_y < 0
+        for columns in _blocks(self._waves.shape[1]):
+            symbol = self._symbol[columns]
+            block = self._columns.forward(self._waves[:, columns].T)
+            block[:, :half] *= symbol
+            block[:, half:] *= symbol[:, mirrored:0:-1]
+            self._waves[:, columns] = self._columns.backward(block)[:, :ny].T
+
+
+def _staggered(count, length, kind):
+    """Rows a little wider than needed: of a power of two, all would share the same lines of the cache."""
+    return np.zeros((count, length + 8), kind)[:, :length]
+
+
+def _blocks(count):
+    return [slice(start, min(start + BLOCK, count)) for start in range(0, count, BLOCK)]
+
+
+class _Ducc:
+    """`count` lines of `length` points by ducc0, which plans nothing."""
+
+    def __init__(self, count, length, engine, real):
+        import ducc0  # on demand, as each library is
+
+        self._fft = ducc0.fft
+        self._real, self._length, self._threads = real, length, engine.threads
+        self._points = _staggered(count, length, engine.real if real else engine.complex)
+        self._waves = _staggered(count, length // 2 + 1, engine.complex) if real else self._points
+
+    def forward(self, values):
+        """Waves of lines of values, zeros behind them."""
+        count, given = values.shape
+        points, waves = self._points[:count], self._waves[:count]
+        points[:, :given], points[:, given:] = values, 0
+        transform = self._fft.r2c if self._real else self._fft.c2c
+        return transform(points, axes=(1,), forward=True, out=waves, nthreads=self._threads)
+
+    def backward(self, waves):
+        """Points of lines of waves, unnormalized."""
+        points = self._points[: len(waves)]
+        options = {"axes": (1,), "forward": False, "out": points, "nthreads": self._threads}
+        if self._real:
+            return self._fft.c2r(waves, lastsize=self._length, **options)
+        return self._fft.c2c(waves, **options)
+
+
+class _Fftw:
+    """The same by FFTW, which plans each length once and then remembers it."""
+
+    def __init__(self, count, length, engine, real):
+        import pyfftw as fftw
+
+        self._points = fftw.zeros_aligned((count, length), engine.real if real else engine.complex)
+        self._waves = fftw.empty_aligned((count, length // 2 + 1), engine.complex) if real else self._points
+        plan = {"axes": (1,), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT"), "threads": engine.threads}
+        self._forward = fftw.FFTW(self._points, self._waves, **plan)
+        self._backward = fftw.FFTW(self._waves, self._points, direction="FFTW_BACKWARD", **plan)
+
+    def forward(self, values):
+        """Waves of lines of values, zeros behind them."""
+        count, given = values.shape
+        self._points[:count, :given], self._points[:count, given:] = values, 0
+        self._forward.execute()
+        return self._waves[:count]
+
+    def backward(self, waves):
+        """Points of lines of waves, unnormalized."""
+        if not np.may_share_memory(waves, self._waves):
+            self._waves[: len(waves)] = waves
+        self._backward.execute()
+        return self._points[: len(waves)]
