@@ -18,6 +18,7 @@ READMITTED = 0.1  # of the contact: when more of what was dropped penetrates, th
 CLOSER = 30.0  # and from then on are closer by this factor
 PATIENCE = 30  # rounds after which they are closer by half, each time: rough solves can cycle, close ones do not
 INNER_ITERATIONS = 60
+FEW = 8  # points that span the least height to which errors are referred
 
 
 class NotConverged(RuntimeError):
@@ -29,11 +30,12 @@ FUSED = kernels.Fused()
 
 @dataclass(frozen=True)
 class Contact:
-    """Pressure and gap (ny, nx), depth, violation as `tolerance` measures it, and the sets of contact tried."""
+    """Pressure and gap (ny, nx), depth, lowest height, violation as `tolerance` measures it, sets tried."""
 
     pressure: np.ndarray
     gap: np.ndarray
     depth: float
+    lowest: float
     violation: float
     rounds: int
 
@@ -56,7 +58,8 @@ def solve(
     """Solve roughly on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
 
     start : pressure to begin with (ny, nx), >= 0; its support is the first set of contact
-    tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z)
+    tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z),
+        or what the heights in contact span where that is more (depths under a line may be negative)
     depth, load : exactly one; load is sum(p)
     precondition : approximate inverse of the operator on the whole grid
     symmetric : conjugate gradients, else GMRES, on each set
@@ -68,15 +71,16 @@ def solve(
     heights = xp.ascontiguousarray(heights)
     pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
     dropped = xp.zeros(heights.shape, bool)
-    gap, displacement, lowest = xp.empty(heights.shape), xp.empty(heights.shape), float(heights.min())
+    gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
+    lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
     for rounds in range(1, ROUNDS + 1):
         contact = pressure > 0
         operator(pressure, out=displacement)
         level = float((displacement + heights)[contact].mean()) if depth is None else depth
         inside, outside = sums.gaps(displacement, heights, level, contact, gap)
-        aim = tolerance * (level - lowest)
+        aim = tolerance * max(level - lowest, float(heights[contact].max()) - lowest, least)
         if inside <= aim and outside <= aim:
-            return Contact(pressure, gap, level, max(inside, outside) / aim * tolerance, rounds)
+            return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
         if rounds % PATIENCE == 0:
             accuracy /= 2
         if inside <= max(aim, accuracy * outside):

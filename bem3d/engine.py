@@ -60,7 +60,7 @@ class Engine:
 
     def asnumpy(self, values) -> np.ndarray:
         """An array from here, for numpy."""
-        return values.get() if self.on_gpu else np.asarray(values)
+        return self.xp.asnumpy(values) if self.on_gpu else np.asarray(values)
 
     def product(self, symbol, shape, padded):
         """The product with a symbol in Fourier space: callable, plane (ny, nx) -> plane, `out` optional.
@@ -115,9 +115,9 @@ def _cupy():
 
         cupy.cuda.runtime.getDeviceCount()
     except ImportError as error:
-        raise Unavailable("engine = cupy needs the extra gpu: pip install mdr-bem-crosscheck[gpu]") from error
+        raise Unavailable("transforms = 'cupy' needs the extra gpu") from error
     except Exception as error:  # cupy's own errors cannot be named without it
-        raise Unavailable(f"engine = cupy finds no GPU: {error}") from error
+        raise Unavailable(f"transforms = 'cupy' finds no GPU: {error}") from error
     return cupy
 
 

@@ -17,7 +17,6 @@ TINY = np.finfo(float).tiny
 LINE_SHORT = 10.0  # memory [pixel] below which differences of primitives keep their digits
 KINK_REACH, KINK_NODES, SMOOTH_NODES = 16, 24, 6  # to 1e-13
 LAG_TERMS = 40  # of the asymptotic series of `_lag`, for z beyond as many: to exp(-40)
-SHORT = 0.1  # memory [pixel] below which a gain across a pixel is taken from the curvature of the kernel
 
 
 def elastic(nx, ny, shift=0.0):
@@ -48,32 +47,9 @@ def flowing(nx, ny, instantaneous, shares, lengths, shift):
     shares, lengths = np.asarray(shares, float), np.asarray(lengths, float)
     kernel = np.zeros((2 * nx, ny)) if instantaneous == 0 else instantaneous * elastic(nx, ny, shift).T
     if len(lengths):
-        for i, _, _, after in march(_displacement, (-nx, nx), ny, lengths, shift):
+        for i, after in march(_displacement, (-nx, nx), ny, lengths, shift):
             kernel[i + nx] += shares @ after
     return kernel.T
-
-
-def across(nx, ny, shares, lengths):
-    """Displacement gained across a pixel, w(x + 1/2) - w(x - 1/2), of the modes; (ny, 2 nx) as `elastic`.
-
-    Only the part even in x, which alone does work: sum_i p_i (gain * p)_i is the friction of a pressure constant
-    on the pixels, in E* pixel^2. The elastic share has none. Along a pixel the memory gains what was added and
-    loses what was forgotten, (1 - exp(-1/l)) w: no cancellation where it is long. Where it is short the even part
-    is -l times the remembered second derivative of the kernel averaged over a pixel of x.
-    """
-    shares, lengths = np.asarray(shares, float), np.asarray(lengths, float)
-    gain = np.zeros((2 * nx + 1, ny))
-    long = lengths >= SHORT
-    if long.any():
-        kept = shares[long]
-        forgotten = kept * np.expm1(-1 / lengths[long])
-        for i, before, added, _ in march(_displacement, (-nx, nx + 1), ny, lengths[long], 0.5):
-            gain[i + nx] += kept @ added + forgotten @ before
-    if not long.all():
-        bent = -(shares * lengths)[~long]
-        for i, _, _, after in march(_curvature, (-nx, nx + 1), ny, lengths[~long], 0.0):
-            gain[i + nx] += bent @ after
-    return ((gain + gain[::-1]) / 2)[:-1].T
 
 
 def line(nx, datum, shift=0.0):
@@ -105,22 +81,6 @@ def line_flowing(nx, instantaneous, shares, lengths, shift, datum):
     return (-2 / np.pi * mean)[None, :]
 
 
-def line_across(nx, shares, lengths):
-    """Displacement gained across a pixel under a strip, (1, 2 nx): as `across`."""
-    x = np.abs(np.arange(-nx, nx, dtype=float))
-    gain = np.zeros(2 * nx)
-    for share, length in zip(shares, lengths, strict=True):
-        if length < LINE_SHORT:
-            middle, ahead, behind = (_remembered_log(x + step, length, even=True) for step in (0, 1, -1))
-            gain += share * length * (ahead - 2 * middle + behind)
-        else:
-            # Mean over two neighbouring pixels of x, weighted with a tent.
-            rising = _over_pixel(lambda u, length=length: _lag(u / length, even=True), x - 1, tent=1)
-            falling = _over_pixel(lambda u, length=length: _lag(u / length, even=True), x, tent=-1)
-            gain -= share / length * (rising + falling)
-    return (2 / np.pi * gain)[None, :]
-
-
 def _displacement(x, s, ny):
     """Elastic displacement at x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
 
@@ -132,24 +92,6 @@ def _displacement(x, s, ny):
         # Mean of 1/r over the pixel: its Laplacian in the plane is 1/r^3.
         square = 1 / (np.square(x - s)[..., None] + y * y)
         return np.sqrt(square) * (1 + square / 24) / np.pi
-
-    return _joined(near, far, x - s, ny)
-
-
-def _curvature(x, s, ny):
-    """Second derivative along x of `_displacement` averaged over a pixel of x; same shapes."""
-
-    def near(y):
-        y = np.append(y, y[-1] + 1) - 0.5
-        bend = _edge((x + 1) - s, y) - 2 * _edge(x - s, y) + _edge((x - 1) - s, y)
-        return np.diff(bend) / np.pi
-
-    def far(y):
-        # Of 1/r + x^2/(8 r^5), the mean of 1/r over the pixel and over the pixel of x.
-        along = np.square(x - s)[..., None]
-        square = 1 / (along + y * y)
-        cosine = along * square
-        return (3 * cosine - 1 + (2 - 25 * cosine + 35 * cosine**2) * square / 8) * square**1.5 / np.pi
 
     return _joined(near, far, x - s, ny)
 
@@ -174,12 +116,6 @@ def _corner(x, y):
     return np.sign(x)[..., None] * np.sign(y) * (along_x + along_y)
 
 
-def _edge(x, y):
-    """Derivative of `_corner` along x, arsinh(y/|x|); logarithmic at x = 0."""
-    ax, ay = np.abs(x)[..., None] + TINY, np.abs(y)
-    return np.sign(y) * (np.log(ay + np.hypot(ax, ay)) - np.log(ax))
-
-
 def _mean_log(x):
     """Mean of ln|u| over |u - x| <= 1/2."""
     ax = np.abs(x)
@@ -190,41 +126,29 @@ def _mean_log(x):
     return np.where(ax >= 0.75, outside, inside) - 1
 
 
-def _remembered_log(u, length, even=False):
-    """ln|u| convolved downstream with exp(-s/length)/length, or its even part; finite at u = 0."""
+def _remembered_log(u, length):
+    """ln|u| convolved downstream with exp(-s/length)/length; finite at u = 0."""
     z = u / length
-    return np.log(np.maximum(np.abs(z), TINY)) + np.log(length) - _lag(z, even)
+    return np.log(np.maximum(np.abs(z), TINY)) + np.log(length) - _lag(z)
 
 
-def _lag(z, even=False):
-    """D(z) = PV int_0^inf exp(-t)/(z - t) dt, or its even part: exp(-z) Ei(z), for z < 0 -exp(|z|) E1(|z|).
+def _lag(z):
+    """D(z) = PV int_0^inf exp(-t)/(z - t) dt: exp(-z) Ei(z), for z < 0 -exp(|z|) E1(|z|).
 
     Beyond LAG_TERMS the asymptotic series sum_n n!/z^(n+1); Abramowitz and Stegun, 5.1.51.
     """
     size = np.maximum(np.abs(z), TINY)
-    inner, outer = np.minimum(size, LAG_TERMS), np.maximum(size, LAG_TERMS)
-    ahead, behind = np.exp(-inner) * expi(inner), -np.exp(inner) * exp1(inner)
-    if even:
-        return np.where(size < LAG_TERMS, (ahead + behind) / 2, _asymptotic(outer, 1))
-    near = np.where(z > 0, ahead, behind)
-    return np.where(size < LAG_TERMS, near, _asymptotic(np.copysign(outer, z), 0))
-
-
-def _asymptotic(z, first):
-    """Terms n!/z^(n+1): all of them, first = 0, or those of odd n alone, first = 1, even in z."""
-    total, term = np.zeros_like(z), 1 / z
+    inner, outer = np.minimum(size, LAG_TERMS), np.copysign(np.maximum(size, LAG_TERMS), z)
+    near = np.where(z > 0, np.exp(-inner) * expi(inner), -np.exp(inner) * exp1(inner))
+    total, term = np.zeros_like(outer), 1 / outer
     for n in range(LAG_TERMS):
-        if n % 2 or not first:
-            total += term
-        term *= (n + 1) / z
-    return total
+        total += term
+        term *= (n + 1) / outer
+    return np.where(size < LAG_TERMS, near, total)
 
 
-def _over_pixel(f, left, tent=0):
-    """int f(u) du over left <= u <= left + 1, f smooth or logarithmic at u = 0 alone; left (n,) -> (n,).
-
-    tent : 1 or -1 to weight with a line that rises from or falls to zero across the pixel
-    """
+def _over_pixel(f, left):
+    """int f(u) du over left <= u <= left + 1, f smooth or logarithmic at u = 0 alone; left (n,) -> (n,)."""
     total = np.empty_like(left)
     close = np.abs(left) < KINK_REACH
     for columns, count, power in ((close, KINK_NODES, 5), (~close, SMOOTH_NODES, 1)):
@@ -234,8 +158,7 @@ def _over_pixel(f, left, tent=0):
         middle = np.clip(0.0, start, start + 1)
         total[columns] = 0.0
         for end in (start, start + 1):
-            along = (middle - start) + (end - middle) * v**power
+            along = (end - middle) * v**power
             weights = np.abs(end - middle) * w * power * v ** (power - 1)
-            weights = weights * {0: 1.0, 1: along, -1: 1 - along}[tent]
-            total[columns] += np.sum(weights * f(start + along), axis=-1)
+            total[columns] += np.sum(weights * f(middle + along), axis=-1)
     return total

@@ -20,4 +20,4 @@ class Line(HalfSpace):
         return influence.line(grid.points, self.datum / grid.pixel)
 
     def _flowing(self, grid, instantaneous, shares, lengths, shift):
-        return influence.flowing_line(grid.points, self.datum / grid.pixel, instantaneous, shares, lengths, shift)
+        return influence.line_flowing(grid.points, instantaneous, shares, lengths, shift, self.datum / grid.pixel)

@@ -28,11 +28,11 @@ def chunks(start, stop):
 
 
 def march(kernel, columns, ny, lengths, shift):
-    """Carry the memory downstream: column, state before it, added on the way, state at it; each (K, ny)."""
+    """Carry the memory downstream: each column and the state at it, (K, ny)."""
     rules = {nodes: _memory_rule(nodes, lengths) for _, nodes in BANDS}
     fine, fine_weights = _graded_rule(shift + 0.5, lengths)
     decay = np.exp(-1 / lengths)[:, None]
-    before = _upstream(kernel, columns[0] - 1 + shift, ny, lengths)
+    state = _upstream(kernel, columns[0] - 1 + shift, ny, lengths)
     for i, nodes in chunks(*columns):
         s, weights = rules[nodes]
         values = kernel(i + shift, s[:, None], ny)
@@ -43,10 +43,8 @@ def march(kernel, columns, ny, lengths, shift):
             values = kernel(i[close] + shift, fine[:, None], rows)
             added[:, close, :rows] = np.tensordot(fine_weights, values, 1)
         for column, step in zip(i, added.transpose(1, 0, 2), strict=True):
-            after = decay * before
-            after += step
-            yield column, before, step, after
-            before = after
+            state = decay * state + step
+            yield column, state
 
 
 def _memory_rule(count, lengths):

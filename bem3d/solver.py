@@ -16,6 +16,7 @@ from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .problem import Problem
 
+LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 
@@ -113,6 +114,8 @@ class BEM:
         grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid)
         window.check(grid, answer, repeats)
+        if repeats:
+            _check_gap(problem.scene.motion.gap, grid, answer)
         return grid, answer
 
     def _windowed(self, problem):
@@ -169,6 +172,16 @@ class BEM:
             "transforms": self.transforms,
             "cutoff": None if problem.surface(grid) is None else "resolved" if rough.shortest else "nyquist",
         }
+
+
+def _check_gap(gap, grid, answer):
+    """Raise SolveError where what is left of a prescribed mean gap [m] is no less than the residual."""
+    left = answer.violation * (answer.depth - answer.lowest) * grid.pixel
+    if gap is not None and left > LEAST_GAP * gap:
+        raise SolveError(
+            f"motion.gap = {gap:g} m is so close to full contact that the residual of {left:.1e} m decides the "
+            f"pressure; prescribe the pressure, or take a tolerance {left / gap / LEAST_GAP:.0f} times smaller"
+        )
 
 
 def _extents(problem, grid, answer):

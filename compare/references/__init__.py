@@ -5,6 +5,6 @@ waves : elastic contact of one wave and of two crossed ones
 full_contact : pressure and friction of a rough plane that touches everywhere
 indentation : a body of revolution pressed into a viscoelastic solid and withdrawn
 
-Units are SI. Moduli are E* = E/(1 - nu^2) unless a solid is passed. The elastomer flows along +x, pressure is positive,
-friction opposes the motion.
+Units are SI. Moduli are E* = E/(1 - nu^2) unless a solid is passed. The elastomer flows along +x, pressure is
+positive, friction opposes the motion.
 """

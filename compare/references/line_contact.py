@@ -1,12 +1,13 @@
 """Line contact: a rigid cylinder z = x^2 / (2R) at rest, or sliding steadily on a standard linear solid.
 
-Hunter, J. Appl. Mech. 28, 611 (1961), rederived for a flow along +x. With the memory m = v tau_c and the compliance
-J(t) = (1/E_g) [1 + f (1 - exp(-t/tau_c))], f = E_g/E_r - 1, the surface obeys
+Hunter, J. Appl. Mech. 28, 611 (1961), rederived for a flow along +x. With the memory m = v tau_c and
+the compliance J(t) = (1/E_g) [1 + f (1 - exp(-t/tau_c))], f = E_g/E_r - 1, the surface obeys
 
     w' + m w'' = (1/E_g) H[q],  q = (1 + f) p + m p',  H[q](x) = -(2/pi) PV int q(s) / (x - s) ds.
 
-In contact w' = -x/R, so that q = (A_0 + A_1 u + A_2 u^2) / sqrt(1 - u^2) with x = centre + l u. Pressure vanishes at
-both ends, where kap = l/m and k = (1 + f) kap give one condition in I(k); the surface arrives undisturbed, one in K(kap).
+In contact w' = -x/R, so that q = (A_0 + A_1 u + A_2 u^2) / sqrt(1 - u^2) with x = centre + l u. Pressure
+vanishes at both ends, where kap = l/m and k = (1 + f) kap give one condition in I(k); the surface arrives
+undisturbed, one in K(kap).
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import i0e, i1e, ive, k0e, k1e
 
-ANGLES = 400  # among which the peak is bracketed
+SAMPLES = 400  # among which the peak is bracketed
 MANY = 40.0  # exp(-40): pressure has forgotten
 NODES = np.polynomial.legendre.leggauss(64)
 
@@ -36,14 +37,14 @@ class LineContact:
     """A cylinder that slides steadily.
 
     radius [m], relaxed_modulus [Pa]
-    stiffening : E_r / E_g, 0 of a Kelvin body
+    softening : E_r / E_g, 0 of a Kelvin body
     memory : speed times retardation time [m]
     half_width : l [m]
     """
 
     radius: float
     relaxed_modulus: float
-    stiffening: float
+    softening: float
     memory: float
     half_width: float
 
@@ -51,21 +52,21 @@ class LineContact:
     def _ratios(self):
         """kap, k, I1(k)/I0(k), K1(kap)/K0(kap) without overflow; at rest the last three are their limits."""
         kap = self.half_width / self.memory if self.memory else inf
-        k = kap / self.stiffening if self.stiffening else inf
+        k = kap / self.softening if self.softening else inf
         i = 1.0 if isinf(k) else float(i1e(k) / i0e(k))
         return kap, k, i, 1.0 if isinf(kap) else float(k1e(kap) / k0e(kap))
 
     @property
     def _lead(self):
-        """I1/I0 over the sum of both ratios: from 1/2 at rest to 0 of the fastest, 1 - that of a Kelvin body."""
-        _, _, i, k = self._ratios
-        return i / (i + k)
+        """I1/I0(k) over its sum with K1/K0(kap): from 1/2 at rest to 0 of the fastest."""
+        _, _, i, ratio = self._ratios
+        return i / (i + ratio)
 
     @property
     def _hardening(self):
         """P over pi E_r l^2 / (4R): from 1 at rest to E_g/E_r of the fastest."""
         kap, _, i, _ = self._ratios
-        return 1 + (1 - self.stiffening) * 2 * i * (1 - self._lead) / kap
+        return 1 + (1 - self.softening) * 2 * i * (1 - self._lead) / kap
 
     @property
     def line_load(self) -> float:
@@ -75,7 +76,7 @@ class LineContact:
     @property
     def centre(self) -> float:
         """Middle of the contact [m] from the cylinder's lowest point: upstream, negative."""
-        return -self.memory * (1 - self.stiffening) * self._lead
+        return -self.memory * (1 - self.softening) * self._lead
 
     @property
     def edges(self) -> tuple[float, float]:
@@ -92,7 +93,7 @@ class LineContact:
             return 0.0
         kap, k, i, _ = self._ratios
         second = 1 - 2 * i / k if k > 1 else float(ive(2, k) / ive(0, k))
-        s, lead = self.stiffening, self._lead
+        s, lead = self.softening, self._lead
         braces = second + 2 * i / kap * lead * (s + (1 - s) * (1 - lead))
         return self.memory / self.radius * (1 - s) * braces / self._hardening
 
@@ -119,21 +120,26 @@ class LineContact:
             return scale * numerator(angle) / np.sin(angle)
         angle = np.asarray(angle)[..., None]
         start = 2 * np.arcsin(np.sqrt(np.maximum(np.sin(angle / 2) ** 2 - MANY / (2 * k), 0.0)))
+        reach = 2 * np.arcsin(np.minimum(MANY / (2 * k * np.sin((angle + start) / 2)), 1.0))
+        reach = np.where(start > 0, np.minimum(reach, angle), angle)
         nodes, weights = NODES
-        back = (angle - start) * (1 - nodes) / 2
+        back = reach * (1 - nodes) / 2
         age = 2 * np.sin(angle - back / 2) * np.sin(back / 2)
-        return scale * k * np.sum((angle - start) / 2 * weights * np.exp(-k * age) * numerator(angle - back), axis=-1)
+        return scale * k * np.sum(reach / 2 * weights * np.exp(-k * age) * numerator(angle - back), axis=-1)
 
     @property
     def peak_pressure(self) -> float:
         """Largest p [Pa]; infinite of a moving Kelvin body, which is singular at the leading edge."""
-        if self.stiffening == 0 and self.memory > 0:
+        if self.softening == 0 and self.memory > 0:
             return inf
-        angles = np.linspace(0, pi, ANGLES + 2)[1:-1]
-        top = int(np.argmax(self._pressure_at(angles)))
-        bracket = angles[max(top - 1, 0)], angles[min(top + 1, ANGLES - 1)]
-        found = minimize_scalar(lambda a: -float(self._pressure_at(a)), bounds=bracket, method="bounded")
-        return -float(found.fun)
+
+        def pressure(v):
+            return self._pressure_at(pi * v**6)  # drawn to the leading edge, where a soft solid peaks
+
+        v = np.linspace(0, 1, SAMPLES + 2)[1:-1]
+        top = int(np.argmax(pressure(v)))
+        bracket = v[max(top - 1, 0)], v[min(top + 1, SAMPLES - 1)]
+        return -minimize_scalar(lambda v: -float(pressure(v)), bounds=bracket, method="bounded").fun
 
 
 def sliding(radius, relaxed_modulus, glassy_modulus, retardation_time, speed, line_load) -> LineContact:
@@ -144,22 +150,27 @@ def sliding(radius, relaxed_modulus, glassy_modulus, retardation_time, speed, li
 
     Raises ValueError for what is not positive, or a glassy modulus below the relaxed one.
     """
-    _positive(radius=radius, relaxed_modulus=relaxed_modulus, retardation_time=retardation_time, line_load=line_load)
+    _positive(radius=radius, relaxed_modulus=relaxed_modulus)
+    _positive(retardation_time=retardation_time, line_load=line_load)
     if not (glassy_modulus >= relaxed_modulus and 0 <= speed < inf):
         raise ValueError(
             f"glassy_modulus = {glassy_modulus:g} must reach relaxed_modulus = {relaxed_modulus:g}, "
             f"speed = {speed:g} must be finite and not negative"
         )
-    memory, stiffening = speed * retardation_time, relaxed_modulus / glassy_modulus
+    memory, softening = speed * retardation_time, relaxed_modulus / glassy_modulus
 
     def contact(half_width):
-        return LineContact(radius, relaxed_modulus, stiffening, memory, half_width)
+        return LineContact(radius, relaxed_modulus, softening, memory, half_width)
 
     slow, _ = hertz(radius, relaxed_modulus, line_load)
-    # The load lies between that of the relaxed and the glassy solid, and below that of a fluid's drag on a Kelvin body.
-    fast = max(slow * sqrt(stiffening), slow**2 / (sqrt(memory**2 + slow**2) + memory))
+    # Between the relaxed and the glassy contact, and no smaller than that of a Kelvin body at the least.
+    fast = max(slow * sqrt(softening), slow**2 / (sqrt(memory**2 + slow**2) + memory))
     low, high = fast * (1 - 1e-9), slow * (1 + 1e-9)
-    return contact(brentq(lambda l: contact(l).line_load / line_load - 1, low, high, xtol=1e-15 * low, rtol=1e-14))
+
+    def excess(half_width):
+        return contact(half_width).line_load / line_load - 1
+
+    return contact(brentq(excess, low, high, xtol=1e-15 * low, rtol=1e-14))
 
 
 def _positive(**amounts):

@@ -1,0 +1,497 @@
+"""Measures the 3D solver side by side with its peers, tamaas and ContactMechanics, and writes docs/benchmark.md.
+
+python docs/benchmark.py [--largest N] [--quick] [--output FILE]
+
+The peers come with the extra `peers`; without one its rows say so. Every run is alone in a process of one thread.
+"""
+
+import argparse
+import importlib.metadata
+import multiprocessing
+import os
+import platform
+import sys
+import tempfile
+import time
+import warnings
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from datetime import date
+from math import sqrt
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+from accuracy import table
+from scipy.optimize import brentq
+
+from bem3d import BEM, contact
+from bem3d.surface import RoughSurface
+from scene import Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
+
+ELASTIC = Elastic(0.25)  # E* = 4G = 1
+SLOPE, PRESSURE = 0.1, 0.0035
+WANTED = 1e-6  # complementarity error that every code is to reach
+TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7)  # tried in turn, each code by its own measure
+MOST = 1000  # iterations allowed to a peer
+REPEATED, REPEATS = 512, 3  # up to this size the least of so many runs counts
+SPHERE, DEPTH, SIDE = Sphere(1.0), 0.02, 0.4  # the contact is 0.28 across
+ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shortest=8e-3, seed=1)
+UNANSWERED = (Refused, SolveError)
+PAPER = Sphere(10e-3), SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+
+
+def alone(function, *arguments):
+    """The value of a call in a process of its own, on one thread."""
+    for name in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
+        os.environ[f"{name}_NUM_THREADS"] = "1"
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as process:
+        return process.submit(function, *arguments).result()
+
+
+def pair(n: int) -> float:
+    """Processor seconds of one rfft2 and irfft2 of n x n by pyfftw, planned with MEASURE, one thread."""
+    import pyfftw
+
+    points, waves = pyfftw.zeros_aligned((n, n)), pyfftw.zeros_aligned((n, n // 2 + 1), complex)
+    axes = {"axes": (0, 1), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
+    forward = pyfftw.FFTW(points, waves, **axes)
+    backward = pyfftw.FFTW(waves, points, direction="FFTW_BACKWARD", **axes)
+    points[:] = 1.0
+    return least(lambda: (forward.execute(), backward.execute()), n)
+
+
+def least(call, n: int) -> float:
+    """Least processor seconds of a call on n x n points, over about a second."""
+    times = []
+    while len(times) < 5 or (sum(times) < 1.0 and len(times) < 200):
+        started = time.process_time()
+        for _ in range(max(1, (256 // n) ** 2)):
+            call()
+        times.append((time.process_time() - started) / max(1, (256 // n) ** 2))
+    return min(times)
+
+
+def rough_plane(n: int) -> SelfAffine:
+    """The surface of the comparison: shortest wave of 8 pixels, roll-off at a quarter of the cell."""
+    of = {"hurst": 0.8, "longest": 1.0, "rolloff": 0.25, "shortest": 8 / n, "seed": 1}
+    unit = SelfAffine(rms_height=1.0, **of)
+    return SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / n)), **of)
+
+
+def cell(n: int, pressure: float) -> tuple[Scene, BEM]:
+    """A rough cell under a mean pressure over E*."""
+    return Scene(Plane(), ELASTIC, Indent(pressure=pressure), rough_plane(n)), BEM(points=n)
+
+
+def sphere(n: int, **pressed: float) -> tuple[Scene, BEM]:
+    """A rough sphere on a free surface, on a given square."""
+    return Scene(SPHERE, ELASTIC, Indent(**pressed), ROUGH), BEM(points=n, extent=SIDE)
+
+
+def heights_of(scene: Scene, solver: BEM) -> np.ndarray:
+    """What a peer is given: z on the points of our grid."""
+    side = solver.extent or 1.0
+    x = (np.arange(solver.points) - (solver.points - 1) / 2) * side / solver.points
+    surface = RoughSurface.of(scene.roughness, scene.roughness.q_max(side / solver.points))
+    return scene.indenter.height(x[None, :], x[:, None]) + surface.heights(x, x)
+
+
+def outcome(heights, tolerance, pressure, gap, **more) -> dict:
+    """Row of one run; the error is sum|p gap| over sum(p) and the standard deviation of all heights."""
+    error = float(np.sum(np.abs(pressure * gap)) / (pressure.sum() * heights.std()))
+    return {"tolerance": tolerance, "error": error, "touching": float(np.mean(pressure > 0))} | more
+
+
+def by_us(scene: Scene, solver: BEM, tolerance: float) -> dict:
+    """From the scene to the result: drawing the surface and the coarser grids are included."""
+    result = BEM(points=solver.points, extent=solver.extent, tolerance=tolerance).solve(scene)
+    return outcome(
+        heights_of(scene, solver),
+        tolerance,
+        result.fields["pressure"],
+        result.fields["gap"],
+        seconds=result.seconds,
+        iterations=result.applications,
+        pairs=result.measures["transform_pairs"],
+    )
+
+
+def by_tamaas(scene: Scene, solver: BEM, tolerance: float) -> dict:
+    """Polonsky and Keer's conjugate gradients; the solve alone. The tolerance is the error itself."""
+    import tamaas
+
+    tamaas.initialize(1)
+    n, heights = solver.points, heights_of(scene, solver)
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], [n, n])
+    model.E, model.nu = 1.0, 0.0
+    peer = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-heights), tolerance)
+    peer.max_iter, peer.dump_freq = MOST, 1
+    with printed() as lines:
+        started = time.process_time()
+        peer.solve(scene.motion.pressure)
+        seconds = time.process_time() - started
+    counts = [int(line.split()[0]) for line in lines if line.split()[:1] and line.split()[0].isdigit()]
+    return outcome(heights, tolerance, model.traction, model["gap"], seconds=seconds, iterations=max(counts))
+
+
+@contextmanager
+def printed():
+    """What a compiled library prints meanwhile, as lines, once it is over."""
+    lines: list[str] = []
+    with tempfile.TemporaryFile("w+") as file:
+        kept = [(number, os.dup(number)) for number in (1, 2)]
+        for number, _ in kept:
+            os.dup2(file.fileno(), number)
+        try:
+            yield lines
+        finally:
+            for number, copy in kept:
+                os.dup2(copy, number)
+                os.close(copy)
+            file.seek(0)
+            lines += file.read().splitlines()
+
+
+def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float, helped: bool = True) -> dict:
+    """The same method there; the solve alone. At a depth it is helped by our first guess, the overlap."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import ContactMechanics
+        from SurfaceTopography import Topography
+    n, side, heights = solver.points, solver.extent or 1.0, heights_of(scene, solver)
+    periodic = isinstance(scene.indenter, Plane)
+    kind = ContactMechanics.PeriodicFFTElasticHalfSpace if periodic else ContactMechanics.FreeFFTElasticHalfSpace
+    substrate = kind((n, n), 1.0, (side, side))
+    system = ContactMechanics.Systems.NonSmoothContactSystem(substrate, Topography(-heights, (side, side)))
+    value = scene.motion.greatest
+    match scene.motion.pressed_by:
+        case "depth" if helped:
+            forces = np.zeros((2 * n, 2 * n))
+            forces[:n, :n] = -np.maximum(value - heights, 0) * side / n
+            pressed = {"offset": value, "initial_forces": forces}
+        case "depth":
+            pressed = {"offset": value}
+        case _:
+            pressed = {"external_force": value * (side**2 if periodic else 1)}
+    started = time.process_time()
+    found = system.minimize_proxy(pentol=tolerance * heights.std(), maxiter=MOST, **pressed)
+    seconds = time.process_time() - started
+    gap = found.x[:n, :n] + heights - found.offset
+    counts = {"iterations": found.nit, "pairs": found.nfev}
+    return outcome(heights, tolerance, found.jac, gap, seconds=seconds, **counts)
+
+
+def unhelped(scene, solver, tolerance):
+    """ContactMechanics from its own first guess."""
+    return by_contact_mechanics(scene, solver, tolerance, helped=False)
+
+
+CODES = {"this": by_us, "tamaas": by_tamaas, "ContactMechanics": by_contact_mechanics}
+
+
+def measured(code, scene: Scene, solver: BEM) -> dict:
+    """The first tolerance with which a code reaches the error wanted; if it stalls, its last try."""
+    try:
+        code(*cell(64, 0.01), 1e-3)  # compiles, imports
+    except ImportError:
+        return {"reason": "not installed"}
+    for tolerance in TOLERANCES[TOLERANCES.index(WANTED) if code is by_tamaas else 0 :]:
+        try:
+            row = code(scene, solver, tolerance)
+        except UNANSWERED as reason:
+            return {"reason": str(reason)}
+        if row["error"] <= WANTED or row["iterations"] >= MOST:
+            break
+    repeats = REPEATS - 1 if solver.points <= REPEATED and row["iterations"] < MOST else 0
+    again = [code(scene, solver, row["tolerance"])["seconds"] for _ in range(repeats)]
+    row["seconds"] = min([row["seconds"], *again])
+    row["pair"] = pair(solver.points * (1 if solver.extent is None else 2))
+    return row
+
+
+COLUMNS = "code|iterations|transform pairs|error|in contact|processor s|in pairs|of ours"
+
+
+def side_by_side(label: str, scene: Scene, solver: BEM, codes=CODES):
+    """Rows of a table, one a code."""
+    own = None
+    for name, code in codes.items():
+        row = alone(measured, code, scene, solver)
+        own = own or row
+        yield label, name, *shown(row, own)
+        print(label, name, row, flush=True, file=sys.stderr)
+
+
+def shown(row, own):
+    """The cells of a row; a code that stalls or refuses says so."""
+    if "reason" in row:
+        return row["reason"], *[""] * 6
+    stalls = " (stalls)" if row["error"] > WANTED else ""
+    return (
+        f"{row['iterations']:.0f}{stalls}",
+        f"{row['pairs']:.0f}" if "pairs" in row else "",
+        f"{row['error']:.1e}",
+        f"{row['touching']:.3%}",
+        f"{row['seconds']:.3g}",
+        f"{row['seconds'] / row['pair']:.0f}",
+        f"{row['seconds'] / own['seconds']:.1f}" if "seconds" in own else "",
+    )
+
+
+def sizes(largest: int) -> list[int]:
+    """256, 512 and so on to the largest asked for."""
+    return [n for n in (128, 256, 512, 1024, 2048, 4096) if min(256, largest) <= n <= largest]
+
+
+def rough_cells(largest: int) -> str:
+    """The comparison of the peers by size."""
+    return table(
+        f"points|{COLUMNS}", (row for n in sizes(largest) for row in side_by_side(f"{n}²", *cell(n, PRESSURE)))
+    )
+
+
+def pressure_for(n: int, fraction: float) -> float:
+    """Mean pressure over E* at which so much of a rough cell touches."""
+
+    def excess(pressure):
+        return cell(n, pressure)[1].solve(cell(n, pressure)[0]).measures["contact_fraction"] - fraction
+
+    return float(brentq(excess, 0.05 * SLOPE, 2.5 * SLOPE, xtol=1e-3 * SLOPE, rtol=1e-4))
+
+
+def other_loads(largest: int) -> str:
+    """From a few asperities to almost full contact."""
+    n = min(512, largest)
+
+    def rows():
+        for pressure in (1e-6, 1e-5, 1e-4):
+            yield from side_by_side(f"{pressure:.0e}", *cell(n, pressure))
+        for fraction in (0.5, 0.9, 0.99, 0.999):
+            pressure = alone(pressure_for, n, fraction)
+            yield from side_by_side(f"{pressure:.3g}", *cell(n, pressure))
+
+    return table(f"mean pressure / E*|{COLUMNS}", rows())
+
+
+def free_spheres(largest: int) -> str:
+    """A rough sphere on a free surface, at given load and depth."""
+    n = min(512, largest)
+    free = {name: code for name, code in CODES.items() if name != "tamaas"}
+    force = 4 / 3 * DEPTH**1.5
+
+    def rows():
+        yield from side_by_side("load", *sphere(n, load=force), free)
+        guess = {"ContactMechanics, its own first guess": unhelped}
+        yield from side_by_side("depth", *sphere(n, depth=DEPTH), free | guess)
+
+    return table(f"given|{COLUMNS}", rows())
+
+
+def iteration(scene: Scene, solver: BEM) -> tuple:
+    """Products with operator and preconditioner on the finest grid, how many and the milliseconds of one.
+
+    Then the processor time of the solve there over that of its products, and of the whole solve over that of all
+    its products, each as if on the finest grid.
+    """
+    runs, solve = [], contact.solve
+
+    def timed(operator, *arguments, **settings):
+        started = time.process_time()
+        answer = solve(operator, *arguments, **settings)
+        runs.append((time.process_time() - started, operator, settings["precondition"]))
+        return answer
+
+    solver.solve(scene)  # compiles
+    with patch.object(contact, "solve", timed):
+        whole = solver.solve(scene)
+    seconds, *products = runs[-1]
+    counts = [product.applications for product in products]
+    plane, out = np.ones(products[0].shape), np.empty(products[0].shape)
+    each = [least(lambda product=product: product(plane, out=out), solver.points) for product in products]
+    everywhere = whole.applications, whole.measures["transform_pairs"] - whole.applications
+    over = [of / np.dot(count, each) for of, count in ((seconds, counts), (whole.seconds, everywhere))]
+    return *counts, *(1e3 * one for one in each), *over
+
+
+def overhead(largest: int) -> str:
+    """What an iteration costs beside its transforms."""
+    sliding = Slide(speed=sqrt(SPHERE.radius * DEPTH) / 1e-3, depth=DEPTH)
+
+    def rows():
+        for n in sizes(largest):
+            cases = {
+                "rough cell": cell(n, PRESSURE),
+                "rough sphere": sphere(n, depth=DEPTH),
+                "rough sphere sliding, v τ = a": (
+                    Scene(SPHERE, Kelvin(0.25, 1e-3), sliding, ROUGH),
+                    BEM(points=n, extent=SIDE),
+                ),
+            }
+            for name, case in cases.items():
+                if n > 1024 and name != "rough cell":
+                    continue
+                try:
+                    row = alone(iteration, *case)
+                except UNANSWERED as reason:
+                    yield f"{n}²", name, str(reason), *[""] * 5
+                    continue
+                yield (
+                    f"{n}²",
+                    name,
+                    *(f"{count}" for count in row[:2]),
+                    *(f"{value:.2f}" for value in row[2:]),
+                )
+
+    return table(
+        "points|contact|operator products|preconditioner products|ms each|ms each|iteration / its products|"
+        "whole solve / its products",
+        rows(),
+    )
+
+
+def slid(solver: BEM, scene: Scene) -> dict:
+    """One steady sliding solve."""
+    solver.solve(Scene(scene.indenter, scene.elastomer, Indent(load=scene.motion.load)))  # compiles
+    try:
+        result = solver.solve(scene)
+    except UNANSWERED as reason:
+        return {"reason": str(reason)}
+    names = ("rounds", "transform_pairs", "friction_disagreement")
+    return {
+        "applications": result.applications,
+        "seconds": result.seconds,
+        "friction": result.friction_coefficient,
+    } | {name: result.measures[name] for name in names}
+
+
+def steady_sliding(largest: int) -> str:
+    """Kelvin sphere, smooth and rough, by speed."""
+    n, (indenter, rough), tau, depth = min(512, largest), PAPER, 1e-3, 1e-4
+    a, load = sqrt(indenter.radius * depth), 4 / 3 * 4e6 * sqrt(indenter.radius) * depth**1.5
+
+    def rows():
+        for name, roughness in (("smooth", None), ("rough", rough)):
+            for decade in range(-4, 5):
+                motion = Slide(speed=10.0**decade * a / tau, load=load)
+                row = alone(slid, BEM(points=n), Scene(indenter, Kelvin(1e6, tau), motion, roughness))
+                print(name, decade, row, flush=True, file=sys.stderr)
+                if "reason" in row:
+                    yield name, f"1e{decade}", row["reason"], *[""] * 5
+                    continue
+                yield (
+                    name,
+                    f"1e{decade}",
+                    f"{row['rounds']:.0f}",
+                    f"{row['applications']:.0f}",
+                    f"{row['transform_pairs']:.0f}",
+                    f"{row['seconds']:.3g}",
+                    f"{row['friction']:.5g}",
+                    f"{row['friction_disagreement']:.1e}",
+                )
+
+    return table(
+        "sphere|v τ/a|rounds|operator applications|products in all|processor s|μ|disagreement of μ", rows()
+    )
+
+
+SECTIONS = {
+    "Rough cells": (
+        f"Self-affine, H = 0.8, rms gradient {SLOPE}, roll-off at a quarter of the cell, shortest wave 8 pixels; "
+        f"mean pressure {PRESSURE} E*. Aims at 1024² and 2048²: at most 110 and 130 pairs, tamaas at "
+        "least 8 and 15 times as long.",
+        rough_cells,
+    ),
+    "Other loads": (
+        "The same surface from a few asperities to almost full contact. Where too few points touch for forces to "
+        "be more than a guess, this solver refuses.",
+        other_loads,
+    ),
+    "Free surface": (
+        f"A rough sphere, R = 1, depth {DEPTH} or the force of Hertz there, on {SIDE} x {SIDE}: the pairs are of "
+        "the padded grid, twice as many points a side. At a depth ContactMechanics is given the overlap as a "
+        "first guess of the forces; on some surfaces it does not converge from its own.",
+        free_spheres,
+    ),
+    "Overhead": (
+        "Processor time of the solve on the finest grid, started from the next coarser one, over that of its "
+        "products with operator and preconditioner (transforms, symbol, zero padding), each timed alone in the "
+        "same process. Aim: at most 1.6. The whole solve has the surface, the kernel and coarser grids besides.",
+        overhead,
+    ),
+    "Steady sliding": (
+        "Kelvin sphere at the load of Hertz for the contact radius a, in the window that the solver finds, which "
+        "is included; no peer solves this. R = 10 mm, a = 1 mm; rough: H = 0.2, h₀ = 50 µm, waves from 10 mm to "
+        "0.5 mm. Disagreement: of the estimates of friction, over the force.",
+        steady_sliding,
+    ),
+}
+
+HEAD = """# Benchmark
+
+Measured by `python docs/benchmark.py`, which writes this page. {machine}
+
+Every run is alone in a process of one thread. Processor time is that of the solve: ours from the scene to the
+result, with the surface drawn and all coarser grids; of the peers, of the solve alone, once set up. Up to
+{repeated}² the least of {repeats} runs counts. Every code gets the first tolerance of {tolerances} with
+which its error is at most {wanted:g}; a peer is given up after {most} iterations.
+
+- iterations: of a peer, its own count; of ours, operator applications, in equivalents of the finest grid
+- transform pairs: products in Fourier space, of ours with operator and preconditioner; tamaas does not count them
+- error: sum|p gap| / (sum(p) standard deviation of the heights), the peers' measure of complementarity
+- in pairs: processor time over that of one rfft2 and irfft2 of the same size by pyfftw (planned with MEASURE),
+  measured in the same process
+- of ours: processor time over ours"""
+
+
+def machine() -> str:
+    """What it ran on, without names of places."""
+    cpu = next(
+        (
+            line.split(":")[1].strip()
+            for line in Path("/proc/cpuinfo").read_text().splitlines()
+            if line.startswith("model name")
+        ),
+        platform.machine(),
+    )
+    versions = []
+    for name in ("numpy", "scipy", "numba", "ducc0", "pyfftw", "tamaas", "ContactMechanics"):
+        try:
+            versions.append(f"{name} {importlib.metadata.version(name)}")
+        except importlib.metadata.PackageNotFoundError:
+            versions.append(f"no {name}")
+    load = os.getloadavg()[0]
+    return (
+        f"{date.today()}, {cpu}, {os.cpu_count()} cores (load at the start {load:.1f}), Python "
+        f"{platform.python_version()}, {', '.join(versions)}."
+    )
+
+
+def main() -> None:
+    """Measure everything and write the page."""
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--largest", type=int, default=2048, help="points a side, 128 to 4096")
+    arguments.add_argument("--quick", action="store_true", help="128 points a side, to see that it runs")
+    arguments.add_argument("--only", nargs="*", help="words in the titles of the sections wanted")
+    arguments.add_argument("--output", type=Path, default=Path(__file__).with_suffix(".md"))
+    given = arguments.parse_args()
+    parts = [
+        HEAD.format(
+            machine=machine(),
+            repeated=REPEATED,
+            repeats=REPEATS,
+            tolerances=", ".join(f"{one:g}" for one in TOLERANCES),
+            wanted=WANTED,
+            most=MOST,
+        )
+    ]
+    for title, (text, measure) in SECTIONS.items():
+        if given.only and not any(word.lower() in title.lower() for word in given.only):
+            continue
+        parts.append(f"## {title}\n\n{text}\n\n{measure(128 if given.quick else given.largest)}")
+        print(parts[-1], "\n", flush=True)
+    given.output.write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,127 @@
+"""Every library transforms alike, every fused loop is what its plain twin says, and a GPU is used or refused."""
+
+import types
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM, engine, influence, kernels
+from bem3d.convolution import FreeConvolution, PeriodicFilter
+from bem3d.engine import Engine
+from scene import Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, Sphere
+
+ROUNDING = 1e-12
+SINGLE = 2e-6  # of the largest value: 2^-23 summed over a transform
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1e-4, seed=1)
+CELL = Scene(Plane(), Kelvin(1e6, 1e-3), Slide(speed=0.01, pressure=2e4), ROUGH)
+BODY = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.1))
+
+
+def products(engine):
+    """A convolution in flow and a filter, on sides that are even, odd and prime."""
+    for ny, nx in ((16, 16), (17, 12), (1, 31)):
+        yield (ny, nx), FreeConvolution(influence.retarded(nx, ny, 3.0, 0.25), engine)
+        yield (ny, nx), PeriodicFilter((ny, nx), lambda q_y, q_x: (1 + q_y**2) / (1 + 1j * q_x), engine)
+
+
+@pytest.mark.parametrize(
+    ("other", "accuracy"),
+    [
+        (Engine("fftw"), ROUNDING),
+        (Engine("ducc0", threads=2), ROUNDING),
+        (Engine("fftw", threads=2), ROUNDING),
+        (Engine("ducc0", precision="single"), SINGLE),
+        (Engine("fftw", precision="single"), SINGLE),
+    ],
+)
+def test_every_library_gives_the_same_products(other, accuracy):
+    rng = np.random.default_rng(0)
+    for (shape, product), (_, another) in zip(products(Engine()), products(other), strict=True):
+        plane = rng.standard_normal(shape)
+        expected = product(plane)
+        np.testing.assert_allclose(another(plane), expected, rtol=0, atol=accuracy * np.abs(expected).max())
+
+
+def test_what_is_written_into_is_what_is_returned():
+    plane, out = np.random.default_rng(0).random((16, 16)), np.empty((16, 16))
+    for shape, product in products(Engine()):
+        if shape == (16, 16):
+            assert product(plane, out) is out
+            np.testing.assert_array_equal(out, product(plane))
+
+
+def test_padded_sizes_are_even_products_of_small_primes_and_close():
+    for least in (1, 7, 31, 97, 1021, 2039):
+        size = Engine().good_size(least)
+        assert least <= size <= 1.2 * least + 2
+        assert size % 2 == 0
+        for factor in (2, 3, 5):
+            while size % factor == 0:
+                size //= factor
+        assert size == 1
+
+
+def test_fused_loops_are_their_plain_twins():
+    rng = np.random.default_rng(0)
+    plain, fused = kernels.Plain(), kernels.Fused()
+    contact = rng.random((9, 13)) < 0.4
+    where = np.flatnonzero(contact)
+    plane, heights = rng.standard_normal((2, 9, 13))
+    a, b, c, d = rng.standard_normal((4, where.size))
+
+    def used(sums):
+        out, x, r, turned = a.copy(), b.copy(), c.copy(), d.copy()
+        target, gap = plane.copy(), np.empty_like(plane)
+        sums.put(a, where, target)
+        returned = (
+            *sums.take(plane, where, out, b, c),
+            *sums.advance(x, r, a, out, 0.3, 0.1),
+            *sums.gaps(plane, heights, 0.2, contact, gap),
+        )
+        sums.turn(turned, b, 0.2, -0.7)
+        return (np.array(returned), out, x, r, turned, target, gap)
+
+    for one, other in zip(used(plain), used(fused), strict=True):
+        np.testing.assert_allclose(one, other, rtol=ROUNDING, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("scene", [CELL, BODY], ids=["cell", "body"])
+def test_single_precision_keeps_five_digits_of_friction(scene):
+    double, single = (BEM(points=128, precision=precision).solve(scene) for precision in ("double", "single"))
+    assert single.friction_coefficient == pytest.approx(double.friction_coefficient, rel=1e-4)
+    assert single.depth == pytest.approx(double.depth, rel=1e-5)
+    assert single.friction_coefficient != double.friction_coefficient
+
+
+def test_single_precision_cannot_be_asked_for_more_than_it_has():
+    with pytest.raises(
+        ValueError, match="tolerance = 1e-07 cannot be reached in single precision: at least 1e-05"
+    ):
+        BEM(precision="single", tolerance=1e-7)
+
+
+def has_gpu():
+    try:
+        return bool(Engine("cupy").xp)
+    except engine.Unavailable:
+        return False
+
+
+@pytest.mark.skipif(has_gpu(), reason="there is a GPU here")
+def test_without_a_gpu_it_is_refused_by_name():
+    with pytest.raises(Refused, match=r"transforms = 'cupy' (needs the extra gpu|finds no GPU)"):
+        BEM(transforms="cupy").solve(BODY)
+
+
+@pytest.mark.parametrize("scene", [CELL, BODY, replace(CELL, motion=Indent(pressure=2e4))])
+def test_the_way_over_a_gpu_gives_the_same_answer(scene, monkeypatch):
+    # with a GPU on it; without one numpy stands in for cupy, whose arrays and functions have the same names
+    if not has_gpu():
+        names = {name: getattr(np, name) for name in dir(np) if not name.startswith("_")}
+        stand_in = types.SimpleNamespace(**names | {"asnumpy": np.asarray})
+        monkeypatch.setattr(engine, "_cupy", lambda: stand_in)
+    here, there = BEM(points=64).solve(scene), BEM(points=64, transforms="cupy").solve(scene)
+    assert there.depth == pytest.approx(here.depth, rel=1e-9)
+    assert there.friction_coefficient == pytest.approx(here.friction_coefficient, rel=1e-6, abs=1e-12)
+    assert there.measures["rounds"] == here.measures["rounds"]

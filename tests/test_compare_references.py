@@ -1,0 +1,432 @@
+"""References against their own definitions: integrals, limits, and the figures of others."""
+
+from itertools import pairwise
+from math import inf, pi, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from compare.references import full_contact, indentation, line_contact, waves
+from scene import Cone, Kelvin, KelvinChain, PowerLaw, Prony, Sphere, StandardLinearSolid
+
+# Sums and powers of a few numbers.
+ROUNDING = 1e-12
+RADIUS, RELAXED, LOAD = 50e-3, 1e6, 300.0
+SOLID = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=1.25, relaxation_time=1.0)
+RUBBER = Kelvin(modulus=0.25, relaxation_time=0.3)
+CHAIN = Prony(
+    equilibrium_modulus=1.0, moduli=(2.0, 5.0, 40.0), relaxation_times=(30.0, 0.5, 2e-3), poisson_ratio=0.4
+)
+
+
+def cylinder(f, memory, load=LOAD):
+    """The contact with E_g = (1 + f) E_r at a memory in units of the relaxed half-width."""
+    slow, _ = line_contact.hertz(RADIUS, RELAXED, load)
+    return line_contact.sliding(RADIUS, RELAXED, (1 + f) * RELAXED, 1.0, memory * slow, load), slow
+
+
+# Line contact
+
+
+@pytest.mark.parametrize(
+    ("f", "expected"),
+    [
+        (1, (0.046258, 0.196843, 0.075388)),
+        (9, (0.085059, 0.463906, 0.171391)),
+        (inf, (0.095009, 0.558310, 0.294353)),
+    ],
+)
+def test_line_contact_gives_the_friction_that_was_found_before(f, expected):
+    for memory, mu in zip((0.1, 1.0, 10.0), expected, strict=True):
+        contact, slow = cylinder(f, memory)
+        assert contact.friction_coefficient * RADIUS / slow == pytest.approx(mu, abs=6e-7)
+
+
+def test_peak_pressures_are_those_of_a_published_program():
+    """Combined radius 50 mm, E_g = 1905 MPa, f = 1, 600 N/mm; memories in mm, pressures in MPa to its 4 digits."""
+    for memory, peak in ((0, 60.32), (9, 78.74), (45, 84.72), (2000, 85.31)):
+        contact = line_contact.sliding(50e-3, 952.5e6, 1905e6, 1.0, memory * 1e-3, 600e3)
+        assert contact.peak_pressure / 1e6 == pytest.approx(peak, rel=1.5e-4)
+
+
+@pytest.mark.parametrize("f", [0.0, 0.5, 9.0, 1e3, 1e9])
+@pytest.mark.parametrize("memory", [0.0, 1e-6, 0.03, 1.0, 20.0, 1e6])
+def test_line_pressure_carries_the_load_and_its_moment_is_the_friction(f, memory):
+    contact, slow = cylinder(f, memory)
+    v, w = np.polynomial.legendre.leggauss(1500)
+    angle = pi * ((v + 1) / 2) ** 6  # drawn to the leading edge
+    x = contact.centre - contact.half_width * np.cos(angle)
+    dx = contact.half_width * np.sin(angle) * w / 2 * 6 * ((v + 1) / 2) ** 5 * pi
+    p = contact._pressure_at(angle)
+    assert np.all(p >= -1e-12 * p.max())
+    assert p @ dx == pytest.approx(LOAD, rel=1e-11)
+    # The moment of a nearly even pressure is a difference.
+    assert -(p * x) @ dx / (LOAD * RADIUS) == pytest.approx(
+        contact.friction_coefficient, rel=1e-10, abs=1e-12 * slow / RADIUS
+    )
+
+
+@pytest.mark.parametrize("memory", [0.1, 2.0])
+def test_the_surface_under_the_line_pressure_has_the_slope_of_the_cylinder(memory):
+    """w' of the elastic half-space by quadrature, remembered along the flow by another."""
+    contact, _ = cylinder(3.0, memory)
+    lead, trail = contact.edges
+    v, w = np.polynomial.legendre.leggauss(400)
+    angle = pi * ((v + 1) / 2) ** 2
+    s = contact.centre - contact.half_width * np.cos(angle)
+    ds = contact.half_width * np.sin(angle) * w / 2 * 2 * ((v + 1) / 2) * pi
+    p = contact.pressure(s)
+
+    def elastic(x):
+        """w of p by -(2/pi) int p ln|x - s| ds, relaxed; log singularity taken off with p(x)."""
+        here = contact.pressure(x)
+        span = np.array([x - lead, x - trail])
+        logs = span[0] * np.log(abs(span[0])) - span[1] * np.log(abs(span[1])) - (trail - lead)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rest = np.where(s == x, 0.0, (p - here) * np.log(np.abs(x - s)))
+        return -2 / pi / RELAXED * (rest @ ds + here * logs)
+
+    def displacement(x):
+        breaks = [t for t in ((x - lead) / contact.memory, (x - trail) / contact.memory) if 0 < t < 40]
+        cuts = sorted([0.0, *breaks, 1.0, 5.0, 40.0])
+        remembered = sum(
+            quad(lambda t: np.exp(-t) * elastic(x - t * contact.memory), a, b, epsrel=1e-8, limit=100)[0]
+            for a, b in pairwise(cuts)
+        )
+        return elastic(x) / 4 + 3 / 4 * remembered
+
+    depths = [displacement(x) + x**2 / (2 * RADIUS) for x in (lead * 0.6 + trail * 0.4, lead * 0.2 + trail * 0.8)]
+    sag = contact.half_width**2 / (2 * RADIUS)
+    assert depths[0] == pytest.approx(depths[1], abs=1e-4 * sag)
+
+
+@pytest.mark.parametrize("f", [1e-3, 1.0, 1e3])
+def test_line_contact_is_hertzian_slow_and_fast(f):
+    for memory, modulus in ((0.0, RELAXED), (1e-7, RELAXED), (1e9, RELAXED * (1 + f))):
+        contact, slow = cylinder(f, memory)
+        half_width, peak = line_contact.hertz(RADIUS, modulus, LOAD)
+        assert contact.half_width == pytest.approx(half_width, rel=1e-6)
+        assert contact.peak_pressure == pytest.approx(peak, rel=1e-5)
+        x = np.linspace(-0.9, 0.9, 7) * half_width
+        assert contact.pressure(x) == pytest.approx(peak * np.sqrt(1 - (x / half_width) ** 2), rel=1e-5)
+        assert contact.friction_coefficient * RADIUS < 1e-6 * slow
+    assert cylinder(f, 0.0)[0].friction_coefficient == 0
+
+
+def test_slow_friction_of_a_cylinder_is_the_lag_over_its_radius():
+    """tau_c - tau_e is f / (1 + f) of tau_c."""
+    for f in (0.1, 1.0, 1e4, inf):
+        contact, slow = cylinder(f, 1e-5)
+        lag = 1e-5 * slow * (1 if f == inf else f / (1 + f))
+        assert contact.friction_coefficient == pytest.approx(lag / RADIUS, rel=1e-3)
+
+
+def test_a_kelvin_cylinder_is_the_limit_of_stiff_glass():
+    kelvin, _ = cylinder(inf, 0.7)
+    stiff, _ = cylinder(1e10, 0.7)
+    assert stiff.friction_coefficient == pytest.approx(kelvin.friction_coefficient, rel=1e-8)
+    assert stiff.edges == pytest.approx(kelvin.edges, rel=1e-8)
+    x = kelvin.centre + kelvin.half_width * np.array([-0.5, 0.0, 0.9])
+    assert stiff.pressure(x) == pytest.approx(kelvin.pressure(x), rel=1e-8)
+    assert kelvin.peak_pressure == inf
+    assert kelvin.pressure(np.array([-1.0, 1.0])).tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("memory", 10.0 ** np.arange(-9, 10, 3))
+@pytest.mark.parametrize("f", [1e-6, 1.0, 1e6, 1e15, inf])
+def test_line_contact_overflows_nowhere(memory, f):
+    contact, slow = cylinder(f, memory)
+    assert contact.line_load == pytest.approx(LOAD, rel=1e-12)
+    assert contact.half_width <= slow * (1 + 1e-9)
+    assert contact.friction_coefficient > 0
+    assert np.all(np.isfinite(contact.pressure(np.linspace(*contact.edges, 50))))
+
+
+def test_line_contact_names_what_is_wrong():
+    with pytest.raises(ValueError, match="glassy_modulus"):
+        line_contact.sliding(1.0, 2.0, 1.0, 1.0, 1.0, 1.0)
+    with pytest.raises(ValueError, match="speed"):
+        line_contact.sliding(1.0, 1.0, 2.0, 1.0, -1.0, 1.0)
+    for bad in (0.0, -1.0, inf, float("nan")):
+        with pytest.raises(ValueError, match="line_load"):
+            line_contact.sliding(1.0, 1.0, 2.0, 1.0, 1.0, bad)
+
+
+# Waves
+
+
+@pytest.mark.parametrize("fraction", [1e-6, 0.05, 0.4, 0.9, 1.0])
+def test_westergaards_pressure_has_its_mean_and_leaves_the_mean_gap(fraction):
+    """The crest rises by -(2/(pi E*)) int p ln|2 sin(pi x/lambda)| dx over the mean; lambda = E* = 1."""
+    edge = pi / 2 * waves.wave_contact_fraction(fraction)
+
+    def over_contact(f):
+        # sin t = sin(edge) sin(u) takes the square root away
+        def integrand(u):
+            t = np.arcsin(np.sin(edge) * np.sin(u))
+            return waves.wave_pressure(fraction, t) * f(t) * np.sin(edge) * np.cos(u) / np.cos(t)
+
+        top = pi / 2 * (1 - 1e-12)
+        return 2 / pi * (quad(integrand, 0, 0.1)[0] + quad(integrand, 0.1, top)[0])
+
+    assert over_contact(lambda t: 1.0) == pytest.approx(1, rel=1e-8)
+    # h0 = 1: p* = pi, so the mean pressure is pi times the fraction
+    crest = -2 / pi * pi * fraction * over_contact(lambda t: np.log(2 * np.sin(np.maximum(t, 1e-300))))
+    assert 1 - crest == pytest.approx(waves.wave_mean_gap(fraction), rel=1e-7, abs=1e-7)
+
+
+def test_westergaards_pressure_flattens_the_wave():
+    n, fraction = 4096, 0.6
+    x = np.arange(n) / n
+    p = pi * fraction * waves.wave_pressure(fraction, pi * x)
+    q = 2 * pi * np.fft.rfftfreq(n, 1 / n)
+    w = np.fft.irfft(np.fft.rfft(p) * np.append(0.0, 2 / q[1:]), n)
+    gap = w - np.cos(2 * pi * x)  # the crest at x = 0 points into the elastomer
+    gap -= gap[0]
+    inside = p > 0
+    assert inside.mean() == pytest.approx(waves.wave_contact_fraction(fraction), abs=2 / n)
+    # Square-root edges on 4096 points.
+    assert np.abs(gap[inside]).max() < 1e-4
+    assert gap[~inside].min() > -1e-4
+    assert gap.mean() == pytest.approx(waves.wave_mean_gap(fraction), abs=1e-4)
+
+
+def test_full_contact_pressure_of_waves_closes_them():
+    for fraction, touched, gap in ((0.0, 0.0, 1.0), (1.0, 1.0, 0.0)):
+        assert waves.wave_contact_fraction(fraction) == pytest.approx(touched, abs=1e-7)
+        assert waves.wave_mean_gap(fraction) == gap
+    t = np.linspace(-4, 4, 9)
+    assert waves.wave_pressure(1.0, t) == pytest.approx(1 + np.cos(2 * t), abs=1e-7)
+    assert waves.wave_closure(4e6, 1e-6, 1e-3) == pytest.approx(4e3 * pi, rel=ROUNDING)
+    assert waves.crossed_closure(4e6, 1e-6, 1e-3) == pytest.approx(4e3 * pi * sqrt(2), rel=ROUNDING)
+
+
+def test_crossed_waves_tend_to_their_asymptotes():
+    table = waves.CROSSED_FRACTIONS
+    assert waves.crossed_contact_fraction_heavy(0.95) == pytest.approx(table[0.95], abs=3e-4)
+    assert waves.crossed_contact_fraction_heavy(0.85) == pytest.approx(table[0.85], abs=5e-3)
+    assert waves.crossed_contact_fraction_light(0.1) == pytest.approx(table[0.1], rel=0.15)
+    # Hertz at both crests of a period: a^3 = 3 F R / (4 E*), with h0 = lambda = E* = 1
+    fraction = 1e-3
+    force = fraction * waves.crossed_closure(1, 1, 1) / 2
+    hertz = 2 * pi * (3 * force / (4 * (2 * pi) ** 2)) ** (2 / 3)
+    assert waves.crossed_contact_fraction_light(fraction) == pytest.approx(hertz, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("fraction", [-0.1, 1.1, float("nan")])
+def test_waves_refuse_a_fraction_that_is_none(fraction):
+    for form in (waves.wave_contact_fraction, waves.wave_mean_gap, waves.crossed_contact_fraction_heavy):
+        with pytest.raises(ValueError, match="0 to 1"):
+            form(fraction)
+
+
+def test_without_load_there_is_no_pressure_in_units_of_its_mean():
+    with pytest.raises(ValueError, match="load"):
+        waves.wave_pressure(0.0, 0.1)
+
+
+# Full contact
+
+
+@pytest.mark.parametrize("solid", [RUBBER, SOLID, CHAIN])
+def test_full_contact_of_waves_is_that_of_their_heights(solid):
+    x, y = np.arange(48) / 48 * 0.3, np.arange(32)[:, None] / 32 * 0.3
+    q, height, speed = 2 * pi / 0.3, 1e-3, 0.2
+    wave = height * np.cos(q * x) * np.ones_like(y)
+    crossed = height * np.cos(q * x) * np.cos(q * y)
+    parameters = (height, 0.3, solid, speed)
+    assert full_contact.friction(wave, (0.3, 0.3), solid, speed) == pytest.approx(
+        full_contact.wave_friction(*parameters), rel=1e-11
+    )
+    assert full_contact.friction(crossed, (0.3, 0.3), solid, speed) == pytest.approx(
+        full_contact.crossed_friction(*parameters), rel=1e-11
+    )
+    pressure = full_contact.pressure(wave, (0.3, 0.3), solid, speed)
+    expected = full_contact.wave_pressure(*parameters, x) * np.ones_like(y)
+    np.testing.assert_allclose(pressure, expected, atol=1e-11 * np.abs(expected).max())
+    angles = np.linspace(0, 0.3, 10001)
+    assert -full_contact.wave_pressure(*parameters, angles).min() == pytest.approx(
+        full_contact.wave_closure(*parameters), rel=1e-6
+    )
+    assert full_contact.crossed_closure(*parameters) == sqrt(2) * full_contact.wave_closure(*parameters)
+
+
+@pytest.mark.parametrize("solid", [RUBBER, CHAIN])
+def test_full_contact_friction_is_traction_times_slope(solid):
+    rng = np.random.default_rng(3)
+    waves_ = np.zeros((24, 17), complex)
+    waves_[1:6, 1:6] = rng.normal(size=(5, 5)) + 1j * rng.normal(size=(5, 5))
+    heights = np.fft.irfft2(waves_, s=(24, 32))
+    q_x = 2 * pi * np.fft.rfftfreq(32, 0.5 / 32)
+    slope = np.fft.irfft2(1j * q_x * np.fft.rfft2(heights), s=heights.shape)
+    sides = (0.2, 0.5)
+    pressure = full_contact.pressure(heights, sides, solid, 0.7)
+    friction = full_contact.friction(heights, sides, solid, 0.7)
+    assert friction == pytest.approx(-np.mean(pressure * slope), rel=1e-11)
+    assert friction > 0
+    assert full_contact.friction(heights, sides, solid, 0.0) == 0
+    # Im E* of a Kelvin body is in proportion to the speed; that of the chain is not.
+    doubled = full_contact.friction(heights, sides, solid, 1.4) / friction
+    assert (doubled == pytest.approx(2, rel=1e-12)) == isinstance(solid, Kelvin)
+
+
+def test_full_contact_names_what_is_wrong():
+    with pytest.raises(ValueError, match="two dimensions"):
+        full_contact.friction(np.zeros(8), (1.0, 1.0), RUBBER, 1.0)
+    with pytest.raises(ValueError, match="sides"):
+        full_contact.friction(np.zeros((8, 8)), (1.0, 0.0), RUBBER, 1.0)
+
+
+# Indentation
+
+UP_AND_DOWN = ([0.0, 2.0, 4.0], [0.0, 0.2, 0.0])
+
+
+def cone_while_shrinking(t):
+    """E* = 1 + 4 exp(-t), d = s/10 up to 2, unit slope: B = 2/pi, t_1 by bisection of elementary functions."""
+
+    def lifted(start):
+        return (2 - start) + 4 * (np.exp(2 - t) - np.exp(start - t)) - (t - 2) - 4 * (1 - np.exp(2 - t))
+
+    low, high = 0.0, 2.0
+    for _ in range(60):
+        low, high = (low, (low + high) / 2) if lifted((low + high) / 2) < 0 else ((low + high) / 2, high)
+    return 2 / pi * 0.02 * (low**2 / 2 + 4 * ((low - 1) * np.exp(low - t) + np.exp(-t))), 0.1 * low * 2 / pi
+
+
+def test_cone_up_and_down_is_elementary():
+    times = np.array([2.0, 2.2, 2.5])
+    force, radius = indentation.force_of_depth(Cone(angle=pi / 4), SOLID, *UP_AND_DOWN, times)
+    for f, a, t in zip(force, radius, times, strict=True):
+        assert (f, a) == pytest.approx(cone_while_shrinking(t), rel=1e-11)
+    assert force[0] == pytest.approx(2 / pi * 0.02 * (2 + 4 * (1 + np.exp(-2))), rel=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("shape", "expected"),
+    [
+        (Sphere(radius=1.0), (0.3624872, 0.2383434, 0.0989906)),
+        (Cone(angle=pi / 4), (0.0832678, 0.0506557, 0.0170928)),
+    ],
+)
+def test_indentation_is_near_the_forces_of_a_time_stepped_foundation(shape, expected):
+    """Stored figures of finite steps: the elementary solution of the cone shows them to be off by up to 1.2e-3."""
+    force, _ = indentation.force_of_depth(shape, SOLID, *UP_AND_DOWN, [2.0, 2.2, 2.5])
+    assert force == pytest.approx(expected, rel=1.3e-3)
+
+
+SHAPES = [
+    Sphere(radius=0.3),
+    Cone(angle=0.4),
+    PowerLaw(coefficient=2.0, exponent=1.5),
+    PowerLaw(coefficient=9, exponent=30),
+]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_loading_force_is_the_convolution_of_lee_and_radok(shape):
+    times, depths = np.array([0.0, 0.4, 0.9, 1.5]), np.array([0.0, 0.1, 0.1, 0.3])
+    n, kc = shape.exponent, shape.mdr_coefficient
+    m = (n + 1) / n
+
+    def modulus(t):
+        return 2 / (1 - CHAIN.poisson_ratio) * CHAIN.relaxation_modulus(t)
+
+    for t in (0.3, 0.9, 1.2, 1.5):
+        total = 0.0
+        for low, high in ((0.0, 0.4), (0.9, 1.5)):
+            high = min(high, t)
+            if high <= low:
+                continue
+            start, end = np.interp([low, high], times, depths)
+            # in the radius, so that d^(m-1) is smooth; finer panels where the last mode remembers
+            ends = (np.array([start, end]) / kc) ** (1 / n)
+            cuts = ends[1] - (ends[1] - ends[0]) * np.concatenate([[1.0], np.geomspace(0.5, 1e-6, 30), [0.0]])
+
+            def integrand(a, low=low, high=high, start=start, end=end, t=t):
+                s = low + (kc * a**n - start) / (end - start) * (high - low)
+                return modulus(max(t - s, 0.0)) * kc**m * (n + 1) * a**n
+
+            total += sum(quad(integrand, a, b)[0] for a, b in pairwise(cuts))
+        expected = 2 * n / (n + 1) * kc ** (-1 / n) * total
+        assert indentation.loading_force(shape, CHAIN, times, depths, t)[0] == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_held_contact_relaxes_as_the_modulus_and_a_held_load_creeps_as_the_compliance(shape):
+    """After a step of a millionth of the shortest time."""
+    n, kc = shape.exponent, shape.mdr_coefficient
+    b = 2 * n / (n + 1) * kc ** (-1 / n)
+    later = np.array([1e-3, 0.1, 2.0, 100.0])
+    force = indentation.loading_force(shape, CHAIN, [0, 1e-9, 100], [0, 0.1, 0.1], later)
+    modulus = 2 / 0.6 * CHAIN.relaxation_modulus(later)
+    assert force == pytest.approx(b * modulus * 0.1 ** ((n + 1) / n), rel=1e-6)
+    depth = indentation.loading_depth(shape, CHAIN, [0, 1e-9, 100], [0, 7.0, 7.0], later)
+    compliance = 0.6 / 2 * CHAIN.creep_compliance(later)
+    assert depth == pytest.approx((7.0 * compliance / b) ** (n / (n + 1)), rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("solid", [SOLID, CHAIN])
+def test_the_force_of_a_depth_gives_that_depth_back(shape, solid):
+    """The force of a steady descent, on a fine polygon."""
+    times = np.linspace(0, 1.0, 1201) ** 2
+    forces = indentation.loading_force(shape, solid, [0, 1.0], [0, 0.1], times)
+    at = np.array([0.2, 0.7, 1.0])
+    depths = indentation.loading_depth(shape, solid, times, forces, at)
+    assert depths == pytest.approx(0.1 * at, rel=1e-5)
+
+
+@pytest.mark.parametrize("solid", [SOLID, RUBBER, CHAIN])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_withdrawing_slowly_is_elastic_and_fast_leaves_no_touch(shape, solid):
+    slow = 1e9
+    force, radius = indentation.force_of_depth(
+        shape, solid, [0, slow, 2 * slow], [0, 0.2, 0], [0.5 * slow, 1.5 * slow]
+    )
+    assert force[1] == pytest.approx(force[0], rel=1e-5)
+    assert radius[1] == pytest.approx(radius[0], rel=1e-5)
+    kc, n = shape.mdr_coefficient, shape.exponent
+    assert radius[0] == pytest.approx((0.1 / kc) ** (1 / n), rel=1e-12)
+    elastic = 2 * n / (n + 1) * solid.indentation_modulus * kc * radius[0] ** (n + 1)
+    assert force[0] == pytest.approx(elastic, rel=1e-5)
+    force, radius = indentation.force_of_depth(
+        shape, solid, [0, slow, slow * (1 + 1e-12)], [0, 0.2, 0], [slow * (1 + 1e-12)]
+    )
+    assert (force, radius) == (0, 0)
+
+
+def test_a_hold_before_the_withdrawal_counts():
+    shape = Sphere(radius=1.0)
+    history = [0, 1.0, 6.0, 7.0], [0, 0.1, 0.1, 0]
+    force, radius = indentation.force_of_depth(shape, SOLID, *history, [1.0, 6.0, 6.01])
+    assert force[0] > force[1] > force[2] > 0
+    assert radius[0] == radius[1] == pytest.approx(sqrt(0.1), rel=1e-12)
+    assert radius[2] < radius[1]
+
+
+def test_dashpot_of_a_kelvin_body_adds_its_rate():
+    """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
+    force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    d = np.array([0.05, 0.2])
+    assert force == pytest.approx(4 / 3 * (d**1.5 + 0.3 * 1.5 * np.sqrt(d) * 0.1), rel=1e-12)
+    chain = KelvinChain(instantaneous_compliance=0.0, compliances=(4.0,), retardation_times=(0.3,))
+    again = indentation.loading_force(Sphere(radius=1.0), chain, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    assert again == pytest.approx(force, rel=1e-12)
+
+
+def test_indentation_names_what_is_wrong():
+    sphere = Sphere(radius=1.0)
+    with pytest.raises(ValueError, match="force_of_depth"):
+        indentation.loading_force(sphere, SOLID, *UP_AND_DOWN, 1.0)
+    with pytest.raises(ValueError, match="one top"):
+        indentation.force_of_depth(sphere, SOLID, [0, 1, 2, 3], [0, 2, 1, 2], 1.0)
+    with pytest.raises(ValueError, match="times from"):
+        indentation.loading_force(sphere, SOLID, [0, 1], [0, 1], 2.0)
+    with pytest.raises(ValueError, match="first zero"):
+        indentation.loading_force(sphere, SOLID, [0, 1], [1, 2], 0.5)
+    with pytest.raises(ValueError, match="two at least"):
+        indentation.loading_force(sphere, SOLID, [0, 1], [0, 1, 2], 0.5)
+    with pytest.raises(ValueError, match="depth falls"):
+        indentation.loading_depth(sphere, SOLID, [0, 1, 1.01], [0, 1, 0], [0.9, 1.0, 1.01])
