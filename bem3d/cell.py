@@ -25,9 +25,12 @@ class Cell:
         """Pressure -> displacement, free of mean, at the points of collocation."""
         return self._filter(grid, lambda q, response: 2 / q * response, mean=0.0)
 
-    def preconditioner(self, grid: Grid) -> PeriodicFilter:
-        """The inverse of the operator; a mean pressure is taken for the lowest wave."""
-        return self._filter(grid, lambda q, response: q / 2 / response, mean=np.pi / grid.points)
+    def preconditioners(self, grid: Grid) -> list[PeriodicFilter]:
+        """The inverse of the operator, in factors as `HalfSpace`; a mean pressure is taken for the lowest wave."""
+        elastic = self._filter(grid, lambda q, _: q / 2, mean=np.pi / grid.points)
+        if self.flow.at_rest:
+            return [elastic]
+        return [PeriodicFilter(grid.shape, lambda _, q_x: 1 / self._response(grid, q_x), self.engine), elastic]
 
     def slope(self, grid: Grid) -> PeriodicFilter:
         """Pressure -> slope of the displacement along the flow, as far as it dissipates."""

@@ -4,19 +4,18 @@ Find p >= 0 with gap = A p + z - d >= 0 and p * gap = 0 on every point, for a de
 sum(p) = load. The operator A is positive definite; it need not be symmetric.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from . import kernels
-from .krylov import conjugate_gradients, gmres
+from .krylov import conjugate_gradients, direct, gmres
 
-ROUNDS = 400  # sets of contact tried before giving up; 5 to 30 are usual
-ACCURACY = 0.5  # of the error on one set of contact: more is wasted while the set still changes
-READMITTED = 0.1  # of the contact: when more of what was dropped penetrates, the solves were too rough,
-CLOSER = 30.0  # and from then on are closer by this factor
-PATIENCE = 30  # rounds after which they are closer by half, each time: rough solves can cycle, close ones do not
+ROUNDS = 400  # sets of contact tried before giving up; 5 to 20 are usual
+ACCURACY = 0.1  # of the error on one set of contact: rougher solves drop what belongs to it
+ADDED = 0.3  # of the penetration outside: what may be left inside when the set grows; at 1 it cycles
+PATIENCE = 30  # rounds after which solves are closer by a tenth, each time: rough ones can cycle
 INNER_ITERATIONS = 60
 FEW = 8  # points that span the least height to which errors are referred
 
@@ -51,26 +50,27 @@ def solve(
     tolerance: float,
     depth: float | None = None,
     load: float | None = None,
-    precondition: Callable | None = None,
+    precondition: Sequence[Callable] = (),
     symmetric: bool = False,
     sums=FUSED,
 ) -> Contact:
-    """Solve roughly on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
+    """Solve on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
 
     start : pressure to begin with (ny, nx), >= 0; its support is the first set of contact
     tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z),
         or what the heights in contact span where that is more (depths under a line may be negative)
     depth, load : exactly one; load is sum(p)
-    precondition : approximate inverse of the operator on the whole grid
-    symmetric : conjugate gradients, else GMRES, on each set
+    precondition : factors of an approximate inverse of the operator on the whole grid, first to last; what each
+        gives outside the set of contact is discarded before the next
+    symmetric : conjugate gradients, else GMRES, on a single row elimination
     sums : see `kernels`
 
     Raises NotConverged.
     """
-    krylov, xp = conjugate_gradients if symmetric else gmres, sums.xp
+    xp = sums.xp
+    solver = conjugate_gradients if symmetric else direct if len(heights) == 1 else gmres
     heights = xp.ascontiguousarray(heights)
     pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
-    dropped = xp.zeros(heights.shape, bool)
     gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
     lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
     for rounds in range(1, ROUNDS + 1):
@@ -82,18 +82,13 @@ def solve(
         if inside <= aim and outside <= aim:
             return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
         if rounds % PATIENCE == 0:
-            accuracy /= 2
-        if inside <= max(aim, accuracy * outside):
-            penetrating = gap < -aim
-            if xp.count_nonzero(penetrating & dropped) > READMITTED * xp.count_nonzero(contact):
-                accuracy /= CLOSER
-            contact |= penetrating
-            dropped[:] = False
+            accuracy /= 10
+        if inside <= max(aim, ADDED * outside):
+            contact |= gap < -aim
         on_set = _OnSet(operator, precondition, contact, depth is None, sums)
-        correction = krylov(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
+        correction = solver(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
         values = xp.maximum(pressure.reshape(-1)[on_set.where] + correction, 0.0)
         sums.put(values, on_set.where, pressure)
-        dropped.reshape(-1)[on_set.where[values == 0]] = True
         if not values.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
             pressure, accuracy = xp.maximum(level - heights, 0.0), accuracy / 4
         pressure = _balanced(pressure, load)
@@ -110,13 +105,23 @@ class _OnSet:
 
     def __init__(self, operator, precondition, contact, mean_free, sums):
         self.sums, self.where = sums, sums.xp.flatnonzero(contact)
-        self._operator, self._precondition, self._mean_free = operator, precondition, mean_free
+        self._operator, self._precondition, self.mean_free = operator, precondition, mean_free
         self._plane, self._image = sums.xp.zeros(contact.shape), sums.xp.empty(contact.shape)
 
     def restricted(self, plane):
         """Its values on the set."""
         values = plane.reshape(-1)[self.where]
-        return values - values.mean() if self._mean_free else values
+        return values - values.mean() if self.mean_free else values
+
+    def row(self):
+        """Displacement of a single row under a unit load on its first pixel, and on its last."""
+        plane = self.sums.xp.zeros_like(self._plane)
+        images = []
+        for place in (0, -1):
+            plane[:] = 0
+            plane[0, place] = 1.0
+            images.append(self._operator(plane)[0])
+        return images
 
     def operator(self, values, out, first, second):
         """The operator's values into out; what is to be taken off them, and their products with two vectors."""
@@ -124,17 +129,20 @@ class _OnSet:
 
     def precondition(self, values, out, first, second):
         """The same with the approximate inverse."""
-        if self._precondition is None:
+        if not self._precondition:
             out[:] = values
             return 0.0, float((values * first).sum()), float((values * second).sum())
-        return self._through(self._precondition, values, out, first, second)
+        for factor in self._precondition:
+            sums = self._through(factor, values, out, first, second)
+            values = out
+        return sums
 
     def _through(self, product, values, out, first, second):
         self.sums.put(values, self.where, self._plane)
         product(self._plane, out=self._image)
         total, along, beside = self.sums.take(self._image, self.where, out, first, second)
         # The vectors are free of mean themselves where means are taken off: their products need no correction.
-        return total / out.size if self._mean_free else 0.0, along, beside
+        return total / out.size if self.mean_free else 0.0, along, beside
 
     def applied(self, values):
         """The operator's values, as a new vector."""

@@ -34,12 +34,16 @@ class PeriodicFilter:
     """Multiplication of every wave by its symbol, on ny x nx points that repeat. `applications` counts."""
 
     def __init__(self, shape, symbol, engine=PLAIN):
-        """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array."""
+        """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array.
+
+        One of q_x alone, an array of one row, needs no transform along y.
+        """
         ny, nx = shape
         q_y = 2 * np.pi * np.arange(ny // 2 + 1)[:, None] / ny
         q_x = 2 * np.pi * np.arange(nx // 2 + 1)[None, :] / nx
         self.shape, self.applications = shape, 0
-        self._product = engine.product(symbol(q_y, q_x), shape, shape)
+        values = symbol(q_y, q_x)
+        self._product = engine.product(values, shape, (1 if len(values) == 1 else ny, nx))
 
     def __call__(self, values, out=None):
         """The filtered values (ny, nx)."""

@@ -66,7 +66,7 @@ class Engine:
         """The product with a symbol in Fourier space: callable, plane (ny, nx) -> plane, `out` optional.
 
         symbol : (my//2+1, mx//2+1), real or complex, unnormalized; even in q_y
-        shape, padded : (ny, nx) and (my, mx)
+        shape, padded : (ny, nx) and (my, mx); my = 1 multiplies row by row
         """
         if self.on_gpu:
             return WholePlane(symbol, shape, padded, self.xp, self.complex)
@@ -133,8 +133,10 @@ class WholePlane:
     def __call__(self, plane, out=None):
         """The product (ny, nx)."""
         fft, (ny, nx) = self._xp.fft, self.shape
-        waves = fft.rfft2(plane.astype(self._real), s=self._padded)
-        image = fft.irfft2(waves * self._symbol, s=self._padded)[:ny, :nx]
+        axes = (1,) if self._padded[0] == 1 else (0, 1)
+        sizes = self._padded[-len(axes) :]
+        waves = fft.rfftn(plane.astype(self._real), s=sizes, axes=axes)
+        image = fft.irfftn(waves * self._symbol, s=sizes, axes=axes)[:ny, :nx]
         if out is None:
             return image.astype(float)
         out[:] = image

@@ -72,6 +72,14 @@ class Grid:
             values = _interpolated(values, count, axis)
         return values
 
+    def resampled_contact(self, pressure: np.ndarray) -> np.ndarray:
+        """The same of a pressure, zero where it is at the nearest point: the contact does not grow by a rim."""
+        contact = pressure > 0
+        for axis, count in enumerate(self.shape):
+            given = contact.shape[axis]
+            contact = contact.take((2 * np.arange(count) + 1) * given // (2 * count), axis)
+        return self.resample(pressure) * contact
+
     def box(self, chosen: np.ndarray) -> "Box":
         """The smallest box around the chosen pixels; chosen (rows, points) bool, at least one True."""
         x, y = self.x[chosen.any(axis=0)], self.y[chosen.any(axis=1)]

@@ -57,15 +57,23 @@ class HalfSpace:
         seen = np.maximum(lengths, LEAST_DIFFERENCE)
         return self.flow.shares * lengths / seen, seen
 
-    def preconditioner(self, grid: Grid) -> PeriodicFilter:
-        """Approximate inverse of the operator: |q|/2 over the discrete compliance of the modes."""
+    def preconditioners(self, grid: Grid) -> list[PeriodicFilter]:
+        """Approximate inverse of the operator: one over the discrete compliance of the modes, then |q|/2.
 
-        def symbol(q_y, q_x):
+        Two factors, because a contact discards what the first gives outside: of a displacement known on the
+        contact alone, a jump to nothing behind its trailing edge, as large as the memory is long.
+        """
+
+        def elastic(q_y, q_x):
             q = np.hypot(q_y, q_x)
             q[0, 0] = np.pi / grid.points  # half the lowest: a mean pressure on a free surface does push it in
-            return q / 2 / _discrete_compliance(self.flow, grid, q_x)
+            return q / 2
 
-        return PeriodicFilter(grid.shape, symbol, self.engine)
+        def flow(_, q_x):
+            return 1 / _discrete_compliance(self.flow, grid, q_x)
+
+        symbols = [elastic] if self.flow.at_rest else [flow, elastic]
+        return [PeriodicFilter(grid.shape, symbol, self.engine) for symbol in symbols]
 
     def _convolution(self, kernel):
         return FreeConvolution(kernel, self.engine)
@@ -78,9 +86,7 @@ class HalfSpace:
 
 
 def _discrete_compliance(flow, grid, q_x):
-    """Of pressure held from pixel to pixel, at q_x [rad/pixel], over the relaxed one; real at rest."""
-    if flow.at_rest:
-        return 1.0
+    """Of pressure held from pixel to pixel, at q_x [rad/pixel], over the relaxed one."""
     compliance = np.full(q_x.shape, complex(flow.instantaneous))
     for share, length in zip(flow.shares, flow.in_pixels(grid), strict=True):
         gone = -np.expm1(-1 / length)

@@ -14,8 +14,8 @@ from .line import Line
 from .sliding import Flow
 from .surface import RoughSurface
 
-COARSEST = 64  # points a side from which a solve starts, or all there are below twice as many
-COARSE_TOLERANCE = 1e-3  # on all grids but the finest: they only provide the start
+COARSEST = 32  # points a side from which a solve starts, or all there are below twice as many
+COARSE_TOLERANCE = 1e-5  # on all grids but the finest: a set of contact right to the pixel pays on the next
 
 
 def _medium(indenter, flow, engine):
@@ -102,8 +102,8 @@ class Problem:
         """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError."""
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
         depth, load = self._pressed(grid, heights)
-        operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
-        start = self._first_guess(heights, grid, depth, load) if start is None else grid.resample(start)
+        operator, preconditioners = self.medium.operator(grid), self.medium.preconditioners(grid)
+        start = self._first_guess(heights, grid, depth, load) if start is None else grid.resampled_contact(start)
         here = self.engine.asarray
         try:
             return contact.solve(
@@ -113,7 +113,7 @@ class Problem:
                 tolerance,
                 depth=depth,
                 load=load,
-                precondition=preconditioner,
+                precondition=preconditioners,
                 symmetric=self.flow.at_rest,
                 sums=self.engine.sums,
             ).map(self.engine.asnumpy)
@@ -121,7 +121,7 @@ class Problem:
             raise SolveError(f"no converged contact on {grid.points} x {grid.rows} points: {error}") from error
         finally:
             self._count(grid, operator)
-            self.transforms += preconditioner.applications * grid.points * grid.rows
+            self.transforms += sum(factor.applications for factor in preconditioners) * grid.points * grid.rows
 
     def _count(self, grid, product):
         self.work += product.applications * grid.points * grid.rows

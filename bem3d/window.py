@@ -6,12 +6,14 @@ from scene import EmptyContact, SolveError
 from scene.scales import elastic_contact
 
 from .grid import Box, Grid
-from .problem import COARSE_TOLERANCE, COARSEST, Problem
+from .problem import Problem
 
 PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the surroundings allow for
 MARGIN = 1.15  # window over contact
 SETTLED = 0.8  # share of its window that a contact must fill, margin included, for the window to stay
 ATTEMPTS = 12  # windows tried
+COARSE = 64  # points a side at most, on which a window is sought
+COARSE_TOLERANCE = 1e-3  # of the contacts that only place it
 RING = 3.0  # outer over inner side of a ring of the surroundings
 RING_POINTS = 96  # a side, for the displacement in a ring: 16 pixels from the contact at least
 SAMPLES = 2048  # points a side at most, at which a ring is searched for what penetrates
@@ -32,8 +34,8 @@ def surroundings(problem: Problem) -> Box:
 
 
 def fitted(problem: Problem, points: int) -> Grid:
-    """A grid of `points` a side that leaves a margin around the contact, found on grids of at most COARSEST."""
-    coarse = min(points, COARSEST)
+    """A grid of `points` a side that leaves a margin around the contact, found on grids of at most COARSE."""
+    coarse = min(points, COARSE)
     box, margin = surroundings(problem), 1.0
     for _ in range(ATTEMPTS):
         grid = Grid.around(box, coarse, margin, problem.width)

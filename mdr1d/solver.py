@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Plane, Result, Scene, SolveError, Wave
+from scene import Cylinder, Plane, Program, Result, Scene, SolveError, Wave
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
@@ -61,6 +61,11 @@ class MDR:
             reasons.append(
                 f"a {type(scene.indenter).__name__} is no body of revolution, so it has no one-dimensional "
                 "profile: use a Sphere, Cone or PowerLaw, or a three-dimensional solver"
+            )
+        elif isinstance(scene.motion, Program):
+            reasons.append(
+                "motion = Program is a history in time, which is not followed in one dimension: use Indent or "
+                "Slide, or a three-dimensional solver"
             )
         elif isinstance(scene.roughness, Wave):
             reasons.append(

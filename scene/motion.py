@@ -93,8 +93,8 @@ class Stage:
 class Program:
     """A history in time: stages one after the other, from zero load or depth on an undisturbed elastomer.
 
-    One quantity is prescribed throughout. At zero load, and lifted faster than the elastomer recovers, the surfaces
-    separate. A mean gap has no zero to start from: a Plane is pressed by its pressure.
+    One quantity is prescribed throughout. Surfaces separate at zero load, and where the indenter is lifted faster
+    than the elastomer recovers. A mean gap has no zero to start from: a Plane is pressed by its pressure.
     """
 
     stages: Annotated[tuple[Stage, ...], Field(min_length=1)]

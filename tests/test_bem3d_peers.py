@@ -2,7 +2,8 @@
 
 They put constant pressure on the same pixels, or the same waves of it on the same cell, so the discrete answers
 are the same numbers: two answers differ by no more than their solvers were told to leave. Tolerances are about
-ten times what was found. Without a peer its tests are skipped.
+ten times what was found. Without a peer its tests are skipped. tamaas 2.9 is wrong by 1/n in its highest wave
+numbers where n, the points a side, is odd: it is compared at even n only.
 """
 
 import numpy as np
@@ -13,14 +14,17 @@ from bem3d.cell import Cell
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
+from bem3d.marching import march
+from bem3d.problem import Problem
 from bem3d.sliding import Flow
 from bem3d.surface import RoughSurface
-from scene import Elastic, Indent, Plane, Prony, Scene, SelfAffine, Sphere
+from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
 
 # Of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
 pytestmark = pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
 
 ELASTIC = Elastic(0.25)  # E* = 4G = 1
+PRONY = Prony(1.0, (4.0, 2.0), (1.0, 0.1))
 SLOPE = 0.1  # rms of the full gradient of every rough plane here
 TOLERANCE = 1e-10  # of ours on the gap, over the depth below the lowest point
 LEFT = 1e-10  # complementarity error left by the peers, sum(p gap) / (sum(p) rms height)
@@ -65,16 +69,36 @@ def ours(indenter, motion, roughness, elastomer=ELASTIC, points=128, **settings)
     return result, heights
 
 
-def by_tamaas(tamaas, heights, pressure, modulus=1.0, ratio=0.0, steps=1, **history):
-    """Pressure and gap on a cell; with shear moduli, times and a time step, after so many steps."""
+def model_of(tamaas, heights, modulus, ratio):
     model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], list(heights.shape))
     model.E, model.nu = modulus, ratio
-    kind = tamaas.MaxwellViscoelastic if history else tamaas.PolonskyKeerRey
-    solver = kind(model, np.ascontiguousarray(-heights), LEFT, **history)
+    return model
+
+
+def by_tamaas(tamaas, heights, pressure, modulus=1.0):
+    """Pressure and gap on a cell."""
+    model = model_of(tamaas, heights, modulus, 0.0)
+    solver = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-heights), LEFT)
+    assert solver.solve(pressure) <= LEFT
+    return model.traction, model["gap"]
+
+
+def viscoelastic(tamaas, heights, tolerance, step):
+    """The solver of tamaas for a cell of PRONY: a generalized Maxwell solid by backward Euler.
+
+    Its answers are right only where the long-time shear modulus, here E / 3, is 1.
+    """
+    model = model_of(tamaas, heights, 3.0 * PRONY.equilibrium_modulus, PRONY.poisson_ratio)
+    modes = list(PRONY.moduli), list(PRONY.relaxation_times)
+    return tamaas.MaxwellViscoelastic(model, np.ascontiguousarray(-heights), tolerance, step, *modes)
+
+
+def held_by_tamaas(tamaas, heights, pressure, step, steps=1):
+    """Pressure and gap on a cell of PRONY, so many steps after it was pressed."""
+    solver = viscoelastic(tamaas, heights, LEFT, step)
     for _ in range(steps):
-        left = solver.solve(pressure)
-    assert left <= LEFT
-    return model.traction.copy(), model["gap"].copy()
+        assert solver.solve(pressure) <= LEFT
+    return solver.model.traction.copy(), solver.model["gap"].copy()
 
 
 def by_contact_mechanics(substrate, heights, side, **pressed):
@@ -172,27 +196,65 @@ def test_the_comparison_of_cells_can_fail(tamaas):
     assert not agree(result, by_tamaas(tamaas, heights, pressure, modulus=1 + 1e-5))
 
 
-# tamaas steps a generalized Maxwell solid by backward Euler. Its answers are right only where the long-time shear
-# modulus, here model.E / 3 at nu = 1/2, is 1.
-PRONY = Prony(1.0, (4.0, 2.0), (1.0, 0.1))
-HISTORY = {"shear_moduli": list(PRONY.moduli), "characteristic_times": list(PRONY.relaxation_times)}
-
-
 def test_a_viscoelastic_cell_held_for_long_is_where_tamaas_ends(tamaas):
     result, heights = ours(Plane(), Indent(pressure=0.1), rough_plane(128), PRONY)
-    peer = by_tamaas(tamaas, heights, 0.1, 3.0, 0.5, steps=20, time_step=100.0, **HISTORY)
+    peer = held_by_tamaas(tamaas, heights, 0.1, 100.0, steps=20)
     assert agree(result, peer), apart(result, peer)
 
 
 def test_a_viscoelastic_cell_pressed_at_once_is_where_tamaas_begins(tamaas):
     result, heights = ours(Plane(), Indent(pressure=0.1), rough_plane(128), Elastic(PRONY.glassy_modulus))
-    peer = by_tamaas(tamaas, heights, 0.1, 3.0, 0.5, time_step=1e-9, **HISTORY)
+    peer = held_by_tamaas(tamaas, heights, 0.1, 1e-9)
     assert agree(result, peer), apart(result, peer)
+
+
+# Pressed for a second and held for another: 64 of our steps, of second order; 128 and 256 of theirs, of first
+# order, extrapolated: the difference falls with the square of our step until it is that of theirs, 1e-4.
+PROGRAM = Program(stages=(Stage(duration=1.0, pressure=0.1), Stage(duration=1.0)))
+IN_TIME = 3e-4
+
+
+@pytest.fixture(scope="module")
+def transients(tamaas):
+    """Ours; times, mean gaps and shares in contact of tamaas in the middles of our steps; its last pressure."""
+    rough, grid = rough_plane(64), Grid(64, 1.0)
+    problem = Problem(Scene(Plane(), PRONY, PROGRAM.held, rough), Engine())
+    history = march(problem, PROGRAM, grid, 1e-8, 64)
+    heights = problem.heights(grid, problem.surface(grid))
+    found = []
+    for finer in (1, 2):
+        solver = viscoelastic(tamaas, heights, 1e-8, 1 / (64 * finer))
+        rows = []
+        for step in range(1, 127 * finer + 1):
+            solver.solve(float(PROGRAM.prescribed(step * solver.time_step)))
+            traction = solver.model.traction
+            rows.append((solver.model["gap"].mean(), np.mean(traction > 0)))
+        found.append((np.array(rows[finer - 1 :: 2 * finer]), traction.copy()))
+    (coarse, early), (fine, late) = found
+    return history, rough.rms_height, 2 * fine - coarse, 2 * late - early
+
+
+def test_a_viscoelastic_cell_goes_the_way_of_tamaas(transients):
+    history, height, theirs, pressure = transients
+    resolved = history.time > 0.25  # at first a few pixels touch
+    assert np.abs(-history.depth - theirs[:, 0])[resolved].max() <= IN_TIME * height
+    # a share of pixels that come into contact one by one: to eight of 4096
+    assert np.abs(history.contact_area - theirs[:, 1]).max() <= 0.002
+    assert np.abs(history.pressure - pressure).sum() <= IN_TIME * pressure.sum()
+
+
+def test_the_comparison_in_time_can_fail(transients):
+    history, height, theirs, pressure = transients
+    gap = -history.depth
+    late = theirs[1:-1, 0] - gap[:-2]  # a step late
+    assert np.abs(late).min() > IN_TIME * height
+    assert np.ptp(theirs[:, 0]) > 0.5 * height
+    assert np.abs(history.pressure.T - pressure).sum() > IN_TIME * pressure.sum()
 
 
 def test_the_comparison_of_viscoelastic_cells_can_fail(tamaas):
     result, heights = ours(Plane(), Indent(pressure=0.1), rough_plane(128), PRONY)
-    underway = by_tamaas(tamaas, heights, 0.1, 3.0, 0.5, steps=5, time_step=0.1, **HISTORY)
+    underway = held_by_tamaas(tamaas, heights, 0.1, 0.1, steps=5)
     assert not agree(result, underway)
 
 
@@ -202,7 +264,7 @@ DEPTH, SIDE = 0.02, 0.6
 ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shortest=0.0625, seed=1)
 
 
-@pytest.mark.parametrize("points", [64, 150])
+@pytest.mark.parametrize("points", [64, 81])
 def test_the_kernels_are_those_of_contact_mechanics(contact_mechanics, points):
     # lengths in pixels, E* = 1; their free kernel has logarithms of ratios near one, which cost it 1e-12
     pressure, grid = np.random.default_rng(points).random((points, points)), Grid(points, float(points))

@@ -18,6 +18,7 @@ from scene import (
     KelvinChain,
     Plane,
     PowerLaw,
+    Program,
     Prony,
     Refused,
     Scene,
@@ -25,6 +26,7 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
+    Stage,
     StandardLinearSolid,
     Wave,
 )
@@ -96,6 +98,7 @@ WAVY = Wave(amplitude=1e-6, wavelength=1e-3)
         (Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=1.0, line_load=1.0), ROUGH.roughness), "Cylinder"),
         (Scene(Plane(), SOLID, Slide(speed=1.0, pressure=1.0), ROUGH.roughness), "Plane"),
         (replace(ROUGH, roughness=WAVY), "Wave"),
+        (replace(ROUGH, motion=Program(stages=(Stage(duration=1.0, load=1.0),))), "Program"),
     ],
 )
 def test_what_has_no_one_dimensional_profile_is_refused_by_name(scene, word):

@@ -16,11 +16,13 @@ from scene import (
     KelvinChain,
     Plane,
     PowerLaw,
+    Program,
     Prony,
     Scene,
     SelfAffine,
     Slide,
     Sphere,
+    Stage,
     StandardLinearSolid,
 )
 from scene.reading import InvalidInput, read
@@ -28,6 +30,18 @@ from scene.reading import InvalidInput, read
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
 MOTION = '[motion]\ntype = "slide"\nspeed = 0.1\nload = 1.0\n'
+PROGRAM = """[motion]
+type = "program"
+[[motion.stages]]
+duration = 1
+depth = 1e-4
+[[motion.stages]]
+duration = 2.0
+speed = 0.1
+[[motion.stages]]
+duration = 1.0
+depth = 0
+"""
 ROUGHNESS = "[roughness]\ntype = 'self-affine'\nhurst = 0.2\nrms_height = 5e-5\nlongest = 1e-2\n"
 SCENE = INDENTER + ELASTOMER + MOTION
 WHOLE = SCENE + ROUGHNESS
@@ -135,6 +149,47 @@ def test_a_mistake_is_named_with_its_place_value_and_what_is_allowed(tmp_path, o
     assert old in WHOLE
     with pytest.raises(InvalidInput, match=said):
         scene_from(tmp_path, WHOLE.replace(old, new))
+
+
+def test_a_program_of_stages_can_be_read(tmp_path):
+    stages = Stage(duration=1.0, depth=1e-4), Stage(duration=2.0, speed=0.1), Stage(duration=1.0, depth=0.0)
+    scene = scene_from(tmp_path, INDENTER + ELASTOMER + PROGRAM)
+    assert scene.motion == Program(stages=stages)
+    adapter = TypeAdapter(Scene)
+    assert adapter.validate_json(adapter.dump_json(scene)) == scene
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("duration = 2.0", "duration = 0", r"motion.stages.1.duration = 0.*greater than 0"),
+        ("duration = 2.0", "", r"motion.stages.1.duration: missing, a valid number"),
+        ("speed = 0.1", "speed = -1", r"motion.stages.1.speed = -1.*greater than or equal to 0"),
+        ("speed = 0.1", "sped = 0.1", r"motion.stages.1.sped = 0.1: Unexpected keyword"),
+        ("speed = 0.1", "gap = 0.1", r"motion.stages.1.gap = 0.1: Unexpected keyword"),
+        ("speed = 0.1", "load = 1", r"motion: stages prescribe depth and load: give one and the same throughout"),
+        ("speed = 0.1", "depth = -1e-4", r"motion.stages.1.depth = -0.0001.*greater than or equal to 0"),
+        ("depth = 1e-4", "", r"motion: stages press nowhere: give one of load \[N\], depth \[m\], line_load"),
+        (PROGRAM[26:], "stages = []", r"motion.stages = \[\]: .*at least 1 item"),
+        (PROGRAM[26:], "", r"motion.stages: missing, a list"),
+        (PROGRAM[26:], "stages = [1.0]", r"motion.stages.0 = 1.0: a table"),
+    ],
+)
+def test_a_mistake_in_a_program_is_named_with_its_stage(tmp_path, old, new, said):
+    assert old in PROGRAM
+    with pytest.raises(InvalidInput, match=said):
+        scene_from(tmp_path, INDENTER + ELASTOMER + PROGRAM.replace(old, new))
+
+
+def test_a_program_prescribes_by_straight_lines_from_zero_and_what_presses_it_suits_the_indenter():
+    stages = Stage(duration=1.0, load=2.0), Stage(duration=2.0, speed=0.5), Stage(duration=1.0, load=0.0)
+    program = Program(stages=stages)
+    np.testing.assert_allclose(program.prescribed([0, 0.5, 1, 2, 3, 3.5, 4]), [0, 1, 2, 2, 2, 1, 0])
+    np.testing.assert_allclose(program.path([1.0, 2.0, 4.0]), [0.0, 0.5, 1.0])
+    assert (program.duration, program.length, program.pressed_by) == (4.0, 1.0, "load")
+    assert program.held == Indent(load=2.0)
+    with pytest.raises(ValidationError, match=r"motion.load = 2 does not press a Cylinder: give line_load"):
+        Scene(Cylinder(1.0), Elastic(1e6), program)
 
 
 def test_every_mistake_is_named_at_once_each_on_a_line_with_the_file(tmp_path):

@@ -1,0 +1,247 @@
+"""Marching in time through a program of loads or depths, at rest or sliding: one elastic contact a step.
+
+The pressure is constant in a step. Within it, the displacement is that of a stiffer half-space on top of what the
+material remembers, so each step is a symmetric problem of contact. The gap is collocated where a pressure held in
+steps displaces as a smooth one would (see `Creep.collocation`): forces and depths are of second order in the step,
+and so is friction, which is all delay, however short the memory.
+
+The window is attached to the material and is shifted by whole pixels as the indenter moves on.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from scene import Plane, Program, SolveError
+
+from . import contact
+from .grid import Grid
+from .material import Creep, Material
+from .problem import Problem
+from .timeline import timeline
+from .upstream import Endless, Repeating, Sheet
+
+ROUNDING = 1e-12  # of the heights: an overlap of less is none
+FIRST = 1 / 64  # of the window that a load is guessed to touch first
+PLACES = 8  # within a pixel, of which the heights are kept
+
+
+@dataclass(frozen=True)
+class History:
+    """A contact over time, arrays (steps,) in SI units.
+
+    time, path, speed : in the middle of each step
+    depth : there; NaN where nothing touches at a load of zero
+    normal_force, contact_area : of the step
+    friction_by_traction : pressure times the indenter's slope, > 0 opposes the motion
+    power : of the pressure on the delayed part of the displacement; in steady sliding friction times speed,
+        otherwise what is stored and the motion in depth count as well
+    residual, rounds : of each contact, see `contact`
+    pressure, gap : in the last step (ny, nx)
+    offset : by which the pixels' centres then are downstream of those of the grid
+    """
+
+    time: np.ndarray
+    path: np.ndarray
+    speed: np.ndarray
+    depth: np.ndarray
+    normal_force: np.ndarray
+    friction_by_traction: np.ndarray
+    power: np.ndarray
+    contact_area: np.ndarray
+    residual: np.ndarray
+    rounds: np.ndarray
+    pressure: np.ndarray
+    gap: np.ndarray
+    offset: float
+
+    @property
+    def friction_by_work(self) -> np.ndarray:
+        """power / speed [N], a second estimate of steady friction; NaN at rest."""
+        moving = self.speed > 0
+        return np.where(moving, self.power / np.where(moving, self.speed, 1.0), np.nan)
+
+
+def march(problem: Problem, program: Program, grid: Grid, tolerance: float, steps: int) -> History:
+    """Through a program on one grid.
+
+    problem : the same scene with the motion `program.held`
+    tolerance : of each contact, see `contact`
+    steps : of the whole program, see `timeline`
+
+    Raises SolveError where there are too many steps, a contact does not converge or it reaches the grid's edge.
+    """
+    times = timeline(program, grid.pixel, steps)
+    body, material, press = _Body(problem, grid), _material(problem, program, grid), _Press(problem, program, grid)
+    touch, rows = _Touch(np.zeros(grid.shape)), []
+    for start, end in pairwise(times):
+        middle, step = (start + end) / 2, end - start
+        seen = material.creep.collocation(step)
+        guess = np.roll(touch.pressure, material.follow(program.path(middle)), axis=1)
+        heights = body.heights(material.offset(program.path(start + seen))) + material.remembered(seen)
+        compliance = material.creep.compliance(seen)
+        touch = press(heights, compliance, guess, tolerance, start + seen, middle)
+        slopes = body.slopes(material.offset(program.path(middle)))
+        work = material.crept(step, touch.pressure, touch.displaced(heights) / compliance)
+        rows.append((start + seen, *touch.sums(slopes), work / step))
+    press.count()
+    return _history(problem, program, grid, times, np.array(rows), touch, material)
+
+
+def _material(problem, program, grid):
+    creep = Creep.of(problem.scene.elastomer)
+    window = Sheet(grid, len(creep.times))
+    if isinstance(problem.scene.indenter, Plane):
+        return Material(creep, Repeating(window))
+
+    def half_space(sheet):
+        operator, engine = problem.medium.operator(sheet), problem.engine
+        return lambda pressure: engine.asnumpy(operator(engine.asarray(pressure))) * sheet.pixel
+
+    return Material(creep, Endless(window, program.length, half_space))
+
+
+class _Body:
+    """The indenter over the material: mostly at few places within a pixel, where it is evaluated once."""
+
+    def __init__(self, problem, grid):
+        self._problem, self._grid, self._surface = problem, grid, problem.surface(grid)
+        self._at = lru_cache(PLACES)(self._evaluated)
+
+    def heights(self, offset):
+        """z [m] at points so far [m] downstream of the grid's."""
+        return self._at(self._problem.heights, round(offset / self._grid.pixel, 9))
+
+    def slopes(self, offset):
+        """dz/dx there."""
+        return self._at(self._problem.slopes, round(offset / self._grid.pixel, 9))
+
+    def _evaluated(self, of, pixels):
+        x, y = self._grid.centre
+        return of(replace(self._grid, centre=(x + pixels * self._grid.pixel, y)), self._surface)
+
+
+@dataclass(frozen=True)
+class _Touch:
+    """A contact: pressure over E* and gap [m] (ny, nx), depth [m], and what it took."""
+
+    pressure: np.ndarray
+    gap: np.ndarray | None = None
+    depth: float = np.nan
+    violation: float = 0.0
+    rounds: int = 0
+
+    def displaced(self, heights):
+        """Displacement by the pressure [m] where the rest of the gap is heights - depth."""
+        return self.gap + self.depth - heights if self.pressure.any() else np.zeros(heights.shape)
+
+    def sums(self, slopes):
+        """What a history keeps of it."""
+        traction = -np.sum(self.pressure * slopes)
+        count = np.count_nonzero(self.pressure)
+        return self.depth, self.pressure.sum(), traction, count, self.violation, self.rounds
+
+
+class _Press:
+    """One contact after the other between a program's indenter and one half-space."""
+
+    def __init__(self, problem, program, grid):
+        self._problem, self._program, self._grid = problem, program, grid
+        self._operator = problem.medium.operator(grid)
+        self._preconditioners = problem.medium.preconditioners(grid)
+
+    def __call__(self, heights, compliance, guess, tolerance, seen, middle):
+        """The contact at the depth of the time `seen`, or under the load in the `middle` of the step [s].
+
+        heights [m], and guess, a pressure to begin with (ny, nx); compliance over the relaxed one.
+        """
+        program, pixel = self._program, self._grid.pixel
+        if program.pressed_by == "depth":
+            load, depth = None, float(program.prescribed(seen))
+            overlap = depth - heights
+            if overlap.max() <= ROUNDING * np.abs(heights).max():
+                return _Touch(np.zeros(heights.shape), -overlap, depth)
+        else:
+            load, depth = self._load(middle), None
+            if load == 0:
+                return _Touch(np.zeros(heights.shape), np.full(heights.shape, np.nan))
+            first = int(heights.size * FIRST) + 1
+            overlap = np.partition(heights, first, axis=None)[first] - heights
+        # A half-space that is c times as compliant under p is the relaxed one under c p.
+        start = compliance * guess if guess.any() else np.maximum(overlap / pixel, 0.0)
+        found = self._solved(
+            heights / pixel, start, tolerance, depth and depth / pixel, load and compliance * load, middle
+        )
+        touch = _Touch(
+            found.pressure / compliance, found.gap * pixel, found.depth * pixel, found.violation, found.rounds
+        )
+        self._check_edge(touch.pressure, middle)
+        return touch
+
+    def count(self):
+        """Add what all contacts took to the work of the problem."""
+        problem, points = self._problem, self._grid.points * self._grid.rows
+        problem.work += self._operator.applications * points
+        problem.transforms += sum(each.applications for each in (self._operator, *self._preconditioners)) * points
+
+    def _load(self, time):
+        """Sum of the pressure over E* on all pixels."""
+        grid, value = self._grid, float(self._program.prescribed(time)) / self._problem.flow.modulus
+        return value * grid.points * grid.rows if self._program.pressed_by == "pressure" else value / grid.patch
+
+    def _solved(self, heights, start, tolerance, depth, load, time):
+        engine = self._problem.engine
+        try:
+            return contact.solve(
+                self._operator,
+                engine.asarray(heights),
+                engine.asarray(start),
+                tolerance,
+                depth=depth,
+                load=load,
+                precondition=self._preconditioners,
+                symmetric=True,
+                sums=engine.sums,
+            ).map(engine.asnumpy)
+        except contact.NotConverged as error:
+            raise SolveError(f"{time:g} s into the program: {error}; take more steps") from error
+
+    def _check_edge(self, pressure, time):
+        grid = self._grid
+        if not isinstance(self._problem.scene.indenter, Plane) and grid.on_rim(pressure > 0):
+            raise SolveError(
+                f"{time:g} s into the program the contact reaches the edge of extent = {grid.extent:g} m; "
+                "take a larger extent"
+            )
+
+
+def _history(problem, program, grid, times, rows, touch, material):
+    """In SI units."""
+    seen, depth, pressure, traction, count, violation, rounds, power = rows.T
+    middle, force = (times[1:] + times[:-1]) / 2, problem.flow.modulus * grid.patch
+    depth_given = program.pressed_by == "depth"
+    return History(
+        time=middle,
+        path=program.path(middle),
+        speed=np.diff(program.path(times)) / np.diff(times),
+        depth=program.prescribed(middle) if depth_given else _back(seen, depth, middle),
+        normal_force=force * pressure,
+        friction_by_traction=force * traction,
+        power=force * power,
+        contact_area=grid.patch * count,
+        residual=violation,
+        rounds=rounds.astype(int),
+        pressure=problem.flow.modulus * touch.pressure,
+        gap=touch.gap,
+        offset=float(material.offset(program.path(middle[-1]))),
+    )
+
+
+def _back(seen, depth, middle):
+    """Depth in the middle of each step, on the way there from where it was seen in the one before."""
+    seen_before, before = np.roll(seen, 1), np.roll(depth, 1)
+    before[0] = np.nan
+    between = depth + (before - depth) * (seen - middle) / (seen - seen_before)
+    return np.where(np.isnan(before), depth, between)

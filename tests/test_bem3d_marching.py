@@ -1,0 +1,330 @@
+"""Marching in time: closed forms of indentation, the steady solver, the elastic one, and what a history keeps."""
+
+from dataclasses import replace
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from bem3d import BEM, marching
+from bem3d.engine import Engine
+from bem3d.grid import Grid
+from bem3d.marching import march
+from bem3d.material import Creep
+from bem3d.problem import Problem
+from bem3d.timeline import timeline
+from bem3d.upstream import Endless, Sheet
+from scene import (
+    Cone,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Kelvin,
+    Plane,
+    Program,
+    Prony,
+    Scene,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+
+# Plane-strain moduli are 4G: 1 relaxed and 5 at once, relaxing in 1 s at constant strain.
+SOLID = StandardLinearSolid(0.25, 1.25, 1.0)
+SPHERE, CONE = Sphere(1.0), Cone(pi / 4)
+LAWS = {SPHERE: (4 / 3, 1.5), CONE: (2 / pi, 2.0)}  # F = B E* d^m, elastic
+RAMP = Program(stages=(Stage(duration=2.0, depth=0.2),))
+TOLERANCE = 1e-6  # of each contact: below all that is compared
+
+PIXELS = 1e-3  # 64 points, 40 to 55 across the contact: errors are some 2e-4, and jump as single pixels join
+R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3  # sliding sphere, contact radius A at rest
+EXTENT = 3.2 * A  # a body that yields late is touched up to sqrt(2) A ahead
+
+
+def relaxing(t):
+    return 1 + 4 * np.exp(-t)
+
+
+def creeping(t):
+    return 1 - 0.8 * np.exp(-t / 5)
+
+
+def marched(indenter, solid, program, steps, points=64, extent=1.5, roughness=None):
+    problem = Problem(Scene(indenter, solid, program.held, roughness), Engine())
+    return march(problem, program, Grid(points, extent, width=problem.width), TOLERANCE, steps)
+
+
+def loading(indenter, modulus, rate, until):
+    """B int_0^until E*(t - s) d(d^m) at t; Lee and Radok, J. Appl. Mech. 27, 438 (1960)."""
+    b, m = LAWS[indenter]
+    return b * quad(lambda s: modulus(s) * m * rate**m * s ** (m - 1), 0, until)[0]
+
+
+def in_time(indenter, rate, times):
+    return np.array([loading(indenter, lambda s, t=t: relaxing(t - s), rate, t) for t in times])
+
+
+def late(history):
+    """The second half, in which the contact is well resolved."""
+    return history.time > history.time[-1] / 2
+
+
+@pytest.mark.parametrize("indenter", [SPHERE, CONE], ids=["sphere", "cone"])
+def test_a_ramp_of_depth_gives_the_force_of_lee_and_radok(indenter):
+    history = marched(indenter, SOLID, RAMP, 32, extent=1.5 if indenter is SPHERE else 0.4)
+    expected = in_time(indenter, 0.1, history.time)
+    np.testing.assert_allclose(history.normal_force[late(history)], expected[late(history)], rtol=PIXELS)
+    elastic = LAWS[indenter][0] * (0.1 * history.time) ** LAWS[indenter][1]
+    assert np.all(history.normal_force[late(history)] > 1.5 * elastic[late(history)])
+
+
+@pytest.mark.parametrize("indenter", [SPHERE, CONE], ids=["sphere", "cone"])
+def test_a_ramp_of_load_gives_the_depth_of_lee_and_radok(indenter):
+    b, m = LAWS[indenter]
+    top, extent = (0.12, 1.2) if indenter is SPHERE else (0.02, 0.35)
+    history = marched(indenter, SOLID, Program(stages=(Stage(duration=2.0, load=top),)), 32, extent=extent)
+    crept = [quad(lambda s, t=t: creeping(t - s) * top / 2, 0, t)[0] for t in history.time]
+    expected = (np.array(crept) / b) ** (1 / m)
+    np.testing.assert_allclose(history.depth[late(history)], expected[late(history)], rtol=PIXELS)
+
+
+def withdrawn(indenter, t):
+    """Force at t after a depth that rises by 0.1 a second until 2 s and falls again.
+
+    What was done while the contact was larger than now does not count; Ting, J. Appl. Mech. 33, 845 (1966).
+    """
+    if t <= 2:
+        return loading(indenter, lambda s: relaxing(t - s), 0.1, t)
+
+    def strained(t1):
+        rise, fall = quad(lambda s: relaxing(t - s), t1, 2)[0], quad(lambda s: relaxing(t - s), 2, t)[0]
+        return rise - fall
+
+    if strained(0.0) <= 0:
+        return 0.0
+    return loading(indenter, lambda s: relaxing(t - s), 0.1, brentq(strained, 0, 2))
+
+
+@pytest.mark.parametrize("indenter", [SPHERE, CONE], ids=["sphere", "cone"])
+def test_unloading_to_separation_follows_ting(indenter):
+    program = Program(stages=(Stage(duration=2.0, depth=0.2), Stage(duration=2.0, depth=0.0)))
+    history = marched(indenter, SOLID, program, 160, extent=1.5 if indenter is SPHERE else 0.4)
+    expected = np.array([withdrawn(indenter, t) for t in history.time])
+    # against the greatest force: near separation the contact is a few pixels
+    np.testing.assert_allclose(history.normal_force, expected, atol=PIXELS * expected.max())
+    apart = history.time > 3.3
+    assert np.all(expected[apart] == 0)
+    assert np.all(history.normal_force[apart] == 0)
+    assert np.all(history.gap > 0)
+
+
+@pytest.mark.parametrize(
+    ("indenter", "forces"),
+    [(SPHERE, (0.3624872, 0.2383434, 0.0989906)), (CONE, (0.0832678, 0.0506557, 0.0170928))],
+    ids=["sphere", "cone"],
+)
+def test_the_closed_form_of_unloading_agrees_with_a_one_dimensional_program(indenter, forces):
+    # MDR is exact here but for its grid and its steps
+    assert [withdrawn(indenter, t) for t in (2.0, 2.2, 2.5)] == pytest.approx(forces, rel=2e-3)
+
+
+def mean_error(steps):
+    history = marched(SPHERE, SOLID, RAMP, steps, points=128)
+    error = history.normal_force / in_time(SPHERE, 0.1, history.time) - 1
+    return error[late(history)].mean()
+
+
+def observed_order():
+    errors = [mean_error(steps) for steps in (6, 12, 24)]
+    return np.log2((errors[1] - errors[0]) / (errors[2] - errors[1]))
+
+
+def test_the_force_is_of_second_order_in_the_step():
+    # 128 points: what the pixels add, 3e-5, is the same on all but for the growth of the contact pixel by pixel
+    assert observed_order() > 1.7
+
+
+def test_collocated_at_the_end_of_the_step_it_is_of_first_order(monkeypatch):
+    monkeypatch.setattr(Creep, "collocation", lambda creep, step: step)
+    assert observed_order() == pytest.approx(1.0, abs=0.4)
+
+
+def test_the_error_falls_with_the_pixel_faster_than_in_proportion():
+    def error(points):
+        history = marched(SPHERE, SOLID, RAMP, 64, points=points)
+        return np.abs(history.normal_force / in_time(SPHERE, 0.1, history.time) - 1)[late(history)].mean()
+
+    coarse, fine = error(24), error(96)
+    assert fine < coarse / 6  # 4 at first order, 16 at second
+
+
+def test_an_elastic_solid_has_no_history():
+    up, down = Stage(duration=1.0, depth=2e-4), Stage(duration=0.5, depth=0.0)
+    grid = Grid(48, 4e-3)
+    problem = Problem(Scene(Sphere(R), Elastic(G), Program(stages=(up,)).held), Engine())
+    history = march(problem, Program(stages=(up, down)), grid, TOLERANCE, 12)
+    forces = []
+    for depth in history.depth:
+        program = Program(stages=(Stage(duration=1.0, depth=depth),))
+        forces.append(
+            BEM(48, grid.extent, TOLERANCE).solve(replace(problem.scene, motion=program.held)).normal_force
+        )
+    np.testing.assert_allclose(history.normal_force, forces, rtol=1e-5)
+    assert np.all(history.power == 0)
+
+
+def started(solid, ratio, points, memories=5.0):
+    """From rest to a speed of ratio A / TAU, at the depth of A; and the steady solver's answer."""
+    speed, depth = ratio * A / TAU, A**2 / R
+    steady = BEM(points, EXTENT).solve(Scene(Sphere(R), solid, Slide(speed=speed, depth=depth)))
+    run = Stage(duration=1.5 * EXTENT / speed + memories * TAU, speed=speed)
+    program = Program(stages=(Stage(duration=TAU / 100, depth=depth), run))
+    return marched(Sphere(R), solid, program, 2, points, EXTENT), steady
+
+
+KELVIN, GLASSY = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU / 10)
+
+
+@pytest.mark.parametrize("solid", [KELVIN, GLASSY], ids=["Kelvin", "standard linear"])
+@pytest.mark.parametrize(
+    ("ratio", "points", "force", "friction"),
+    [(0.1, 48, 5e-4, 5e-3), (1.0, 48, 5e-4, 2e-3), (10.0, 32, 1.5e-3, 4e-3)],
+)
+def test_a_start_from_rest_ends_in_the_steady_contact(solid, ratio, points, force, friction):
+    # two discretisations: in the indenter's frame, and on material pixels held for a step
+    history, steady = started(solid, ratio, points)
+    mu = history.friction_by_traction / history.normal_force
+    assert history.normal_force[-3] == pytest.approx(steady.normal_force, rel=force)
+    assert mu[-3] == pytest.approx(steady.friction_coefficient, rel=friction)
+    assert history.friction_by_work[-3] == pytest.approx(history.friction_by_traction[-3], rel=0.02)
+    assert mu[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_marching_comes_to_the_steady_contact_as_the_pixel_shrinks():
+    off = []
+    for points in (24, 48):
+        history, steady = started(GLASSY, 0.3, points)
+        off.append(abs(history.friction_by_traction[-3] / steady.friction_force - 1))
+    assert off[1] < off[0] / 2
+    assert off[1] < 5e-3
+
+
+def test_what_lies_upstream_must_not_be_left_out(monkeypatch):
+    monkeypatch.setattr(marching, "Endless", lambda window, path, half_space: Endless(window, 0.0, half_space))
+    history, steady = started(KELVIN, 1.0, 32)
+    assert abs(history.normal_force[-3] / steady.normal_force - 1) > 0.05
+
+
+def test_what_comes_into_the_window_is_what_the_contact_did_there():
+    # a patch of pressure, held until all has relaxed: the columns that come in have its elastic displacement
+    grid = Grid(32, 32.0)
+    problem = Problem(Scene(Sphere(R), KELVIN, Program(stages=(Stage(duration=1, depth=1),)).held), Engine())
+    around = Endless(Sheet(grid, 1), 40.0, lambda at: lambda p: problem.medium.operator(at)(p) * at.pixel)
+    pressure = np.zeros((32, 32))
+    pressure[8:26, 4:28] = 1 + np.arange(24)
+    around.creep(pressure, np.zeros(1), np.ones(1))
+    around.follow(12.0)
+    wide = np.zeros((64, 64))
+    wide[16:48, 32:] = pressure  # the window is the right half: 12 columns more to the left come in
+    expected = problem.medium.operator(Grid(64, 64.0))(wide)[16:48, 20:32]
+    np.testing.assert_allclose(around.window.fields[0, :, :12], expected, rtol=2e-3)
+
+
+def test_a_held_depth_relaxes_to_the_rubber():
+    depth = A**2 / R
+    program = Program(stages=(Stage(duration=TAU, depth=depth), Stage(duration=20 * TAU)))
+    history = marched(Sphere(R), GLASSY, program, 60, 48, EXTENT)
+    rubber = BEM(48, EXTENT).solve(Scene(Sphere(R), GLASSY, program.held))
+    assert history.normal_force.max() > 1.1 * rubber.normal_force
+    assert history.normal_force[-1] == pytest.approx(rubber.normal_force, rel=1e-5)
+
+
+def test_after_recovery_the_second_cycle_is_the_first():
+    cycle = Stage(duration=TAU, depth=1e-4), Stage(duration=TAU, depth=0.0), Stage(duration=18 * TAU)
+    history = marched(Sphere(R), GLASSY, Program(stages=cycle * 2), 320, 32, EXTENT)
+    first, second = np.split(history.normal_force, 2)
+    # exp(-18) is left, and contacts are solved to 1e-6
+    np.testing.assert_allclose(second, first, atol=1e-5 * first.max())
+    hasty = cycle[0], cycle[1], replace(cycle[2], duration=TAU / 4)
+    history = marched(Sphere(R), GLASSY, Program(stages=hasty * 2), 72, 32, EXTENT)
+    first, second = np.split(history.normal_force, 2)
+    assert np.abs(second - first).max() > 0.02 * first.max()
+
+
+def test_three_modes_relax_together():
+    moduli, times = (0.3, 0.5, 0.2), (0.1, 1.0, 10.0)
+    history = marched(SPHERE, Prony(0.25, moduli, times), RAMP, 48)
+
+    def modulus(t):
+        return 1 + sum(4 * g * np.exp(-t / tau) for g, tau in zip(moduli, times, strict=True))
+
+    expected = [loading(SPHERE, lambda s, t=t: modulus(t - s), 0.1, t) for t in history.time]
+    np.testing.assert_allclose(history.normal_force[late(history)], np.array(expected)[late(history)], rtol=PIXELS)
+
+
+def test_a_mode_may_be_split_in_two():
+    stages = Stage(duration=TAU, load=1.0), Stage(duration=2 * TAU, speed=0.5)
+    one = marched(Sphere(R), Prony(G, (4 * G,), (TAU,)), Program(stages=stages), 10, 32, 5e-3)
+    two = marched(Sphere(R), Prony(G, (3 * G, G), (TAU, TAU * (1 + 1e-9))), Program(stages=stages), 10, 32, 5e-3)
+    for name in ("normal_force", "friction_by_traction", "depth"):
+        np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-5, atol=1e-9)
+
+
+def test_a_load_taken_away_leaves_no_depth():
+    stages = Stage(duration=TAU, load=1.0), Stage(duration=TAU, load=0.0), Stage(duration=TAU)
+    history = marched(Sphere(R), GLASSY, Program(stages=stages), 30, 32, 4e-3)
+    np.testing.assert_allclose(history.normal_force, Program(stages=stages).prescribed(history.time), atol=1e-12)
+    assert np.array_equal(np.isnan(history.depth), history.normal_force == 0)
+    assert np.isnan(history.depth[-1])
+
+
+def test_the_contact_does_not_drift_in_steady_sliding():
+    depth, speed = A**2 / R, 0.3 * A / TAU
+    stages = Stage(duration=TAU, depth=depth), Stage(duration=400 * EXTENT / 24 / speed, speed=speed)
+    history = marched(Sphere(R), KELVIN, Program(stages=stages), 2, 24, EXTENT)
+    assert len(history.time) > 400
+    np.testing.assert_allclose(history.normal_force[-200:-2], history.normal_force[-200], rtol=10 * TOLERANCE)
+
+
+def test_a_plane_slides_over_its_own_wake_as_the_steady_solver_has_it():
+    waves = CrossedWaves(amplitude=1e-5, wavelength=1e-3)
+    pressure, speed = 0.2 * sqrt(2) * pi * 4 * G * 1e-2, 1e-3 / (2 * pi * TAU)
+    solid = StandardLinearSolid(G, 3 * G, TAU)
+    steady = BEM(64).solve(Scene(Plane(), solid, Slide(speed=speed, pressure=pressure), waves))
+    stages = Stage(duration=TAU, pressure=pressure), Stage(duration=30 * TAU, speed=speed)
+    history = marched(Plane(), solid, Program(stages=stages), 20, 64, 1e-3, waves)
+    assert history.normal_force[-3] == pytest.approx(steady.normal_force, rel=1e-9)
+    assert history.friction_by_traction[-3] == pytest.approx(steady.friction_force, rel=5e-3)
+    assert history.depth[-3] == pytest.approx(steady.depth, rel=5e-3)
+
+
+def test_a_cylinder_slides_as_the_steady_solver_has_it():
+    load, speed = pi * G * A**2 / R, A / TAU
+    steady = BEM(64, EXTENT).solve(Scene(Cylinder(R), GLASSY, Slide(speed=speed, line_load=load)))
+    stages = Stage(duration=TAU, line_load=load), Stage(duration=12 * TAU, speed=speed)
+    history = marched(Cylinder(R), GLASSY, Program(stages=stages), 20, 64, EXTENT)
+    assert history.friction_by_traction[-3] == pytest.approx(steady.friction_force, rel=5e-3)
+
+
+def test_steps_are_pixels_of_path_or_fractions_and_end_with_the_stages():
+    stages = Stage(duration=1.0, depth=1.0), Stage(duration=1.03, speed=2.0), Stage(duration=0.5, speed=0.01)
+    times = timeline(Program(stages=stages), pixel=0.1, steps=10)
+    assert set(np.cumsum([0.0, 1.0, 1.03, 0.5])) <= set(times)
+    first, last = np.searchsorted(times, [1.0, 2.03])
+    np.testing.assert_allclose(np.diff(times[first : last + 1]), [*[0.05] * 19, 0.04, 0.04])
+    assert np.diff(timeline(Program(stages=stages), pixel=0.1, steps=1000)).max() < 2.54e-3
+
+
+def test_too_many_steps_are_refused_with_what_to_change():
+    stages = Stage(duration=1.0, depth=1.0), Stage(duration=1e3, speed=2.0)
+    with pytest.raises(SolveError, match=r"takes 2e\+07 steps on pixels of 0.0001 m.* shorter path"):
+        timeline(Program(stages=stages), pixel=1e-4, steps=10)
+
+
+def test_a_contact_that_reaches_the_edge_is_an_error():
+    with pytest.raises(SolveError, match=r"reaches the edge of extent = 0\.5 m; take a larger extent"):
+        marched(SPHERE, SOLID, RAMP, 8, 32, extent=0.5)
