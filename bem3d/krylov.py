@@ -41,8 +41,8 @@ def gmres(on_set, b, reduction, tolerance, iterations):
     """GMRES, left-preconditioned, for an operator that is positive definite but not symmetric.
 
     It lessens the error of the pressure and not that of the gap: under a fast flow short waves of pressure hardly
-    show in the gap, and would decide which points seem to pull. Stops when the preconditioned residual's 2-norm has
-    fallen by `reduction`. Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986).
+    show in the gap, and would decide which points seem to pull. Stops when the preconditioned residual's 2-norm
+    has fallen by `reduction`. Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986).
     """
     z = on_set.preconditioned(b)
     norm = sqrt(float((z * z).sum()))

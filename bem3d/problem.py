@@ -14,6 +14,7 @@ from .line import Line
 from .sliding import Flow
 from .surface import RoughSurface
 
+LEAST_ON_A_ROW = 1e-7  # tolerance of sliding lines: next to nothing is felt of a fast contact's edges in the gap
 COARSEST = 32  # points a side from which a solve starts, or all there are below twice as many
 COARSE_TOLERANCE = 1e-5  # on all grids but the finest: a set of contact right to the pixel pays on the next
 
@@ -102,6 +103,8 @@ class Problem:
         """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError."""
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
         depth, load = self._pressed(grid, heights)
+        if grid.rows == 1 and not self.flow.at_rest:
+            tolerance = min(tolerance, LEAST_ON_A_ROW)
         operator, preconditioners = self.medium.operator(grid), self.medium.preconditioners(grid)
         start = self._first_guess(heights, grid, depth, load) if start is None else grid.resampled_contact(start)
         here = self.engine.asarray

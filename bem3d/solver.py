@@ -7,13 +7,14 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Plane, Result, Scene, SolveError
+from scene import Cylinder, Plane, Program, Result, Scene, SolveError
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
 from . import window
 from .engine import Engine, Library, Unavailable
 from .grid import Grid
+from .history import marched
 from .problem import Problem
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
@@ -22,7 +23,7 @@ LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 @dataclass(frozen=True, config=CLOSED)
 class BEM:
-    """Boundary elements on a viscoelastic half-space under a rigid indenter, at rest or in steady sliding.
+    """Boundary elements on a viscoelastic half-space under a rigid indenter: at rest, in steady sliding, in time.
 
     A body of revolution presses on a free surface, a Cylinder on a free line, a Plane on a cell that repeats.
 
@@ -35,6 +36,7 @@ class BEM:
     precision : of the transforms; in single they are up to 1.7 times faster, need half the memory, and leave 1e-6
         of the largest displacement as noise in the gap
     transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
+    steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
 
     Result.friction_force joins two estimates from one pressure, of which each has its strength: by traction, the
     pressure times the indenter's slope, and by loss, the energy lost per length slid. Traction counts in
@@ -50,7 +52,10 @@ class BEM:
     error of mu. Of a rough indenter also rms_height [m], rms_slope (spectral, of the full gradient), each over a
     period, and points_per_shortest_wave; of a Plane mean_pressure [Pa], mean_gap [m], contact_fraction.
     Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
-    varies along y.
+    varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
+    friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
+    depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
+    leaves nothing in contact.
     """
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
@@ -59,6 +64,7 @@ class BEM:
     threads: Annotated[Whole, Field(ge=1)] = 1
     precision: Literal["double", "single"] = "double"
     transforms: Library = "ducc0"
+    steps: Annotated[Whole, Field(ge=1, le=10**6)] = 200
 
     @model_validator(mode="after")
     def _within_precision(self):
@@ -99,12 +105,16 @@ class BEM:
         refuse(self, scene)
         started = time.process_time()
         with trusted():
-            problem = Problem(scene, self.engine)
-            grid, answer = self._answer(problem)
-            result = self._result(problem, grid, answer, started)
-        if not np.isfinite([result.normal_force, result.friction_force, result.depth]).all():
+            solve = marched if isinstance(scene.motion, Program) else BEM._steady
+            result = solve(self, scene, started)
+        if not np.isfinite([result.normal_force, result.friction_force]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
         return result
+
+    def _steady(self, scene, started):
+        problem = Problem(scene, self.engine)
+        grid, answer = self._answer(problem)
+        return self._result(problem, grid, answer, started)
 
     def _answer(self, problem):
         repeats = isinstance(problem.scene.indenter, Plane)
@@ -143,7 +153,7 @@ class BEM:
         return Result(
             scene=problem.scene,
             solver=self.name,
-            settings=self._settings(problem, grid),
+            settings=self.settings(problem, grid),
             normal_force=normal_force,
             depth=answer.depth * grid.pixel,
             friction_force=lag * traction + (1 - lag) * loss,
@@ -160,7 +170,8 @@ class BEM:
             fields={"x": grid.x, "y": grid.y, "pressure": pressure, "gap": answer.gap * grid.pixel},
         )
 
-    def _settings(self, problem, grid):
+    def settings(self, problem: Problem, grid: Grid) -> dict:
+        """What it solved with, the derived settings included."""
         rough = problem.scene.roughness
         return {
             "points": self.points,

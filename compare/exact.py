@@ -9,7 +9,7 @@ from math import pi, sqrt
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Elastic, Result, Scene
+from scene import Elastic, Program, Result, Scene
 from scene.protocol import refuse
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
@@ -95,7 +95,9 @@ class Exact:
             reasons.append(f"{type(scene.indenter).__name__} is not a body of revolution")
         if scene.roughness is not None:
             reasons.append("roughness has no closed form")
-        if scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
+        if isinstance(scene.motion, Program):
+            reasons.append("motion = Program has no closed form here")
+        elif scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
             reasons.append(
                 f"sliding at speed = {scene.motion.speed:g} m/s on a viscoelastic solid has no closed form"
             )

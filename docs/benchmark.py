@@ -293,7 +293,7 @@ def free_spheres(largest: int) -> str:
 
 
 def iteration(scene: Scene, solver: BEM) -> tuple:
-    """Products with operator and preconditioner on the finest grid, how many and the milliseconds of one.
+    """Products with operator and preconditioner, all its factors, on the finest grid: counts, milliseconds of one.
 
     Then the processor time of the solve there over that of its products, and of the whole solve over that of all
     its products, each as if on the finest grid.
@@ -309,11 +309,15 @@ def iteration(scene: Scene, solver: BEM) -> tuple:
     solver.solve(scene)  # compiles
     with patch.object(contact, "solve", timed):
         whole = solver.solve(scene)
-    seconds, *products = runs[-1]
-    counts = [product.applications for product in products]
-    plane, out = np.ones(products[0].shape), np.empty(products[0].shape)
-    each = [least(lambda product=product: product(plane, out=out), solver.points) for product in products]
-    everywhere = whole.applications, whole.measures["transform_pairs"] - whole.applications
+    seconds, operator, factors = runs[-1]
+    counts = operator.applications, factors[0].applications
+    plane, out = np.ones(operator.shape), np.empty(operator.shape)
+
+    def cost(product):
+        return least(lambda: product(plane, out=out), solver.points)
+
+    each = cost(operator), sum(map(cost, factors))
+    everywhere = whole.applications, (whole.measures["transform_pairs"] - whole.applications) / len(factors)
     over = [of / np.dot(count, each) for of, count in ((seconds, counts), (whole.seconds, everywhere))]
     return *counts, *(1e3 * one for one in each), *over
 
@@ -348,7 +352,7 @@ def overhead(largest: int) -> str:
                 )
 
     return table(
-        "points|contact|operator products|preconditioner products|ms each|ms each|iteration / its products|"
+        "points|contact|operator products|preconditioner products|ms of one|ms of one|iteration / its products|"
         "whole solve / its products",
         rows(),
     )

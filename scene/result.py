@@ -38,5 +38,5 @@ class Result:
 
     @property
     def friction_coefficient(self) -> float:
-        """mu = F_x / F_N."""
-        return self.friction_force / self.normal_force
+        """mu = F_x / F_N; NaN where nothing is pressed."""
+        return self.friction_force / self.normal_force if self.normal_force else float("nan")

@@ -102,7 +102,7 @@ def test_without_a_shortest_wave_the_grid_cuts_the_spectrum_off_and_the_result_s
     "motion", [Indent(load=1e300), Indent(depth=1e300), Slide(speed=0.1, load=1e-300)], ids=str
 )
 def test_numbers_beyond_the_range_of_arithmetic_are_an_error_and_not_an_answer(motion):
-    with pytest.raises(SolveError, match="too far apart"):
+    with pytest.raises(SolveError, match=r"too far apart|no window holds the contact"):
         BEM(points=32).solve(Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), motion))
 
 

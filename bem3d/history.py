@@ -1,0 +1,83 @@
+"""The answer to a program: a window that holds all of it, the march, and what is kept of it as a result."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+
+from scene import Plane, Result, Slide
+
+from . import window
+from .grid import Box, Grid
+from .marching import march
+from .problem import Problem
+
+
+def marched(solver, scene, started) -> Result:
+    """The answer of a solver to a scene whose motion is a Program; `started` is its processor time [s]."""
+    program = scene.motion
+    problem = Problem(replace(scene, motion=program.held), solver.engine)
+    grid = _grid(solver, problem, program)
+    history = march(problem, program, grid, solver.tolerance, solver.steps)
+    points = grid.points * grid.rows
+    contact_points = np.count_nonzero(history.pressure)
+    return Result(
+        scene=scene,
+        solver=solver.name,
+        settings=solver.settings(problem, grid) | {"steps": solver.steps},
+        normal_force=float(history.normal_force[-1]),
+        depth=float(history.depth[-1]),
+        friction_force=float(history.friction_by_traction[-1]),
+        residual=float(history.residual.max()),
+        applications=problem.work / points,
+        seconds=time.process_time() - started,
+        measures={
+            "pixel": grid.pixel,
+            "contact_area": float(history.contact_area[-1]),
+            "contact_points": float(contact_points),
+            "friction_by_traction": float(history.friction_by_traction[-1]),
+            "friction_by_work": float(history.friction_by_work[-1]),
+            "rounds": float(history.rounds.sum()),
+            "time_steps": float(len(history.time)),
+            "transform_pairs": problem.transforms / points,
+        },
+        fields={
+            "time": history.time,
+            "path": history.path,
+            "speed": history.speed,
+            "depth": history.depth,
+            "normal_force": history.normal_force,
+            "friction_force": history.friction_by_traction,
+            "friction_by_work": history.friction_by_work,
+            "contact_area": history.contact_area,
+            "x": grid.x + history.offset,
+            "y": grid.y,
+            "pressure": history.pressure,
+            "gap": history.gap,
+        },
+    )
+
+
+def _grid(solver, problem, program):
+    """As stated, the period of a plane, or around all contacts that the program could hold for ever."""
+    scene = problem.scene
+    if isinstance(scene.indenter, Plane):
+        return Grid(solver.points, scene.roughness.period, width=problem.width)
+    if solver.extent is not None:
+        return Grid(solver.points, solver.extent, width=problem.width)
+    boxes = [_held(window.fitted(problem, solver.points))]
+    for speed in sorted({stage.speed for stage in program.stages} - {0.0}):
+        sliding = Slide(speed=speed, **{program.pressed_by: program.greatest})
+        steady = Problem(replace(scene, motion=sliding), solver.engine)
+        boxes.append(_held(window.fitted(steady, solver.points)))
+    all_of_them = boxes[0]
+    for box in boxes[1:]:
+        all_of_them = all_of_them.union(box)
+    return Grid.around(all_of_them, solver.points, 1.0, problem.width)
+
+
+def _held(grid):
+    """What a grid covers."""
+    half = grid.extent / 2
+    (x, y), across = grid.centre, half if grid.width is None else 0.0
+    return Box(x - half, x + half, y - across, y + across)
