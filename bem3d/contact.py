@@ -13,7 +13,7 @@ from . import kernels
 from .krylov import conjugate_gradients, direct, gmres
 
 ROUNDS = 400  # sets of contact tried before giving up; 5 to 20 are usual
-ACCURACY = 0.1  # of the error on one set of contact: rougher solves drop what belongs to it
+ACCURACY = 0.3  # of the error on one set of contact: rougher solves drop what belongs to it
 ADDED = 0.3  # of the penetration outside: what may be left inside when the set grows; at 1 it cycles
 PATIENCE = 30  # rounds after which solves are closer by a tenth, each time: rough ones can cycle
 INNER_ITERATIONS = 60

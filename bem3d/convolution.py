@@ -21,7 +21,7 @@ class FreeConvolution:
         symbol = engine.transformed(laid_out, padded)
         if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
             symbol = symbol.real
-        self.shape, self.applications = (ny, nx), 0
+        self.shape, self.applications, self.pairs = (ny, nx), 0, 1.0
         self._product = engine.product(symbol, self.shape, padded)
 
     def __call__(self, pressure, out=None):
@@ -41,8 +41,9 @@ class PeriodicFilter:
         ny, nx = shape
         q_y = 2 * np.pi * np.arange(ny // 2 + 1)[:, None] / ny
         q_x = 2 * np.pi * np.arange(nx // 2 + 1)[None, :] / nx
-        self.shape, self.applications = shape, 0
         values = symbol(q_y, q_x)
+        self.shape, self.applications = shape, 0
+        self.pairs = 0.5 if len(values) == 1 and ny > 1 else 1.0  # of transforms, an application
         self._product = engine.product(values, shape, (1 if len(values) == 1 else ny, nx))
 
     def __call__(self, values, out=None):

@@ -184,7 +184,9 @@ class _Press:
         """Add what all contacts took to the work of the problem."""
         problem, points = self._problem, self._grid.points * self._grid.rows
         problem.work += self._operator.applications * points
-        problem.transforms += sum(each.applications for each in (self._operator, *self._preconditioners)) * points
+        problem.transforms += (
+            sum(each.applications * each.pairs for each in (self._operator, *self._preconditioners)) * points
+        )
 
     def _load(self, time):
         """Sum of the pressure over E* on all pixels."""

@@ -124,7 +124,9 @@ class Problem:
             raise SolveError(f"no converged contact on {grid.points} x {grid.rows} points: {error}") from error
         finally:
             self._count(grid, operator)
-            self.transforms += sum(factor.applications for factor in preconditioners) * grid.points * grid.rows
+            self.transforms += (
+                sum(factor.applications * factor.pairs for factor in preconditioners) * grid.points * grid.rows
+            )
 
     def _count(self, grid, product):
         self.work += product.applications * grid.points * grid.rows

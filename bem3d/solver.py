@@ -44,7 +44,7 @@ class BEM:
     a coarse grid and none by loss; a fast Kelvin contact, singular at its edge, loses digits by loss alone.
 
     Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
-    preconditioner too, both in equivalents of the finest grid.
+    preconditioner too (half where it transforms along x alone), both in equivalents of the finest grid.
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, rounds, transform_pairs;
     friction_by_traction, friction_by_loss, friction_by_work [N]: by the indenter's slope, by the slope of the
     displacement, by the work done on the surface from pixel to pixel; friction_disagreement, what the second
@@ -215,7 +215,7 @@ def _extents(problem, grid, answer):
         measures |= {
             "mean_pressure": float(answer.pressure.mean() * problem.flow.modulus),
             "mean_gap": float(answer.gap.mean() * grid.pixel),
-            "contact_fraction": contact_points / answer.pressure.size,
+            "contact_fraction": float(contact_points / answer.pressure.size),
         }
     return measures
 
