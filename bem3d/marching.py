@@ -2,8 +2,8 @@
 
 The pressure is constant in a step. Within it, the displacement is that of a stiffer half-space on top of what the
 material remembers, so each step is a symmetric problem of contact. The gap is collocated where a pressure held in
-steps displaces as a smooth one would (see `Creep.collocation`): forces and depths are of second order in the step,
-and so is friction, which is all delay, however short the memory.
+steps displaces as a smooth one would (see `Creep.collocation`): forces are of second order in the step where
+they are smooth, and friction, which is all delay, keeps its digits however short the memory.
 
 The window is attached to the material and is shifted by whole pixels as the indenter moves on.
 """

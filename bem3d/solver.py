@@ -31,8 +31,9 @@ class BEM:
     extent : side of the square [m], around the indenter's axis; without it, the square is fitted to the contact.
         The cell of a Plane is the period of its roughness
     tolerance : largest |gap| in contact and penetration outside it, over the depth of the indenter's lowest point
-        below the undeformed surface; what is left is the `residual` of a result
-    threads : of the Fourier transforms
+        below the undeformed surface, or what its heights span in contact where that is more; what is left is the
+        `residual` of a result. Sliding on a single row is solved to 1e-7 at least
+    threads : of the Fourier transforms; OMP_NUM_THREADS in the environment caps those of ducc0
     precision : of the transforms; in single they are up to 1.7 times faster, need half the memory, and leave 1e-6
         of the largest displacement as noise in the gap
     transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
@@ -55,7 +56,8 @@ class BEM:
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
     depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
-    leaves nothing in contact.
+    leaves nothing in contact. Its measures are pixel, contact_area, contact_points, friction_by_traction,
+    friction_by_work, rounds (of all steps), time_steps and transform_pairs.
     """
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256

@@ -63,7 +63,7 @@ def check(grid: Grid, answer, repeats: bool = False) -> None:
         raise SolveError(f"the contact reaches the edge of extent = {grid.extent:g} m; take a larger extent")
     if np.count_nonzero(touched) < FEWEST:
         raise SolveError(
-            f"the contact covers {np.count_nonzero(touched)} of points = {grid.points} squared on extent = "
+            f"the contact covers {np.count_nonzero(touched)} of {grid.points} x {grid.rows} points on extent = "
             f"{grid.extent:g} m, {FEWEST} are needed; take more points"
         )
 

@@ -10,13 +10,14 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Scene, SelfAffine, Slide
+from scene import Scene, Slide
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.protocol import refuse
 from scene.quantities import CLOSED, Positive, Whole
 from scene.reading import read
 from scene.rheology import Elastomer
+from scene.roughness import Roughness
 from scene.scales import elastic_contact
 from scene.scene import fit_together
 
@@ -87,7 +88,7 @@ class Case:
     indenter: Indenter
     elastomer: Elastomer
     motion: Motion
-    roughness: Annotated[SelfAffine | None, AfterValidator(_rough)] = None
+    roughness: Annotated[Roughness | None, AfterValidator(_rough)] = None
     study: Study = Study()
     bem: BEM = BEM(points=128)
     mdr: MDR = MDR(points=5000)

@@ -27,7 +27,7 @@ from .sweep import Swept
 from .verdict import Judgement
 
 FIGURES = (contact, force_depth, friction_speed, friction_load, collapse, smooth_limit)
-PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "pyfftw", "numba", "matplotlib", "pydantic")
+PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba", "matplotlib", "pydantic")
 # Units of the fields of a scene, with prefixes and without; a power law's coefficient has one of its own.
 PREFIXED = (
     dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest", "rolloff"), "m")

@@ -21,7 +21,7 @@ from scene import Result, Scene
 from .study import Task
 
 SCENES = TypeAdapter(tuple[Scene, ...])
-PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "numba")
+PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "applications", "seconds")
 
 

@@ -3,11 +3,13 @@
 python docs/accuracy.py
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from math import pi, radians, sqrt, tan
 from pathlib import Path
 
+import accuracy_3d
 import numpy as np
+from tables import order, table
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -19,23 +21,10 @@ HERTZ = 4 / 3 * 4 * G * sqrt(R) * DEPTH**1.5
 POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
 
 
-def table(header: str, rows: Iterator[tuple]) -> str:
-    """A Markdown table; columns are named in the header, separated by |."""
-    names = header.split("|")
-    lines = [" | ".join(names), " | ".join("---" for _ in names)]
-    lines += [" | ".join(row) for row in rows]
-    return "\n".join(f"| {line} |" for line in lines)
-
-
 def around(solver: type, a: float, points: int) -> BEM | MDR:
     """The solver with so many points across a contact of radius a [m]; BEM gets half as many more around it."""
     count = int(1.5 * points) if solver is BEM else points
     return solver(points=count, extent=2 * a * count / points * (1.01 if solver is MDR else 1))
-
-
-def order(points, errors) -> float:
-    """Observed order: slope of error against points, in logarithms, over all of them."""
-    return -np.polyfit(np.log(points), np.log(errors), 1)[0]
 
 
 def at_rest() -> str:
@@ -192,7 +181,7 @@ SECTIONS: dict[str, tuple[str, Callable[[], str]]] = {
         "mean of 50 profiles of μ/(√2 rms slope), against (1 + ξ^-1.5)^(-1/1.5).",
         figure_4,
     ),
-}
+} | accuracy_3d.SECTIONS
 
 
 def main() -> None:

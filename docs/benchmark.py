@@ -23,8 +23,8 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-from accuracy import table
 from scipy.optimize import brentq
+from tables import table
 
 from bem3d import BEM, contact
 from bem3d.surface import RoughSurface

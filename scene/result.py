@@ -15,8 +15,10 @@ class Result:
 
     scene : what was asked
     solver, settings : name of the solver and every setting it solved with, the derived ones included
-    normal_force, friction_force : F_N, F_x [N]; F_x > 0 opposes the motion of the indenter
-    depth : of the macroscopic tip below the undeformed surface [m], > 0 into the elastomer
+    normal_force, friction_force : F_N, F_x [N]; F_x > 0 opposes the motion of the indenter. Per length of a
+        Cylinder [N/m], of one cell of a Plane
+    depth : of the macroscopic tip below the undeformed surface [m], > 0 into the elastomer; see Cylinder and Plane
+        for what theirs is counted from
     residual : left in the discrete contact conditions, relative; the solver's docstring defines it
     applications : operator applications, in equivalents of the finest grid
     seconds : processor time of the solve [s]

@@ -7,7 +7,7 @@ import pytest
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from scene import Cone, Elastic, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import Cone, Elastic, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 G, R, TAU = 1e6, 10e-3, 1e-3
 D = 1e-4
@@ -216,4 +216,31 @@ def test_a_coarse_grid_is_enough_where_the_glass_is_resolved(memory):
 def test_the_work_of_a_solve_is_bounded_at_every_speed(speed, roughness):
     # operator applications in equivalents of the finest grid, those spent on finding the window included
     result = BEM(points=256).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=10.0), roughness))
+    assert result.applications <= WORK
+
+
+SOLIDS = {
+    "Kelvin": Kelvin(G, TAU),
+    "10": StandardLinearSolid(G, 10 * G, TAU / 10),
+    "1e6": StandardLinearSolid(G, 1e6 * G, TAU / 1e6),
+    "modes": Prony(G, (G, 10 * G, 100 * G), (TAU, TAU / 30, TAU / 1000)),
+}
+SHAPES = {
+    "sphere": Sphere(R),
+    "cone": Cone(np.radians(10)),
+    "power law": PowerLaw(coefficient=1 / (2 * R) / A, exponent=3),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [1e-4, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e4])
+@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize("roughness", [None, ROUGH], ids=["smooth", "rough"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_work_is_bounded_on_512_points_at_every_speed(shape, roughness, solid, ratio):
+    depth = SHAPES[shape].mdr_coefficient * A ** SHAPES[shape].exponent
+    scene = Scene(SHAPES[shape], SOLIDS[solid], Slide(speed=ratio * A / TAU, depth=depth), roughness)
+    extent = 3.6 * A if roughness is None else 6 * A
+    result = BEM(points=512, extent=extent).solve(scene)
+    assert result.residual <= 1e-5
     assert result.applications <= WORK
