@@ -96,6 +96,14 @@ def solve(
     raise NotConverged(f"after {ROUNDS} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
 
 
+def first_guess(heights: np.ndarray, count: int) -> np.ndarray:
+    """Pressure to begin with under a load, on some `count` of the lowest points, as deep as they overlap."""
+    level = np.partition(heights, count, axis=None)[count]
+    overlap = np.maximum(level - heights, 0.0)
+    # Where they are all alike, none is deeper than the others.
+    return overlap if overlap.any() else (heights == level).astype(float)
+
+
 def _balanced(pressure, load):
     return pressure if load is None else pressure * (load / pressure.sum())
 

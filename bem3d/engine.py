@@ -75,7 +75,7 @@ class Engine:
     def transformed(self, kernel, padded):
         """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), rows y = 0..ny-1 of what is even in y."""
         (ny, mx), my = kernel.shape, padded[0]
-        rows, columns = _DOUBLE._lines(ny, mx, real=True), _DOUBLE._lines(mx // 2 + 1, my, real=False)
+        rows, columns = _DOUBLE.lines(ny, mx, real=True), _DOUBLE.lines(mx // 2 + 1, my, real=False)
         waves = np.empty((ny, mx // 2 + 1), complex)
         for block in _blocks(ny):
             waves[block] = rows.forward(kernel[block])
@@ -87,7 +87,8 @@ class Engine:
             symbol[:, block] = columns.forward(even)[:, : my // 2 + 1].T
         return symbol
 
-    def _lines(self, count, length, real):
+    def lines(self, count, length, real):
+        """Transforms of up to BLOCK of `count` lines at a time, of `length` points."""
         return {"ducc0": _Ducc, "fftw": _Fftw}[self.library](min(BLOCK, count), length, self, real)
 
     def good_size(self, least: int) -> int:
@@ -153,8 +154,8 @@ class Blocked:
         kind = engine.real if np.isrealobj(symbol) else engine.complex
         self._symbol = np.ascontiguousarray((symbol / (my * mx)).T.astype(kind))
         self._waves = _staggered(ny, width, engine.complex)
-        self._rows = engine._lines(ny, mx, real=True)
-        self._columns = engine._lines(width, my, real=False) if my > 1 else None
+        self._rows = engine.lines(ny, mx, real=True)
+        self._columns = engine.lines(width, my, real=False) if my > 1 else None
 
     def __call__(self, plane, out=None):
         """The product (ny, nx)."""

@@ -3,13 +3,12 @@
 import time
 from dataclasses import replace
 
-import numpy as np
-
-from scene import Plane, Result, Slide
+from scene import EmptyContact, Plane, Result, Slide
 
 from . import window
 from .grid import Box, Grid
 from .marching import march
+from .measures import measured
 from .problem import Problem
 
 
@@ -18,9 +17,10 @@ def marched(solver, scene, started) -> Result:
     program = scene.motion
     problem = Problem(replace(scene, motion=program.held), solver.engine)
     grid = _grid(solver, problem, program)
+    window.check_waves(scene, grid)
     history = march(problem, program, grid, solver.tolerance, solver.steps)
+    _check(grid, history)
     points = grid.points * grid.rows
-    contact_points = np.count_nonzero(history.pressure)
     return Result(
         scene=scene,
         solver=solver.name,
@@ -32,9 +32,7 @@ def marched(solver, scene, started) -> Result:
         applications=problem.work / points,
         seconds=time.process_time() - started,
         measures={
-            "pixel": grid.pixel,
-            "contact_area": float(history.contact_area[-1]),
-            "contact_points": float(contact_points),
+            **measured(problem, grid, history.pressure, history.gap),
             "friction_by_traction": float(history.friction_by_traction[-1]),
             "friction_by_work": float(history.friction_by_work[-1]),
             "rounds": float(history.rounds.sum()),
@@ -56,6 +54,18 @@ def marched(solver, scene, started) -> Result:
             "gap": history.gap,
         },
     )
+
+
+def _check(grid, history):
+    """Raise SolveError where the grid never saw the contact, or ends with next to nothing of it."""
+    if not history.contact_area.any():
+        raise EmptyContact(
+            f"nothing touches in the whole program on pixels of {grid.pixel:g} m; "
+            "press deeper, or take more points"
+        )
+    touched = history.pressure > 0
+    if touched.any():
+        window.check_resolved(grid, touched)
 
 
 def _grid(solver, problem, program):

@@ -73,7 +73,7 @@ def direct(on_set, b, reduction, tolerance, iterations):
     steps = where[:, None] - where[None, :]
     matrix = xp.where(steps >= 0, row[0][steps], row[1][steps - 1])
     if on_set.mean_free:  # the level is unknown as well, the sum is not to change
-        edge = xp.ones((len(b), 1))
-        matrix = xp.block([[matrix, -edge], [edge.T, xp.zeros((1, 1))]])
-        b = xp.append(b, 0.0)
+        bordered = xp.zeros((len(b) + 1, len(b) + 1))
+        bordered[:-1, :-1], bordered[:-1, -1], bordered[-1, :-1] = matrix, -1.0, 1.0
+        matrix, b = bordered, xp.concatenate([b, xp.zeros(1)])
     return xp.linalg.solve(matrix, b)[: len(where)]

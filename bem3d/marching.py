@@ -25,6 +25,7 @@ from .upstream import Endless, Repeating, Sheet
 
 ROUNDING = 1e-12  # of the heights: an overlap of less is none
 FIRST = 1 / 64  # of the window that a load is guessed to touch first
+YIELDING = 0.6  # of a step: a solid collocated later than that has little stiffness at once
 PLACES = 8  # within a pixel, of which the heights are kept
 
 
@@ -76,9 +77,12 @@ def march(problem: Problem, program: Program, grid: Grid, tolerance: float, step
     times = timeline(program, grid.pixel, steps)
     body, material, press = _Body(problem, grid), _material(problem, program, grid), _Press(problem, program, grid)
     touch, rows = _Touch(np.zeros(grid.shape)), []
+    turns = program.turns
     for start, end in pairwise(times):
         middle, step = (start + end) / 2, end - start
         seen = material.creep.collocation(step)
+        if seen > YIELDING * step and (start in turns or end in turns):
+            seen = step  # the pressure jumps: seen earlier, the surface would be thrown off the indenter by then
         guess = np.roll(touch.pressure, material.follow(program.path(middle)), axis=1)
         heights = body.heights(material.offset(program.path(start + seen))) + material.remembered(seen)
         compliance = material.creep.compliance(seen)
@@ -167,8 +171,7 @@ class _Press:
             load, depth = self._load(middle), None
             if load == 0:
                 return _Touch(np.zeros(heights.shape), np.full(heights.shape, np.nan))
-            first = int(heights.size * FIRST) + 1
-            overlap = np.partition(heights, first, axis=None)[first] - heights
+            overlap = contact.first_guess(heights, int(heights.size * FIRST) + 1)
         # A half-space that is c times as compliant under p is the relaxed one under c p.
         start = compliance * guess if guess.any() else np.maximum(overlap / pixel, 0.0)
         found = self._solved(

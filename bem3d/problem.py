@@ -1,5 +1,7 @@
 """One scene put on grids: heights and operators for each, and the way from a coarse grid to a fine one."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from scene import CrossedWaves, Cylinder, EmptyContact, Plane, Scene, SolveError, Wave
@@ -33,9 +35,11 @@ class Problem:
     """A scene on any grid. `work` counts operator applications times the points they acted on."""
 
     def __init__(self, scene: Scene, engine: Engine):
-        self.scene, self.engine = scene, engine
+        self.scene = scene
+        # A single row costs nothing, and what it is solved to is beyond single precision.
+        self.engine = engine if self.width is None else replace(engine, precision="double")
         self.flow = Flow.of(scene.elastomer, scene.motion.speed)
-        self.medium = _medium(scene.indenter, self.flow, engine)
+        self.medium = _medium(scene.indenter, self.flow, self.engine)
         self.work, self.transforms = 0, 0
         self._cut_off, self._surface = None, None
 
@@ -121,7 +125,11 @@ class Problem:
                 sums=self.engine.sums,
             ).map(self.engine.asnumpy)
         except contact.NotConverged as error:
-            raise SolveError(f"no converged contact on {grid.points} x {grid.rows} points: {error}") from error
+            advice = "a larger tolerance" if self.engine.precision == "double" else 'precision = "double"'
+            raise SolveError(
+                f"no converged contact on {grid.points} x {grid.rows} points: {error}; "
+                f"take {advice} or more points"
+            ) from error
         finally:
             self._count(grid, operator)
             self.transforms += (
@@ -158,8 +166,9 @@ class Problem:
         """
         if depth is None:
             count = int(np.clip(self._smooth_count(grid, load), 4, heights.size - 1))
-            depth = np.partition(heights, count, axis=None)[count]
-        overlap = np.maximum(depth - heights, 0.0)
+            overlap = contact.first_guess(heights, count)
+        else:
+            overlap = np.maximum(depth - heights, 0.0)
         return overlap / np.sqrt(np.count_nonzero(overlap))
 
     def _smooth_count(self, grid, load):

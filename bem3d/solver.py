@@ -15,6 +15,7 @@ from . import window
 from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .history import marched
+from .measures import measured
 from .problem import Problem
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
@@ -56,8 +57,8 @@ class BEM:
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
     depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
-    leaves nothing in contact. Its measures are pixel, contact_area, contact_points, friction_by_traction,
-    friction_by_work, rounds (of all steps), time_steps and transform_pairs.
+    leaves nothing in contact, as is its gap. Its measures are of the last step; of friction by_traction and
+    by_work alone, the second NaN at rest; rounds of all steps; and time_steps.
     """
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
@@ -93,9 +94,9 @@ class BEM:
         if isinstance(scene.indenter, Plane):
             if self.extent is not None:
                 reasons.append(f"extent = {self.extent:g} m: the cell of a Plane is the period of its roughness")
-            reasons += _unresolved(scene, Grid(self.points, scene.roughness.period))
+            reasons += window.unresolved(scene, Grid(self.points, scene.roughness.period))
         elif self.extent is not None:
-            reasons += _unresolved(scene, Grid(self.points, self.extent))
+            reasons += window.unresolved(scene, Grid(self.points, self.extent))
         try:
             _ = self.engine.xp
         except Unavailable as missing:
@@ -141,8 +142,7 @@ class BEM:
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
     def _on(self, problem, grid):
-        if reasons := _unresolved(problem.scene, grid):
-            raise SolveError("; ".join(reasons))
+        window.check_waves(problem.scene, grid)
         return problem.solve(grid, self.tolerance)
 
     def _result(self, problem, grid, answer, started):
@@ -163,7 +163,7 @@ class BEM:
             applications=problem.work / (grid.points * grid.rows),
             seconds=time.process_time() - started,
             measures={
-                **_extents(problem, grid, answer),
+                **measured(problem, grid, pressure, answer.gap * grid.pixel),
                 **frictions,
                 "friction_disagreement": max(abs(work - loss), lag * abs(traction - loss)) / normal_force,
                 "rounds": float(answer.rounds),
@@ -195,40 +195,3 @@ def _check_gap(gap, grid, answer):
             f"motion.gap = {gap:g} m is so close to full contact that the residual of {left:.1e} m decides the "
             f"pressure; prescribe the pressure, or take a tolerance {left / gap / LEAST_GAP:.0f} times smaller"
         )
-
-
-def _extents(problem, grid, answer):
-    """What was touched, on what grid, by what roughness: measures of a result."""
-    touched = answer.pressure > 0
-    contact_points = np.count_nonzero(touched)
-    measures = {
-        "pixel": grid.pixel,
-        "contact_area": float(contact_points * grid.patch),
-        "contact_points": float(contact_points),
-        "points_across_contact": float(grid.box(touched).side / grid.pixel),
-    }
-    if (surface := problem.surface(grid)) is not None:
-        measures |= {
-            "rms_height": surface.rms_height,
-            "rms_slope": surface.rms_slope,
-            "points_per_shortest_wave": float(2 * np.pi / problem.scene.roughness.q_max(grid.pixel) / grid.pixel),
-        }
-    if isinstance(problem.scene.indenter, Plane):
-        measures |= {
-            "mean_pressure": float(answer.pressure.mean() * problem.flow.modulus),
-            "mean_gap": float(answer.gap.mean() * grid.pixel),
-            "contact_fraction": float(contact_points / answer.pressure.size),
-        }
-    return measures
-
-
-def _unresolved(scene, grid):
-    """Why the grid cannot carry the roughness, if it cannot."""
-    rough = scene.roughness
-    if rough is None or rough.shortest is None or 2 * grid.pixel <= rough.shortest:
-        return []
-    least = int(np.ceil(2 * grid.extent / rough.shortest))
-    return [
-        f"roughness.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
-        f"points = {least} would carry it, {4 * least} resolve it"
-    ]

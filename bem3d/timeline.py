@@ -1,46 +1,66 @@
 """A program cut into steps."""
 
+from math import ceil
+
 import numpy as np
 
 from scene import Program, SolveError
 
 MOST = 10**6
+RAMP = 20  # steps at least while what is prescribed changes: in one, the surface would be thrown off the indenter
+GROWTH = 1.25  # of a step over the one before: what follows a ramp is as quick as the ramp was
 SLIVER = 1e-9  # of a step: less is rounding
 
 
 def timeline(program: Program, pixel: float, steps: int) -> np.ndarray:
     """Times [s] at which steps begin and end (N + 1,).
 
-    `steps` are shared out by duration, one to a stage at least. Where the indenter slides they are a pixel [m] of
-    path or a whole fraction of it; the last two of a stage share what is left. Raises SolveError for too many.
+    `steps` are shared out by duration, one to a stage at least, RAMP to a stage that loads or unloads; after a
+    shorter step they grow by GROWTH. Where the indenter slides they are a pixel [m] of path at most, or a whole
+    fraction of it. The last two of a stage share what is left. Raises SolveError for too many.
     """
-    longest = [_longest(stage, pixel, program.duration / steps) for stage in program.stages]
+    longest = _longest(program, pixel, program.duration / steps)
     count = sum(stage.duration / step for stage, step in zip(program.stages, longest, strict=True))
     if count > MOST:
         raise SolveError(
             f"the program takes {count:.2g} steps on pixels of {pixel:g} m, more than {MOST}: "
             f"slide a shorter path, take a larger extent or fewer points, or fewer steps than {steps}"
         )
-    times = [0.0]
+    times, before = [0.0], np.inf
     for stage, step in zip(program.stages, longest, strict=True):
-        times.extend(times[-1] + _ends(stage.duration, step))
+        ends = _ends(stage.duration, step, before)
+        times.extend(times[-1] + ends)
+        before = step
     return np.array(times)
 
 
-def _longest(stage, pixel, share):
-    """Step of a stage [s]."""
-    share = stage.duration / max(1, round(stage.duration / share))
-    if stage.speed == 0:
-        return share
-    crossing = pixel / stage.speed
-    return crossing / np.ceil(crossing / share * (1 - SLIVER))
+def _longest(program, pixel, share):
+    """Step of each stage [s]."""
+    prescribed, steps = 0.0, []
+    for stage in program.stages:
+        target = stage.given.get(program.pressed_by, prescribed)
+        least = 1 if target == prescribed else RAMP
+        step = stage.duration / max(least, round(stage.duration / share))
+        if stage.speed > 0:
+            crossing = pixel / stage.speed
+            step = crossing / np.ceil(crossing / step * (1 - SLIVER))
+        prescribed = target
+        steps.append(step)
+    return steps
 
 
-def _ends(duration, step):
-    """Of the steps in a stage, from its start."""
-    count = int(np.ceil(duration / step * (1 - SLIVER)))
-    ends = step * np.arange(1, count + 1)
-    ends[-1] = duration
+def _ends(duration, step, before):
+    """Of the steps in a stage, from its start: growing after a step `before` it, then alike."""
+    growths = ceil(np.log(max(step / before, 1.0)) / np.log(GROWTH))
+    ends = np.cumsum(before * GROWTH ** np.arange(1, growths)) if growths else np.empty(0)
+    ends = ends[ends < duration - step]
+    if len(ends):  # in whole steps together: a sliding indenter is then over the pixels as without them
+        ends *= ceil(ends[-1] / step) * step / ends[-1]
+        ends = ends[ends < duration - step]
+    start = ends[-1] if len(ends) else 0.0
+    count = max(1, int(np.ceil((duration - start) / step * (1 - SLIVER))))
+    alike = start + step * np.arange(1, count + 1)
+    alike[-1] = duration
     if count > 1:
-        ends[-2] = (duration + step * (count - 2)) / 2
-    return ends
+        alike[-2] = (duration + start + step * (count - 2)) / 2
+    return np.concatenate([ends, alike])

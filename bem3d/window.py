@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from scene import EmptyContact, SolveError
+from scene import Cylinder, EmptyContact, SolveError
 from scene.scales import elastic_contact
 
 from .grid import Box, Grid
@@ -28,8 +28,12 @@ def surroundings(problem: Problem) -> Box:
     viscous one does not exceed, with the highest peaks allowed for.
     """
     scene = problem.scene
-    peaks = 0.0 if scene.roughness is None else PEAKS * scene.roughness.rms_height
-    reach = MARGIN * scene.indenter.radius_at(elastic_contact(scene).depth + 2 * peaks)
+    at_rest = elastic_contact(scene)
+    if isinstance(scene.indenter, Cylinder):  # smooth, and its depth is no measure of its width
+        reach = 2 * MARGIN * at_rest.radius
+    else:
+        peaks = 0.0 if scene.roughness is None else PEAKS * scene.roughness.rms_height
+        reach = MARGIN * scene.indenter.radius_at(at_rest.depth + 2 * peaks)
     return Box(-reach, reach, -reach, reach)
 
 
@@ -61,6 +65,11 @@ def check(grid: Grid, answer, repeats: bool = False) -> None:
     touched = answer.pressure > 0
     if not repeats and grid.on_rim(touched):
         raise SolveError(f"the contact reaches the edge of extent = {grid.extent:g} m; take a larger extent")
+    check_resolved(grid, touched)
+
+
+def check_resolved(grid: Grid, touched: np.ndarray) -> None:
+    """Raise SolveError if a contact covers too few pixels for its forces to be more than a guess."""
     if np.count_nonzero(touched) < FEWEST:
         raise SolveError(
             f"the contact covers {np.count_nonzero(touched)} of {grid.points} x {grid.rows} points on extent = "
@@ -130,3 +139,21 @@ def _binned(grid, pressure, coarse):
     y, x = np.meshgrid(grid.y - grid.centre[1], grid.x - grid.centre[0], indexing="ij")
     force, _, _ = np.histogram2d(y.ravel(), x.ravel(), bins=(edges, edges), weights=pressure.ravel())
     return force * (grid.pixel / coarse.pixel) ** 2
+
+
+def check_waves(scene, grid: Grid) -> None:
+    """Raise SolveError where the grid cannot carry the roughness."""
+    if reasons := unresolved(scene, grid):
+        raise SolveError("; ".join(reasons))
+
+
+def unresolved(scene, grid: Grid) -> list[str]:
+    """Why the grid cannot carry the roughness, if it cannot."""
+    rough = scene.roughness
+    if rough is None or rough.shortest is None or 2 * grid.pixel <= rough.shortest:
+        return []
+    least = int(np.ceil(2 * grid.extent / rough.shortest))
+    return [
+        f"roughness.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
+        f"points = {least} would carry it, {4 * least} resolve it"
+    ]

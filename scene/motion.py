@@ -147,6 +147,11 @@ class Program:
         return np.interp(time, self._times, self._paths)
 
     @property
+    def turns(self) -> frozenset[float]:
+        """Times [s] at which one stage follows another."""
+        return frozenset(float(time) for time in self._times[1:-1])
+
+    @property
     def _times(self):
         return np.cumsum([0.0, *(stage.duration for stage in self.stages)])
 

@@ -10,12 +10,14 @@ from scene import (
     CrossedWaves,
     Cylinder,
     Elastic,
+    EmptyContact,
     Indent,
     Kelvin,
     Plane,
     Program,
     Scene,
     Slide,
+    SolveError,
     Sphere,
     Stage,
     StandardLinearSolid,
@@ -40,7 +42,7 @@ def test_a_held_depth_relaxes_as_lee_and_radok_say():
     np.testing.assert_allclose(force[late], expected[late], rtol=5 * ACCURACY)
     assert result.normal_force == pytest.approx(expected[-1], rel=ACCURACY)
     assert result.normal_force == force[-1]
-    assert result.measures["time_steps"] == len(times) == 80
+    assert result.measures["time_steps"] == len(times) >= 80
     assert result.fields["pressure"].shape == (64, 64)
 
 
@@ -69,9 +71,10 @@ def test_after_separation_nothing_is_pressed_and_that_is_no_error():
 def test_an_elastic_solid_has_no_history():
     program = ramped(Stage(duration=1.0, depth=2 * DEPTH), Stage(duration=1.0, depth=DEPTH))
     result = BEM(points=64, steps=20).solve(Scene(Sphere(R), Elastic(G), program))
-    going, coming = result.fields["normal_force"][:10], result.fields["normal_force"][10:]
+    half = len(result.fields["time"]) // 2
+    going, coming = result.fields["normal_force"][:half], result.fields["normal_force"][half:]
     depths = result.fields["depth"]
-    np.testing.assert_allclose(np.interp(depths[11:], depths[:10], going), coming[1:], rtol=2e-2)
+    np.testing.assert_allclose(np.interp(depths[half + 1 :], depths[:half], going), coming[1:], rtol=2e-2)
     at_rest = BEM(points=64).solve(Scene(Sphere(R), Elastic(G), Indent(depth=depths[-1])))
     assert result.normal_force == pytest.approx(at_rest.normal_force, rel=5 * ACCURACY)
 
@@ -96,3 +99,43 @@ def test_lines_and_planes_march_to_their_steady_answers(indenter, roughness, val
 def test_solvers_without_a_clock_refuse_a_program_by_name():
     scene = Scene(Sphere(R), Kelvin(G, TAU), ramped(Stage(duration=1.0, load=1.0)))
     assert "Program" in "; ".join(Exact().refusals(scene))
+
+
+@pytest.mark.parametrize("ramp", [1e-4, 1e-2, 0.1])
+@pytest.mark.parametrize("solid", [Kelvin(G, 1.0), StandardLinearSolid(G, 10 * G, 1.0)], ids=["Kelvin", "SLS"])
+def test_however_short_the_ramp_the_hold_after_it_is_right(solid, ramp):
+    # the force of a Kelvin body falls at once as the motion stops; the surface must not be thrown off by then
+    program = ramped(Stage(duration=ramp, depth=DEPTH), Stage(duration=5.0))
+    fields = BEM(points=48).solve(Scene(Sphere(R), solid, program)).fields
+    times, force = fields["time"], fields["normal_force"]
+    expected = indentation.loading_force(Sphere(R), solid, [0, ramp, ramp + 5.0], [0, DEPTH, DEPTH], times)
+    held = times > ramp
+    np.testing.assert_allclose(force[held], expected[held], rtol=2e-2)
+
+
+def test_a_program_that_ends_on_next_to_no_pixels_or_never_touches_is_an_error():
+    ramp = ramped(Stage(duration=1.0, depth=DEPTH))
+    with pytest.raises(SolveError, match="take more points"):
+        BEM(points=64, extent=0.1).solve(Scene(Sphere(R), Elastic(G), ramp))
+    with pytest.raises(EmptyContact, match="nothing touches in the whole program"):
+        BEM(points=64, extent=1e3).solve(Scene(Sphere(R), Elastic(G), ramp))
+
+
+def test_waves_shorter_than_two_pixels_are_an_error_in_a_program_too():
+    scene = Scene(
+        Sphere(R),
+        Elastic(G),
+        ramped(Stage(duration=1.0, load=0.5)),
+        CrossedWaves(amplitude=2e-6, wavelength=2e-5),
+    )
+    with pytest.raises(SolveError, match="less than two pixels"):
+        BEM(points=64, steps=10).solve(scene)
+
+
+@pytest.mark.parametrize("points", [16, 33, 48])
+def test_lowest_points_that_are_alike_are_no_trouble_to_start_from(points):
+    line = Scene(Cylinder(R), SOLID, ramped(Stage(duration=1.0, line_load=300.0)))
+    assert BEM(points=points).solve(line).normal_force == pytest.approx(300.0, rel=0.05)
+    waves = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
+    with pytest.raises(SolveError, match="take more points"):
+        BEM(points=points).solve(Scene(Plane(), Elastic(G), Indent(pressure=1.0), waves))
