@@ -43,6 +43,8 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
     for mistake in _with_what_is_missing(error, content, adapter).errors(include_url=False):
         kind, value, allowed = mistake["type"], mistake["input"], mistake["msg"].removeprefix("Value error, ")
         where = _place(mistake["loc"], content)
+        if kind == "too_short" and len(value) >= mistake["ctx"]["min_length"]:
+            continue  # it is long enough: what is wrong with its items has a line of its own
         if kind == "union_tag_invalid":
             where, value = (*where, "type"), value["type"]
             allowed = f"one of {mistake['ctx']['expected_tags']}"

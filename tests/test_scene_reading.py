@@ -256,3 +256,10 @@ def test_a_scene_cannot_be_changed_and_survives_its_own_json():
         scene.motion.speed = 2.0
     adapter = TypeAdapter(Scene)
     assert adapter.validate_json(adapter.dump_json(scene)) == scene
+
+
+def test_a_mistake_in_the_only_stage_is_one_mistake(tmp_path):
+    motion = '[motion]\ntype = "program"\n[[motion.stages]]\nduration = 1.0\ngap = 1e-6\n'
+    with pytest.raises(InvalidInput) as raised:
+        scene_from(tmp_path, INDENTER + ELASTOMER + motion)
+    assert str(raised.value).count("\n") == 0
