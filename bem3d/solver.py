@@ -35,8 +35,8 @@ class BEM:
         below the undeformed surface, or what its heights span in contact where that is more; what is left is the
         `residual` of a result. Sliding on a single row is solved to 1e-7 at least
     threads : of the Fourier transforms; OMP_NUM_THREADS in the environment caps those of ducc0
-    precision : of the transforms; in single they are up to 1.7 times faster, need half the memory, and leave 1e-6
-        of the largest displacement as noise in the gap
+    precision : of the transforms; in single they are up to 1.5 times faster, need half the memory, and leave 1e-6
+        of the largest displacement as noise in the gap; single rows are always solved in double
     transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
 
@@ -90,7 +90,7 @@ class BEM:
         """Why the scene cannot be solved."""
         reasons = []
         if isinstance(scene.indenter, Cylinder) and scene.roughness is not None:
-            reasons.append("a rough Cylinder is no line contact: leave it out, or take a Sphere or a Plane")
+            reasons.append("a rough Cylinder is no line contact: leave roughness out, or take a Sphere or a Plane")
         if isinstance(scene.indenter, Plane):
             if self.extent is not None:
                 reasons.append(f"extent = {self.extent:g} m: the cell of a Plane is the period of its roughness")
@@ -181,7 +181,7 @@ class BEM:
             "centre": grid.centre,
             "tolerance": self.tolerance,
             "threads": self.threads,
-            "precision": self.precision,
+            "precision": problem.engine.precision,
             "transforms": self.transforms,
             "cutoff": None if problem.surface(grid) is None else "resolved" if rough.shortest else "nyquist",
         }

@@ -7,15 +7,10 @@ The peers come with the extra `peers`; without one its rows say so. Every run is
 
 import argparse
 import importlib.metadata
-import multiprocessing
 import os
 import platform
 import sys
-import tempfile
 import time
-import warnings
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from dataclasses import replace
 from datetime import date
 from math import sqrt
@@ -23,11 +18,12 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
+from codes import CODES, MOST, by_tamaas, unhelped
 from scipy.optimize import brentq
 from tables import table
+from timing import alone, least, pair
 
 from bem3d import BEM, contact
-from bem3d.surface import RoughSurface
 from scene import Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
 
 ELASTIC = Elastic(0.25)  # E* = 4G = 1
@@ -35,43 +31,11 @@ SLOPE, PRESSURE = 0.1, 0.0035
 WANTED = 1e-6  # complementarity error that every code is to reach
 PENETRATION = 1e-3  # over the standard deviation of the heights: more is no solution, though the error be small
 TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7)  # tried in turn, each code by its own measure
-MOST = 1000  # iterations allowed to a peer
 REPEATED, REPEATS = 512, 3  # up to this size the least of so many runs counts
 SPHERE, DEPTH, SIDE = Sphere(1.0), 0.02, 0.4  # the contact is 0.28 across
 ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shortest=8e-3, seed=1)
 UNANSWERED = (Refused, SolveError)
 PAPER = Sphere(10e-3), SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-
-
-def alone(function, *arguments):
-    """The value of a call in a process of its own, on one thread."""
-    for name in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
-        os.environ[f"{name}_NUM_THREADS"] = "1"
-    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as process:
-        return process.submit(function, *arguments).result()
-
-
-def pair(n: int) -> float:
-    """Processor seconds of one rfft2 and irfft2 of n x n by pyfftw, planned with MEASURE, one thread."""
-    import pyfftw
-
-    points, waves = pyfftw.zeros_aligned((n, n)), pyfftw.zeros_aligned((n, n // 2 + 1), complex)
-    axes = {"axes": (0, 1), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
-    forward = pyfftw.FFTW(points, waves, **axes)
-    backward = pyfftw.FFTW(waves, points, direction="FFTW_BACKWARD", **axes)
-    points[:] = 1.0
-    return least(lambda: (forward.execute(), backward.execute()), n)
-
-
-def least(call, n: int) -> float:
-    """Least processor seconds of a call on n x n points, over about a second."""
-    times = []
-    while len(times) < 5 or (sum(times) < 1.0 and len(times) < 200):
-        started = time.process_time()
-        for _ in range(max(1, (256 // n) ** 2)):
-            call()
-        times.append((time.process_time() - started) / max(1, (256 // n) ** 2))
-    return min(times)
 
 
 def rough_plane(n: int) -> SelfAffine:
@@ -89,109 +53,6 @@ def cell(n: int, pressure: float) -> tuple[Scene, BEM]:
 def sphere(n: int, **pressed: float) -> tuple[Scene, BEM]:
     """A rough sphere on a free surface, on a given square."""
     return Scene(SPHERE, ELASTIC, Indent(**pressed), ROUGH), BEM(points=n, extent=SIDE)
-
-
-def heights_of(scene: Scene, solver: BEM) -> np.ndarray:
-    """What a peer is given: z on the points of our grid."""
-    side = solver.extent or 1.0
-    x = (np.arange(solver.points) - (solver.points - 1) / 2) * side / solver.points
-    surface = RoughSurface.of(scene.roughness, scene.roughness.q_max(side / solver.points))
-    return scene.indenter.height(x[None, :], x[:, None]) + surface.heights(x, x)
-
-
-def outcome(heights, tolerance, pressure, gap, **more) -> dict:
-    """Row of one run; the error is sum|p gap| over sum(p) and the standard deviation of all heights."""
-    error = float(np.sum(np.abs(pressure * gap)) / (pressure.sum() * heights.std()))
-    penetration = -float(gap.min()) / heights.std()
-    touching = float(np.mean(pressure > 0))
-    return {"tolerance": tolerance, "error": error, "penetration": penetration, "touching": touching} | more
-
-
-def by_us(scene: Scene, solver: BEM, tolerance: float) -> dict:
-    """From the scene to the result: drawing the surface and the coarser grids are included."""
-    result = BEM(points=solver.points, extent=solver.extent, tolerance=tolerance).solve(scene)
-    return outcome(
-        heights_of(scene, solver),
-        tolerance,
-        result.fields["pressure"],
-        result.fields["gap"],
-        seconds=result.seconds,
-        iterations=result.applications,
-        pairs=result.measures["transform_pairs"],
-    )
-
-
-def by_tamaas(scene: Scene, solver: BEM, tolerance: float) -> dict:
-    """Polonsky and Keer's conjugate gradients; the solve alone. The tolerance is the error itself."""
-    import tamaas
-
-    tamaas.initialize(1)
-    n, heights = solver.points, heights_of(scene, solver)
-    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], [n, n])
-    model.E, model.nu = 1.0, 0.0
-    peer = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-heights), tolerance)
-    peer.max_iter, peer.dump_freq = MOST, 1
-    with printed() as lines:
-        started = time.process_time()
-        peer.solve(scene.motion.pressure)
-        seconds = time.process_time() - started
-    counts = [int(line.split()[0]) for line in lines if line.split()[:1] and line.split()[0].isdigit()]
-    return outcome(heights, tolerance, model.traction, model["gap"], seconds=seconds, iterations=max(counts))
-
-
-@contextmanager
-def printed():
-    """What a compiled library prints meanwhile, as lines, once it is over."""
-    lines: list[str] = []
-    with tempfile.TemporaryFile("w+") as file:
-        kept = [(number, os.dup(number)) for number in (1, 2)]
-        for number, _ in kept:
-            os.dup2(file.fileno(), number)
-        try:
-            yield lines
-        finally:
-            for number, copy in kept:
-                os.dup2(copy, number)
-                os.close(copy)
-            file.seek(0)
-            lines += file.read().splitlines()
-
-
-def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float, helped: bool = True) -> dict:
-    """The same method there; the solve alone. At a depth it is helped by our first guess, the overlap."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        import ContactMechanics
-        from SurfaceTopography import Topography
-    n, side, heights = solver.points, solver.extent or 1.0, heights_of(scene, solver)
-    periodic = isinstance(scene.indenter, Plane)
-    kind = ContactMechanics.PeriodicFFTElasticHalfSpace if periodic else ContactMechanics.FreeFFTElasticHalfSpace
-    substrate = kind((n, n), 1.0, (side, side))
-    system = ContactMechanics.Systems.NonSmoothContactSystem(substrate, Topography(-heights, (side, side)))
-    value = scene.motion.greatest
-    match scene.motion.pressed_by:
-        case "depth" if helped:
-            forces = np.zeros((2 * n, 2 * n))
-            forces[:n, :n] = -np.maximum(value - heights, 0) * side / n
-            pressed = {"offset": value, "initial_forces": forces}
-        case "depth":
-            pressed = {"offset": value}
-        case _:
-            pressed = {"external_force": value * (side**2 if periodic else 1)}
-    started = time.process_time()
-    found = system.minimize_proxy(pentol=tolerance * heights.std(), maxiter=MOST, **pressed)
-    seconds = time.process_time() - started
-    gap = found.x[:n, :n] + heights - found.offset
-    counts = {"iterations": found.nit, "pairs": found.nfev}
-    return outcome(heights, tolerance, found.jac, gap, seconds=seconds, **counts)
-
-
-def unhelped(scene, solver, tolerance):
-    """ContactMechanics from its own first guess."""
-    return by_contact_mechanics(scene, solver, tolerance, helped=False)
-
-
-CODES = {"this": by_us, "tamaas": by_tamaas, "ContactMechanics": by_contact_mechanics}
 
 
 def measured(code, scene: Scene, solver: BEM) -> dict:
