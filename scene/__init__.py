@@ -4,6 +4,7 @@ from .fractional import Fractional
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
 from .motion import Indent, Program, Slide, Stage
 from .protocol import EmptyContact, Refused, SolveError, Solver
+from .regime import Regime
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import CrossedWaves, SelfAffine, Wave
@@ -26,6 +27,7 @@ __all__ = [
     "Program",
     "Prony",
     "Refused",
+    "Regime",
     "Result",
     "Scene",
     "SelfAffine",
