@@ -6,7 +6,7 @@ from math import hypot, nan, sqrt
 
 import numpy as np
 
-from .store import Outcome, Row
+from .outcome import Outcome, Row
 from .study import Point, Task
 
 

@@ -4,62 +4,43 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
 from math import nan
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, Protocol
 
 import numpy as np
-from pydantic import TypeAdapter
 
-from scene import Result, Scene
+from .outcome import NUMBERS, Outcome, Row
 
-from .study import Task
-
-SCENES = TypeAdapter(tuple[Scene, ...])
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
-NUMBERS = ("normal_force", "depth", "friction_force", "residual", "applications", "seconds")
 
 
-@dataclass(frozen=True)
-class Row:
-    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed."""
+class Task(Protocol):
+    """What one worker solves in one go; equal tasks have equal answers.
 
-    normal_force: float = nan
-    depth: float = nan
-    friction_force: float = nan
-    residual: float = nan
-    applications: float = nan
-    seconds: float = nan
-    measures: Mapping[str, float] = field(default_factory=dict)
-    settings: Mapping[str, Any] = field(default_factory=dict)
-    reason: str | None = None
+    label : short description for people
+    work : rough cost, in units that are the same for all tasks; orders them and tells how far they are
+    question : everything that the answer depends on but for code, as JSON can hold it
+    packages : whose code the answer depends on
+    keeps_fields : whether the outcome has fields
+    """
 
-    @property
-    def friction_coefficient(self) -> float:
-        """mu = F_x / F_N; NaN where nothing carries a load."""
-        return self.friction_force / self.normal_force if self.normal_force else nan
+    label: str
+    work: float
+    question: Mapping[str, Any]
+    packages: Sequence[str]
+    keeps_fields: bool
 
+    def solve(self) -> Outcome:
+        """The answer."""
 
-@dataclass(frozen=True)
-class Outcome:
-    """The rows of a task, one a scene, and the fields of its first scene if the task keeps them."""
-
-    rows: tuple[Row, ...]
-    fields: Mapping[str, np.ndarray] = field(default_factory=dict, repr=False)
-
-
-def row(result: Result) -> Row:
-    """The numbers of a result, as plain Python numbers."""
-    return Row(
-        **{name: float(getattr(result, name)) for name in NUMBERS},
-        measures={name: float(value) for name, value in result.measures.items()},
-        settings={name: _plain(value) for name, value in result.settings.items()},
-    )
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether a stored outcome is whole."""
 
 
 def code_digest(folder: Path) -> str:
@@ -74,12 +55,10 @@ def code_digest(folder: Path) -> str:
 
 
 def key(task: Task) -> str:
-    """Name of a task's file: digest of its scenes, solver's name and settings, the code of both, and versions."""
+    """Name of a task's file: digest of its question, of the code that answers it, and of versions."""
     everything = {
-        "scenes": SCENES.dump_python(task.scenes, mode="json"),
-        "solver": task.solver.name,
-        "settings": asdict(task.solver),
-        "code": [_package_digest("scene"), _package_digest(type(task.solver).__module__.split(".")[0])],
+        "question": task.question,
+        "code": [_package_digest(package) for package in task.packages],
         "versions": _versions(),
     }
     canonical = json.dumps(everything, sort_keys=True, separators=(",", ":"))
@@ -98,9 +77,8 @@ class Store:
         try:
             content = json.loads(numbers.read_text(encoding="utf-8"))
             rows = tuple(_row_from_json(entry) for entry in content["rows"])
-            if len(rows) != len(task.scenes):
-                return None
-            return Outcome(rows, _read_fields(fields) if task.keeps_fields else {})
+            outcome = Outcome(rows, _read_fields(fields) if task.keeps_fields else {})
+            return outcome if task.fits(outcome) else None
         # A damaged archive raises nearly anything, from zlib.error to RuntimeError.
         except Exception:
             return None
@@ -143,11 +121,6 @@ def _package_digest(package):
     return code_digest(
         Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
     )
-
-
-def _plain(value):
-    value = value.item() if isinstance(value, np.generic) else value
-    return value if isinstance(value, str | int | float | bool | None) else str(value)
 
 
 def _row_to_json(entry):

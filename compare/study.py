@@ -1,23 +1,28 @@
 """From a case to what has to be solved: points of curves, and the tasks of which each point is the average."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
-from scene import Indent, Scene, Solver
+from pydantic import TypeAdapter
+
+from scene import EmptyContact, Indent, Scene, SolveError, Solver
 from scene.protocol import refuse
 from scene.scales import elastic_contact
 
 from .cases import Case
 from .exact import Exact
+from .outcome import Outcome, Row, row
+
+SCENES = TypeAdapter(tuple[Scene, ...])
 
 
 @dataclass(frozen=True)
 class Task:
-    """What one worker solves in one go: scenes that differ only in the seed of their roughness.
+    """A task, as of store: scenes that differ only in the seed of their roughness.
 
     solver, scenes : what is solved
     keeps_fields : whether the fields of the first scene are kept, for pictures
-    work : rough cost, in units that are the same for both solvers; orders the tasks and tells how far they are
+    work : see store
     """
 
     solver: Solver
@@ -36,6 +41,42 @@ class Task:
         if len(self.scenes) > 1:
             body = f"{len(self.scenes)} profiles"
         return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}{moved}, {body}"
+
+    @property
+    def question(self) -> dict:
+        """The scenes, and the solver by its name and settings."""
+        scenes = SCENES.dump_python(self.scenes, mode="json")
+        return {"scenes": scenes, "solver": self.solver.name, "settings": asdict(self.solver)}
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """That of the scenes and that of the solver."""
+        return "scene", type(self.solver).__module__.split(".")[0]
+
+    def solve(self) -> Outcome:
+        """Solve every scene, one after the other.
+
+        An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
+        exception is a fault and is raised.
+        """
+        rows, fields = [], {}
+        for scene in self.scenes:
+            try:
+                result = self.solver.solve(scene)
+            except EmptyContact:
+                rows.append(Row(0.0, scene.motion.depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
+                continue
+            except SolveError as error:
+                rows.append(Row(reason=str(error) or type(error).__name__))
+                continue
+            if self.keeps_fields and not rows:
+                fields = dict(result.fields)
+            rows.append(row(result))
+        return Outcome(tuple(rows), fields)
+
+    def fits(self, outcome: Outcome) -> bool:
+        """A row a scene."""
+        return len(outcome.rows) == len(self.scenes)
 
 
 @dataclass(frozen=True)

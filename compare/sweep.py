@@ -12,10 +12,8 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from typing import Protocol
 
-from scene import EmptyContact, SolveError
-
-from .store import Outcome, Row, Store, row
-from .study import Task
+from .outcome import Outcome
+from .store import Store, Task
 
 # A worker solves on one thread; two workers with two threads each are slower than either alone.
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
@@ -74,9 +72,9 @@ def sweep(
 
     workers : processes, one thread each; absent, as many as there are processors
 
-    An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
-    exception is a fault and is raised. On an interrupt, any signal that raises KeyboardInterrupt, nothing more is
-    started; what is being solved is finished and stored; KeyboardInterrupt is raised. A second ends it at once.
+    An exception in a task is a fault and is raised. On an interrupt, any signal that raises KeyboardInterrupt,
+    nothing more is started; what is being solved is finished and stored, and KeyboardInterrupt is raised. A second
+    interrupt ends it at once.
     """
     progress = progress or Silent()
     start = time.perf_counter()
@@ -96,21 +94,8 @@ def sweep(
 
 
 def solve(task: Task) -> Outcome:
-    """What a worker does: every scene of a task, one after the other."""
-    rows, fields = [], {}
-    for scene in task.scenes:
-        try:
-            result = task.solver.solve(scene)
-        except EmptyContact:
-            rows.append(Row(0.0, scene.motion.depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
-            continue
-        except SolveError as error:
-            rows.append(Row(reason=str(error) or type(error).__name__))
-            continue
-        if task.keeps_fields and not rows:
-            fields = dict(result.fields)
-        rows.append(row(result))
-    return Outcome(tuple(rows), fields)
+    """What a worker does."""
+    return task.solve()
 
 
 def _run(waiting: Sequence[Task], workers: int, progress: Progress) -> Iterator[tuple[Task, Outcome]]:

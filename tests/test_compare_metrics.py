@@ -7,7 +7,7 @@ import pytest
 
 from compare import metrics
 from compare.metrics import Estimate, estimate
-from compare.store import Outcome, Row
+from compare.outcome import Outcome, Row
 from compare.study import Point, Task
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere

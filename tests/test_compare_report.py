@@ -16,9 +16,9 @@ from bem3d import BEM
 from compare import metrics, report
 from compare.cases import Case, Study
 from compare.figures import style
-from compare.store import Outcome, Row
+from compare.outcome import Outcome, Row
 from compare.study import points, tasks
-from compare.sweep import Swept, solve
+from compare.sweep import Swept
 from compare.verdict import judge, plus_minus
 from mdr1d import MDR
 from scene import (
@@ -58,7 +58,7 @@ LIMIT_ON_A_SMALL_GRID = 0.05
 
 def solved(case, spoil=lambda task, outcome: outcome):
     found = points(case)
-    outcomes = {task: spoil(task, solve(task)) for task in tasks(found)}
+    outcomes = {task: spoil(task, task.solve()) for task in tasks(found)}
     swept = Swept(outcomes, len(outcomes), 0, 1.0)
     return judge(case, found, swept), swept
 

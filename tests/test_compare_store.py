@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from compare.exact import Exact
-from compare.store import Outcome, Row, Store, code_digest, key, write
+from compare.outcome import Outcome, Row
+from compare.store import Store, code_digest, key, write
 from compare.study import Task
 from mdr1d import MDR
 from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere

@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 
 from compare.store import Store
 from compare.study import Task
-from compare.sweep import ONE_THREAD, solve, sweep
+from compare.sweep import ONE_THREAD, sweep
 from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
@@ -133,7 +133,7 @@ def test_an_empty_contact_is_an_answer_with_forces_of_zero():
         def solve(self, scene):
             raise EmptyContact("nothing touches")
 
-    (row,) = solve(Task(Floats(), (replace(SCENE, motion=Indent(depth=1e-4)),))).rows
+    (row,) = Task(Floats(), (replace(SCENE, motion=Indent(depth=1e-4)),)).solve().rows
     assert (row.normal_force, row.friction_force, row.depth, row.reason) == (0.0, 0.0, 1e-4, None)
     assert np.isnan(row.friction_coefficient)
 
@@ -156,5 +156,5 @@ def test_one_interrupt_waits_for_what_is_under_way_and_two_do_not(tmp_path, pres
 
 def test_a_task_keeps_the_fields_of_its_first_scene_only():
     scenes = tuple(replace(SCENE, motion=Indent(load=load)) for load in (3.0, 4.0))
-    assert solve(Task(Stand(), scenes, keeps_fields=True)).fields == {"x": [3.0]}
-    assert solve(Task(Stand(), scenes)).fields == {}
+    assert Task(Stand(), scenes, keeps_fields=True).solve().fields == {"x": [3.0]}
+    assert Task(Stand(), scenes).solve().fields == {}

@@ -9,7 +9,7 @@ import pytest
 from bem3d import BEM
 from compare.cases import Case, Study
 from compare.metrics import select
-from compare.store import Outcome, Row
+from compare.outcome import Outcome, Row
 from compare.study import points, tasks
 from compare.sweep import Swept
 from compare.verdict import judge, load_curves

@@ -1,0 +1,54 @@
+"""What comes of a task: the numbers of each of its scenes, and fields for pictures."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import nan
+from typing import Any
+
+import numpy as np
+
+from scene import Result
+
+NUMBERS = ("normal_force", "depth", "friction_force", "residual", "applications", "seconds")
+
+
+@dataclass(frozen=True)
+class Row:
+    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed."""
+
+    normal_force: float = nan
+    depth: float = nan
+    friction_force: float = nan
+    residual: float = nan
+    applications: float = nan
+    seconds: float = nan
+    measures: Mapping[str, float] = field(default_factory=dict)
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    reason: str | None = None
+
+    @property
+    def friction_coefficient(self) -> float:
+        """mu = F_x / F_N; NaN where nothing carries a load."""
+        return self.friction_force / self.normal_force if self.normal_force else nan
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The rows of a task, one a scene, and the fields of its first scene if the task keeps them."""
+
+    rows: tuple[Row, ...]
+    fields: Mapping[str, np.ndarray] = field(default_factory=dict, repr=False)
+
+
+def row(result: Result) -> Row:
+    """The numbers of a result, as plain Python numbers."""
+    return Row(
+        **{name: float(getattr(result, name)) for name in NUMBERS},
+        measures={name: float(value) for name, value in result.measures.items()},
+        settings={name: _plain(value) for name, value in result.settings.items()},
+    )
+
+
+def _plain(value):
+    value = value.item() if isinstance(value, np.generic) else value
+    return value if isinstance(value, str | int | float | bool | None) else str(value)
