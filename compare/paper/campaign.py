@@ -1,0 +1,220 @@
+"""Fig. 3: six parameter studies of slow friction on a rough cone, and how they collapse on Eq. 17, mu-tilde = xi."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import lru_cache
+
+import numpy as np
+
+from mdr1d import equations
+from mdr1d.ensemble import Answers, solve_profiles
+from scene import Regime, Scene
+from scene.scales import elastic_contact
+
+from ..outcome import Outcome
+from ..store import Task
+from ..study import SCENES
+from . import parameters
+
+# Profiles of one task: some seconds of work are lost at most in an interruption.
+BLOCK = 10
+# Eq. 17 is the limit of Eq. 19: at this xi that lies 0.7 % lower.
+SLOW = 0.05
+RESAMPLINGS = 1000
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """How much of Fig. 3: values of each study, Hurst exponents, profiles. As published: all 20, all 11, 200."""
+
+    values: int = 20
+    hurst: tuple[float, ...] = parameters.HURST
+    profiles: int = parameters.PROFILES
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where in the campaign a scene stands: which study, the value there, and the Hurst exponent."""
+
+    study: int
+    value: float
+    hurst: float
+    scene: Scene
+    points: int
+
+
+@lru_cache(maxsize=4)
+def places(campaign: Campaign) -> tuple[Place, ...]:
+    """Every scene, each study from its first value to its last, as neighbours help one another."""
+    found = []
+    for hurst in campaign.hurst:
+        for number, study in enumerate(parameters.STUDIES):
+            chosen = np.linspace(0, len(study.values) - 1, campaign.values).round().astype(int)
+            for value in (study.values[i] for i in chosen):
+                found.append(Place(number, value, hurst, *parameters.varied(study, value, hurst)))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Block:
+    """A task: every scene of the campaign on the profiles of some seeds."""
+
+    campaign: Campaign
+    seeds: tuple[int, ...]
+    keeps_fields = True
+    packages = ("scene", "mdr1d")
+
+    @property
+    def label(self) -> str:
+        """Which profiles."""
+        return f"Fig. 3, {len(places(self.campaign))} contacts on profiles {self.seeds[0]} to {self.seeds[-1]}"
+
+    @property
+    def work(self) -> float:
+        """As of store, in passes over a node."""
+        return 4.0 * len(self.seeds) * sum(place.points for place in places(self.campaign))
+
+    @property
+    def question(self) -> Mapping:
+        """The scenes themselves, their points, the seeds."""
+        found = places(self.campaign)
+        scenes = SCENES.dump_python(tuple(place.scene for place in found), mode="json")
+        return {"scenes": scenes, "points": [place.points for place in found], "seeds": self.seeds}
+
+    def solve(self) -> Outcome:
+        """All of it; Outcome.fields has the arrays of Answers."""
+        found = places(self.campaign)
+        scenes, points = [place.scene for place in found], [place.points for place in found]
+        return Outcome((), vars(solve_profiles(scenes, points, self.seeds)))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Every array, of the whole shape."""
+        shape = len(places(self.campaign)), len(self.seeds)
+        return all(np.shape(outcome.fields.get(field.name)) == shape for field in fields(Answers))
+
+
+def blocks(campaign: Campaign) -> list[Block]:
+    """The tasks of a campaign."""
+    seeds = range(campaign.profiles)
+    return [Block(campaign, tuple(seeds[first : first + BLOCK])) for first in seeds[::BLOCK]]
+
+
+@dataclass(frozen=True)
+class Collapse:
+    """The campaign in the coordinates of Eqs. 17 and 18, arrays (scenes,) or (scenes, profiles).
+
+    study, value, hurst : where each scene stands
+    xi : the variable of Eq. 18
+    friction, error : mu-tilde, mean over the profiles and its standard error
+    samples : mu-tilde of each profile (scenes, profiles)
+    regime : against what Eq. 17 presupposes
+    failed : solves without an answer
+    sweeps : mean number of sweeps of a solve
+    """
+
+    study: np.ndarray
+    value: np.ndarray
+    hurst: np.ndarray
+    xi: np.ndarray
+    friction: np.ndarray
+    error: np.ndarray
+    samples: np.ndarray
+    regime: Regime
+    failed: int
+    sweeps: float
+
+    @property
+    def flags(self) -> dict[str, np.ndarray]:
+        """Which conditions of Eq. 17 hold where, by name."""
+        return {"xi << 1": self.xi <= SLOW} | self.regime.flags
+
+    @property
+    def holds(self) -> np.ndarray:
+        """Where all do but that of small slopes, without which the model itself still is one."""
+        return np.logical_and.reduce([flag for name, flag in self.flags.items() if name != "small slopes"])
+
+    @property
+    def with_macro_slope(self) -> np.ndarray:
+        """What mu-tilde is where Eq. 10 keeps the slope of the macroscopic profile, over xi."""
+        return 1 + self.regime.macro_over_rough**2
+
+
+def collect(campaign: Campaign, outcomes: Mapping[Task, Outcome]) -> Collapse:
+    """Put the blocks of a campaign together."""
+    found = places(campaign)
+    parts = [outcomes[block].fields for block in blocks(campaign)]
+    whole = Answers(*(np.hstack([part[field.name] for part in parts]) for field in fields(Answers)))
+    slope = np.nanmean(whole.rms_slope, axis=1)
+    samples = equations.normalised_friction(whole.friction, whole.rms_slope)
+    count = np.isfinite(samples).sum(axis=1)
+    contacts = [elastic_contact(place.scene) for place in found]
+    coefficient = np.array([place.scene.indenter.mdr_coefficient for place in found])
+    return Collapse(
+        study=np.array([place.study for place in found]),
+        value=np.array([place.value for place in found]),
+        hurst=np.array([place.hurst for place in found]),
+        xi=np.array([variable(place.scene, s) for place, s in zip(found, slope, strict=True)]),
+        friction=np.nanmean(samples, axis=1),
+        error=np.nanstd(samples, axis=1, ddof=1) / np.sqrt(count),
+        samples=samples,
+        regime=Regime.of(
+            profile=(coefficient, 1.0),
+            contact=(np.array([c.radius for c in contacts]), np.array([c.depth for c in contacts])),
+            rms_height=np.array([place.scene.roughness.rms_height for place in found]),
+            longest=parameters.LENGTH,
+            rms_slope=slope,
+        ),
+        failed=int(np.isnan(samples).sum()),
+        sweeps=float(np.nanmean(whole.sweeps)),
+    )
+
+
+def variable(scene: Scene, rms_slope: float) -> float:
+    """xi of a scene on a Kelvin solid, Eq. 18."""
+    body, solid, motion = scene.indenter, scene.elastomer, scene.motion
+    return equations.similarity_variable(
+        motion.load,
+        solid.modulus,
+        solid.relaxation_time,
+        motion.speed,
+        rms_slope,
+        body.mdr_coefficient,
+        body.exponent,
+    )
+
+
+@dataclass(frozen=True)
+class Line:
+    """ln mu-tilde = ln factor + slope ln xi, least squares over points; intervals of 95 % from resampled profiles.
+
+    worst : largest |mu-tilde / xi - 1| of the points ; points : how many
+    """
+
+    slope: float
+    slope_interval: tuple[float, float]
+    factor: float
+    factor_interval: tuple[float, float]
+    worst: float
+    points: int
+
+
+def line(collapse: Collapse, where: np.ndarray, over: np.ndarray | float = 1.0) -> Line:
+    """Fit a straight line through some points, their friction first divided by what is given."""
+    where = where & np.isfinite(collapse.samples).all(axis=1)
+    x = np.log(collapse.xi[where])
+    samples = (collapse.samples / np.reshape(over, (-1, 1)) if np.ndim(over) else collapse.samples)[where]
+    fit = _fit(x, samples.mean(axis=1))
+    generator = np.random.default_rng(0)
+    count = samples.shape[1]
+    # The same profiles stand behind all points: they are drawn again as a whole.
+    weights = generator.multinomial(count, np.full(count, 1 / count), size=RESAMPLINGS) / count
+    again = np.array([_fit(x, mean) for mean in (samples @ weights.T).T])
+    low, high = np.percentile(again, [2.5, 97.5], axis=0)
+    worst = np.abs(samples.mean(axis=1) / collapse.xi[where] - 1).max()
+    slopes, factors = zip(low, high, strict=True)
+    return Line(float(fit[0]), tuple(slopes), float(fit[1]), tuple(factors), float(worst), len(x))
+
+
+def _fit(x, friction):
+    slope, offset = np.polyfit(x, np.log(friction), 1)
+    return slope, np.exp(offset)

@@ -1,0 +1,112 @@
+"""The parameters of Popov et al., Sci. Rep. 4, 3750 (2014), and what stands for those it leaves open.
+
+Given: the reference length, the set of Fig. 4, both contacts of Fig. 1, and the ranges of the studies of Fig. 3.
+Not given: what is held while one parameter varies (here the set of Fig. 4), the speed of the studies, whether the
+angle is that of the body or of its line (here of the body, mapped), and how values lie in a range (here
+geometrically, angles evenly).
+"""
+
+from dataclasses import dataclass, replace
+from math import radians
+
+import numpy as np
+from scipy.fft import next_fast_len
+
+from scene import Cone, Fractional, Kelvin, Scene, SelfAffine, Slide, Sphere
+
+LENGTH, POINTS = 1e-2, 5000
+PROFILES = 200
+ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=LENGTH)
+SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
+SHAPES = {"cone": Cone(angle=radians(10)), "sphere": Sphere(radius=1e-2)}
+HURST = tuple(k / 10 for k in range(11))
+
+# Fig. 1: load and speed, and the Hurst exponent of each contact.
+CONTACT = Slide(speed=0.1, load=1.0)
+CONTACT_HURST = {"cone": 0.1, "sphere": 0.2}
+# Fig. 3 and Fig. 4: the load; slow enough that a viscous layer of a few pixels is remembered.
+LOAD, LOW_SPEED = 10.0, 1e-3
+
+# Figs. 5 to 7: as many speeds as in the experiment, in its range, on the sphere and the rubber of Fig. 4 with a loss
+# that is a power of the frequency; rougher at short waves, so that every force lies in the regime of the laws.
+FORCES = tuple(float(f) for f in np.geomspace(2, 50, 10))
+SPEEDS = tuple(float(v) for v in np.geomspace(5e-4, 0.58, 28))
+LOSS_ROUGH = SelfAffine(hurst=0.2, rms_height=2e-5, longest=LENGTH)
+LOSS_EXPONENTS = (0.1, 0.5)
+LOSS_PROFILES = 24
+
+
+@dataclass(frozen=True)
+class Study:
+    """One parameter varied, all others held: its name, symbol, unit, and values in SI units."""
+
+    name: str
+    symbol: str
+    unit: str
+    values: tuple[float, ...]
+
+
+def _pixels():
+    """Twenty spacings from 1e-5 to 1e-7 m, to within 2 % such that transforms over the length are fast."""
+    return tuple(
+        LENGTH / next_fast_len(round(LENGTH / pixel), real=True) for pixel in np.geomspace(1e-5, 1e-7, 20)
+    )
+
+
+def _between(low, high):
+    return tuple(float(value) for value in np.geomspace(low, high, 20))
+
+
+STUDIES = (
+    Study("load", "F_N", "N", _between(1e-1, 1e1)),
+    Study("modulus", "G", "Pa", _between(1e5, 1e7)),
+    Study("rms height", "h_0", "m", _between(1e-6, 1e-4)),
+    Study("spacing", r"\Delta x", "m", _pixels()),
+    Study("angle", r"\theta", "rad", tuple(radians(degrees) for degrees in np.linspace(5, 75, 20))),
+    Study("relaxation time", r"\tau", "s", _between(1e-4, 1e-2)),
+)
+
+
+def base(shape: str, speed: float = LOW_SPEED, load: float = LOAD) -> Scene:
+    """The set of Fig. 4 at a speed."""
+    return Scene(SHAPES[shape], SOLID, Slide(speed=speed, load=load), ROUGH)
+
+
+def varied(study: Study, value: float, hurst: float) -> tuple[Scene, int]:
+    """A scene of Fig. 3, a cone, and the points over its length."""
+    scene, points = base("cone"), POINTS
+    scene = replace(scene, roughness=replace(ROUGH, hurst=hurst))
+    match study.name:
+        case "load":
+            scene = replace(scene, motion=Slide(speed=LOW_SPEED, load=value))
+        case "modulus":
+            scene = replace(scene, elastomer=replace(SOLID, modulus=value))
+        case "relaxation time":
+            scene = replace(scene, elastomer=replace(SOLID, relaxation_time=value))
+        case "angle":
+            scene = replace(scene, indenter=Cone(angle=value))
+        case "rms height":
+            scene = replace(scene, roughness=replace(scene.roughness, rms_height=value))
+        case "spacing":
+            points = round(LENGTH / value)
+    return scene, points
+
+
+def contact(shape: str) -> Scene:
+    """A contact of Fig. 1."""
+    rough = replace(ROUGH, hurst=CONTACT_HURST[shape], seed=1)
+    return Scene(SHAPES[shape], SOLID, CONTACT, rough)
+
+
+def lossy(exponent: float, load: float, speed: float) -> Scene:
+    """A point of Figs. 5 to 7: loss G'' ~ omega^exponent, Eq. 24, over all frequencies that the profile has."""
+    lowest, highest = SPEEDS[0] / LENGTH, SPEEDS[-1] * np.pi * POINTS / LENGTH
+    solid = Fractional(
+        modulus=SOLID.modulus,
+        relaxation_time=SOLID.relaxation_time,
+        exponent=exponent,
+        lowest_frequency=lowest,
+        highest_frequency=float(highest),
+        tolerance=1e-2,
+    )
+    return Scene(SHAPES["sphere"], solid, Slide(speed=speed, load=load), LOSS_ROUGH)

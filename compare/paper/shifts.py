@@ -1,0 +1,144 @@
+"""Figs. 5 to 7: friction against load at many speeds, shifted onto one curve, and the shift against the speed.
+
+The measured data were never published. What is shifted here is simulated, on a solid whose loss is a power of the
+frequency, Eq. 24, or comes from a user's own table of friction, load and speed: both take the same way.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mdr1d import MDR, amplitudes, draw, equations
+from scene import Regime, Scene
+from scene.scales import elastic_contact
+
+from .. import mastercurve
+from ..mastercurve import Curve, Misfit
+from ..metrics import estimate
+from ..outcome import Outcome
+from ..store import Task as AnyTask
+from ..study import Task
+from . import parameters
+
+
+@dataclass(frozen=True)
+class Shifted:
+    """Curves of friction against load, and what horizontal shifts make of them.
+
+    title : what the curves are
+    collapse : the joint fit of the shifts; its curves are ln mu against ln F_N, one a speed
+    expected : exponent of the shift against the speed, -beta (n+1)/n; None where nothing is expected
+    predicted : misfit of the curves once shifted by it
+    """
+
+    title: str
+    collapse: mastercurve.Collapse
+    expected: float | None = None
+    predicted: Misfit | None = None
+
+    @classmethod
+    def of(cls, title: str, curves: Sequence[Curve], expected: float | None = None) -> "Shifted":
+        """Shift the curves. Raises ValueError where there are too few points."""
+        collapse = mastercurve.collapse(curves)
+        predicted = None if expected is None else mastercurve.misfit_at(collapse, expected)
+        return cls(title, collapse, expected, predicted)
+
+
+@dataclass(frozen=True)
+class Lossy:
+    """One exponent of the loss; arrays (speeds, loads) unless stated.
+
+    exponent : beta of Eq. 24
+    whole, rough : friction, and what of it is left without that of the smooth body at the same load and speed
+    smooth : mu of the smooth body
+    one_frequency, spectral : mu of Eq. 22 with the loss at the shortest wave, and with that of every wave at its
+        own frequency; both leave out the macroscopic slope
+    regime : of each load, arrays (loads,)
+    failed : solves without an answer
+    """
+
+    exponent: float
+    whole: Shifted
+    rough: Shifted
+    smooth: np.ndarray
+    one_frequency: np.ndarray
+    spectral: np.ndarray
+    regime: Regime
+    failed: int
+
+
+def tasks(exponent: float, profiles: int = parameters.LOSS_PROFILES) -> list[Task]:
+    """The tasks for one exponent: of the rough profiles at each speed and load, then of the smooth body."""
+    scenes = [parameters.lossy(exponent, load, speed) for speed in parameters.SPEEDS for load in parameters.FORCES]
+    solver = MDR(points=parameters.POINTS)
+    modes = scenes[0].elastomer.relaxation()[2].size
+    rough = [
+        Task(solver, _drawn(scene, profiles), work=profiles * parameters.POINTS * 15.0 * modes) for scene in scenes
+    ]
+    smooth = [Task(solver, (replace(scene, roughness=None),), work=parameters.POINTS * 15.0) for scene in scenes]
+    return rough + smooth
+
+
+def _drawn(scene: Scene, profiles: int) -> tuple[Scene, ...]:
+    rough = scene.roughness
+    return tuple(replace(scene, roughness=replace(rough, seed=seed)) for seed in range(profiles))
+
+
+def collect(exponent: float, found: Sequence[Task], outcomes: Mapping[AnyTask, Outcome]) -> Lossy:
+    """Put the tasks of one exponent together."""
+    shape = len(parameters.SPEEDS), len(parameters.FORCES)
+    means = [estimate(row.friction_coefficient for row in outcomes[task].rows) for task in found]
+    mean = np.array([each.mean for each in means]).reshape(2, *shape)
+    error = np.array([each.error for each in means]).reshape(2, *shape)[0]
+    friction, smooth = mean
+    scene = parameters.lossy(exponent, 1.0, 1.0)
+    expected = equations.force_shift_exponent(exponent, scene.indenter.exponent)
+    named = rf"$\beta$ = {exponent:g}"
+    one_frequency, spectral, regime = _predicted(exponent)
+    return Lossy(
+        exponent=exponent,
+        whole=Shifted.of(f"{named}, whole friction", _curves(friction, error), expected),
+        rough=Shifted.of(f"{named}, less that of the smooth body", _curves(friction - smooth, error), expected),
+        smooth=smooth,
+        one_frequency=one_frequency,
+        spectral=spectral,
+        regime=regime,
+        failed=sum(row.reason is not None for task in found for row in outcomes[task].rows),
+    )
+
+
+def _curves(friction, error):
+    loads = np.array(parameters.FORCES)
+    curves = []
+    for speed, mean, deviation in zip(parameters.SPEEDS, friction, error, strict=True):
+        known = mean > 0
+        curves.append(Curve(speed, np.log(loads[known]), np.log(mean[known]), deviation[known] / mean[known]))
+    return curves
+
+
+def _predicted(exponent):
+    """mu of Eq. 22 in both forms, and the regime of each load."""
+    speeds, loads = np.array(parameters.SPEEDS)[:, None], np.array(parameters.FORCES)
+    scene = parameters.lossy(exponent, 1.0, 1.0)
+    solid, body, rough = scene.elastomer, scene.indenter, scene.roughness
+    c, n = body.mdr_coefficient, body.exponent
+    surface = draw(rough, parameters.POINTS)
+    slope, highest = surface.rms_slope, np.pi / surface.pixel
+    contacts = [
+        elastic_contact(replace(scene, motion=replace(scene.motion, load=load))) for load in loads.tolist()
+    ]
+    radius, depth = (np.array([getattr(at, name) for at in contacts]) for name in ("radius", "depth"))
+
+    def loss(omega):
+        return solid.complex_modulus(omega).imag
+
+    one = equations.general_friction(loads, solid.modulus, loss, highest, speeds, slope, c, n)
+    waves = amplitudes(rough, highest / rough.q_min)
+    q = rough.q_min * np.arange(1, waves.size + 1)
+    # A profile that is linear between nodes has of each wave the slope that finite differences see.
+    seen = waves * np.sinc(q * surface.pixel / (2 * np.pi))
+    slow = equations.wave_force(loss, q, seen, speeds, 2 * radius) / loads
+    plateau = equations.plateau(slope)
+    spectral = plateau * equations.interpolation(slow / plateau)
+    return one, spectral, Regime.of((c, n), (radius, depth), rough.rms_height, rough.longest, slope)
