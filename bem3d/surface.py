@@ -9,11 +9,13 @@ from scene import CrossedWaves, SelfAffine, SolveError
 MOST_WAVES = 2048  # wavelengths of the cut-off on the period, each way: 135 MB of amplitudes
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
 CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell
+# Spawn keys keep a surface apart from a line drawn with the same seed, and the moduli of waves from the phases.
+PHASES, MODULI = (2,), (2, 0)
 
 
 @dataclass(frozen=True)
 class RoughSurface:
-    """Periodic sum of cosines with fixed amplitudes and random phases.
+    """Periodic sum of cosines with random phases.
 
     step : spacing of the lattice of wave vectors [rad/m], 2 pi / period
     amplitudes : complex (2K+1, K+1), rows k_y = -K..K, columns k_x = 0..K; a half plane of wave vectors [m]
@@ -39,8 +41,9 @@ class RoughSurface:
         """One surface with the cut-off q_max [rad/m].
 
         Each wave vector carries the power of its cell of the lattice, int C_2D d^2q, so that the rms height over a
-        period is exactly that of the spectrum and its density is C_2D at every q. Phases are drawn shell by shell:
-        a higher cut-off adds detail to the same surface. Raises SolveError when it would not fit in memory.
+        period is exactly that of the spectrum and its density is C_2D at every q; of Gaussian amplitudes both are
+        means over many surfaces. Waves are drawn shell by shell: a higher cut-off adds detail to the same surface.
+        Raises SolveError when it would not fit in memory.
         """
         top = int(q_max / roughness.q_min * (1 + 1e-12))
         if top > MOST_WAVES:
@@ -54,10 +57,12 @@ class RoughSurface:
         power = np.where(drawn, _cell_means(roughness, k_x, k_y, q_max), 0.0)
         power *= roughness.rms_height**2 / power.sum()
         order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))
-        stream = np.random.default_rng(np.random.SeedSequence(roughness.seed, spawn_key=(2,)))
-        phases = np.empty(k.size)
-        phases[order] = 2 * np.pi * stream.random(k.size)
-        return cls(roughness.q_min, np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape)))
+        phases, moduli = np.empty(k.size), np.ones(k.size)
+        phases[order] = 2 * np.pi * _stream(roughness.seed, PHASES).random(k.size)
+        if roughness.amplitudes == "gaussian":
+            moduli[order] = np.sqrt(_stream(roughness.seed, MODULI).standard_exponential(k.size))
+        waves = np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape))
+        return cls(roughness.q_min, waves * moduli.reshape(k.shape))
 
     @property
     def _wave_numbers(self):
@@ -106,6 +111,10 @@ class RoughSurface:
         q_y, q_x = self._wave_numbers
         square = q_y[:, None] ** 2 + q_x[None, :] ** 2
         return float(np.sqrt(np.sum(square * np.abs(self.amplitudes) ** 2) / 2))
+
+
+def _stream(seed, key):
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))
 
 
 def _cell_means(roughness, k_x, k_y, q_max):

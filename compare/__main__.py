@@ -1,6 +1,8 @@
 """The command `crosscheck`."""
 
 import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -26,6 +28,9 @@ def crosscheck(
     """How far the one-dimensional method can be trusted for rough, viscoelastic contacts."""
 
 
+Workers = Annotated[int | None, typer.Option(min=1, help="Processes; as many as processors if absent.")]
+
+
 @app.command()
 def run(
     scene: Annotated[
@@ -34,26 +39,70 @@ def run(
     output: Annotated[Path, typer.Option(help="Folder of the report and of what has been solved.")] = Path(
         "crosscheck-report"
     ),
-    workers: Annotated[int | None, typer.Option(min=1, help="Processes; as many as processors if absent.")] = None,
+    workers: Workers = None,
 ) -> None:
     """Solve a scene in one and in three dimensions, compare, and write a report."""
+    from .run import crosscheck_cases, make_folders, named_cases
+
+    with _mistakes_said(output):
+        cases = named_cases(scene)
+        make_folders(output, cases)
+    with _interrupts_said():
+        crosscheck_cases(cases, output, workers)
+
+
+@app.command()
+def paper(
+    output: Annotated[Path, typer.Option(help="Folder of the page and of what has been solved.")] = Path(
+        "crosscheck-paper"
+    ),
+    profiles: Annotated[int, typer.Option(min=2, help="Rough profiles averaged; as published, 200.")] = 200,
+    workers: Workers = None,
+) -> None:
+    """Simulate the paper again in one dimension: its figures, its parameter studies, its claims."""
+    from .paper.report import PAGE
+    from .run import make_folders, reproduce
+
+    with _mistakes_said(output):
+        make_folders(output, page=PAGE)
+    with _interrupts_said():
+        reproduce(profiles, output, workers)
+
+
+@app.command()
+def mastercurve(
+    table: Annotated[Path, typer.Argument(help="CSV of friction mu, normal force F_N [N] and speed v [m/s].")],
+    output: Annotated[Path, typer.Option(help="Folder of the figure and its tables.")] = Path("mastercurve"),
+) -> None:
+    """Shift measured curves of friction against load onto one, and say whether that works."""
+    from .run import shift_measured
+
+    with _mistakes_said(output):
+        shift_measured(table, output)
+
+
+@contextmanager
+def _mistakes_said(output: Path) -> Iterator[None]:
+    """Before anything is solved: a mistake in the input, or a folder that cannot be written."""
     from scene import Refused
     from scene.reading import InvalidInput
 
-    from .run import crosscheck_cases, make_folders, named_cases
-
     _interrupt_on("SIGTERM", "SIGHUP")
     try:
-        cases = named_cases(scene)
-        make_folders(cases, output)
+        yield
     except (InvalidInput, Refused) as mistake:
         typer.echo(f"crosscheck: {mistake}", err=True)
         raise typer.Exit(MISTAKE) from mistake
     except OSError as error:
         typer.echo(f"crosscheck: --output {output}: {_said(error)}", err=True)
         raise typer.Exit(MISTAKE) from error
+
+
+@contextmanager
+def _interrupts_said() -> Iterator[None]:
+    """While tasks are solved: an interrupt, or a disk that is full."""
     try:
-        crosscheck_cases(cases, output, workers)
+        yield
     except KeyboardInterrupt as interrupt:
         typer.echo("Interrupted. What is solved is kept: the same command resumes from there.", err=True)
         raise typer.Exit(INTERRUPTED) from interrupt

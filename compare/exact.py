@@ -4,7 +4,7 @@ Shapes enter as the MDR image of a body of revolution, g(x) = coefficient * |x|*
 """
 
 import time
-from math import pi, sqrt
+from math import pi
 
 import numpy as np
 from pydantic.dataclasses import dataclass
@@ -41,31 +41,6 @@ def slow_friction_1d(speed, radius, lag, indentation_modulus, coefficient, expon
     Exactly twice slow_friction_3d.
     """
     return 2 * slow_friction_3d(speed, radius, lag, indentation_modulus, coefficient, exponent)
-
-
-def similarity_variable(load, speed, relaxation_time, indentation_modulus, rms_slope, coefficient, exponent):
-    """xi of Eq. 18, corrected: (v tau s / sqrt 2) (2E*/F)^(n/(n+1)) ((n+1)/(c n))^(1/(n+1)), s the rms slope.
-
-    The paper's 8G is 2E* at a Poisson ratio of 1/2. The printed sqrt(2 s) is read as sqrt(2) s throughout.
-    """
-    n = exponent
-    shape = ((n + 1) / (coefficient * n)) ** (1 / (n + 1))
-    return (
-        speed * relaxation_time * rms_slope / sqrt(2) * (2 * indentation_modulus / load) ** (n / (n + 1)) * shape
-    )
-
-
-def master_curve(xi, alpha=1.5):
-    """mu / (sqrt 2 rms slope) = (1 + xi^-alpha)^(-1/alpha), Eq. 19; for small xi it is xi, Eq. 17."""
-    return (1 + np.asarray(xi, float) ** -alpha) ** (-1 / alpha)
-
-
-def shift_exponent(exponent, beta=1.0):
-    """d ln p / d ln v = -beta (n+1)/n, p(v) of Eq. 23, of a solid with G'' ~ omega^beta; 1 of a Kelvin body.
-
-    p(v) ~ G''(q_max v)^(-(n+1)/n), from Eq. 22: its argument is a function of F p(v) alone.
-    """
-    return -beta * (exponent + 1) / exponent
 
 
 def loss_exponent(elastomer, wave_number, speeds):

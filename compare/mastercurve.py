@@ -9,10 +9,12 @@ from itertools import pairwise
 from math import nan, sqrt
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from scipy.optimize import least_squares
 
-# Smooth enough for Eq. 19 over three decades of xi, to 1 % in mu, and stiff enough not to follow the scatter.
-DEGREE = 4
+# Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
+# the scatter is less than that, the curve gets more freedom as long as that pays.
+DEGREE, MOST_FREE = 4, 10
 # Neighbouring curves share at least this part of the shorter one's range of ln F: a fit that wants less is no fit.
 LEAST_OVERLAP = 0.25
 # Exponents of the speed from which the fit starts.
@@ -82,20 +84,19 @@ class Collapse:
         return self.after.verdict if self.overlaps and self.separable else "undecided"
 
 
-def collapse(curves: Sequence[Curve], degree: int = DEGREE) -> Collapse:
-    """Shift curves onto one polynomial of a degree in ln F + b_v, jointly, b = 0 at the middle speed.
+def collapse(curves: Sequence[Curve]) -> Collapse:
+    """Shift curves onto one polynomial in ln F + b_v, jointly, b = 0 at the middle speed.
 
     Points weigh by 1/error, or all alike where an error is unknown. Raises ValueError with fewer than two curves
     or fewer points than unknowns.
     """
     curves = tuple(sorted(curves, key=lambda curve: curve.speed))
-    unknowns = len(curves) - 1 + degree + 1
+    unknowns = len(curves) - 1 + DEGREE + 1
     if len(curves) < 2 or sum(curve.log_load.size for curve in curves) <= unknowns:
         raise ValueError(f"{len(curves)} curves with too few points for {unknowns} unknowns: add loads or speeds")
-    fit = _Fit(curves, degree)
     lower, upper = _bounds(curves)
     speeds = np.array([curve.speed for curve in curves])
-    best = _best(fit, np.diff(np.log(speeds)), lower, upper)
+    fit, best = _freed(*_best(_Fit(curves, DEGREE), np.diff(np.log(speeds)), lower, upper), lower, upper)
     inside = bool(np.all(np.minimum(best.x - lower, upper - best.x) > 1e-3 * (upper - lower)))
     certain = fit.known and inside
     covariance = _covariance(fit, best)
@@ -115,7 +116,7 @@ def collapse(curves: Sequence[Curve], degree: int = DEGREE) -> Collapse:
         overlaps=inside,
         separable=not _straight(fit),
         curves=curves,
-        degree=degree,
+        degree=fit.degree,
     )
 
 
@@ -137,7 +138,7 @@ class _Fit:
     """Misfit of the curves to their best common polynomial, given the increments of the shifts."""
 
     def __init__(self, curves, degree):
-        self.degree = degree
+        self.curves, self.degree = curves, degree
         self.owner = np.repeat(np.arange(len(curves)), [curve.log_load.size for curve in curves])
         self.log_load = np.concatenate([curve.log_load for curve in curves])
         self.log_friction = np.concatenate([curve.log_friction for curve in curves])
@@ -147,15 +148,34 @@ class _Fit:
 
     def misfits(self, increments):
         """ln mu minus the best polynomial, (N,)."""
-        x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
-        middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
-        basis = np.polynomial.chebyshev.chebvander((x - middle) / half, self.degree)
-        weighted = basis * self.weight[:, None]
-        coefficients = np.linalg.lstsq(weighted, self.log_friction * self.weight)[0]
-        return self.log_friction - basis @ coefficients
+        return self.residuals(increments) / self.weight
 
     def residuals(self, increments):
-        return self.misfits(increments) * self.weight
+        """Misfits over errors, (N,)."""
+        basis, _, wanted = self._projected(increments)
+        return wanted - basis @ (basis.T @ wanted)
+
+    def jacobian(self, increments):
+        """Of the residuals, (N, increments), but for what lies in the span of the polynomials.
+
+        Kaufman, BIT 15, 49 (1975). The gradient of the sum of squares is exact, as residuals do not lie there.
+        """
+        basis, slopes, _ = self._projected(increments)
+        # An increment moves every later curve.
+        moved = slopes[:, None] * (self.owner[:, None] > np.arange(len(increments)))
+        return basis @ (basis.T @ moved) - moved
+
+    def _projected(self, increments):
+        """Orthonormal polynomials (N, degree + 1), slope of the best one and ln mu (N,), all over the error."""
+        x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
+        middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
+        scaled = (x - middle) / half
+        basis = chebyshev.chebvander(scaled, self.degree) * self.weight[:, None]
+        orthonormal, triangle = np.linalg.qr(basis)
+        wanted = self.log_friction * self.weight
+        coefficients = np.linalg.solve(triangle, orthonormal.T @ wanted)
+        slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients)) / half
+        return orthonormal, slopes * self.weight, wanted
 
     def misfit(self, increments, shifts):
         """shifts : how many of the increments were fitted."""
@@ -177,16 +197,35 @@ def _bounds(curves):
 
 
 def _best(fit, lengths, lower, upper):
-    """The least misfit from several starts, each a power of the speed: one alone can end in a local minimum."""
+    """The fit and its least misfit of several starts, powers of the speed: one can end in a local minimum."""
+    guesses = (start * lengths for start in STARTS)
+    return fit, min((_minimum(fit, guess, lower, upper) for guess in guesses), key=lambda found: found.cost)
+
+
+def _freed(fit, best, lower, upper):
+    """The first fit with a curve of a higher degree that misses no more than the errors allow, else the one given.
+
+    Each new coefficient must lower chi square by more than ln N: Schwarz, Ann. Stat. 6, 461 (1978).
+    """
+    if not fit.known or fit.misfit(best.x, best.x.size).verdict != "fails":
+        return fit, best
+    for degree in range(fit.degree + 2, MOST_FREE + 1, 2):
+        if fit.log_load.size <= best.x.size + degree + 1:
+            break
+        freer, price = _Fit(fit.curves, degree), (degree - fit.degree) * np.log(fit.log_load.size)
+        found = _minimum(freer, best.x, lower, upper)
+        holds = freer.misfit(found.x, found.x.size).verdict == "holds"
+        if holds and 2 * (best.cost - found.cost) > price:
+            return freer, found
+    return fit, best
+
+
+def _minimum(fit, guess, lower, upper):
     margin = 1e-3 * (upper - lower)
-    attempts = []
-    for start in STARTS:
-        guess = np.clip(start * lengths, lower + margin, upper - margin)
-        solved = least_squares(
-            fit.residuals, guess, bounds=(lower, upper), jac="3-point", xtol=1e-14, ftol=1e-14, gtol=1e-14
-        )
-        attempts.append(solved)
-    return min(attempts, key=lambda attempt: attempt.cost)
+    guess = np.clip(guess, lower + margin, upper - margin)
+    return least_squares(
+        fit.residuals, guess, fit.jacobian, bounds=(lower, upper), xtol=1e-14, ftol=1e-14, gtol=1e-14
+    )
 
 
 def _covariance(fit, best):

@@ -1,33 +1,22 @@
 """The report of judged cases: figures, tables, a manifest and one page that holds everything."""
 
-import base64
-import csv
-import io
-import json
-import os
-import platform
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from importlib.metadata import version
-from importlib.resources import files
 from math import degrees
 from pathlib import Path
 
-import jinja2
-import numpy as np
 from matplotlib.ticker import EngFormatter
 
 from scene import Indent, Slide
 
-from .figures import collapse, contact, force_depth, friction_load, friction_speed, smooth_limit, style
-from .store import finite, write
+from .figures import collapse, contact, force_depth, friction_load, friction_speed, smooth_limit
+from .publish import Drawn, draw, machine, render, versions, write_csv, write_json, write_text
 from .sweep import Swept
 from .verdict import Judgement
 
 FIGURES = (contact, force_depth, friction_speed, friction_load, collapse, smooth_limit)
-PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba", "matplotlib", "pydantic")
 # Units of the fields of a scene, with prefixes and without; a power law's coefficient has one of its own.
 PREFIXED = (
     dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest", "rolloff"), "m")
@@ -47,18 +36,7 @@ WORDS = {
     "shortest": "shortest wave",
     "poisson_ratio": "Poisson ratio",
 }
-DOTS_PER_INCH = 220
 PAGE, MANIFEST = "report.html", "manifest.json"
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """One figure on the page: name, caption, its PNG as base64, and its width [inch]."""
-
-    name: str
-    caption: str
-    image: str
-    inches: float
 
 
 @dataclass(frozen=True)
@@ -80,22 +58,18 @@ def write_report(folder: Path, judged: Mapping[str, Judgement], swept: Swept) ->
     for name, judgement in judged.items():
         below = folder / slug(name)
         below.mkdir(parents=True, exist_ok=True)
-        drawn = tuple(figure for module in FIGURES if (figure := _draw(below, module, judgement)))
-        _write_csv(below / "points.csv", [record.columns for record in judgement.table])
-        _write_csv(below / "numbers.csv", [asdict(number) for number in (*judgement.numbers, *judgement.checks)])
+        drawn = tuple(figure for module in FIGURES if (figure := draw(below, module, judgement)))
+        write_csv(below / "points.csv", [record.columns for record in judgement.table])
+        write_csv(below / "numbers.csv", [asdict(number) for number in (*judgement.numbers, *judgement.checks)])
         sections.append(Section(name, judgement, drawn))
-    _write_text(folder / MANIFEST, json.dumps(_storable(manifest(sections, swept)), indent=1, allow_nan=False))
-    _write_text(folder / PAGE, page(sections, swept))
+    write_json(folder / MANIFEST, manifest(sections, swept))
+    write_text(folder / PAGE, page(sections, swept))
     return folder / PAGE
 
 
 def page(sections: Sequence[Section], swept: Swept) -> str:
-    """The page as HTML that needs nothing else: images are inside, nothing is linked."""
-    text = (files("compare") / "report.html").read_text(encoding="utf-8")
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    template = environment.from_string(text)
-    about = {"versions": versions(), "platform": _platform(), "described": described}
-    return template.render(sections=sections, swept=swept, **about)
+    """The page as HTML that needs nothing else."""
+    return render("report.html", sections=sections, swept=swept, described=described)
 
 
 def described(part: object) -> str:
@@ -130,71 +104,17 @@ def manifest(sections: Sequence[Section], swept: Swept) -> dict:
     """What was solved with what: versions, platform, tasks, and for each case its settings, seeds and timings."""
     return {
         "versions": versions(),
-        "platform": _platform(),
+        "platform": machine(),
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "wall_seconds": swept.seconds,
         "cases": [_account(section) for section in sections],
     }
 
 
-def versions() -> dict[str, str]:
-    """Of Python and of the packages that numbers depend on."""
-    return {"python": platform.python_version()} | {package: version(package) for package in PACKAGES}
-
-
 def slug(name: str) -> str:
     """A name as it may stand in a path."""
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
     return re.sub(r"[^a-z0-9]+", "-", plain.lower()).strip("-") or "case"
-
-
-def _draw(folder, module, judgement):
-    """Figure as PDF and PNG, its tables as CSV; None if there is nothing to show."""
-    with style.applied():
-        drawing = module.figure(judgement)
-        if drawing is None:
-            return None
-        image = io.BytesIO()
-        drawing.savefig(image, format="png", dpi=DOTS_PER_INCH)
-        # Both files in one layout, which takes as long to find as to draw.
-        drawing.set_layout_engine("none")
-        write(folder / f"{module.NAME}.png", lambda file: file.write(image.getvalue()))
-        # Without the date the same numbers give the same file.
-        write(
-            folder / f"{module.NAME}.pdf",
-            lambda f: drawing.savefig(f, format="pdf", metadata={"CreationDate": None}),
-        )
-    for name, content in module.sheets(judgement).items():
-        _write_csv(folder / f"{name}.csv", content)
-    return Drawn(
-        module.NAME, module.caption(judgement), base64.b64encode(image.getvalue()).decode(), drawing.get_figwidth()
-    )
-
-
-def _write_csv(path, content):
-    """Rows as dictionaries, or columns of equal length; every digit is written."""
-    if isinstance(content, Mapping):
-        names, rows = list(content), zip(*(np.asarray(c).tolist() for c in content.values()), strict=True)
-    else:
-        names = list(content[0]) if content else []
-        rows = ([_number(row[name]) for name in names] for row in content)
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    writer.writerows(rows)
-    _write_text(path, text.getvalue())
-
-
-def _number(value):
-    return value.item() if isinstance(value, np.generic) else value
-
-
-def _write_text(path, text):
-    write(path, lambda file: file.write(text.encode()))
-
-
-def _platform():
-    return {"system": platform.system(), "machine": platform.machine(), "processors": os.cpu_count()}
 
 
 def _account(section):
@@ -219,12 +139,3 @@ def _seeds(case):
         return {}
     first, plan = case.roughness.seed, case.plan()
     return {"MDR": list(range(first, first + plan.profiles)), "BEM": list(range(first, first + plan.surfaces))}
-
-
-def _storable(value):
-    """JSON knows no NaN: null stands for it."""
-    if isinstance(value, Mapping):
-        return {name: _storable(entry) for name, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_storable(entry) for entry in value]
-    return finite(_number(value))

@@ -3,7 +3,7 @@
 import errno
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -12,12 +12,18 @@ from rich.console import Console
 from scene.reading import InvalidInput
 
 from .cases import Case, read_case, shipped_cases
+from .figures import shifted_curves
+from .paper import reproduction
+from .paper.claims import claims
+from .paper.measured import read_measured
+from .paper.report import write_paper
 from .progress import watch
+from .publish import draw
 from .report import MANIFEST, PAGE, slug, write_report
 from .store import Store
 from .study import points, tasks
 from .sweep import sweep
-from .verdict import judge
+from .verdict import judge, plus_minus
 
 SOLVED = "solved"
 
@@ -34,13 +40,16 @@ def named_cases(path: Path | None) -> dict[str, Case]:
     return cases
 
 
-def make_folders(cases: Mapping[str, Case], folder: Path) -> None:
-    """Make every folder that is going to be written into. Raises OSError, before anything is solved."""
-    for below in (folder, folder / SOLVED, *(folder / slug(name) for name in cases)):
+def make_folders(folder: Path, names: Iterable[str] = (), page: str = PAGE) -> None:
+    """Make every folder that is going to be written into. Raises OSError, before anything is solved.
+
+    names : of cases, each of which has a folder of its own; page : the name of the page
+    """
+    for below in (folder, folder / SOLVED, *(folder / slug(name) for name in names)):
         below.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=below):
             pass
-    for path in (folder / PAGE, folder / MANIFEST):
+    for path in (folder / page, folder / MANIFEST):
         if path.is_dir():
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
 
@@ -62,3 +71,34 @@ def crosscheck_cases(cases: Mapping[str, Case], folder: Path, workers: int | Non
         if judgement.failures:
             console.print(f"  {len(judgement.failures)} solves failed; the report says why")
     console.print(f"\nReport: {page.resolve()}", markup=False)
+
+
+def reproduce(profiles: int, folder: Path, workers: int | None) -> None:
+    """Solve everything that the figures of the paper need, and write its page."""
+    console = Console(highlight=False, soft_wrap=True)
+    size = reproduction.Size.of(profiles)
+    with watch(console) as progress:
+        swept = sweep(reproduction.tasks(size), Store(folder / SOLVED), workers, progress)
+    console.print(
+        f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; drawing the figures"
+    )
+    found = reproduction.collect(size, swept.outcomes)
+    page = write_paper(folder, found, swept)
+    for claim in claims(found):
+        console.print(f"  {claim.verdict:9s}  {claim.name}: {claim.written}", markup=False)
+    if found.failed:
+        console.print(f"  {found.failed} solves failed and are left out")
+    console.print(f"\nPage: {page.resolve()}", markup=False)
+
+
+def shift_measured(path: Path, folder: Path) -> None:
+    """Shift the curves of a user's own table onto one, and write the figure and its tables."""
+    console = Console(highlight=False, soft_wrap=True)
+    shifted = read_measured(path)
+    folder.mkdir(parents=True, exist_ok=True)
+    draw(folder, shifted_curves, [shifted], suffix=f"-{slug(path.stem)}")
+    collapse = shifted.collapse
+    console.print(f"horizontal shifts onto one curve: {collapse.verdict}")
+    console.print(f"  misfit {collapse.after.rms:.2%}, without shifts {collapse.before.rms:.2%}")
+    console.print(f"  shift ~ v^({plus_minus(collapse.exponent, shifted.exponent_error)})")
+    console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)

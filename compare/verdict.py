@@ -6,6 +6,7 @@ from math import hypot, nan
 
 import numpy as np
 
+from mdr1d import equations
 from scene.scales import elastic_contact
 
 from . import exact, metrics
@@ -246,9 +247,10 @@ def predicted_exponent(case: Case) -> float:
     """d ln p / d ln v that Eq. 23 predicts for the shortest wave of the case, or of its 1D grid's cut-off."""
     speeds, rough = case.plan().load_speeds, case.roughness
     if rough is None or len(speeds) < 2:
-        return exact.shift_exponent(case.indenter.exponent)
+        return equations.force_shift_exponent(1.0, case.indenter.exponent)
     q_max = rough.q_max(rough.longest / case.mdr.points)
-    return exact.shift_exponent(case.indenter.exponent, exact.loss_exponent(case.elastomer, q_max, speeds))
+    beta = exact.loss_exponent(case.elastomer, q_max, speeds)
+    return equations.force_shift_exponent(beta, case.indenter.exponent)
 
 
 def _percent(value, otherwise):

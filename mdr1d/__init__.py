@@ -1,5 +1,6 @@
 """One-dimensional solver: the method of dimensionality reduction on a viscoelastic foundation, solved exactly."""
 
+from . import equations, estimates
 from .foundation import Contact, sweep
 from .maxwell import sweep_modes
 from .modes import Modes, modes_of
@@ -16,6 +17,8 @@ __all__ = [
     "Surface",
     "amplitudes",
     "draw",
+    "equations",
+    "estimates",
     "lay_out",
     "map_profile",
     "modes_of",

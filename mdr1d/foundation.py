@@ -32,6 +32,7 @@ class Contact(NamedTuple):
     first, last : where contact begins and ends, from the first node [m]; nan without contact
     displacement : u at the nodes (N,) [m]
     touching : which nodes touch (N,)
+    pushed : in each interval between nodes, the length of the real contact [m] and int f dx / K [m^2] (N - 1, 2)
     """
 
     force: float
@@ -44,6 +45,7 @@ class Contact(NamedTuple):
     last: float
     displacement: np.ndarray
     touching: np.ndarray
+    pushed: np.ndarray
 
 
 @compiled
@@ -86,7 +88,7 @@ def _landing(here, there, slope, pixel, u, memory, decay):
 
 
 @compiled
-def _sweep(heights, pixel, memory, depth, displacement, touching):
+def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, pushed=None):
     decay = exp(-pixel / memory) if memory > 0.0 else 0.0
     force = traction = length = slope_square = lost = reach = 0.0
     first = last = nan
@@ -97,32 +99,39 @@ def _sweep(heights, pixel, memory, depth, displacement, touching):
         here = depth - heights[i]
         there = depth - heights[i + 1]
         slope = (heights[i + 1] - heights[i]) / pixel
-        displacement[i] = here if touches else u
-        touching[i] = touches
+        if displacement is not None:
+            displacement[i] = here if touches else u
+            touching[i] = touches
         begin, start = 0.0, here
         if not touches:
             begin = _landing(here, there, slope, pixel, u, memory, decay)
             if begin == NOWHERE:
                 u *= decay
                 continue
-            start = max(here - slope * begin if u > 0.0 else here, 0.0)
+            if begin > 0.0:
+                # Where the free surface meets the flank, the flatter of the two knows the height.
+                met = u * exp(-begin / memory) if u > 0.0 else 0.0
+                start = met if met < memory * abs(slope) or u == 0.0 else max(here - slope * begin, 0.0)
             lost += 0.5 * (left - start) * (left + start)
             reach += memory * (1.0 - start / left) if left > 0.0 else memory
             if first != first:
                 first = i * pixel + begin
             touches = True
         end, finish = pixel, there
-        if slope > 0.0:
+        if there <= memory * slope and slope > 0.0:
             pressing = start - memory * slope
             if pressing <= 0.0:
                 end, finish = begin, start
             elif begin + pressing / slope < pixel:
                 end, finish = begin + pressing / slope, memory * slope
         # Of a first touch just before a node only the heights know the width.
-        width = (start - finish) / slope if slope < 0.0 and begin > 0.0 else end - begin
-        pushed = width * (0.5 * (start + finish) - memory * slope)
-        force += pushed
-        traction -= slope * pushed
+        width = (start - finish) / slope if begin > 0.0 and slope < 0.0 else end - begin
+        push = width * (0.5 * (start + finish) - memory * slope)
+        if pushed is not None:
+            pushed[i, 0] = width
+            pushed[i, 1] = push
+        force += push
+        traction -= slope * push
         length += width
         slope_square += slope * slope * width
         if end < pixel:
@@ -131,13 +140,79 @@ def _sweep(heights, pixel, memory, depth, displacement, touching):
             u = left * exp(-(pixel - end) / memory) if memory > 0.0 else 0.0
             last = i * pixel + end
     i = heights.size - 1
-    displacement[i] = depth - heights[i] if touches else u
-    touching[i] = touches
+    if displacement is not None:
+        displacement[i] = depth - heights[i] if touches else u
+        touching[i] = touches
     if touches:
         last = i * pixel
-        left = displacement[i]
+        left = depth - heights[i]
     lost += 0.5 * left * left
     return force, memory * slope_square + lost, traction, length + reach, length, slope_square, first, last
+
+
+@compiled
+def nearer(approach, force, stiffness, load, lower, upper, most):
+    """Where to look next for the approach that carries a load, and the bracket, once one carries a force.
+
+    As if the force went on as the power of the approach that it is here: Newton's step for their logarithms. Where
+    that leaves the bracket, its middle. most : an approach that is surely enough
+    """
+    if force < load:
+        lower = approach
+    else:
+        upper = approach
+    step = approach * (load / force) ** (force / (approach * stiffness)) if force > 0.0 else inf
+    step = min(step, most)
+    if not lower < step < upper:
+        step = 0.5 * (lower + upper)
+    return step, lower, upper
+
+
+@compiled
+def press_many(unit, powers, pixel, half, coefficient, rms, memory, load, smooth, ratio, aim, accepted, found):
+    """Press profiles coefficient * powers + rms * unit down with loads, as many as there are.
+
+    unit : one period of roughness (M,); powers : |x|^n at the nodes from the tip on
+    half : nodes that contact may reach on each side; coefficient, rms, memory; load, over K [m^2]; smooth, the
+        depth of the smooth relaxed contact: all (scenes,)
+    aim, accepted : relative misfit of the load at which the search stops, and at which it may
+    found : misfit, friction, depth, length, span, sweeps (scenes, 6), to be filled
+
+    Each search starts from a ratio of the depth to the smooth one, where that makes sense: the ratio found before,
+    and at first the one given. The last is returned.
+    """
+    top = unit.max()
+    for s in range(load.size):
+        size = 2 * half[s] + 1
+        heights = np.empty(size)
+        k = (-half[s]) % unit.size
+        for i in range(size):
+            heights[i] = coefficient[s] * powers[abs(i - half[s])] + rms[s] * unit[k]
+            k = k + 1 if k + 1 < unit.size else 0
+        lowest = heights.min()
+        heights -= lowest
+        # Beside the heights of roughness a tiny depth may be lost to rounding.
+        surely = max(smooth[s] + rms[s] * top - lowest, smooth[s])
+        approach = ratio * smooth[s] - lowest
+        if not 0.0 < approach < surely:
+            approach = surely
+        lower, upper = 0.0, inf
+        best, sweeps = inf, 0
+        while sweeps < 200 and lower < approach < upper:
+            force, lost, _, stiffness, length, _, first, last = _sweep(heights, pixel, memory[s], approach)
+            sweeps += 1
+            misfit = abs(force / load[s] - 1.0)
+            if misfit < best:
+                best = misfit
+                found[s, 0], found[s, 1], found[s, 2] = misfit, lost / force, approach + lowest
+                found[s, 3], found[s, 4], found[s, 5] = length, last - first, sweeps
+            elif best <= accepted:
+                break
+            if misfit <= aim:
+                break
+            approach, lower, upper = nearer(approach, force, stiffness, load[s], lower, upper, surely)
+        ratio = found[s, 2] / smooth[s]
+    return ratio
 
 
 def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
@@ -152,5 +227,6 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     """
     displacement = np.empty(heights.size)
     touching = np.empty(heights.size, dtype=np.bool_)
-    sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching)
-    return Contact(*sums, displacement, touching)
+    pushed = np.zeros((heights.size - 1, 2))
+    sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
+    return Contact(*sums, displacement, touching, pushed)

@@ -1,20 +1,21 @@
 """Pressing a profile into the foundation, by a depth or with a load."""
 
 from collections.abc import Callable
-from math import ceil
+from math import ceil, inf
 
 import numpy as np
 
 from scene import EmptyContact, Scene, SolveError
+from scene.scales import elastic_contact
 
-from .foundation import Contact
+from .foundation import Contact, nearer
 from .profile import Profile, contact_extent, greatest_depth
 
 # Heights [m] at the nodes, pixel [m] and depth [m] to the contact.
 Sweep = Callable[[np.ndarray, float, float], Contact]
 
 # Relative misfit of the load: where Newton stops, and what is still an answer.
-_AIM, _ACCEPTED = 1e-13, 1e-10
+AIM, ACCEPTED = 1e-13, 1e-10
 _MOST_SWEEPS = 200
 
 
@@ -42,16 +43,22 @@ def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact,
 def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact, int]:
     """Press the profile in with the scene's load; arguments and returns as of at_depth.
 
-    The force is a convex, increasing function of the approach while contact stays off the ends of the grid:
-    Newton's method goes down to the root from above it, and from below steps above it. Raises SolveError if the
-    contact leaves the grid or the load is not met to a relative 1e-10.
+    The force is a convex, increasing function of the approach while contact stays off the ends of the grid, and
+    zero at the first touch. The search is Newton's for its logarithm, exact for a power, between the approaches
+    known to carry less and more than the load, and halves that bracket where a step leaves it. Raises SolveError
+    if the contact leaves the grid or the load is not met to a relative 1e-10.
     """
     load = scene.motion.load / scene.elastomer.indentation_modulus
     heights = body.heights - body.lowest
     most = body.rim - body.lowest
-    approach = min(greatest_depth(scene, body.surface) - body.lowest, most)
+    if most <= 0:
+        raise _too_short(scene, body)
+    # Beside the heights of roughness a tiny depth may be lost to rounding.
+    surely = max(greatest_depth(scene, body.surface) - body.lowest, elastic_contact(scene).depth)
+    approach = min(surely, most)
+    lower, upper = 0.0, inf
     best, sweeps = None, 0
-    while sweeps < _MOST_SWEEPS:
+    while sweeps < _MOST_SWEEPS and lower < approach < upper:
         contact = sweep(heights, body.pixel, approach)
         sweeps += 1
         if approach >= most and contact.force < load:
@@ -60,11 +67,11 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
         stalled = best is not None and misfit >= best[0]
         if not stalled:
             best = misfit, approach, contact
-        if misfit <= _AIM or (stalled and best[0] <= _ACCEPTED):
+        if misfit <= AIM or (stalled and best[0] <= ACCEPTED):
             break
-        approach = min(approach - (contact.force - load) / contact.stiffness, most)
+        approach, lower, upper = nearer(approach, contact.force, contact.stiffness, load, lower, upper, most)
     misfit, approach, contact = best
-    if not misfit <= _ACCEPTED:
+    if not misfit <= ACCEPTED:
         raise SolveError(
             f"motion.load = {scene.motion.load:g} is met only to a relative {misfit:.1e} after {sweeps} sweeps: "
             "the lengths of the scene differ by more than rounding allows; prescribe the depth"

@@ -213,7 +213,20 @@ def _sum(a, b):
 
 
 @compiled
-def _sweep(heights, pixel, depth, moduli, lengths, drag, compliances, retarded, exchange, displacement, touching):
+def _sweep(
+    heights,
+    pixel,
+    depth,
+    moduli,
+    lengths,
+    drag,
+    compliances,
+    retarded,
+    exchange,
+    displacement,
+    touching,
+    pushed,
+):
     n, q = moduli.size, compliances.size
     stiff = 1.0 + moduli.sum()  # against a jump of u: glassy but for the dashpot
     full, part = np.empty((5, n)), np.empty((5, n))
@@ -255,12 +268,13 @@ def _sweep(heights, pixel, depth, moduli, lengths, drag, compliances, retarded, 
                     for j in range(q):
                         r[j] *= decay[j]
                 continue
+            apart += begin
+            cooled, met, fall = _land(apart, left, compliances, retarded, exchange, y)
             if begin > 0.0:
-                start = max(here + rate * begin, 0.0) if u > 0.0 else 0.0
+                # Where the free surface meets the flank, the flatter of the two knows the height.
+                start = met if fall < abs(rate) else max(here + rate * begin, 0.0)
                 # Of a touch just before a node only the heights know the width.
                 width = min(max((there - start) / rate, 0.0), pixel) if rate > 0.0 else pixel - begin
-            apart += begin
-            cooled, _, fall = _land(apart, left, compliances, retarded, exchange, y)
             _, kept, _ = _land(apart, shift_left, compliances, retarded, exchange, shift)
             shift += 1.0 - kept
             stiffness += drag * (1.0 - kept)
@@ -281,11 +295,13 @@ def _sweep(heights, pixel, depth, moduli, lengths, drag, compliances, retarded, 
         if begin > 0.0 or not touches:
             table = part
             _factors(width, lengths, part)
-        pushed, heat = _pressed(start, rate, width, y, moduli, table)
-        pushed += drag * rate * width
-        force += pushed
+        push, heat = _pressed(start, rate, width, y, moduli, table)
+        push += drag * rate * width
+        pushed[i, 0] = width
+        pushed[i, 1] = push
+        force += push
         lost += heat + drag * rate * rate * width
-        traction += rate * pushed
+        traction += rate * push
         length += width
         stretch += width
         slope_square += rate * rate * width
@@ -324,6 +340,7 @@ def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float)
     """
     displacement = np.empty(heights.size)
     touching = np.empty(heights.size, dtype=np.bool_)
+    pushed = np.zeros((heights.size - 1, 2))
     shortest = _SHORTEST * pixel
     sums = _sweep(
         heights,
@@ -337,5 +354,6 @@ def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float)
         modes.exchange,
         displacement,
         touching,
+        pushed,
     )
-    return Contact(*sums, displacement, touching)
+    return Contact(*sums, displacement, touching, pushed)

@@ -1,14 +1,14 @@
 """From the three-dimensional indenter to the one-dimensional profile g(x) = c_n |x|^n + h(x), Eqs. 1 and 2."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
 
-from scene import Scene
+from scene import PowerLaw, Scene
 from scene.scales import elastic_contact
 
-from .surface import Surface, draw
+from .surface import Spectrum, Surface, draw
 
 # Room beyond the farthest point that contact can reach.
 _MARGIN = 1.05
@@ -59,6 +59,16 @@ class Profile:
     surface: Surface | None
 
 
+def unmapped(scene: Scene) -> Scene:
+    """The scene of the body whose mapped profile is the meridian c |x|^n of the given one: it has c / kappa_n.
+
+    Its smooth relaxed contact is that of the meridian taken as the line: all that holds of a mapped profile holds.
+    """
+    given = scene.indenter
+    c, n = given.coefficient, given.exponent
+    return replace(scene, indenter=PowerLaw(coefficient=c / (given.mdr_coefficient / c), exponent=n))
+
+
 def greatest_depth(scene: Scene, surface: Surface | None) -> float:
     """The prescribed depth, or a depth [m] at which the prescribed load is surely met.
 
@@ -76,7 +86,7 @@ def contact_extent(scene: Scene, surface: Surface | None) -> float:
     return 2 * _MARGIN * _radius(scene.indenter, greatest_depth(scene, surface) - _extremes(surface)[0])
 
 
-def lay_out(scene: Scene, points: int, extent: float | None) -> Grid:
+def lay_out(scene: Scene, points: int, extent: float | None, spectrum: Spectrum = "mapped") -> Grid:
     """Lay out `points` spacings over an extent [m], refined until they divide the period of the roughness.
 
     Without an extent it is the period where the grid is the cut-off, as in the paper, and else the least that
@@ -86,7 +96,7 @@ def lay_out(scene: Scene, points: int, extent: float | None) -> Grid:
     if extent is None and rough is not None and rough.shortest is None:
         extent = rough.longest
     if extent is None:
-        extent = contact_extent(scene, None if rough is None else _well_resolved(rough))
+        extent = contact_extent(scene, None if rough is None else _well_resolved(rough, spectrum))
     if rough is None:
         half = ceil(points / 2)
         return Grid(extent / (2 * half), half)
@@ -95,13 +105,13 @@ def lay_out(scene: Scene, points: int, extent: float | None) -> Grid:
     return Grid(pixel, ceil(extent / (2 * pixel) * (1 - _ROUNDING)), period)
 
 
-def map_profile(scene: Scene, grid: Grid) -> Profile:
+def map_profile(scene: Scene, grid: Grid, spectrum: Spectrum = "mapped") -> Profile:
     """Map the indenter to its one-dimensional profile and add the rough line, repeated as far as the grid goes."""
     heights = _macroscopic(scene.indenter, grid.x)
     if grid.period is None:
         rim = min(heights[0], heights[-1])
         return Profile(grid.x, heights, grid.pixel, float(heights.min()), float(rim), None)
-    surface = draw(scene.roughness, grid.period)
+    surface = draw(scene.roughness, grid.period, spectrum)
     heights += surface.heights[np.arange(-grid.half, grid.half + 1) % grid.period]
     # The shape only rises outwards and the roughness repeats: the first period beyond has the lowest point.
     beyond = np.arange(grid.half, grid.half + grid.period)
@@ -122,6 +132,6 @@ def _extremes(surface: Surface | None):
     return (float(surface.heights.min()), float(surface.heights.max())) if surface else (0.0, 0.0)
 
 
-def _well_resolved(rough) -> Surface:
+def _well_resolved(rough, spectrum) -> Surface:
     """The surface on 16 nodes a shortest wave: its extremes are those of any grid, to within the margin."""
-    return draw(rough, ceil(16 * rough.longest / rough.shortest))
+    return draw(rough, ceil(16 * rough.longest / rough.shortest), spectrum)

@@ -1,9 +1,10 @@
 """The one-dimensional solver: the method of dimensionality reduction (MDR) behind the common protocol."""
 
-from math import ceil, sqrt
+from math import ceil
 from time import process_time
-from typing import Annotated
+from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
@@ -11,11 +12,14 @@ from scene import Cylinder, Plane, Program, Result, Scene, SolveError, Wave
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
-from .foundation import Contact, sweep
+from .foundation import sweep
+from .history import at_greatest, marched
 from .indentation import Sweep, at_depth, under_load
 from .maxwell import sweep_modes
+from .measures import measures
 from .modes import modes_of
-from .profile import Grid, Profile, lay_out, map_profile
+from .profile import Grid, Profile, lay_out, map_profile, unmapped
+from .surface import Spectrum
 
 # Span of a smooth contact over its grid below which the grid is drawn closer, and the room then left around it.
 _LEAST_SHARE, _ROOM = 0.2, 1.05
@@ -33,22 +37,41 @@ class MDR:
         divides its period into whole pixels
     extent : length of the grid, centred on the tip [m]; by default the period of the roughness if the grid is
         its cut-off (as in the paper), else the least that surely holds the contact
+    shape : "mapped", the line kappa_n c |x|^n of the body c r^n, which keeps its relaxed force and depth, or
+        "as-given", its meridian c |x|^n; the paper leaves open which
+    spectrum : of the rough line, "mapped", C_1D = pi q C_2D, or "line-scan", that of a cut of the rough surface
+    steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
 
-    Solves any elastomer, at rest with its relaxed modulus and in steady sliding. The contact is exact on a profile
-    that is linear between nodes; against a smooth shape the error is of second order in the pixel.
+    Solves any elastomer, at rest with its relaxed modulus, in steady sliding and in time. The contact is exact on
+    a profile that is linear between nodes; against a smooth shape the error is of second order in the pixel.
     Result.residual is the relative misfit of a prescribed load, at most 1e-10, and zero at a prescribed depth;
     Result.applications counts sweeps along the profile.
 
     Result.measures: pixel, contact_length [m], contact_fraction (of the span from the first to the last contact),
     points_across_contact (pixels in that span), rms_slope_contact (of the profile over the real contact),
     stiffness dF_N/d(depth) [N/m], friction_by_traction [N] (-int g' f dx, where Result.friction_force is the
-    energy lost per length slid); of a rough indenter also rms_height [m], rms_slope (finite differences) and
-    rms_slope_spectral, each over a period, and points_per_shortest_wave.
-    Result.fields: x, profile, displacement [m] and contact (bool) at the nodes.
+    energy lost per length slid), one_sidedness and load_on_leading_flanks (shares of the real contact and of the
+    load where g' < 0); of a rough indenter also rms_height [m], rms_slope (finite differences) and
+    rms_slope_spectral, each over a period, points_per_shortest_wave, and of scene.Regime height_over_depth,
+    contact_over_period and macro_over_rough, with the smooth relaxed contact of the line.
+    Result.fields: x, profile, displacement [m] and contact (bool) at the nodes, and line_force [N/m], the mean
+    force per length from each node to the next.
+
+    In a Program the elements lie a pixel apart and each is followed in time, exactly at a prescribed depth; a load
+    is met once a step. Result.fields: time [s], path [m], depth [m], normal_force [N], contact_length [m], work of
+    the indenter, dissipated and stored energy [J] at the end of each step (steps,), its speed [m/s], and the mean
+    friction_force [N], by traction, over the last whole pixel slid, at rest over the step; x, profile,
+    displacement, contact of the elements at the end. The result's own forces and depth are the last of those.
+    Without load the depth is that at which the indenter just touches. Result.measures: of the above pixel,
+    contact_length, contact_fraction, points_across_contact; stiffness, dF_N over d(depth) of a sudden step,
+    infinite with a dashpot; time_steps. Result.residual is the misfit of the load over the greatest one.
     """
 
     points: Annotated[Whole, Field(ge=8, le=2**25)] = 5000
     extent: Positive | None = None
+    shape: Literal["mapped", "as-given"] = "mapped"
+    spectrum: Spectrum = "mapped"
+    steps: Annotated[Whole, Field(ge=1, le=10**6)] = 200
 
     @property
     def name(self) -> str:
@@ -62,20 +85,13 @@ class MDR:
                 f"a {type(scene.indenter).__name__} is no body of revolution, so it has no one-dimensional "
                 "profile: use a Sphere, Cone or PowerLaw, or a three-dimensional solver"
             )
-        elif isinstance(scene.motion, Program):
-            reasons.append(
-                "motion = Program is a history in time, which is not followed in one dimension: use Indent or "
-                "Slide, or a three-dimensional solver"
-            )
         elif isinstance(scene.roughness, Wave):
             reasons.append(
                 f"roughness = {type(scene.roughness).__name__} is not isotropic, so no one-dimensional spectrum "
                 "stands for it: use SelfAffine, or a three-dimensional solver"
             )
         elif scene.roughness is not None:
-            reasons += _too_broad(scene) or _unresolved(
-                scene, lay_out(scene, self.points, self.extent), self.points
-            )
+            reasons += _too_broad(scene) or _unresolved(scene, self._laid_out(scene), self.points)
         return reasons
 
     def solve(self, scene: Scene) -> Result:
@@ -87,41 +103,62 @@ class MDR:
         refuse(self, scene)
         start = process_time()
         with trusted():
-            layout, body, approach, contact, sweeps = self._pressed(scene)
+            reduced = self._reduced(scene)
+            if isinstance(scene.motion, Program):
+                return marched(self, scene, reduced, start)
+            layout, body, approach, contact, sweeps = self._pressed(reduced)
         modulus = scene.elastomer.indentation_modulus
         seconds = process_time() - start
         force, load = modulus * contact.force, scene.motion.load
         return Result(
             scene=scene,
             solver=self.name,
-            settings={
-                "points": 2 * layout.half,
-                "extent": layout.extent,
-                "pixel": layout.pixel,
-                "cutoff": _cutoff(scene),
-            },
+            settings=self.settings(scene, layout),
             normal_force=force,
             depth=approach + body.lowest,
             friction_force=modulus * contact.dissipation,
             residual=0.0 if load is None else abs(force / load - 1),
             applications=sweeps,
             seconds=seconds,
-            measures=_measures(body, contact, modulus),
+            measures=measures(reduced, body, contact),
             fields={
                 "x": body.x,
                 "profile": body.heights,
                 "displacement": contact.displacement,
                 "contact": contact.touching,
+                "line_force": modulus / body.pixel * np.append(contact.pushed[:, 1], 0.0),
             },
         )
+
+    def settings(self, scene: Scene, layout: Grid) -> dict:
+        """What it solved with, the derived settings included."""
+        return {
+            "points": 2 * layout.half,
+            "extent": layout.extent,
+            "pixel": layout.pixel,
+            "cutoff": _cutoff(scene),
+            "shape": self.shape,
+            "spectrum": self.spectrum,
+        }
+
+    def _laid_out(self, scene: Scene) -> Grid:
+        """The grid to begin with."""
+        reduced = self._reduced(scene)
+        if isinstance(scene.motion, Program):
+            reduced = at_greatest(reduced)
+        return lay_out(reduced, self.points, self.extent, self.spectrum)
+
+    def _reduced(self, scene: Scene) -> Scene:
+        """The scene whose mapped profile is the line asked for."""
+        return scene if self.shape == "mapped" else unmapped(scene)
 
     def _pressed(self, scene: Scene):
         """The contact, on a grid drawn closer around the tip while viscosity keeps a smooth contact small."""
         press = at_depth if scene.motion.load is None else under_load
         sweep, total, extent = _flow(scene), 0, self.extent
         while True:
-            layout = lay_out(scene, self.points, extent)
-            body = map_profile(scene, layout)
+            layout = lay_out(scene, self.points, extent, self.spectrum)
+            body = map_profile(scene, layout, self.spectrum)
             approach, contact, sweeps = press(scene, body, sweep)
             total += sweeps
             span = contact.last - contact.first
@@ -192,25 +229,3 @@ def _cutoff(scene: Scene) -> str | None:
     if scene.roughness is None:
         return None
     return "nyquist" if scene.roughness.shortest is None else "resolved"
-
-
-def _measures(body: Profile, contact: Contact, modulus: float) -> dict[str, float]:
-    # Rounding of the two ends may leave nothing of a minute contact.
-    span = max(contact.last - contact.first, contact.length)
-    measures = {
-        "pixel": body.pixel,
-        "contact_length": contact.length,
-        "contact_fraction": contact.length / span,
-        "points_across_contact": span / body.pixel,
-        "rms_slope_contact": sqrt(contact.slope_square / contact.length),
-        "friction_by_traction": modulus * contact.traction,
-        "stiffness": modulus * contact.stiffness,
-    }
-    if (surface := body.surface) is not None:
-        measures |= {
-            "rms_height": surface.rms_height,
-            "rms_slope": surface.rms_slope,
-            "rms_slope_spectral": surface.rms_slope_spectral,
-            "points_per_shortest_wave": surface.shortest / surface.pixel,
-        }
-    return measures

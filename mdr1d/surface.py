@@ -1,14 +1,21 @@
 """A rough line drawn from the one-dimensional spectrum of a scene's roughness."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import floor, pi, sqrt
+from typing import Literal
 
 import numpy as np
 
 from scene.roughness import SelfAffine
 
-# The spawn key keeps the phases of a line apart from those of a surface drawn with the same seed.
-_LINE = 1
+# Of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
+Spectrum = Literal["mapped", "line-scan"]
+
+# Spawn keys keep a line apart from a surface drawn with the same seed, and the moduli of waves from the phases.
+_PHASES, _MODULI = (1,), (1, 0)
+# Phases kept for the next spectrum: 2 MB of them at most, for each of a few seeds.
+_MOST_KEPT = 2**17
 
 
 @dataclass(frozen=True)
@@ -39,8 +46,8 @@ class Surface:
     @property
     def rms_slope(self) -> float:
         """rms of the finite differences between neighbouring nodes over a period [1]."""
-        steps = self.heights - np.roll(self.heights, 1)
-        return sqrt(np.mean(np.square(steps / self.pixel)))
+        steps = np.diff(self.heights, append=self.heights[0])
+        return sqrt(np.mean(np.square(steps))) / self.pixel
 
     @property
     def rms_slope_spectral(self) -> float:
@@ -49,34 +56,99 @@ class Surface:
         return 2 * pi / self.period * sqrt(np.sum(np.square(k * self.amplitudes)) / 2)
 
 
-def amplitudes(roughness: SelfAffine, bandwidth: float) -> np.ndarray:
+def amplitudes(roughness: SelfAffine, bandwidth: float, spectrum: Spectrum = "mapped") -> np.ndarray:
     """Amplitudes of the waves q_k = k q_min (K,) [m], K the whole part of the bandwidth q_max / q_min.
 
-    Wave k has the variance of its cell, A_k^2 / 2 = 2 int C_1D dq from q_(k-1/2) to q_(k+1/2). The first cell
-    starts at q_min and the last ends at q_max, so that the sum of variances is rms_height^2.
+    Wave k has the variance of its cell, A_k^2 / 2 = 2 int C_1D dq from q_(k-1/2) to q_(k+1/2), and the last cell
+    ends at q_max. A mapped spectrum starts at q_min, and so does its first cell: the sum of variances is
+    rms_height^2. A line scan has power at every q: what it has below q_min / 2 is the mean height of a period of
+    the line, and is left out, so that the line has less than rms_height. Gaussian amplitudes have these as their
+    root mean square.
     """
     # The bandwidth is a quotient: rounding must not cost it its last wave.
     edges = np.arange(floor(bandwidth * (1 + 1e-9)) + 1) + 0.5
-    edges[0], edges[-1] = 1.0, bandwidth
+    edges[-1] = bandwidth
+    if spectrum == "mapped":
+        edges[0] = 1.0
+    share = roughness.share if spectrum == "mapped" else roughness.share_line_scan
     edges = edges * roughness.q_min
-    shares = roughness.share(edges[:-1], edges[1:], bandwidth * roughness.q_min)
+    shares = share(edges[:-1], edges[1:], bandwidth * roughness.q_min)
     return roughness.rms_height * np.sqrt(2 * shares)
 
 
-def draw(roughness: SelfAffine, nodes: int) -> Surface:
-    """Draw one period of the rough line on so many nodes, phase by phase from its seed.
+@dataclass(frozen=True, eq=False)
+class Waves:
+    """What lines of one spectrum have in common on one grid, before a seed.
 
-    The waves do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the
-    Nyquist wave number of this grid, as in the paper.
-
-    A wave at the Nyquist wave number keeps only its sign on the grid: it gets the height that keeps its variance.
+    amplitudes : of the waves k = 1, 2, ... (K,) [m], fixed or, if gaussian, the root of their mean squares
+    nodes : in a period; pixel : their spacing [m]
+    shortest : wavelength of the cut-off of the spectrum [m]
     """
+
+    amplitudes: np.ndarray
+    gaussian: bool
+    nodes: int
+    pixel: float
+    shortest: float
+
+    def drawn(self, seed: int) -> Surface:
+        """The line of a seed, wave by wave. Phases are the same for every spectrum and kind of amplitude.
+
+        A wave at the Nyquist wave number has no phase on the grid. One of fixed amplitude keeps its sign and gets
+        the height that keeps its variance; a Gaussian one is left with its real part, a Gaussian height of that
+        variance.
+        """
+        waves = self.amplitudes
+        if self.gaussian:
+            waves = waves * np.sqrt(_stream(seed, _MODULI).standard_exponential(waves.size))
+        spread = np.zeros(self.nodes // 2 + 1, complex)
+        spread[1 : waves.size + 1] = waves / 2 * _phasors(seed, waves.size)
+        if 2 * waves.size == self.nodes:
+            real = spread[-1].real
+            spread[-1] = 2 * real if self.gaussian else np.copysign(waves[-1] / sqrt(2), real)
+        heights = np.fft.irfft(spread, n=self.nodes, norm="forward")
+        return Surface(heights, self.pixel, waves, self.shortest)
+
+
+def waves_of(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> Waves:
+    """The waves of a spectrum on so many nodes a period; the seed does not matter.
+
+    They do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the Nyquist
+    wave number of this grid, as in the paper.
+    """
+    return _unseeded(replace(roughness, seed=0), nodes, spectrum)
+
+
+def draw(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
+    """Draw one period of the rough line on so many nodes, from its seed."""
+    return waves_of(roughness, nodes, spectrum).drawn(roughness.seed)
+
+
+@lru_cache(maxsize=16)
+def _unseeded(roughness, nodes, spectrum):
+    """Once for all seeds: the amplitudes of a line scan take longer than a sweep."""
     pixel = roughness.longest / nodes
     q_max = roughness.q_max(pixel)
-    waves = amplitudes(roughness, q_max / roughness.q_min)
-    generator = np.random.default_rng(np.random.SeedSequence(roughness.seed, spawn_key=(_LINE,)))
-    spectrum = np.zeros(nodes // 2 + 1, complex)
-    spectrum[1 : waves.size + 1] = waves / 2 * np.exp(2j * pi * generator.random(waves.size))
-    if 2 * waves.size == nodes:
-        spectrum[-1] = np.copysign(waves[-1] / sqrt(2), spectrum[-1].real)
-    return Surface(np.fft.irfft(spectrum, n=nodes, norm="forward"), pixel, waves, 2 * pi / q_max)
+    waves = amplitudes(roughness, q_max / roughness.q_min, spectrum)
+    waves.setflags(write=False)
+    return Waves(waves, roughness.amplitudes == "gaussian", nodes, pixel, 2 * pi / q_max)
+
+
+def _phasors(seed, count):
+    """exp(i phase) of the first waves of a seed; lines of many spectra begin with the same."""
+    if count > _MOST_KEPT:
+        return _drawn_phasors(seed, count)
+    return _kept_phasors(seed, 1 << (count - 1).bit_length())[:count]
+
+
+@lru_cache(maxsize=16)
+def _kept_phasors(seed, count):
+    return _drawn_phasors(seed, count)
+
+
+def _drawn_phasors(seed, count):
+    return np.exp(2j * pi * _stream(seed, _PHASES).random(count))
+
+
+def _stream(seed, key):
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))

@@ -1,5 +1,6 @@
 """Roughness: a self-affine spectrum, from which each solver draws its own surface, or plain waves."""
 
+from itertools import pairwise
 from math import pi, sqrt
 from typing import Annotated, Literal
 
@@ -8,6 +9,9 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .quantities import CLOSED, Finite, NonNegative, Positive, Whole
+
+# Enough for directions over seven decades of wave numbers, to 1e-12.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(28)
 
 
 def power_integral(exponent, lower, upper):
@@ -27,11 +31,14 @@ class SelfAffine:
     shortest : shortest wavelength [m], q_max = 2 pi / shortest; without it the cut-off is the Nyquist wave
         number of the solver's grid, as in the paper
     rolloff : wavelength [m] above which, up to `longest`, the spectrum is flat; without it there is no roll-off
-    seed : of the random phases
+    seed : of the random phases, and of the amplitudes where those are drawn
+    amplitudes : "fixed", those of the spectrum, so that each surface has its rms height, or "gaussian", complex
+        Gaussian variables of the same mean square, so that heights are a Gaussian process and the rms height of a
+        surface scatters
 
-    Spectra are two-sided: <h^2> = 2 int_0^inf C_1D dq = 2 pi int_0^inf q C_2D dq, and tied by the rule of
-    the method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the
-    full gradient.
+    Spectra are two-sided: <h^2> = 2 int_0^inf C_1D dq = 2 pi int_0^inf q C_2D dq. A line has the spectrum of the
+    method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the full
+    gradient, or that of a line scan.
     """
 
     hurst: Annotated[Finite, Field(ge=0, le=1)]
@@ -40,6 +47,7 @@ class SelfAffine:
     shortest: Positive | None = None
     rolloff: Positive | None = None
     seed: Annotated[Whole, Field(ge=0)] = 0
+    amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["self-affine"] = Field(default="self-affine", repr=False)
 
     @model_validator(mode="after")
@@ -71,8 +79,16 @@ class SelfAffine:
         return self.q_min if self.rolloff is None else 2 * pi / self.rolloff
 
     def density_1d(self, q, q_max):
-        """C_1D(q) [m^3], zero outside q_min <= q <= q_max [rad/m]."""
+        """C_1D(q) [m^3] by the rule pi q C_2D, zero outside q_min <= q <= q_max [rad/m]."""
         return pi * q * self.density_2d(q, q_max)
+
+    def density_line_scan(self, q, q_max):
+        """C_1D(q) [m^3] of a line scan, 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds, for q > 0 [rad/m]; zero above q_max.
+
+        A wave of the surface at an angle to the line is seen on it at q cos(angle): the line scan has power also
+        below q_min, and half the mean square slope of the full gradient.
+        """
+        return self._over_directions(lambda seen: seen / q * self.density_1d(seen, q_max), q, q_max)
 
     def density_2d(self, q, q_max):
         """C_2D(q) [m^4], zero outside q_min <= q <= q_max [rad/m]."""
@@ -85,10 +101,33 @@ class SelfAffine:
         """Of <h^2>, what lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
         return self._moment(1, lower, upper) / self._moment(1, self.q_min, q_max)
 
+    def share_line_scan(self, lower, upper, q_max):
+        """Of <h^2>, what a line scan has in 0 < lower <= q <= upper <= q_max [rad/m], arrays allowed."""
+
+        def above(q):
+            return self.share(np.maximum(q, self.q_min), q_max, q_max)
+
+        seen_above_lower, seen_above_upper = (self._over_directions(above, q, q_max) for q in (lower, upper))
+        return seen_above_lower - seen_above_upper
+
     def rms_slope(self, q_max) -> float:
         """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m]."""
         ratio = self._moment(3, self.q_min, q_max) / self._moment(1, self.q_min, q_max)
         return self.rms_height * self.q_rolloff * sqrt(ratio)
+
+    def _over_directions(self, function, q, q_max):
+        """Mean over all angles of function(q / cos(angle)), which is zero above q_max [rad/m].
+
+        With 1 / cos(angle) = cosh(t) the integrand is analytic between the corners of the spectrum.
+        """
+        corners = [np.arccosh(np.maximum(corner / q, 1.0)) for corner in (q, self.q_min, self.q_rolloff, q_max)]
+        total = 0.0
+        for start, end in pairwise(corners):
+            middle, half = (start + end) / 2, (end - start) / 2
+            for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+                stretch = np.cosh(middle + half * node)
+                total = total + weight * half * function(q * stretch) / stretch
+        return 2 / pi * total
 
     def _moment(self, m, lower, upper):
         """int t^m max(t, 1)^(-2H-2) dt over t = q / q_rolloff, from lower to upper [rad/m]."""

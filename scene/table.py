@@ -1,6 +1,7 @@
 """Measured storage and loss moduli, in Python or in a text file."""
 
 import re
+from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 
@@ -50,19 +51,31 @@ def read_table(path: str | Path) -> Table:
 
 def columns(path: str | Path) -> dict[str, tuple[float, ...]]:
     """The columns of such a file by their names, not yet checked as a whole."""
+    _, rows = read_rows(path, COLUMNS)
+    return dict(zip(COLUMNS, zip(*rows, strict=True) if rows else ((), (), ()), strict=True))
+
+
+def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[tuple[float, ...]]]:
+    """The cells of the heading, if there is one, and the rows of such a file, a number > 0 for each name.
+
+    Raises ValueError naming file and line.
+    """
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
     except OSError as error:
         raise ValueError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ValueError(f"{path}: not a text file in UTF-8") from error
-    rows = []
+    heading, rows = [], []
     for number, line in enumerate(text.splitlines(), start=1):
         cells = _SEPARATOR.split(line.partition("#")[0].strip())
-        heading = not rows and not any(_is_number(cell) for cell in cells)
-        if cells != [""] and not heading:
-            rows.append(_row(cells, f"{path}, line {number}"))
-    return dict(zip(COLUMNS, zip(*rows, strict=True) if rows else ((), (), ()), strict=True))
+        if cells == [""]:
+            continue
+        if not rows and not any(_is_number(cell) for cell in cells):
+            heading = cells
+        else:
+            rows.append(_row(cells, names, f"{path}, line {number}"))
+    return heading, rows
 
 
 def _is_number(cell):
@@ -73,10 +86,11 @@ def _is_number(cell):
     return True
 
 
-def _row(cells, where):
-    if len(cells) != len(COLUMNS):
-        raise ValueError(f"{where}: {len(cells)} columns; frequency, storage and loss are needed, and no others")
-    for name, cell in zip(COLUMNS, cells, strict=True):
+def _row(cells, names, where):
+    if len(cells) != len(names):
+        needed = ", ".join(names[:-1]) + f" and {names[-1]}"
+        raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others")
+    for name, cell in zip(names, cells, strict=True):
         if not _is_number(cell):
             raise ValueError(f"{where}: {name} = {cell!r} is not a number")
         if not (isfinite(float(cell)) and float(cell) > 0):

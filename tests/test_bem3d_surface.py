@@ -10,6 +10,8 @@ L = 10e-3
 ROUNDING = 1e-10
 LATTICE = 0.03  # relative, at H = 1: the longest waves are few and sit at the centres of their cells
 SHELL = 0.05  # relative: a ring of lattice points is not a circle
+SIGMAS = 4  # of a mean over random draws
+KOLMOGOROV = 1.95  # exceeded by one draw in a thousand
 
 
 def rough(**other):
@@ -76,3 +78,39 @@ def test_a_higher_cut_off_adds_detail_to_the_same_surface():
 def test_another_seed_is_another_surface():
     x = np.linspace(0, L, 5)
     assert not np.allclose(draw(rough(seed=1)).heights(x, x), draw(rough(seed=2)).heights(x, x))
+
+
+def test_gaussian_waves_keep_the_phases_and_scatter_about_the_fixed_ones():
+    fixed, gaussian = draw(rough(shortest=L / 40)), draw(rough(shortest=L / 40, amplitudes="gaussian"))
+    there = np.abs(fixed.amplitudes) > 0
+    ratio = gaussian.amplitudes[there] / fixed.amplitudes[there]
+    np.testing.assert_allclose(ratio.imag, 0.0, atol=ROUNDING)
+    assert np.all(ratio.real > 0)
+    # Rayleigh: the squares are exponential. Their mean, and the largest distance of their distribution.
+    square, count = np.sort(ratio.real**2), there.sum()
+    assert square.mean() == pytest.approx(1.0, abs=SIGMAS / np.sqrt(count))
+    distance = np.abs(np.arange(count) / count - (1 - np.exp(-square))).max()
+    assert distance < KOLMOGOROV / np.sqrt(count)
+
+
+def test_a_higher_cut_off_adds_detail_to_the_same_gaussian_surface():
+    # Against surfaces of fixed amplitudes, as the rms height is that of the whole spectrum.
+    coarse, fine = (draw(rough(shortest=L / n, amplitudes="gaussian")) for n in (20, 40))
+    bare = [draw(rough(shortest=L / n)) for n in (20, 40)]
+    top = coarse.amplitudes.shape[1] - 1
+    same = np.abs(coarse.amplitudes) > 0
+    inner = [s.amplitudes[top : 3 * top + 1, : top + 1][same] for s in (fine, bare[1])]
+    np.testing.assert_allclose(
+        inner[0] / inner[1], coarse.amplitudes[same] / bare[0].amplitudes[same], atol=ROUNDING
+    )
+
+
+def test_heights_over_many_gaussian_surfaces_are_gaussian():
+    x = np.arange(4) * L / 4
+    surfaces = [draw(rough(seed=s, amplitudes="gaussian", shortest=L / 6)) for s in range(600)]
+    heights = np.array([surface.heights(x, x) for surface in surfaces])
+    square = np.mean(heights**2)
+    # 600 draws of some ten independent heights each.
+    assert square == pytest.approx(5e-5**2, rel=SIGMAS * np.sqrt(2 / 6000))
+    assert np.mean(heights**4) / square**2 == pytest.approx(3.0, abs=SIGMAS * np.sqrt(24 / 6000))
+    assert np.std([surface.rms_height for surface in surfaces]) > 0.05 * 5e-5

@@ -93,6 +93,36 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert manifest["tasks"] == {"solved": now, "reused": reused}
 
 
+def test_the_paper_is_simulated_and_resumed(folder):
+    status, said, complained = finish(start(folder, "paper", "--profiles", "2", "--workers", "2"))
+    assert (status, complained) == (0, "")
+    assert "Eq. 17" in said
+    page = folder / "crosscheck-paper" / "paper.html"
+    assert str(page) in said
+    assert (folder / "crosscheck-paper" / "paper-studies.pdf").exists()
+    manifest = json.loads((folder / "crosscheck-paper" / "manifest.json").read_text())
+    assert {claim["verdict"] for claim in manifest["claims"]} <= {"holds", "fails", "undecided"}
+    text = page.read_text()
+    assert all(f'id="{claim["figure"]}"' in text for claim in manifest["claims"])
+    again = finish(start(folder, "paper", "--profiles", "2", "--workers", "2"))[1]
+    assert re.search(r"^0 tasks solved, \d+ reused", again, re.MULTILINE)
+
+
+def test_a_users_table_is_shifted(folder):
+    rows = [
+        f"{(load * speed**-1.5 + 1) ** -0.5},{load},{speed}" for speed in (1, 2, 4) for load in (1, 2, 3, 4, 5)
+    ]
+    (folder / "ball.csv").write_text("\n".join(rows))
+    status, said, complained = finish(start(folder, "mastercurve", "ball.csv"))
+    assert (status, complained) == (0, "")
+    assert "undecided" in said  # single measurements have no scatter
+    assert (folder / "mastercurve" / "shifted-curves-ball.pdf").exists()
+    (folder / "ball.csv").write_text("1,2\n")
+    status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
+    assert status == 2
+    assert "ball.csv, line 1: 2 columns" in complained
+
+
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")

@@ -1,10 +1,12 @@
 """Shifts put into synthetic curves are found again, and what no shift can mend is not called collapsed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from compare.exact import master_curve, shift_exponent
-from compare.mastercurve import LEAST_OVERLAP, Curve, collapse, misfit_at, shifted
+from compare.mastercurve import DEGREE, LEAST_OVERLAP, Curve, collapse, misfit_at, shifted
+from mdr1d.equations import force_shift_exponent, interpolation
 
 LOADS = np.log(np.geomspace(0.2, 10.0, 6))
 SPEEDS = (0.1, 0.3, 1.0)
@@ -17,7 +19,7 @@ def cubic(x):
 
 
 def eq_19(xi, exponent):
-    return lambda x: np.log(master_curve(xi * np.exp(-x * exponent / (exponent + 1))))
+    return lambda x: np.log(interpolation(xi * np.exp(-x * exponent / (exponent + 1))))
 
 
 def parabola(x):
@@ -51,13 +53,30 @@ def test_shifts_of_a_common_curve_are_recovered(power):
 @pytest.mark.parametrize("exponent", [1.0, 2.0])
 @pytest.mark.parametrize("xi", [0.05, 0.3, 1.0])
 def test_shifts_of_eq_19_are_recovered_within_what_a_polynomial_can_follow(exponent, xi):
-    power = shift_exponent(exponent)
+    power = force_shift_exponent(1.0, exponent)
     found = collapse(curves(eq_19(xi, exponent), power))
     # The fourth degree follows Eq. 19 to 0.6 % here; the shifts suffer less, since it errs alike at every speed.
     assert found.after.rms < 6e-3
     assert found.exponent == pytest.approx(power, abs=5e-3)
     assert misfit_at(found, power).rms == pytest.approx(found.after.rms, abs=1e-3)
     assert found.before.rms > 0.3
+
+
+MANY = np.log(np.geomspace(0.1, 100.0, 16))
+
+
+def test_small_scatter_frees_the_curve_and_large_scatter_does_not():
+    for noise, free in ((1e-3, True), (3e-2, False)):
+        found = collapse(curves(eq_19(0.3, 2.0), -1.5, error=noise, noise=noise, loads=MANY))
+        assert (found.degree > DEGREE) == free
+        assert found.verdict == "holds"
+        assert found.exponent == pytest.approx(-1.5, abs=4 * found.exponent_error)
+
+
+def test_a_freer_curve_does_not_hide_that_curves_differ():
+    noisy = curves(eq_19(0.3, 2.0), -1.5, error=1e-3, noise=1e-3, loads=MANY)
+    bent = [replace(c, log_friction=c.log_friction + 0.02 * k * c.log_load) for k, c in enumerate(noisy)]
+    assert collapse(bent).verdict == "fails"
 
 
 def test_the_order_of_the_curves_does_not_matter():

@@ -246,7 +246,7 @@ def test_every_field_with_a_unit_has_it_on_the_page():
         Prony(equilibrium_modulus=1e6, moduli=(1e6,), relaxation_times=(1e-3,)),
         KelvinChain(instantaneous_compliance=1e-7, compliances=(1e-6,), retardation_times=(1e-3,)),
     ):
-        bare = {"coefficient", "exponent", "hurst", "seed", "poisson_ratio", "type"}
+        bare = {"coefficient", "exponent", "hurst", "seed", "amplitudes", "poisson_ratio", "type"}
         assert vars(part).keys() - bare <= report.PREFIXED.keys() | report.PLAIN.keys()
 
 

@@ -9,7 +9,7 @@ from math import radians, sqrt
 import numpy as np
 import pytest
 
-from mdr1d import MDR, draw
+from mdr1d import MDR, draw, equations
 from scene import Cone, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
@@ -31,16 +31,10 @@ class Point:
     span: float  # contact length, mean [m]
 
 
-def law(xi):
-    """Eq. 19 with alpha = 1.5."""
-    return (1 + xi**-1.5) ** (-1 / 1.5)
-
-
 def speed(shape, xi, slope):
-    """Eq. 18 solved for v, with the mapped coefficient c_n."""
-    n, c = shape.exponent, shape.mdr_coefficient
-    stiff, blunt = (LOAD / (8 * MODULUS)) ** (n / (n + 1)), (c * n / (n + 1)) ** (1 / (n + 1))
-    return xi * sqrt(2) / (TIME * slope) * stiff * blunt
+    """At which the variable of Eq. 18 has a value."""
+    profile = shape.mdr_coefficient, shape.exponent
+    return xi / equations.similarity_variable(LOAD, MODULUS, TIME, 1.0, slope, *profile)
 
 
 @pytest.fixture(scope="module", params=SHAPES)
@@ -66,7 +60,7 @@ def curve(request):
 
 def test_friction_of_rough_indenters_follows_the_law_over_four_decades(curve):
     name, points = curve
-    deviations = np.array([p.friction for p in points]) / law(VARIABLES) - 1
+    deviations = np.array([p.friction for p in points]) / equations.interpolation(VARIABLES) - 1
     print(name, *(f"{xi:.3g}: {100 * dev:+.1f} %" for xi, dev in zip(VARIABLES, deviations, strict=True)))
     np.testing.assert_allclose(deviations, 0.0, atol=LAW)
 

@@ -18,7 +18,6 @@ from scene import (
     KelvinChain,
     Plane,
     PowerLaw,
-    Program,
     Prony,
     Refused,
     Scene,
@@ -26,7 +25,6 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    Stage,
     StandardLinearSolid,
     Wave,
 )
@@ -49,7 +47,8 @@ def test_a_result_says_what_it_was_solved_with():
     result = MDR(points=500).solve(PAPER)
     assert result.solver == MDR().name == "MDR"
     assert result.scene is PAPER
-    assert result.settings == {"points": 500, "extent": 4e-3, "pixel": 8e-6, "cutoff": "nyquist"}
+    grid = {"points": 500, "extent": 4e-3, "pixel": 8e-6, "cutoff": "nyquist"}
+    assert result.settings == grid | {"shape": "mapped", "spectrum": "mapped"}
     assert result.residual <= 1e-10
     assert result.normal_force == pytest.approx(1.0, rel=1e-10)
     assert 1 <= result.applications <= 20
@@ -63,7 +62,7 @@ def test_a_result_says_what_it_was_solved_with():
     assert measures["contact_length"] <= measures["points_across_contact"] * 8e-6 * (1 + ROUNDING)
     assert all(isinstance(value, float) for value in measures.values())
     fields = result.fields
-    assert set(fields) == {"x", "profile", "displacement", "contact"}
+    assert set(fields) == {"x", "profile", "displacement", "contact", "line_force"}
     assert {field.shape for field in fields.values()} == {(501,)}
     assert fields["x"][250] == 0
     contact = fields["contact"]
@@ -98,7 +97,6 @@ WAVY = Wave(amplitude=1e-6, wavelength=1e-3)
         (Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=1.0, line_load=1.0), ROUGH.roughness), "Cylinder"),
         (Scene(Plane(), SOLID, Slide(speed=1.0, pressure=1.0), ROUGH.roughness), "Plane"),
         (replace(ROUGH, roughness=WAVY), "Wave"),
-        (replace(ROUGH, motion=Program(stages=(Stage(duration=1.0, load=1.0),))), "Program"),
     ],
 )
 def test_what_has_no_one_dimensional_profile_is_refused_by_name(scene, word):

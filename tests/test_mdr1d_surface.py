@@ -6,11 +6,14 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
+from bem3d.surface import RoughSurface
 from mdr1d import amplitudes, draw
 from scene import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=1e-2, shortest=5e-5)
 ROUNDING = 1e-12
+# Standard errors of a mean over random draws, and a distance of distributions exceeded once in a thousand.
+SIGMAS, KOLMOGOROV = 4, 1.95
 
 
 @pytest.mark.parametrize("hurst", [0.0, 0.4, 0.8, 1.0])
@@ -89,3 +92,89 @@ def test_the_spectrum_ends_at_its_cut_off_without_loss_between_two_waves():
         assert waves.size == int(bandwidth + 1e-9)
         assert np.all(waves > 0)
         assert sqrt(np.sum(waves**2) / 2) == pytest.approx(5e-5, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("spectrum", ["mapped", "line-scan"])
+def test_gaussian_waves_keep_the_phases_and_have_rayleigh_moduli(spectrum):
+    rough = replace(ROUGH, shortest=4e-6)
+    fixed, gaussian = (draw(replace(rough, amplitudes=kind), 10_000, spectrum) for kind in ("fixed", "gaussian"))
+    a, b = (np.fft.rfft(s.heights)[1:2400] for s in (fixed, gaussian))
+    np.testing.assert_allclose(np.angle(b / a), 0.0, atol=1e-6)
+    square = np.sort((gaussian.amplitudes / fixed.amplitudes) ** 2)
+    assert square.mean() == pytest.approx(1.0, abs=SIGMAS / sqrt(square.size))
+    distance = np.abs(np.arange(square.size) / square.size - (1 - np.exp(-square))).max()
+    assert distance < KOLMOGOROV / sqrt(square.size)
+
+
+def test_a_later_cut_off_adds_waves_and_keeps_the_moduli_of_the_others():
+    near, far = (replace(ROUGH, shortest=s, amplitudes="gaussian") for s in (5e-5, 2.5e-5))
+    ratios = [draw(r, 1000).amplitudes / amplitudes(r, 1e-2 / r.shortest) for r in (near, far)]
+    np.testing.assert_allclose(ratios[1][:200], ratios[0], rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("shortest", [2e-3, None])
+@pytest.mark.parametrize("kind", ["fixed", "gaussian"])
+def test_heights_over_many_draws_have_the_kurtosis_of_their_waves(kind, shortest):
+    # A cosine of random phase has the fourth cumulant -3/8 A^4, a Gaussian wave none.
+    rough = replace(ROUGH, hurst=0.8, shortest=shortest, amplitudes=kind)
+    surfaces = [draw(replace(rough, seed=s), 10).heights for s in range(4000)]
+    heights = np.array(surfaces)
+    waves = amplitudes(rough, 5.0)
+    fourth = -3 / 8 * np.sum(waves**4) / 5e-5**4
+    if shortest is None:  # the Nyquist wave is plus or minus a height, of cumulant -2 h^4
+        fourth += (3 / 8 - 2 / 4) * waves[-1] ** 4 / 5e-5**4
+    expected = 3 + (fourth if kind == "fixed" else 0.0)
+    assert np.mean(heights**2) == pytest.approx(5e-5**2, rel=SIGMAS * sqrt(2 / 8000))
+    # Of the ten nodes some two are independent.
+    kurtosis = np.mean(heights**4) / np.mean(heights**2) ** 2
+    assert kurtosis == pytest.approx(expected, abs=SIGMAS * sqrt(24 / 8000))
+    assert abs(-3 / 8 * np.sum(waves**4) / 5e-5**4) > 2 * SIGMAS * sqrt(24 / 8000)
+
+
+def test_a_gaussian_wave_at_the_nyquist_wave_number_is_a_gaussian_height_of_its_variance():
+    rough = replace(ROUGH, hurst=0.0, shortest=None, amplitudes="gaussian")
+    heights = np.array([draw(replace(rough, seed=s), 10).heights for s in range(2000)])
+    last = heights @ (-1.0) ** np.arange(10) / 10
+    variance = amplitudes(rough, 5.0)[-1] ** 2 / 2
+    assert np.mean(last**2) == pytest.approx(variance, rel=SIGMAS * sqrt(2 / 2000))
+    assert np.mean(last**4) == pytest.approx(3 * variance**2, rel=SIGMAS * sqrt(96 / 9 / 2000))
+
+
+def test_a_gaussian_line_has_an_rms_height_that_scatters_about_that_of_the_spectrum():
+    # The variance of the mean square is the sum of A^4 / 4 over the waves.
+    rough = replace(ROUGH, amplitudes="gaussian")
+    squares = np.array([draw(replace(rough, seed=s), 1000).rms_height ** 2 for s in range(400)])
+    spread = sqrt(np.sum(amplitudes(rough, 200.0) ** 4) / 4)
+    assert squares.mean() == pytest.approx(5e-5**2, abs=SIGMAS * spread / 20)
+    # Exponential squares have long tails: the scatter of a scatter of 400.
+    assert squares.std() == pytest.approx(spread, rel=0.25)
+
+
+@pytest.mark.parametrize("rolloff", [None, 2e-3])
+@pytest.mark.parametrize("hurst", [0.0, 0.4, 1.0])
+def test_a_line_scan_lacks_the_height_of_what_is_longer_than_two_periods(hurst, rolloff):
+    rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
+    top = rough.q_max(0.0)
+    surface = draw(rough, 2000, "line-scan")
+    kept = rough.share_line_scan(rough.q_min / 2, top, top)
+    assert surface.rms_height == pytest.approx(5e-5 * sqrt(kept), rel=ROUNDING)
+    # Of a wave as long as the period a third: arcsin(1/2) of a quarter turn. Shorter ones lose less.
+    assert 2 / 3 < kept < 1
+    # Half the square of the full gradient; below 3/2 of the first wave the cell stands for it.
+    assert surface.rms_slope_spectral == pytest.approx(rough.rms_slope(top) / sqrt(2), rel=0.03)
+
+
+@pytest.mark.parametrize("hurst", [0.0, 0.4, 0.8])
+def test_a_line_scan_has_the_waves_of_a_cut_through_the_rough_surface(hurst):
+    rough = replace(ROUGH, hurst=hurst)
+    cut = np.sum(np.abs(RoughSurface.draw(rough, rough.q_max(0.0)).amplitudes) ** 2, axis=0)[1:]
+    waves = amplitudes(rough, 200.0, "line-scan") ** 2
+    # The lattice of the surface stands for a continuum. Measured: 2.6 % from k = 5 on, short of the cut-off.
+    np.testing.assert_allclose(cut[4:190], waves[4:190], rtol=0.05)
+    mapped = amplitudes(rough, 200.0) ** 2
+    assert hurst == 0 or np.all(mapped[4:100] > 1.2 * cut[4:100])
+
+
+def test_both_spectra_are_drawn_with_the_same_phases():
+    mapped, scan = (np.fft.rfft(draw(ROUGH, 1000, s).heights)[1:190] for s in ("mapped", "line-scan"))
+    np.testing.assert_allclose(np.angle(mapped / scan), 0.0, atol=1e-9)

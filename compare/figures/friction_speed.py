@@ -1,11 +1,11 @@
 """Coefficient of friction against speed at the scene's load or depth."""
 
-from math import sqrt
-
 import numpy as np
 from matplotlib.figure import Figure
 
-from .. import exact, metrics
+from mdr1d.equations import interpolation, plateau, similarity_variable
+
+from .. import metrics
 from ..verdict import Judgement
 from . import style
 from .force_depth import averaged
@@ -67,8 +67,10 @@ def law(judgement: Judgement, load, speed, rms_slope):
     case = judgement.case
     time = float(case.elastomer.retardation()[2].max())
     shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
-    xi = exact.similarity_variable(load, speed, time, case.elastomer.indentation_modulus, rms_slope, *shape)
-    return sqrt(2) * rms_slope * exact.master_curve(xi)
+    # Eqs. 18 and 19 are written for a Poisson ratio of 1/2.
+    modulus = case.elastomer.indentation_modulus / 4
+    xi = similarity_variable(load, modulus, time, speed, rms_slope, *shape)
+    return plateau(rms_slope) * interpolation(xi)
 
 
 def _paper(axes, judgement, records):

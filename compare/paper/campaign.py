@@ -1,8 +1,9 @@
-"""Fig. 3: six parameter studies of slow friction on a rough cone, and how they collapse on Eq. 17, mu-tilde = xi."""
+"""Fig. 3: six parameter studies of slow friction on a rough cone, and their collapse on mu-tilde = xi, Eq. 17."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import lru_cache
+from math import nan
 
 import numpy as np
 
@@ -187,7 +188,7 @@ def variable(scene: Scene, rms_slope: float) -> float:
 class Line:
     """ln mu-tilde = ln factor + slope ln xi, least squares over points; intervals of 95 % from resampled profiles.
 
-    worst : largest |mu-tilde / xi - 1| of the points ; points : how many
+    worst : largest |mu-tilde / xi - 1| of the points ; points : how many; with fewer than two all else is NaN
     """
 
     slope: float
@@ -201,6 +202,8 @@ class Line:
 def line(collapse: Collapse, where: np.ndarray, over: np.ndarray | float = 1.0) -> Line:
     """Fit a straight line through some points, their friction first divided by what is given."""
     where = where & np.isfinite(collapse.samples).all(axis=1)
+    if np.unique(collapse.xi[where]).size < 2:
+        return Line(nan, (nan, nan), nan, (nan, nan), nan, int(where.sum()))
     x = np.log(collapse.xi[where])
     samples = (collapse.samples / np.reshape(over, (-1, 1)) if np.ndim(over) else collapse.samples)[where]
     fit = _fit(x, samples.mean(axis=1))

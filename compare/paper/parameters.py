@@ -27,8 +27,8 @@ CONTACT_HURST = {"cone": 0.1, "sphere": 0.2}
 # Fig. 3 and Fig. 4: the load; slow enough that a viscous layer of a few pixels is remembered.
 LOAD, LOW_SPEED = 10.0, 1e-3
 
-# Figs. 5 to 7: as many speeds as in the experiment, in its range, on the sphere and the rubber of Fig. 4 with a loss
-# that is a power of the frequency; rougher at short waves, so that every force lies in the regime of the laws.
+# Figs. 5 to 7: as many speeds as in the experiment, in its range, on the sphere and the rubber of Fig. 4 with a
+# loss that is a power of frequency; rougher at short waves: every force lies in the regime of the laws.
 FORCES = tuple(float(f) for f in np.geomspace(2, 50, 10))
 SPEEDS = tuple(float(v) for v in np.geomspace(5e-4, 0.58, 28))
 LOSS_ROUGH = SelfAffine(hurst=0.2, rms_height=2e-5, longest=LENGTH)
@@ -47,10 +47,9 @@ class Study:
 
 
 def _pixels():
-    """Twenty spacings from 1e-5 to 1e-7 m, to within 2 % such that transforms over the length are fast."""
-    return tuple(
-        LENGTH / next_fast_len(round(LENGTH / pixel), real=True) for pixel in np.geomspace(1e-5, 1e-7, 20)
-    )
+    """Twenty spacings from 1e-5 to 1e-7 m, moved by 2 % at most to where transforms over it are fast."""
+    spacings = np.geomspace(1e-5, 1e-7, 20)
+    return tuple(LENGTH / next_fast_len(round(LENGTH / spacing)) for spacing in spacings)
 
 
 def _between(low, high):

@@ -6,6 +6,7 @@ frequency, Eq. 24, or comes from a user's own table of friction, load and speed:
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import nan
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from scene.scales import elastic_contact
 
 from .. import mastercurve
 from ..mastercurve import Curve, Misfit
-from ..metrics import estimate
 from ..outcome import Outcome
 from ..store import Task as AnyTask
 from ..study import Task
@@ -28,21 +28,34 @@ class Shifted:
 
     title : what the curves are
     collapse : the joint fit of the shifts; its curves are ln mu against ln F_N, one a speed
-    expected : exponent of the shift against the speed, -beta (n+1)/n; None where nothing is expected
+    exponent_error : standard error of the exponent of the shifts against the speed; of simulated curves by leaving
+        out one profile at a time, as the same profiles stand behind all points
+    expected : that exponent, -beta (n+1)/n; None where nothing is expected
     predicted : misfit of the curves once shifted by it
     """
 
     title: str
     collapse: mastercurve.Collapse
+    exponent_error: float
     expected: float | None = None
     predicted: Misfit | None = None
 
     @classmethod
-    def of(cls, title: str, curves: Sequence[Curve], expected: float | None = None) -> "Shifted":
-        """Shift the curves. Raises ValueError where there are too few points."""
+    def measured(cls, title: str, curves: Sequence[Curve]) -> "Shifted":
+        """Shift curves of which every point was measured by itself. Raises ValueError where points are too few."""
         collapse = mastercurve.collapse(curves)
-        predicted = None if expected is None else mastercurve.misfit_at(collapse, expected)
-        return cls(title, collapse, expected, predicted)
+        return cls(title, collapse, collapse.exponent_error)
+
+    @classmethod
+    def simulated(cls, title: str, friction: np.ndarray, expected: float) -> "Shifted":
+        """Shift curves of friction (speeds, loads, profiles) at the speeds and forces of parameters."""
+        collapse = mastercurve.collapse(_curves(friction))
+        error = nan
+        if np.isfinite(collapse.exponent_error):
+            left_out = range(friction.shape[2])
+            without = [mastercurve.collapse(_curves(np.delete(friction, k, axis=2))).exponent for k in left_out]
+            error = float(np.std(without) * np.sqrt(len(without) - 1))
+        return cls(title, collapse, error, expected, mastercurve.misfit_at(collapse, expected))
 
 
 @dataclass(frozen=True)
@@ -55,7 +68,7 @@ class Lossy:
     one_frequency, spectral : mu of Eq. 22 with the loss at the shortest wave, and with that of every wave at its
         own frequency; both leave out the macroscopic slope
     regime : of each load, arrays (loads,)
-    failed : solves without an answer
+    failed : solves without an answer; their profiles are left out everywhere
     """
 
     exponent: float
@@ -87,20 +100,18 @@ def _drawn(scene: Scene, profiles: int) -> tuple[Scene, ...]:
 
 def collect(exponent: float, found: Sequence[Task], outcomes: Mapping[AnyTask, Outcome]) -> Lossy:
     """Put the tasks of one exponent together."""
-    shape = len(parameters.SPEEDS), len(parameters.FORCES)
-    means = [estimate(row.friction_coefficient for row in outcomes[task].rows) for task in found]
-    mean = np.array([each.mean for each in means]).reshape(2, *shape)
-    error = np.array([each.error for each in means]).reshape(2, *shape)[0]
-    friction, smooth = mean
-    scene = parameters.lossy(exponent, 1.0, 1.0)
-    expected = equations.force_shift_exponent(exponent, scene.indenter.exponent)
-    named = rf"$\beta$ = {exponent:g}"
+    rows = [[row.friction_coefficient for row in outcomes[task].rows] for task in found]
+    shape = len(parameters.SPEEDS), len(parameters.FORCES), -1
+    friction = np.array(rows[: len(rows) // 2]).reshape(shape)
+    smooth = np.array(rows[len(rows) // 2 :]).reshape(shape)
+    known = friction[:, :, np.isfinite(friction).all(axis=(0, 1))]
+    expected = equations.force_shift_exponent(exponent, parameters.lossy(exponent, 1.0, 1.0).indenter.exponent)
     one_frequency, spectral, regime = _predicted(exponent)
     return Lossy(
         exponent=exponent,
-        whole=Shifted.of(f"{named}, whole friction", _curves(friction, error), expected),
-        rough=Shifted.of(f"{named}, less that of the smooth body", _curves(friction - smooth, error), expected),
-        smooth=smooth,
+        whole=Shifted.simulated(f"β = {exponent:g}, whole friction", known, expected),
+        rough=Shifted.simulated(f"β = {exponent:g}, less that of the smooth body", known - smooth, expected),
+        smooth=smooth[:, :, 0],
         one_frequency=one_frequency,
         spectral=spectral,
         regime=regime,
@@ -108,13 +119,15 @@ def collect(exponent: float, found: Sequence[Task], outcomes: Mapping[AnyTask, O
     )
 
 
-def _curves(friction, error):
-    loads = np.array(parameters.FORCES)
-    curves = []
-    for speed, mean, deviation in zip(parameters.SPEEDS, friction, error, strict=True):
-        known = mean > 0
-        curves.append(Curve(speed, np.log(loads[known]), np.log(mean[known]), deviation[known] / mean[known]))
-    return curves
+def _curves(friction):
+    """Means over the profiles, of points that have friction left."""
+    mean = friction.mean(axis=2)
+    error = friction.std(axis=2, ddof=1) / np.sqrt(friction.shape[2])
+    logs = np.log(parameters.FORCES)
+    return [
+        Curve(speed, logs[mu > 0], np.log(mu[mu > 0]), (deviation / mu)[mu > 0])
+        for speed, mu, deviation in zip(parameters.SPEEDS, mean, error, strict=True)
+    ]
 
 
 def _predicted(exponent):

@@ -1,0 +1,146 @@
+"""The contact of a rough cone and a rough sphere in one dimension, whole and close up (paper, Fig. 1)."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
+
+from scene import Cone
+from scene.regime import SMALL_SLOPE
+
+from ..paper.contacts import Configuration
+from . import style
+
+NAME = "paper-contacts"
+# Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].
+SHOWN, CLOSE = 1.9, 2e-4
+# Height of a panel over its width, and over that of what touches; how many times heights may be exaggerated.
+TALL, ROOM = 0.5, 1.3
+EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 4), (1, 2, 3, 4, 5, 6, 8)).ravel()
+
+
+def figure(contacts: Mapping[str, Configuration]) -> Figure | None:
+    """A column for each shape. Above: the contact. Below: where it ends most often. None without any."""
+    solved = _solved(contacts)
+    if not solved:
+        return None
+    drawing = style.canvas(style.DOUBLE, 4.4)
+    panels = drawing.subplots(2, len(solved), squeeze=False)
+    for (above, below), letter, (shape, at) in zip(panels.T, "ab", solved.items(), strict=False):
+        heights = _heights(at)
+        whole, close = SHOWN * at.relaxed.radius * np.array([-1, 1]), _close_up(at)
+        for axes, limits, name, width in (
+            (above, whole, f"({letter}) rough {shape}", 1.4),
+            (below, close, "close-up", 2.4),
+        ):
+            times = _frame(axes, limits, *heights)
+            _bodies(axes, *heights, width)
+            axes.set_title(f"{name}, heights × {times:g}")
+        above.axhline(0, color="0.3", linewidth=0.7, linestyle=(0, (5, 3)), zorder=1)
+        (left, right), (bottom, top) = below.get_xlim(), below.get_ylim()
+        above.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, linewidth=0.9, zorder=5))
+        above.text(0.5, 0.9, "rigid indenter", transform=above.transAxes, ha="center", fontsize=7)
+        above.text(0.03, 0.05, "elastomer flows →", transform=above.transAxes, fontsize=7)
+    drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    return drawing
+
+
+def sheets(contacts: Mapping[str, Configuration]) -> dict[str, dict[str, np.ndarray]]:
+    """Columns of each shape: x, indenter and surface [m], heights above the undeformed surface, and contact."""
+    found = {}
+    for shape, at in _solved(contacts).items():
+        x, body, surface, contact = _heights(at)
+        found[f"{NAME}-{shape}"] = {"x": x, "indenter": body, "surface": surface, "contact": contact.astype(int)}
+    return found
+
+
+def caption(contacts: Mapping[str, Configuration]) -> str:
+    """What the figure shows."""
+    parameters = " ".join(f"Rough {shape}: {_parameters(at)}" for shape, at in contacts.items())
+    steep = any(at.row.measures["rms_slope"] > SMALL_SLOPE for at in _solved(contacts).values())
+    outside = (
+        f" Slopes above {SMALL_SLOPE:g} lie outside what a linear theory of contact presupposes." if steep else ""
+    )
+    return (
+        "Rigid rough profile and surface of the elastomer at its nodes in steady sliding, in one dimension. "
+        "Heights are those above the undeformed surface (dashed), stretched by the factor in each title. In the "
+        "frame of the indenter the elastomer flows to the right; real contact is in bold. Below, "
+        f"{CLOSE * 1e3:g} mm (boxed above) in which the elastomer leaves the indenter most often: behind each "
+        f"asperity it is free and returns exponentially. {parameters}{outside}"
+    )
+
+
+def _solved(contacts):
+    return {shape: at for shape, at in contacts.items() if at.row.reason is None}
+
+
+def _parameters(at):
+    scene, row = at.scene, at.row
+    body, solid, motion, rough = scene.indenter, scene.elastomer, scene.motion, scene.roughness
+    shape = f"θ = {np.degrees(body.angle):g}°" if isinstance(body, Cone) else f"R = {body.radius * 1e3:g} mm"
+    given = (
+        f"{shape}, H = {rough.hurst:g}, load {motion.load:g} N, G = {solid.modulus:g} Pa, "
+        f"τ = {solid.relaxation_time:g} s, v = {motion.speed:g} m/s, rms height {rough.rms_height * 1e6:g} µm, "
+        f"one profile (seed {rough.seed})"
+    )
+    if row.reason is not None:
+        return f"{given}; it failed and is left out: {row.reason}."
+    return (
+        f"{given}; found: depth of the macroscopic tip {row.depth * 1e6:.3g} µm, real contact "
+        f"{row.measures['contact_length'] * 1e3:.3g} mm, rms slope {row.measures['rms_slope']:.3g}, friction "
+        f"coefficient {row.friction_coefficient:.3g}. Smooth and at rest the half-width is "
+        f"{at.relaxed.radius * 1e3:.3g} mm and the depth {at.relaxed.depth * 1e6:.3g} µm."
+    )
+
+
+def _heights(at):
+    """x, rigid profile and surface [m] above the undeformed surface, and where they touch."""
+    fields = at.fields
+    return fields["x"], fields["profile"] - at.row.depth, -fields["displacement"], fields["contact"]
+
+
+def _close_up(at):
+    """The stretch [m] with the most ends of contact."""
+    x, contact = at.fields["x"], at.fields["contact"]
+    nodes = max(2, round(CLOSE / (x[1] - x[0])))
+    ends = np.convolve(np.abs(np.diff(contact.astype(int))), np.ones(nodes), "valid")
+    first = int(np.argmax(ends))
+    return np.array([x[first], x[first] + CLOSE])
+
+
+def _frame(axes: Axes, limits, x, body, surface, contact) -> float:
+    """Limits around what touches, and how many times heights are exaggerated there, a round number."""
+    seen = (limits[0] <= x) & (x <= limits[1])
+    low, high = min(surface[seen].min(), body[seen].min()), max(surface[seen].max(), body[seen & contact].max())
+    width = np.ptp(limits)
+    times = max(times for times in EXAGGERATIONS if times * ROOM * (high - low) <= TALL * width)
+    height = TALL * width / times
+    bottom = low - (height - (high - low)) / 3
+    axes.set(xlim=limits * 1e3, ylim=(bottom * 1e6, (bottom + height) * 1e6), aspect=times * 1e-3)
+    axes.set(xlabel="x [mm]", ylabel="height [µm]")
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+    return times
+
+
+def _bodies(axes, x, body, surface, contact, width):
+    x, body, surface = x * 1e3, body * 1e6, surface * 1e6
+    bottom, top = axes.get_ylim()
+    axes.fill_between(x, np.maximum(surface, bottom), bottom, color="#E8DFC8", linewidth=0)
+    axes.fill_between(x, np.minimum(body, top), top, color="#B5B5B5", linewidth=0)
+    axes.plot(x, body, color="0.35", linewidth=0.5, label="rigid profile")
+    axes.plot(x, surface, color="#6B5B2E", linewidth=0.8, label="surface of the elastomer")
+    # A marker, too, since contact may be at one node.
+    axes.plot(
+        x,
+        np.where(contact, surface, np.nan),
+        color=style.COLOUR["MDR"],
+        linewidth=width,
+        marker="o",
+        markersize=width,
+        markeredgewidth=0,
+        label="real contact",
+        solid_capstyle="round",
+    )

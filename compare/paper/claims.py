@@ -1,0 +1,169 @@
+"""The claims of the paper, each with what the simulation measures and whether it holds."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from math import isfinite
+
+import numpy as np
+
+from .campaign import line
+from .law import Law
+from .reproduction import Reproduction
+from .shifts import Shifted
+
+# Of a standard error, for an interval of 95 %.
+WIDE = 1.96
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One claim: a number that the paper states or implies, and what is measured of it.
+
+    name, figure : what is claimed, and the name of the figure that shows it
+    expected, tolerance : the number, and how far from it still counts as it, absolute
+    value, low, high : measured, with its interval of 95 %; NaN where it cannot be had
+    text : how it was measured, and what a deviation means
+    """
+
+    name: str
+    figure: str
+    expected: float
+    tolerance: float
+    value: float
+    low: float
+    high: float
+    text: str
+
+    @property
+    def verdict(self) -> str:
+        """holds if the whole interval lies within the tolerance, fails if none of it does, else undecided."""
+        low, high = self.expected - self.tolerance, self.expected + self.tolerance
+        if not (isfinite(self.low) and isfinite(self.high)):
+            return "undecided"
+        if low <= self.low and self.high <= high:
+            return "holds"
+        return "fails" if self.high < low or self.low > high else "undecided"
+
+    @property
+    def row(self) -> dict:
+        """Every field and the verdict."""
+        return asdict(self) | {"verdict": self.verdict}
+
+    @property
+    def written(self) -> str:
+        """Value and interval in words."""
+        if not isfinite(self.value):
+            return "undecided"
+        return f"{self.value:.4g} ({self.low:.4g} to {self.high:.4g})"
+
+
+def claims(found: Reproduction) -> list[Claim]:
+    """Every claim, in the order of the paper."""
+    return [*_slope_one(found), *_alphas(found), *_plateaus(found.laws), *_shifts(found)]
+
+
+def _slope_one(found) -> Iterator[Claim]:
+    """Eq. 17: on all points, where its conditions hold, and with the macroscopic slope kept."""
+    collapse = found.collapse
+    flags = collapse.flags
+    slow = flags["xi << 1"] & flags["2a < L"] & flags["h0 << d"]
+    cases = (
+        (
+            "where its conditions hold",
+            collapse.holds,
+            1.0,
+            "points with xi at most 0.05, h_0 at most d/10, 2a below L, and a macroscopic slope of at most a "
+            "fifth of that of the roughness",
+        ),
+        (
+            "whatever the macroscopic slope",
+            slow,
+            1.0,
+            "of the same without the last condition: Eq. 11 drops the slope of the macroscopic profile, which on "
+            "a nearly smooth one makes all the friction",
+        ),
+        (
+            "whatever the macroscopic slope, which is kept as in Eq. 10",
+            slow,
+            collapse.with_macro_slope,
+            "of the same, with the mean square of both slopes in place of that of the roughness",
+        ),
+    )
+    for name, where, over, text in cases:
+        fit = line(collapse, where, over)
+        yield Claim(
+            name=f"Eq. 17, friction at low speed grows as xi^1, {name}",
+            figure="paper-studies",
+            expected=1.0,
+            tolerance=0.02,
+            value=fit.slope,
+            low=fit.slope_interval[0],
+            high=fit.slope_interval[1],
+            text=f"Exponent of a power law through {fit.points} {text}. Its factor is {fit.factor:.3f}, and the "
+            f"farthest point is {fit.worst:.1%} away from xi.",
+        )
+
+
+def _alphas(found) -> Iterator[Claim]:
+    for law in found.laws:
+        worst = law.deviation[np.argmax(np.abs(law.deviation))]
+        yield Claim(
+            name=f"Eq. 19, best alpha, {law.shape}",
+            figure="paper-law",
+            expected=1.5,
+            tolerance=0.1,
+            value=law.alpha,
+            low=law.alpha_interval[0],
+            high=law.alpha_interval[1],
+            text=f"Least squares of ln mu over {law.xi.size} values of xi from {law.xi[0]:g} to {law.xi[-1]:g}. "
+            f"With alpha = 1.5 the law is at most {abs(worst):.1%} off.",
+        )
+    one, other = found.laws
+    count = min(one.alphas.size, other.alphas.size)
+    between = np.percentile(one.alphas[:count] - other.alphas[:count], [2.5, 97.5])
+    yield Claim(
+        name=f"alpha does not depend on the shape: {one.shape} minus {other.shape}",
+        figure="paper-law",
+        expected=0.0,
+        tolerance=0.1,
+        value=one.alpha - other.alpha,
+        low=float(between[0]),
+        high=float(between[1]),
+        text="Difference of the two; the profiles are drawn again alike for both shapes.",
+    )
+
+
+def _plateaus(laws: tuple[Law, ...]) -> Iterator[Claim]:
+    for law in laws:
+        yield Claim(
+            name=f"Eq. 14, the plateau is sqrt(2) times the rms slope, {law.shape}",
+            figure="paper-law",
+            expected=1.0,
+            tolerance=0.03,
+            value=law.plateau,
+            low=law.plateau - WIDE * law.plateau_error,
+            high=law.plateau + WIDE * law.plateau_error,
+            text=f"mu-tilde at xi = {law.xi[-1]:g} over Eq. 19 there, with the rms slope by finite differences.",
+        )
+
+
+def _shifts(found) -> Iterator[Claim]:
+    for loss in found.losses:
+        for name, shifted in (("friction", loss.whole), ("friction less that of the smooth body", loss.rough)):
+            yield _exponent(loss.exponent, name, shifted)
+
+
+def _exponent(exponent, name, shifted: Shifted) -> Claim:
+    collapse = shifted.collapse
+    error = WIDE * shifted.exponent_error
+    return Claim(
+        name=f"Fig. 7, shift of {name} as a power of the speed, loss ~ frequency^{exponent:g}",
+        figure=f"shifted-curves-{exponent:g}",
+        expected=shifted.expected,
+        tolerance=0.05 * abs(shifted.expected),
+        value=collapse.exponent,
+        low=collapse.exponent - error,
+        high=collapse.exponent + error,
+        text=f"Eq. 23: horizontal shifts that collapse the curves: {collapse.verdict}. They miss one another by "
+        f"{collapse.after.rms:.1%} with the scatter of the points at {collapse.scatter:.1%}.",
+    )

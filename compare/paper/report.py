@@ -1,0 +1,55 @@
+"""The page of the paper: claims, figures, tables."""
+
+from pathlib import Path
+
+from ..figures import paper_contacts, paper_law, paper_losses, paper_sketch, paper_studies, shifted_curves
+from ..publish import Drawn, draw, machine, render, versions, write_csv, write_json, write_text
+from ..sweep import Swept
+from . import parameters
+from .claims import claims
+from .reproduction import Reproduction
+
+PAGE, MANIFEST = "paper.html", "manifest.json"
+
+
+def write_paper(folder: Path, found: Reproduction, swept: Swept) -> Path:
+    """Write page, figures and tables into a folder, and return the path of the page."""
+    drawn = figures(folder, found)
+    said = claims(found)
+    write_csv(folder / "claims.csv", [claim.row for claim in said])
+    manifest = {
+        "versions": versions(),
+        "platform": machine(),
+        "tasks": {"solved": swept.solved, "reused": swept.reused},
+        "wall_seconds": swept.seconds,
+        "claims": [claim.row for claim in said],
+    }
+    write_json(folder / MANIFEST, manifest)
+    page = render(
+        "paper.html",
+        claims=said,
+        figures=drawn,
+        parameters=parameters,
+        solves=found.collapse.samples.size,
+        sweeps=found.collapse.sweeps,
+        failed=found.failed,
+        swept=swept,
+    )
+    write_text(folder / PAGE, page)
+    return folder / PAGE
+
+
+def figures(folder: Path, found: Reproduction) -> list[Drawn]:
+    """Write every figure with its tables into a folder."""
+    drawn = [
+        draw(folder, paper_contacts, found.contacts),
+        draw(folder, paper_sketch, None),
+        draw(folder, paper_studies, found.collapse),
+        draw(folder, paper_law, found.laws),
+        *(
+            draw(folder, shifted_curves, [loss.whole, loss.rough], suffix=f"-{loss.exponent:g}")
+            for loss in found.losses
+        ),
+        draw(folder, paper_losses, found.losses),
+    ]
+    return [figure for figure in drawn if figure]

@@ -1,0 +1,104 @@
+"""Many contacts at once have the answers of one at a time."""
+
+from dataclasses import replace
+from math import radians
+
+import numpy as np
+import pytest
+
+from mdr1d import MDR
+from mdr1d.ensemble import solve_profiles
+from scene import (
+    Cone,
+    Cylinder,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
+
+ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=1e-2)
+SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
+CONE = Scene(Cone(angle=radians(10)), SOLID, Slide(speed=1e-2, load=10.0), ROUGH)
+SPHERE = replace(CONE, indenter=Sphere(radius=1e-2))
+POINTS = 1000
+# Both meet the load to 1e-10; friction follows the load in proportion or less.
+MET = 1e-9
+
+
+def one_at_a_time(scene, points, seed):
+    """On a grid of three periods, which a wide contact needs."""
+    seeded = replace(scene, roughness=replace(scene.roughness, seed=seed))
+    return MDR(points=3 * points, extent=3 * scene.roughness.longest).solve(seeded)
+
+
+def moved(scene, **motion):
+    return replace(scene, motion=replace(scene.motion, **motion))
+
+
+SCENES = {
+    "slow": CONE,
+    "fast": moved(CONE, speed=10.0),
+    "at rest": moved(CONE, speed=0.0),
+    "light": moved(CONE, load=1e-3),
+    "wider than the period": moved(CONE, load=60.0),
+    "sphere": SPHERE,
+    "power law": replace(CONE, indenter=PowerLaw(coefficient=1e4, exponent=3.5)),
+    "resolved": replace(CONE, roughness=replace(ROUGH, shortest=1e-4)),
+    "smoothest": replace(CONE, roughness=replace(ROUGH, hurst=1.0)),
+    "roughest": replace(CONE, roughness=replace(ROUGH, hurst=0.0)),
+}
+
+
+def test_every_answer_is_that_of_the_solver():
+    answers = solve_profiles(list(SCENES.values()), [POINTS] * len(SCENES), seeds=(3, 8))
+    for i, scene in enumerate(SCENES.values()):
+        for column, seed in enumerate((3, 8)):
+            alone = one_at_a_time(scene, POINTS, seed)
+            assert answers.friction[i, column] == pytest.approx(alone.friction_coefficient, rel=MET, abs=MET)
+            assert answers.depth[i, column] == pytest.approx(alone.depth, rel=MET)
+            assert answers.length[i, column] == pytest.approx(alone.measures["contact_length"], rel=1e-7)
+            assert answers.rms_slope[i, column] == pytest.approx(alone.measures["rms_slope"], rel=1e-12)
+
+
+def test_the_order_of_scenes_and_seeds_does_not_matter():
+    scenes, points = list(SCENES.values()), [POINTS] * len(SCENES)
+    there = solve_profiles(scenes, points, seeds=(3, 8))
+    back = solve_profiles(scenes[::-1], points, seeds=(8, 3))
+    np.testing.assert_allclose(back.friction[::-1, ::-1], there.friction, rtol=MET, atol=MET)
+
+
+def test_each_scene_has_its_own_points():
+    answers = solve_profiles([CONE, CONE], [500, 900], seeds=(1,))
+    for i, points in enumerate((500, 900)):
+        alone = one_at_a_time(CONE, points, 1)
+        assert answers.friction[i, 0] == pytest.approx(alone.friction_coefficient, rel=MET)
+
+
+def test_neighbours_along_a_parameter_save_sweeps():
+    scenes = [moved(CONE, load=float(load)) for load in np.geomspace(1.0, 10.0, 20)]
+    answers = solve_profiles(scenes, [5000] * 20, seeds=range(3))
+    # From the sure start alone each takes five.
+    assert answers.sweeps[1:].mean() <= 4.5
+    assert answers.sweeps.min() >= 1
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        replace(CONE, motion=Slide(speed=1.0, depth=1e-4)),
+        replace(CONE, motion=Indent(load=1.0)),
+        replace(CONE, roughness=None),
+        replace(
+            CONE, elastomer=StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-3)
+        ),
+        replace(CONE, indenter=Cylinder(radius=1e-2), motion=Slide(speed=1.0, line_load=1.0), roughness=None),
+    ],
+)
+def test_other_scenes_are_refused_by_name(scene):
+    with pytest.raises(ValueError, match="take MDR for any other scene"):
+        solve_profiles([scene], [POINTS], seeds=(1,))
