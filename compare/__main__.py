@@ -56,7 +56,7 @@ def paper(
     output: Annotated[Path, typer.Option(help="Folder of the page and of what has been solved.")] = Path(
         "crosscheck-paper"
     ),
-    profiles: Annotated[int, typer.Option(min=2, help="Rough profiles averaged; as published, 200.")] = 200,
+    profiles: Annotated[int, typer.Option(min=3, help="Rough profiles averaged; as published, 200.")] = 200,
     workers: Workers = None,
 ) -> None:
     """Simulate the paper again in one dimension: its figures, its parameter studies, its claims."""

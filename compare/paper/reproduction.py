@@ -36,7 +36,7 @@ class Size:
     """How much is simulated.
 
     studies : of Fig. 3
-    profiles : averaged in Fig. 4, 2 at least
+    profiles : averaged in Fig. 4, 3 at least
     lossy : averaged in Figs. 5 to 7
     """
 

@@ -51,7 +51,7 @@ class Shifted:
         """Shift curves of friction (speeds, loads, profiles) at the speeds and forces of parameters."""
         collapse = mastercurve.collapse(_curves(friction))
         error = nan
-        if np.isfinite(collapse.exponent_error):
+        if np.isfinite(collapse.exponent_error) and friction.shape[2] > 2:
             left_out = range(friction.shape[2])
             without = [mastercurve.collapse(_curves(np.delete(friction, k, axis=2))).exponent for k in left_out]
             error = float(np.std(without) * np.sqrt(len(without) - 1))
