@@ -5,17 +5,11 @@ from time import process_time
 
 import numpy as np
 
-from scene import EmptyContact, Result, Scene, SolveError
+from scene import EmptyContact, Result, Scene
 
 from .marching import History, march
 from .modes import modes_of
-from .profile import lay_out, map_profile
-
-# Span of the widest contact of a smooth indenter over its grid below which the grid is drawn closer, and the room
-# then left around it.
-_LEAST_SHARE, _ROOM = 0.2, 1.05
-# Pixels across it below which its forces are those of the pixels.
-_LEAST_PIXELS = 5
+from .profile import check_resolved, drawn_closer, lay_out, map_profile
 
 
 def marched(solver, scene: Scene, reduced: Scene, started: float) -> Result:
@@ -25,7 +19,6 @@ def marched(solver, scene: Scene, reduced: Scene, started: float) -> Result:
     started : processor time [s]
     """
     layout, body, history, marches = _followed(solver, reduced)
-    _check(body, history)
     program, modulus = scene.motion, scene.elastomer.indentation_modulus
     by_load = program.pressed_by == "load"
     force = program.prescribed(history.time) if by_load else modulus * history.force
@@ -74,25 +67,22 @@ def _followed(solver, scene):
         body = map_profile(held, layout, solver.spectrum)
         history = march(scene.motion, body, modes, modulus, solver.steps)
         marches += 1
-        free = solver.extent is None and scene.roughness is None and history.reach > 0
-        if not (free and 2 * history.reach < _LEAST_SHARE * layout.extent):
+        free = solver.extent is None and scene.roughness is None
+        extent = drawn_closer(layout, 2 * history.reach, history.reach) if free else None
+        if extent is None:
+            _check_touched(body, history)
             return layout, body, history, marches
-        extent = 2 * _ROOM * (history.reach + _LEAST_PIXELS * layout.pixel)
 
 
-def _check(body, history: History):
-    """Raise SolveError where nothing ever touches, or a smooth contact spans too few pixels."""
+def _check_touched(body, history: History):
+    """Raise EmptyContact where nothing ever touches, SolveError where a smooth contact spans too few pixels."""
     widest = history.length.max()
     if not widest > 0:
         raise EmptyContact(
             f"nothing touches in the whole program: the lowest point lies at {body.lowest:g} m above the "
             "macroscopic tip; press deeper"
         )
-    if body.surface is None and widest < _LEAST_PIXELS * body.pixel:
-        raise SolveError(
-            f"the widest contact spans {widest / body.pixel:.2g} pixels of {body.pixel:g} m, {_LEAST_PIXELS} are "
-            "needed: take more points or a smaller extent"
-        )
+    check_resolved(body, widest)
 
 
 def _measures(scene, body, history: History):

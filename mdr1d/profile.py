@@ -5,13 +5,17 @@ from math import ceil
 
 import numpy as np
 
-from scene import PowerLaw, Scene
+from scene import PowerLaw, Scene, SolveError
 from scene.scales import elastic_contact
 
 from .surface import Spectrum, Surface, draw
 
 # Room beyond the farthest point that contact can reach.
 _MARGIN = 1.05
+# Span of a smooth contact over its grid below which the grid is drawn closer, and the room then left around it.
+_LEAST_SHARE, _ROOM = 0.2, 1.05
+# Pixels across a contact below which its forces are those of the pixels.
+_LEAST_PIXELS = 5
 # Quotients of lengths that are whole numbers but for rounding.
 _ROUNDING = 1e-12
 
@@ -103,6 +107,29 @@ def lay_out(scene: Scene, points: int, extent: float | None, spectrum: Spectrum 
     period = ceil(rough.longest * points / extent * (1 - _ROUNDING))
     pixel = rough.longest / period
     return Grid(pixel, ceil(extent / (2 * pixel) * (1 - _ROUNDING)), period)
+
+
+def drawn_closer(layout: Grid, span: float, reach: float) -> float | None:
+    """Extent [m] of a grid closer around a smooth contact that viscosity keeps small; None if this one is close.
+
+    span : of the contact [m]; reach : its farthest point from the tip [m], zero without contact
+    """
+    if reach == 0 or span >= _LEAST_SHARE * layout.extent:
+        return None
+    # A contact of a few pixels is known to a pixel at best.
+    return 2 * _ROOM * (reach + _LEAST_PIXELS * layout.pixel)
+
+
+def check_resolved(body: Profile, span: float) -> None:
+    """Raise SolveError where a smooth contact, of a span [m] at its widest, has too few pixels.
+
+    A rough profile is what its nodes make it and may touch on less than a pixel; a smooth shape may not.
+    """
+    if body.surface is None and span < _LEAST_PIXELS * body.pixel:
+        raise SolveError(
+            f"the contact spans {span / body.pixel:.2g} pixels of {body.pixel:g} m, {_LEAST_PIXELS} are needed: "
+            "take more points or a smaller extent"
+        )
 
 
 def map_profile(scene: Scene, grid: Grid, spectrum: Spectrum = "mapped") -> Profile:

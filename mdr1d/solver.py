@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Plane, Program, Result, Scene, SolveError, Wave
+from scene import Cylinder, Plane, Program, Result, Scene, Wave
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
@@ -18,13 +18,9 @@ from .indentation import Sweep, at_depth, under_load
 from .maxwell import sweep_modes
 from .measures import measures
 from .modes import modes_of
-from .profile import Grid, Profile, lay_out, map_profile, unmapped
+from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, unmapped
 from .surface import Spectrum
 
-# Span of a smooth contact over its grid below which the grid is drawn closer, and the room then left around it.
-_LEAST_SHARE, _ROOM = 0.2, 1.05
-# Pixels across a contact below which its forces are those of the pixels.
-_LEAST_PIXELS = 5
 # One period of roughness must fit into memory, and have waves at all.
 _MOST_NODES, _LEAST_NODES = 2**25, 4
 
@@ -162,15 +158,12 @@ class MDR:
             approach, contact, sweeps = press(scene, body, sweep)
             total += sweeps
             span = contact.last - contact.first
-            free = self.extent is None and scene.roughness is None
-            if not (free and span < _LEAST_SHARE * layout.extent):
-                break
             reach = max(abs(end - layout.extent / 2) for end in (contact.first, contact.last))
-            # A contact of a few pixels is known to a pixel at best.
-            extent = 2 * _ROOM * (reach + _LEAST_PIXELS * layout.pixel)
-        if body.surface is None:
-            _check_resolved(body, span)
-        return layout, body, approach, contact, total
+            free = self.extent is None and scene.roughness is None
+            extent = drawn_closer(layout, span, reach) if free else None
+            if extent is None:
+                check_resolved(body, span)
+                return layout, body, approach, contact, total
 
 
 def _flow(scene: Scene) -> Sweep:
@@ -182,15 +175,6 @@ def _flow(scene: Scene) -> Sweep:
         return lambda heights, pixel, depth: sweep_modes(heights, pixel, modes, speed, depth)
     memory = speed * elastomer.viscosity / equilibrium
     return lambda heights, pixel, depth: sweep(heights, pixel, memory, depth)
-
-
-def _check_resolved(body: Profile, span: float) -> None:
-    """A rough profile is what its nodes make it and may touch on less than a pixel; a smooth shape may not."""
-    if span < _LEAST_PIXELS * body.pixel:
-        raise SolveError(
-            f"the contact spans {span / body.pixel:.2g} pixels of {body.pixel:g} m, {_LEAST_PIXELS} are needed: "
-            "take more points or a smaller extent"
-        )
 
 
 def _too_broad(scene: Scene) -> list[str]:

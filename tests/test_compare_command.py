@@ -93,7 +93,7 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert manifest["tasks"] == {"solved": now, "reused": reused}
 
 
-def test_the_paper_is_simulated_and_resumed(folder):
+def test_the_paper_is_simulated_and_judged(folder):
     status, said, complained = finish(start(folder, "paper", "--profiles", "3", "--workers", "2"))
     assert (status, complained) == (0, "")
     assert "Eq. 17" in said
@@ -104,8 +104,6 @@ def test_the_paper_is_simulated_and_resumed(folder):
     assert {claim["verdict"] for claim in manifest["claims"]} <= {"holds", "fails", "undecided"}
     text = page.read_text()
     assert all(f'id="{claim["figure"]}"' in text for claim in manifest["claims"])
-    again = finish(start(folder, "paper", "--profiles", "3", "--workers", "2"))[1]
-    assert re.search(r"^0 tasks solved, \d+ reused", again, re.MULTILINE)
 
 
 def test_a_users_table_is_shifted(folder):
