@@ -7,8 +7,8 @@ from collections.abc import Callable
 from math import pi, radians, sqrt, tan
 from pathlib import Path
 
+import accuracy_1d
 import accuracy_3d
-import numpy as np
 from tables import order, table
 
 from bem3d import BEM
@@ -122,30 +122,6 @@ def rough() -> str:
     return table(f"speed, m/s|load, N|{waves}|μ on 37 points a wave", rows())
 
 
-def figure_4() -> str:
-    """The paper's Fig. 4 in one dimension: deviation from Eq. 19 with alpha = 1.5."""
-    load, profiles = 10.0, 50
-
-    def deviation(shape, xi):
-        n, c = shape.exponent, shape.mdr_coefficient
-        scale = (load / (8 * G)) ** (n / (n + 1)) * (c * n / (n + 1)) ** (1 / (n + 1))
-        ratios = []
-        for seed in range(profiles):
-            line = SelfAffine(hurst=0.4, rms_height=5e-5, longest=1e-2, seed=seed)
-            at_rest = MDR().solve(Scene(shape, Elastic(G), Indent(load=load), line))
-            slope = at_rest.measures["rms_slope"]
-            motion = Slide(speed=xi * sqrt(2) / (TAU * slope) * scale, load=load)
-            mu = MDR().solve(Scene(shape, Kelvin(G, TAU), motion, line)).friction_coefficient
-            ratios.append(mu / (sqrt(2) * slope))
-        return np.mean(ratios) / (1 + xi**-1.5) ** (-1 / 1.5) - 1
-
-    def rows():
-        for name, shape in (("cone, 10°", Cone(THETA)), ("sphere, R = 10 mm", Sphere(R))):
-            yield (name, *(f"{deviation(shape, xi):+.1%}" for xi in (0.01, 0.1, 1.0, 10.0, 100.0)))
-
-    return table("shape|ξ = 0.01|0.1|1|10|100", rows())
-
-
 SECTIONS: dict[str, tuple[str, Callable[[], str]]] = {
     "At rest: Hertz and Sneddon": (
         "Relative error of the force at a given depth, by points across the contact. The order is fitted over "
@@ -175,19 +151,13 @@ SECTIONS: dict[str, tuple[str, Callable[[], str]]] = {
         "surface averaged with the pressure at rest, which the tests hold; at other speeds there is none.",
         rough,
     ),
-    "The paper's Fig. 4": (
-        "1D, F = 10 N, G = 1 MPa, h₀ = 50 µm, τ = 1 ms, H = 0.4, 5000 points on 10 mm, cut-off at the Nyquist "
-        "wave number, rms slope by finite differences (about 2.4, far outside small slopes), mapped profiles: "
-        "mean of 50 profiles of μ/(√2 rms slope), against (1 + ξ^-1.5)^(-1/1.5).",
-        figure_4,
-    ),
-} | accuracy_3d.SECTIONS
+}
 
 
 def main() -> None:
     """Measure everything and write the page."""
     parts = ["# Accuracy\n\nMeasured by `python docs/accuracy.py`, which writes this page."]
-    for title, (text, measure) in SECTIONS.items():
+    for title, (text, measure) in (SECTIONS | accuracy_1d.SECTIONS | accuracy_3d.SECTIONS).items():
         parts.append(f"## {title}\n\n{text}\n\n{measure()}")
         print(parts[-1], "\n", flush=True)
     Path(__file__).with_suffix(".md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from compare.references import full_contact, indentation, line_contact, waves
-from scene import Cone, Kelvin, KelvinChain, PowerLaw, Prony, Sphere, StandardLinearSolid
+from compare.references import foundation, full_contact, indentation, line_contact, waves
+from mdr1d import MDR
+from scene import Cone, Kelvin, KelvinChain, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
 
 # Sums and powers of a few numbers.
 ROUNDING = 1e-12
@@ -430,3 +431,91 @@ def test_indentation_names_what_is_wrong():
         indentation.loading_force(sphere, SOLID, [0, 1], [0, 1, 2], 0.5)
     with pytest.raises(ValueError, match="depth falls"):
         indentation.loading_depth(sphere, SOLID, [0, 1, 1.01], [0, 1, 0], [0.9, 1.0, 1.01])
+
+
+# One-dimensional foundation
+
+STANDARD = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxation_time=1.0)
+BODIES = (Sphere(radius=2.0), Cone(angle=0.4))
+
+
+def static(shape, a):
+    """Depth, and 2n/(n+1) c a^(n+1) of its force over E*."""
+    c, n = shape.mdr_coefficient, shape.exponent
+    return c * a**n, 2 * n / (n + 1) * c * a ** (n + 1)
+
+
+@pytest.mark.parametrize("shape", BODIES)
+@pytest.mark.parametrize("solid", [RUBBER, STANDARD])
+def test_a_slow_foundation_is_the_static_one_with_twice_the_friction_of_three_dimensions(shape, solid):
+    depth, force = static(shape, 1.0)
+    speed = 1e-5 / solid.relaxation_time
+    normal, friction = foundation.sliding_forces(shape, solid, speed, depth)
+    assert normal == pytest.approx(solid.indentation_modulus * force, rel=1e-3)
+    # The mean lag, Kelvin's tau or that of the branch, times int g'^2 from -a to a.
+    lag = 1.0 if solid is RUBBER else solid.glassy_modulus / solid.rubbery_modulus - 1
+    c, n = shape.mdr_coefficient, shape.exponent
+    square = 2 * (n * c) ** 2 / (2 * n - 1)
+    assert friction == pytest.approx(1e-5 * lag * solid.indentation_modulus * square, rel=1e-3)
+
+
+def test_the_kelvin_sphere_leaves_where_the_closed_form_says():
+    """b = sqrt(a^2 + l^2) - l, and mu = 2 l / R at low speed."""
+    shape, memory = Sphere(radius=2.0), 0.7
+    b = sqrt(1 + memory**2) - memory
+    x = np.linspace(-1, b, 200_001)
+    f = (1 - x**2 - 2 * memory * x) / 2.0
+    normal, friction = foundation.sliding_forces(shape, RUBBER, memory / RUBBER.relaxation_time, 0.5)
+    assert f.min() > -1e-9
+    assert normal == pytest.approx(np.trapezoid(f, x), rel=1e-9)
+    assert friction == pytest.approx(-np.trapezoid(x * f, x), rel=1e-9)
+
+
+def test_the_kelvin_cone_ends_at_its_own_slope():
+    """mu = (pi/2) tan(angle) exactly once v tau >= a: nothing of the trailing flank is left."""
+    shape = Cone(angle=0.4)
+    for memory in (1.0, 30.0):
+        normal, friction = foundation.sliding_forces(
+            shape, RUBBER, memory / RUBBER.relaxation_time, shape.mdr_coefficient
+        )
+        assert friction / normal == pytest.approx(shape.mdr_coefficient, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("shape", BODIES)
+@pytest.mark.parametrize("memory", [0.02, 0.5, 40.0])
+def test_the_stretch_of_the_branch_solves_its_equation(shape, memory):
+    """y' = -g' - y/m with y = 0 where contact begins."""
+    stretch = foundation._on_sphere if shape.exponent == 2 else foundation._on_cone
+    assert stretch(-1.0, memory, 1.0) == 0.0
+    for x in (-0.9, -0.3, 0.2, 0.8):
+        h = 1e-5 * memory
+        rate = (stretch(x + h, memory, 1.0) - stretch(x - h, memory, 1.0)) / (2 * h)
+        bend = 2 * x if shape.exponent == 2 else np.sign(x)
+        assert rate == pytest.approx(-bend - stretch(x, memory, 1.0) / memory, abs=1e-7)
+
+
+def test_other_bodies_and_solids_have_no_closed_form_on_the_foundation():
+    for shape, solid in ((PowerLaw(coefficient=1.0, exponent=3.0), RUBBER), (BODIES[0], CHAIN)):
+        with pytest.raises(ValueError, match="has a closed form"):
+            foundation.sliding_forces(shape, solid, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("shape", BODIES)
+@pytest.mark.parametrize("solid", [RUBBER, STANDARD])
+@pytest.mark.parametrize("memory", [0.01, 1.0, 100.0])
+def test_the_one_dimensional_solver_tends_to_the_closed_form_at_second_order(shape, solid, memory):
+    """A cone is linear between nodes and has no error at all."""
+    depth, _ = static(shape, 1.0)
+    scene = Scene(shape, solid, Slide(speed=memory / solid.relaxation_time, depth=depth))
+    exact = np.array(foundation.sliding_forces(shape, solid, scene.motion.speed, depth))
+    points = (201, 401, 801, 1601, 3201)
+    found = [MDR(points=n, extent=2.2).solve(scene) for n in points]
+    errors = np.array([[each.normal_force, each.friction_force] / exact - 1 for each in found])
+    if shape.exponent == 1:
+        np.testing.assert_allclose(errors, 0.0, atol=1e-11)
+        return
+    order = -np.polyfit(np.log(points), np.log(np.abs(errors)), 1)[0]
+    # The edge falls anywhere within a pixel: constants jump about, of friction at low speed most.
+    assert order[0] == pytest.approx(2.0, abs=0.4)
+    assert order[1] > 1.4
+    assert np.abs(errors[-1]).max() < 2e-6
