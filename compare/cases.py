@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Scene, Slide
+from scene import Program, Refused, Scene, Slide
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.protocol import refuse
@@ -105,7 +105,12 @@ class Case:
         return isinstance(self.motion, Slide) and len(self.elastomer.retardation()[2]) > 0
 
     def refuse(self) -> None:
-        """Raise Refused, with the reasons, if one of the two solvers lacks what the scene asks for."""
+        """Raise Refused, with the reasons, if a solver lacks what the scene asks for, or nothing compares it."""
+        if isinstance(self.motion, Program):
+            raise Refused(
+                "motion = Program is a history in time, and what is compared is pressed in or slides steadily: "
+                "use Indent or Slide, or solve it from Python with each solver"
+            )
         refuse(self.mdr, self.scene)
         refuse(self.bem, self.scene)
 

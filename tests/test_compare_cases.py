@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from compare.__main__ import app
 from compare.cases import read_case, shipped_cases
 from compare.run import named_cases
-from scene import Cone, Elastic, Indent, Kelvin, Refused, Slide, Sphere
+from scene import Cone, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
@@ -65,6 +65,14 @@ def test_a_scene_alone_is_a_case(case):
     radius = elastic_contact(case.scene).radius
     assert min(plan.smooth_speeds) * 1e-3 == pytest.approx(0.01 * radius)
     assert max(plan.smooth_speeds) * 1e-3 == pytest.approx(100 * radius)
+
+
+def test_a_history_in_time_is_refused_though_both_solvers_take_it(case):
+    program = Program(stages=(Stage(duration=1e-3, load=1.0), Stage(duration=1e-2, speed=0.1)))
+    moved = replace(case, motion=program)
+    assert not (moved.mdr.refusals(moved.scene) or moved.bem.refusals(moved.scene))
+    with pytest.raises(Refused, match="motion = Program is a history"):
+        moved.refuse()
 
 
 def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):
