@@ -81,6 +81,33 @@ def mastercurve(
         shift_measured(table, output)
 
 
+@app.command()
+def regress(
+    baseline: Annotated[
+        Path | None, typer.Option(help="Stored quantities as TOML; without it, those of the package.")
+    ] = None,
+    update: Annotated[bool, typer.Option("--update", help="Store what has moved.")] = False,
+    output: Annotated[Path, typer.Option(help="Folder of what has been solved.")] = Path("crosscheck-regress"),
+    workers: Workers = None,
+) -> None:
+    """Say whether the accuracy of one dimension has moved from what is stored; status 1 if it has."""
+    from .accuracy import shipped
+    from .regression import SHIPPED, read_baseline, read_or_begin, rewrite, wrong
+    from .run import make_folders, remeasure
+
+    path, quantities = baseline or SHIPPED, shipped()
+    with _mistakes_said(output):
+        stored = (read_or_begin if update else read_baseline)(path, quantities)
+        make_folders(output)
+    with _interrupts_said():
+        found = remeasure(quantities, stored, output, workers)
+        left = rewrite(path, found) if update else wrong(found)
+    if update:
+        typer.echo(f"Baseline: {path}")
+    if left:
+        raise typer.Exit(FAILED)
+
+
 @contextmanager
 def _mistakes_said(output: Path) -> Iterator[None]:
     """Before anything is solved: a mistake in the input, or a folder that cannot be written."""

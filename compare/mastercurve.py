@@ -1,6 +1,7 @@
 """Collapse of ln mu (ln F) at several speeds onto one curve by horizontal shifts, Eq. 23, and whether it holds.
 
 All shifts are found at once, with the curve itself projected out (variable projection; Golub and Pereyra 1973).
+Whether vertical shifts are needed beside them is asked afterwards: Eq. 23 has none.
 """
 
 from collections.abc import Sequence
@@ -11,12 +12,17 @@ from math import nan, sqrt
 import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.optimize import least_squares
+from scipy.stats import f as f_distribution
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
 DEGREE, MOST_FREE = 4, 10
 # Neighbouring curves share at least this part of the shorter one's range of ln F: a fit that wants less is no fit.
 LEAST_OVERLAP = 0.25
+# Of the largest singular value, what still counts.
+_TOLD = 1e-12
+# Of a vertical shift that is not needed, taken for one that is.
+CHANCE = 0.01
 # Exponents of the speed from which the fit starts.
 STARTS = np.linspace(-3.0, 3.0, 7)
 
@@ -120,6 +126,91 @@ def collapse(curves: Sequence[Curve]) -> Collapse:
     )
 
 
+@dataclass(frozen=True)
+class Vertical:
+    """What vertical shifts beside the horizontal ones achieve, ln mu + c_v against ln F + b_v.
+
+    shifts, shift_errors : c_v (K,), zero at the reference speed, and standard errors
+    exponent, exponent_error : of exp(c_v) ~ v^exponent
+    horizontal_exponent, horizontal_exponent_error : of p(v), now with vertical shifts beside it
+    after : misfit with both
+    chance : of a misfit that falls as much if no vertical shift is needed (F test); errors need not be known, but
+        points must be independent
+    separable : False where straight parallel lines fit: then one shift is the other
+    """
+
+    shifts: np.ndarray
+    shift_errors: np.ndarray
+    exponent: float
+    exponent_error: float
+    horizontal_exponent: float
+    horizontal_exponent_error: float
+    after: Misfit
+    chance: float
+    separable: bool
+
+    @property
+    def needed(self) -> str:
+        """yes, no or undecided, at 1 in 100."""
+        if not self.separable or not np.isfinite(self.chance):
+            return "undecided"
+        return "yes" if self.chance < CHANCE else "no"
+
+
+def vertical(result: Collapse) -> Vertical:
+    """Shift curves vertically too, and ask whether that is needed.
+
+    The polynomial has at least the degree of the collapse, and a higher one where that pays (Schwarz 1978): a
+    stiff curve would ask for vertical shifts of its own. Raises ValueError where there are too few points for as
+    many shifts.
+    """
+    count = len(result.curves) - 1
+    lower, upper = _bounds(result.curves)
+    logs = np.log(result.speeds / result.speeds[result.reference])
+    start = np.diff(result.shifts)
+    fit, best = _lifted(result, [start, *(power * np.diff(logs) for power in STARTS)], lower, upper)
+    freedom = fit.log_load.size - fit.degree - 1 - 2 * count
+    level = _minimum(_Fit(result.curves, fit.degree), start, lower, upper)
+    reduced = 2 * best.cost / freedom
+    levels, covariance = fit.linearised(best.x)
+    covariance = covariance * (max(1.0, reduced) if fit.known else reduced)
+    horizontal, raised = (
+        _from_increments(values, covariance[part, part], result.reference)
+        for values, part in ((best.x, slice(count)), (levels, slice(count, 2 * count)))
+    )
+    exponent, exponent_error = _exponent(logs, *raised, result.reference)
+    horizontal_exponent, horizontal_error = _exponent(logs, *horizontal, result.reference)
+    gain = 2 * (level.cost - best.cost) / count / reduced if reduced else nan
+    return Vertical(
+        shifts=raised[0],
+        shift_errors=np.sqrt(np.diag(raised[1])),
+        exponent=exponent,
+        exponent_error=exponent_error,
+        horizontal_exponent=horizontal_exponent,
+        horizontal_exponent_error=horizontal_error,
+        after=fit.misfit(best.x, shifts=count),
+        chance=float(f_distribution.sf(gain, count, freedom)),
+        separable=result.separable,
+    )
+
+
+def _lifted(result, guesses, lower, upper):
+    """The fit with both shifts, on the polynomial of which a degree more does not pay."""
+    size, chosen = sum(curve.log_load.size for curve in result.curves), None
+    for degree in range(result.degree, MOST_FREE + 1, 2):
+        if size <= degree + 1 + 2 * len(guesses[0]):
+            break
+        fit = _Fit(result.curves, degree, lifted=True)
+        best = min((_minimum(fit, guess, lower, upper) for guess in guesses), key=lambda found: found.cost)
+        price = size * np.log(max(best.cost, np.finfo(float).tiny)) + degree * np.log(size)
+        if chosen is None or price < chosen[0]:
+            chosen = price, fit, best
+        guesses = [best.x]
+    if chosen is None:
+        raise ValueError(f"too few points for {2 * len(guesses[0])} shifts and a curve: add loads")
+    return chosen[1:]
+
+
 def misfit_at(result: Collapse, exponent: float) -> Misfit:
     """Misfit once shifted by a power of the speed; NaN where that leaves neighbours without the least overlap."""
     increments = exponent * np.diff(np.log(result.speeds))
@@ -137,7 +228,7 @@ def shifted(result: Collapse) -> list[np.ndarray]:
 class _Fit:
     """Misfit of the curves to their best common polynomial, given the increments of the shifts."""
 
-    def __init__(self, curves, degree):
+    def __init__(self, curves, degree, lifted=False):
         self.curves, self.degree = curves, degree
         self.owner = np.repeat(np.arange(len(curves)), [curve.log_load.size for curve in curves])
         self.log_load = np.concatenate([curve.log_load for curve in curves])
@@ -145,6 +236,8 @@ class _Fit:
         self.error = np.concatenate([curve.error for curve in curves])
         self.known = bool(np.all(np.isfinite(self.error) & (self.error > 0)))
         self.weight = 1 / self.error if self.known else np.ones_like(self.log_load)
+        # An increment of the level moves every later curve down.
+        self.levels = (self.owner[:, None] > np.arange(len(curves) - 1 if lifted else 0)).astype(float)
 
     def misfits(self, increments):
         """ln mu minus the best polynomial, (N,)."""
@@ -165,22 +258,41 @@ class _Fit:
         moved = slopes[:, None] * (self.owner[:, None] > np.arange(len(increments)))
         return basis @ (basis.T @ moved) - moved
 
+    def linearised(self, increments):
+        """Increments of the level (K - 1,), and the covariance of those of both shifts for unit errors."""
+        basis, _, slopes, coefficients = self._linear(increments)
+        moved = slopes[:, None] * (self.owner[:, None] > np.arange(len(increments)))
+        levels = slice(self.degree + 1, None)
+        design = np.hstack([moved, basis[:, levels], basis[:, : self.degree + 1]])
+        scale = np.linalg.norm(design, axis=0)
+        inverse = np.linalg.pinv((design / scale).T @ (design / scale)) / np.outer(scale, scale)
+        count = 2 * len(increments)
+        return coefficients[levels], inverse[:count, :count]
+
     def _projected(self, increments):
-        """Orthonormal polynomials (N, degree + 1), slope of the best one and ln mu (N,), all over the error."""
+        """Orthonormal polynomials and levels (N, M), slope of the best curve and ln mu (N,), over the error."""
+        _, orthonormal, slopes, _ = self._linear(increments)
+        return orthonormal, slopes, self.log_friction * self.weight
+
+    def _linear(self, increments):
+        """Polynomials and levels (N, M), the same orthonormal, slope of the best curve (N,), over the error; and
+        its coefficients (M,)."""
         x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
         middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
         scaled = (x - middle) / half
-        basis = chebyshev.chebvander(scaled, self.degree) * self.weight[:, None]
-        orthonormal, triangle = np.linalg.qr(basis)
-        wanted = self.log_friction * self.weight
-        coefficients = np.linalg.solve(triangle, orthonormal.T @ wanted)
-        slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients)) / half
-        return orthonormal, slopes * self.weight, wanted
+        basis = np.hstack([chebyshev.chebvander(scaled, self.degree), -self.levels]) * self.weight[:, None]
+        left, sizes, right = np.linalg.svd(basis, full_matrices=False)
+        # Where loads coincide once shifted, fewer polynomials are told apart than there are.
+        told = sizes > _TOLD * sizes[0]
+        orthonormal = left[:, told]
+        coefficients = right[told].T @ (orthonormal.T @ (self.log_friction * self.weight) / sizes[told])
+        slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients[: self.degree + 1])) / half
+        return basis, orthonormal, slopes * self.weight, coefficients
 
     def misfit(self, increments, shifts):
         """shifts : how many of the increments were fitted."""
         misfits = self.misfits(increments)
-        freedom = misfits.size - self.degree - 1 - shifts
+        freedom = misfits.size - self.degree - 1 - self.levels.shape[1] - shifts
         chi_square = float(np.sum(np.square(misfits * self.weight)) / freedom) if self.known else nan
         return Misfit(_rms(misfits), chi_square, freedom)
 

@@ -3,7 +3,8 @@
 import errno
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from math import nan
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -19,11 +20,14 @@ from .paper.measured import read_measured
 from .paper.report import write_paper
 from .progress import watch
 from .publish import draw
+from .quantity import Quantity
+from .regression import Change, changes, measure, said
 from .report import MANIFEST, PAGE, slug, write_report
 from .store import Store
 from .study import points, tasks
 from .sweep import sweep
-from .verdict import judge, plus_minus
+from .verdict import judge
+from .wording import explain, explain_vertical, plus_minus
 
 SOLVED = "solved"
 
@@ -91,6 +95,19 @@ def reproduce(profiles: int, folder: Path, workers: int | None) -> None:
     console.print(f"\nPage: {page.resolve()}", markup=False)
 
 
+def remeasure(
+    quantities: Sequence[Quantity], stored: Mapping[str, float], folder: Path, workers: int | None
+) -> list[Change]:
+    """Measure quantities again, and tell which have moved from what is stored."""
+    console = Console(highlight=False, soft_wrap=True)
+    with watch(console) as progress:
+        swept = measure(quantities, folder / SOLVED, workers, progress)
+    console.print(f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s")
+    found = changes(quantities, stored, swept.outcomes)
+    console.print(f"\n{said(found)}", markup=False)
+    return found
+
+
 def shift_measured(path: Path, folder: Path) -> None:
     """Shift the curves of a user's own table onto one, and write the figure and its tables."""
     console = Console(highlight=False, soft_wrap=True)
@@ -99,6 +116,9 @@ def shift_measured(path: Path, folder: Path) -> None:
     draw(folder, shifted_curves, [shifted], suffix=f"-{slug(path.stem)}")
     collapse = shifted.collapse
     console.print(f"horizontal shifts onto one curve: {collapse.verdict}")
+    console.print(f"  {explain(collapse)}")
     console.print(f"  misfit {collapse.after.rms:.2%}, without shifts {collapse.before.rms:.2%}")
-    console.print(f"  shift ~ v^({plus_minus(collapse.exponent, shifted.exponent_error)})")
+    exponent = collapse.exponent if collapse.overlaps else nan
+    console.print(f"  shift ~ v^p, p = {plus_minus(exponent, shifted.exponent_error)}")
+    console.print(f"  {explain_vertical(shifted.vertical)}", markup=False)
     console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)

@@ -11,10 +11,11 @@ from scene.scales import elastic_contact
 
 from . import exact, metrics
 from .cases import Case
-from .mastercurve import Collapse, Curve, Misfit, collapse, misfit_at
+from .mastercurve import Collapse, Curve, collapse, misfit_at
 from .metrics import Record
 from .study import Point
 from .sweep import Swept
+from .wording import explain, plus_minus, said
 
 # Solver's name -> dimension, as the report writes it.
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
@@ -39,17 +40,6 @@ class Number:
     value: float
     error: float
     text: str
-
-
-def plus_minus(value: float, error: float, unit: str = "") -> str:
-    """value ± error unit, to two digits of the error; the unit may be %."""
-    scale, unit = (100, " %") if unit == "%" else (1, f" {unit}" if unit else "")
-    if not np.isfinite(value):
-        return "undecided"
-    if not np.isfinite(error):
-        return f"{value * scale:.3g}{unit}, error undecided"
-    digits = 4 if error == 0 else int(np.clip(1 - np.floor(np.log10(error * scale)), 0, 6))
-    return f"{value * scale:.{digits}f} ± {error * scale:.{digits}f}{unit}"
 
 
 @dataclass(frozen=True)
@@ -268,27 +258,9 @@ def _collapse_number(case, solver, result):
         as_predicted.rms,
         result.scatter,
         f"Rms misfit of ln mu (ln F) to one curve, {result.before.rms:.0%} before shifting. Shifted as Eq. 23 "
-        f"predicts, p ~ v^{predicted:.4g}: {_said(as_predicted)} Best shifts: {explain(result)} "
+        f"predicts, p ~ v^{predicted:.4g}: {said(as_predicted)} Best shifts: {explain(result)} "
         "The scatter is the rms standard error of the points; the same surfaces stand behind all of them.",
     )
-
-
-def _said(misfit: Misfit):
-    if misfit.verdict == "undecided":
-        return "undecided."
-    said = "collapse" if misfit.verdict == "holds" else "do not collapse"
-    return f"the curves {said} within their scatter (chi square {misfit.chi_square:.3g} per degree of freedom)."
-
-
-def explain(result: Collapse) -> str:
-    """Whether a collapse by horizontal shifts holds, in words."""
-    if not result.overlaps:
-        return "undecided, since the misfit only falls as the curves are pulled apart."
-    if not result.separable:
-        return "undecided, since straight parallel lines fit: horizontal and vertical shifts cannot be told apart."
-    if result.verdict == "undecided":
-        return "undecided, since one surface has no scatter to compare with."
-    return _said(result.after)
 
 
 def _discretisation(case, table):

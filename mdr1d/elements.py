@@ -385,7 +385,8 @@ def sinking(load, guess, approaches, rates, duration, state, solid):
         else:
             high = sunk
         if high - low <= _CLOSE * (abs(low) + abs(high)):
-            misfit = 0.0
+            if solid.drag > 0.0:
+                misfit = 0.0
             break
         step = -misfit / slope if slope > 0.0 else inf
         if not (low < sunk + step < high and abs(step) <= 0.5 * before):

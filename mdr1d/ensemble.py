@@ -7,11 +7,12 @@ period.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from math import nan
+from math import ceil, nan
 
 import numpy as np
 
-from scene import Kelvin, Scene, SelfAffine, Slide
+from scene import Kelvin, Scene, SelfAffine, Slide, SolveError
+from scene.protocol import trusted
 from scene.scales import elastic_contact
 
 from .foundation import press_many
@@ -20,6 +21,8 @@ from .surface import Surface, waves_of
 
 # Relative misfit of the load at which a search stops: friction needs no more.
 _AIM = 1e-11
+# On each side of the tip; and in a period of roughness at least.
+_MOST_NODES, _LEAST_NODES = 2**25, 4
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,7 @@ class Answers:
     sweeps: np.ndarray
 
 
+@trusted()
 def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequence[int]) -> Answers:
     """Solve every scene on the profiles of all seeds, repeated as far as contact goes.
 
@@ -48,10 +52,12 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
         seeds of their own are replaced
     points : pixels on the longest wavelength, one number a scene
 
-    Raises ValueError where a scene is another.
+    Raises ValueError where a scene is another or its roughness is not resolved; SolveError where contact would
+    take too many pixels, or the numbers of a scene are too far apart.
     """
-    for scene in scenes:
+    for scene, count in zip(scenes, points, strict=True):
         _check(scene)
+        _check_resolved(scene.roughness, count)
     members: dict[tuple, list[int]] = {}
     for i, (scene, count) in enumerate(zip(scenes, points, strict=True)):
         unit = replace(scene.roughness, rms_height=1.0, seed=0)
@@ -81,26 +87,36 @@ class _Series:
         self.rms = np.array([scene.roughness.rms_height for scene in scenes])
         self.memory = np.array([scene.motion.speed * scene.elastomer.relaxation_time for scene in scenes])
         self.load = np.array([scene.motion.load / scene.elastomer.indentation_modulus for scene in scenes])
-        self.depth = np.array([elastic_contact(scene).depth for scene in scenes])
+        smooth = [elastic_contact(scene) for scene in scenes]
+        self.radius = np.array([contact.radius for contact in smooth])
+        self.depth = np.array([contact.depth for contact in smooth])
 
     def solve(self, surface: Surface, ratio: float):
         """The columns of Answers on one profile, drawn with a unit rms height, and the last ratio.
 
         ratio : of the depth to the smooth one, from which the first search starts
         """
-        rise = self.depth + np.ptp(surface.heights) * self.rms
-        half = np.ceil((rise / self.coefficient) ** (1 / self.exponent) / self.pixel).astype(int) + 1
+        # A chord between nodes lies above the shape, and nowhere above the shape a pixel farther out.
+        enough = self.coefficient * (self.radius + self.pixel) ** self.exponent
+        rise = enough + np.ptp(surface.heights) * self.rms
+        half = np.ceil((rise / self.coefficient) ** (1 / self.exponent) / self.pixel) + 1
+        if half.max() > _MOST_NODES:
+            raise SolveError(
+                f"contact may take {2 * half.max():.2g} pixels of {self.pixel:g} m, more than {2 * _MOST_NODES}: "
+                "take fewer points, a longer period or a lesser load"
+            )
         found = np.empty((self.rms.size, 6))
         ratio = press_many(
             surface.heights,
             (np.arange(half.max() + 1) * self.pixel) ** self.exponent,
             self.pixel,
-            half,
+            half.astype(int),
             self.coefficient,
             self.rms,
             self.memory,
             self.load,
             self.depth,
+            enough,
             ratio,
             _AIM,
             ACCEPTED,
@@ -123,4 +139,13 @@ def _check(scene):
         raise ValueError(
             f"scene = {scene!r}: profiles are solved together for a body of revolution with self-affine roughness "
             "that slides under a load on a Kelvin solid; take MDR for any other scene"
+        )
+
+
+def _check_resolved(rough, points):
+    needed = _LEAST_NODES if rough.shortest is None else ceil(2 * rough.longest / rough.shortest * (1 - 1e-12))
+    if points < needed:
+        raise ValueError(
+            f"points = {points} do not resolve roughness with longest = {rough.longest:g}: it takes at least "
+            f"{needed}" + ("" if rough.shortest is None else f" for shortest = {rough.shortest:g}")
         )

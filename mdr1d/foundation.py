@@ -169,14 +169,17 @@ def nearer(approach, force, stiffness, load, lower, upper, most):
 
 
 @compiled
-def press_many(unit, powers, pixel, half, coefficient, rms, memory, load, smooth, ratio, aim, accepted, found):
+def press_many(
+    unit, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
+):
     """Press profiles coefficient * powers + rms * unit down with loads, as many as there are.
 
     unit : one period of roughness (M,); powers : |x|^n at the nodes from the tip on
     half : nodes that contact may reach on each side; coefficient, rms, memory; load, over K [m^2]; smooth, the
-        depth of the smooth relaxed contact: all (scenes,)
+        depth of the smooth relaxed contact, and enough, one that surely carries the load on chords between the
+        nodes: all (scenes,)
     aim, accepted : relative misfit of the load at which the search stops, and at which it may
-    found : misfit, friction, depth, length, span, sweeps (scenes, 6), to be filled
+    found : misfit, friction, depth, length, span, sweeps (scenes, 6), to be filled; NaN where nothing is found
 
     Each search starts from a ratio of the depth to the smooth one, where that makes sense: the ratio found before,
     and at first the one given. The last is returned.
@@ -192,12 +195,13 @@ def press_many(unit, powers, pixel, half, coefficient, rms, memory, load, smooth
         lowest = heights.min()
         heights -= lowest
         # Beside the heights of roughness a tiny depth may be lost to rounding.
-        surely = max(smooth[s] + rms[s] * top - lowest, smooth[s])
+        surely = max(enough[s] + rms[s] * top - lowest, enough[s])
         approach = ratio * smooth[s] - lowest
         if not 0.0 < approach < surely:
             approach = surely
         lower, upper = 0.0, inf
         best, sweeps = inf, 0
+        found[s] = nan
         while sweeps < 200 and lower < approach < upper:
             force, lost, _, stiffness, length, _, first, last = _sweep(heights, pixel, memory[s], approach)
             sweeps += 1

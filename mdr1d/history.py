@@ -75,7 +75,7 @@ def _followed(solver, scene):
 
 
 def _check_touched(body, history: History):
-    """Raise EmptyContact where nothing ever touches, SolveError where a smooth contact spans too few pixels."""
+    """Raise EmptyContact where nothing ever touches, SolveError where contact has too few pixels, rough or not."""
     widest = history.length.max()
     if not widest > 0:
         raise EmptyContact(

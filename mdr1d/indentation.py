@@ -1,7 +1,7 @@
 """Pressing a profile into the foundation, by a depth or with a load."""
 
 from collections.abc import Callable
-from math import ceil, inf
+from math import ceil, inf, isfinite
 
 import numpy as np
 
@@ -37,6 +37,7 @@ def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact,
             f"motion.depth = {depth:g} does not press the indenter in: its lowest point lies at {body.lowest:g} m "
             "above the macroscopic tip; a greater depth is needed, or a load"
         )
+    _check_finite(contact)
     return depth - body.lowest, contact, 1
 
 
@@ -76,7 +77,14 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
             f"motion.load = {scene.motion.load:g} is met only to a relative {misfit:.1e} after {sweeps} sweeps: "
             "the lengths of the scene differ by more than rounding allows; prescribe the depth"
         )
+    _check_finite(contact)
     return approach, contact, sweeps
+
+
+def _check_finite(contact: Contact) -> None:
+    """Raise OverflowError where the squares of slopes, or their forces, have left the range of numbers."""
+    if not isfinite(contact.dissipation + contact.traction):
+        raise OverflowError("forces beyond the range of numbers")
 
 
 def _too_short(scene: Scene, body: Profile) -> SolveError:

@@ -13,9 +13,13 @@ import numpy as np
 from scene import Program, SolveError
 
 from .elements import Solid, State, Sums, advance, sinking
+from .indentation import ACCEPTED
 from .modes import Modes
 from .profile import Profile
 from .timeline import Timeline, timeline
+
+# Relative misfit of the balance of energy that is still an answer; rounding of a million steps stays below.
+_BALANCED = 1e-8
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,7 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
     modulus : relaxed, of the foundation [Pa]
     steps : of the whole program, see `timeline`
 
-    Raises SolveError where there are too many steps or the contact leaves the grid.
+    Raises SolveError where there are too many steps, the contact leaves the grid, or rounding spoils the answer.
     """
     line, row = timeline(program, body.pixel, steps), _Row(body, modes)
     by_depth = program.pressed_by == "depth"
@@ -74,8 +78,11 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
         misfit, reach = max(misfit, abs(missed)), max(reach, row.reach)
         work, lost = work + sums.work, lost + sums.heat
         rows.append((depth, sums.force, -sums.drive / duration, sums.count, work, lost, sums.stored))
+    if not by_depth:
+        _check_met(misfit * body.pixel * modulus / program.greatest)
     depths, *sums = np.array(rows).T
     force, friction, length, work, dissipated, stored = body.pixel * np.array(sums)
+    _check_balanced(work, dissipated, stored)
     return History(
         time=line.times[1:],
         path=program.path(line.times[1:]),
@@ -214,6 +221,26 @@ class _Load:
 def _place(z):
     """1/(1 - exp(-z)) - 1/z, from 1/2 to 1; by series where that cancels."""
     return 0.5 + z / 12 if z < 1e-3 else -1 / expm1(-z) - 1 / z
+
+
+def _check_met(misfit):
+    """Raise SolveError where rounding keeps the load, of which this is the relative misfit, from being met."""
+    if not misfit <= ACCEPTED:
+        raise SolveError(
+            f"a load of the program is met only to a relative {misfit:.1e} of the greatest: the lengths or "
+            "times of the scene differ by more than rounding allows; prescribe the depth"
+        )
+
+
+def _check_balanced(work, dissipated, stored):
+    """Raise SolveError where rounding costs the balance of energy."""
+    most = max(np.abs(work).max(), dissipated.max(), stored.max())
+    missed = np.abs(stored + dissipated - work).max()
+    if not missed <= _BALANCED * most:
+        raise SolveError(
+            f"work, what is stored and what is lost balance only to a relative {missed / most:.1e}: "
+            "the lengths or times of the scene differ by more than rounding allows"
+        )
 
 
 def _check_inside(row, body, depth, time):

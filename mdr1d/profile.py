@@ -121,11 +121,8 @@ def drawn_closer(layout: Grid, span: float, reach: float) -> float | None:
 
 
 def check_resolved(body: Profile, span: float) -> None:
-    """Raise SolveError where a smooth contact, of a span [m] at its widest, has too few pixels.
-
-    A rough profile is what its nodes make it and may touch on less than a pixel; a smooth shape may not.
-    """
-    if body.surface is None and span < _LEAST_PIXELS * body.pixel:
+    """Raise SolveError where a contact, of a span [m] at its widest, has too few pixels."""
+    if span < _LEAST_PIXELS * body.pixel:
         raise SolveError(
             f"the contact spans {span / body.pixel:.2g} pixels of {body.pixel:g} m, {_LEAST_PIXELS} are needed: "
             "take more points or a smaller extent"

@@ -33,7 +33,7 @@ def timeline(program: Program, pixel: float, steps: int) -> Timeline:
     first. Where the indenter slides, steps end as it passes whole pixels [m] too. Raises SolveError for too many.
     """
     count = steps + LEAST * len(program.stages) + program.length / pixel
-    if count > MOST:
+    if not count <= MOST:
         raise SolveError(
             f"the program takes {count:.2g} steps on pixels of {pixel:g} m, more than {MOST}: "
             f"slide a shorter path, take a larger extent or fewer points, or fewer steps than {steps}"

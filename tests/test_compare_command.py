@@ -104,6 +104,8 @@ def test_the_paper_is_simulated_and_judged(folder):
     assert {claim["verdict"] for claim in manifest["claims"]} <= {"holds", "fails", "undecided"}
     text = page.read_text()
     assert all(f'id="{claim["figure"]}"' in text for claim in manifest["claims"])
+    assert "seeds in the manifest" not in text  # it has none
+    assert re.search(r"pydantic [\d.]+\. ", text)
 
 
 def test_a_users_table_is_shifted(folder):

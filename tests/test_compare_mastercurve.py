@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from compare.mastercurve import DEGREE, LEAST_OVERLAP, Curve, collapse, misfit_at, shifted
+from compare.mastercurve import DEGREE, LEAST_OVERLAP, Curve, _Fit, collapse, misfit_at, shifted, vertical
 from mdr1d.equations import force_shift_exponent, interpolation
 
 LOADS = np.log(np.geomspace(0.2, 10.0, 6))
@@ -79,6 +79,33 @@ def test_a_freer_curve_does_not_hide_that_curves_differ():
     assert collapse(bent).verdict == "fails"
 
 
+def test_a_law_that_holds_is_rejected_no_more_often_than_stated_however_small_the_scatter():
+    rng, draws = np.random.default_rng(5), 30
+    for noise in (1e-3, 1e-2):
+        verdicts = []
+        for _ in range(draws):
+            exact = curves(eq_19(0.3, 2.0), -1.5, error=noise, loads=MANY)
+            noisy = [replace(c, log_friction=c.log_friction + noise * rng.normal(size=MANY.size)) for c in exact]
+            verdicts.append(collapse(noisy).verdict)
+        # Chi square is beyond two standard deviations in 3 %. With the fourth degree alone, all and a third fail.
+        assert verdicts.count("holds") >= draws - 4
+
+
+@pytest.mark.parametrize("degree", [4, 10])
+def test_slopes_of_the_misfits_are_those_of_differences_outside_the_polynomials(degree):
+    fit = _Fit(curves(eq_19(0.3, 2.0), -1.5, noise=0.03, loads=MANY, speeds=(0.1, 0.3, 1.0, 2.0)), degree)
+    at, step = np.array([0.4, -0.7, 1.1]), 1e-5
+    differences = np.transpose(
+        [(fit.residuals(at + by) - fit.residuals(at - by)) / (2 * step) for by in step * np.eye(at.size)]
+    )
+    polynomials, _, _ = fit._projected(at)
+    outside = differences - polynomials @ (polynomials.T @ differences)
+    slopes = fit.jacobian(at)
+    # Central differences of this step, to rounding.
+    np.testing.assert_allclose(slopes, outside, atol=1e-7 * np.abs(slopes).max())
+    np.testing.assert_allclose(slopes.T @ fit.residuals(at), differences.T @ fit.residuals(at), rtol=1e-6)
+
+
 def test_the_order_of_the_curves_does_not_matter():
     given = curves(cubic, -1.5, noise=0.01)
     assert collapse(given[::-1]).shifts == pytest.approx(collapse(given).shifts, abs=1e-9)
@@ -110,8 +137,8 @@ def test_curves_that_need_a_vertical_shift_are_rejected(power):
 
 
 def test_falling_curves_that_need_a_vertical_shift_never_pass():
-    for vertical in (-0.3, 0.3):
-        found = collapse(curves(cubic, -1.5, vertical=vertical, error=0.005))
+    for by in (-0.3, 0.3):
+        found = collapse(curves(cubic, -1.5, vertical=by, error=0.005))
         assert found.verdict != "holds"
         assert misfit_at(found, -1.5).verdict == "fails"
     assert misfit_at(found, -1.5).rms > 5 * found.scatter
@@ -155,3 +182,52 @@ def test_too_few_points_are_no_fit():
         collapse(curves(cubic, -1.5, loads=LOADS[:2]))
     with pytest.raises(ValueError, match="1 curves"):
         collapse(curves(cubic, -1.5, speeds=(0.1,)))
+
+
+WIDE = tuple(0.1 * 2.0**k for k in range(6))
+
+
+def raised(by, noise, rng):
+    """Curves that need a vertical shift c_v = by ln v beside the horizontal one."""
+    exact = curves(eq_19(0.3, 2.0), -1.5, vertical=-by, error=noise, loads=MANY[::2], speeds=WIDE)
+    return [replace(c, log_friction=c.log_friction + noise * rng.normal(size=c.log_load.size)) for c in exact]
+
+
+def test_a_vertical_shift_that_is_there_is_found_and_measured():
+    rng = np.random.default_rng(2)
+    found = [vertical(collapse(raised(0.1, 0.005, rng))) for _ in range(10)]
+    assert [each.needed for each in found] == ["yes"] * 10
+    exponents = np.array([each.exponent for each in found])
+    errors = np.array([each.exponent_error for each in found])
+    assert np.mean(exponents) == pytest.approx(0.1, abs=3 * np.mean(errors) / np.sqrt(10) + 0.01)
+    for each in found:
+        assert each.horizontal_exponent == pytest.approx(-1.5, abs=5 * each.horizontal_exponent_error)
+        assert each.shifts[len(WIDE) // 2] == 0
+
+
+def test_a_vertical_shift_that_is_not_there_is_seldom_asked_for_and_zero_within_its_error():
+    rng = np.random.default_rng(3)
+    found = [vertical(collapse(raised(0.0, 0.01, rng))) for _ in range(12)]
+    # One in a hundred is the rate.
+    assert [each.needed for each in found].count("yes") <= 1
+    over = np.array([each.exponent / each.exponent_error for each in found])
+    assert 0.4 < over.std() < 1.8
+    assert abs(over.mean()) < 1
+
+
+def test_the_need_of_a_vertical_shift_does_not_ask_for_known_errors():
+    rng = np.random.default_rng(4)
+    for by, needed in ((0.1, "yes"), (0.0, "no")):
+        unknown = [replace(c, error=np.full_like(c.error, np.nan)) for c in raised(by, 0.005, rng)]
+        assert vertical(collapse(unknown)).needed == needed
+
+
+def test_on_straight_lines_a_vertical_shift_is_a_horizontal_one():
+    straight = curves(lambda x: -0.3 * x, -1.5, error=0.01, noise=0.01, loads=MANY, speeds=WIDE)
+    assert vertical(collapse(straight)).needed == "undecided"
+
+
+def test_too_few_points_for_both_shifts_are_refused():
+    few = curves(cubic, -1.5, error=0.01, noise=0.01, loads=LOADS[:3])
+    with pytest.raises(ValueError, match="too few points"):
+        vertical(collapse(few))

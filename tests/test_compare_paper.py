@@ -5,12 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from compare.paper import campaign, law, parameters, shifts
+from compare.paper import campaign, claims, law, parameters, shifts
 from compare.paper.campaign import Campaign
 from compare.paper.claims import Claim
 from compare.paper.measured import read_measured
+from compare.run import shift_measured
 from compare.store import Store
 from compare.sweep import sweep
+from compare.wording import explain_vertical
 from mdr1d import equations
 from scene.reading import InvalidInput
 
@@ -62,6 +64,21 @@ def test_friction_at_low_speed_collapses_on_slope_one_where_the_conditions_hold(
     assert fit.slope_interval[0] < fit.slope < fit.slope_interval[1]
 
 
+@pytest.mark.parametrize("profiles", [3, 12])
+def test_intervals_have_what_they_estimate_as_often_as_stated(collapse, profiles):
+    generator, draws, inside = np.random.default_rng(5), 300, np.zeros(2)
+    xi = np.geomspace(1e-3, campaign.SLOW, 20)
+    lever = np.log(xi / xi[0])[:, None]
+    for _ in range(draws):
+        level, tilt = generator.normal(size=(2, profiles))
+        scattered = replace(collapse, xi=xi, samples=xi[:, None] * (1 + 0.05 * level + 0.02 * tilt * lever))
+        fit = campaign.line(scattered, np.ones(xi.size, bool))
+        intervals = np.array([fit.slope_interval, fit.factor_interval])
+        inside += (intervals[:, 0] <= 1) & (intervals[:, 1] >= 1)
+    # 300 draws know 95 % to 1.3 %; a factor is its logarithm to first order only.
+    np.testing.assert_allclose(inside / draws, 0.95, atol=0.04)
+
+
 def test_what_does_not_collapse_is_the_macroscopic_slope(collapse):
     slow = collapse.flags["xi << 1"] & collapse.flags["2a < L"] & collapse.flags["h0 << d"]
     printed = collapse.friction / collapse.xi
@@ -90,7 +107,7 @@ def test_a_stopped_campaign_resumes_with_what_it_has(tmp_path):
     assert sweep(more, Store(tmp_path), workers=1).reused == 3
     damaged = next(tmp_path.glob("*.npz"))
     damaged.write_bytes(damaged.read_bytes()[:-30])
-    assert sweep(blocks, Store(tmp_path), workers=1).solved == 1
+    assert sweep(more, Store(tmp_path), workers=1).solved == 1
 
 
 def test_a_solve_without_an_answer_is_counted_and_left_out():
@@ -155,13 +172,28 @@ def test_a_claim_holds_only_with_its_whole_interval(low, high, verdict):
     assert claim(low, high).verdict == verdict
 
 
+def test_a_value_whose_interval_cannot_be_had_is_said_without_one():
+    assert replace(claim(np.nan, np.nan), value=1.02).written == "1.02, interval undecided"
+    assert claim(np.nan, np.nan).written == "undecided"
+
+
+def test_of_curves_that_were_pulled_apart_no_exponent_is_claimed():
+    loads, speeds, profiles = np.array(parameters.FORCES), np.array(parameters.SPEEDS), np.linspace(0.99, 1.01, 4)
+    # Parallel bowls at different heights: no horizontal shift brings them together.
+    friction = (1 + np.log(loads / 10) ** 2) * speeds[:, None] ** 0.3
+    apart = shifts.Shifted.simulated("bowls", friction[..., None] * profiles, -0.75)
+    assert not apart.collapse.overlaps
+    said = claims._exponent(0.5, "friction", apart)
+    assert (said.written, said.verdict) == ("undecided", "undecided")
+
+
 def write(path, rows, heading=""):
     path.write_text(heading + "".join(",".join(f"{cell:.17g}" for cell in row) + "\n" for row in rows))
     return path
 
 
-def rows(order=(0, 1, 2), repeats=3):
-    rng = np.random.default_rng(4)
+def rows(order=(0, 1, 2), repeats=3, seed=4):
+    rng = np.random.default_rng(seed)
     found = []
     for speed in np.geomspace(3e-3, 2e-2, 4):
         for load in np.geomspace(1.0, 100.0, 8):
@@ -177,6 +209,30 @@ def test_a_users_table_takes_the_same_way(tmp_path):
     assert shifted.collapse.exponent == pytest.approx(-1.5, abs=4 * shifted.collapse.exponent_error)
     assert shifted.expected is None
     assert shifted.predicted is None
+
+
+def test_few_measurements_of_each_point_do_not_reject_a_law_that_holds(tmp_path):
+    found = [read_measured(write(tmp_path / "ball.csv", rows(repeats=2, seed=seed))) for seed in range(20)]
+    # To two standard deviations 5 % fail at most, and the scatter is known to 12 %. With the error that each point
+    # has of its own two measurements most of the 20 fail.
+    assert sum(each.collapse.verdict == "holds" for each in found) >= 17
+    assert all(each.collapse.scatter == pytest.approx(0.01 / np.sqrt(2), rel=0.4) for each in found)
+
+
+def test_a_single_measurement_scatters_as_the_repeated_ones_do(tmp_path):
+    some = [row for index, row in enumerate(rows()) if index % 3 == 0 or index > 40]
+    shifted = read_measured(write(tmp_path / "ball.csv", some))
+    errors = np.concatenate([curve.error for curve in shifted.collapse.curves])
+    assert errors.max() / errors.min() == pytest.approx(np.sqrt(3), rel=1e-12)
+
+
+def test_the_command_says_why_it_is_undecided_and_claims_no_exponent_then(tmp_path, capsys):
+    # Loads that span a factor of 3 and shifts of a factor of 100: no two curves share a stretch.
+    apart = [((1 + load * v**-6.6) ** -0.5, load, v) for v in (1, 2, 4) for load in np.geomspace(1, 3, 6)]
+    shift_measured(write(tmp_path / "ball.csv", apart), tmp_path)
+    said = capsys.readouterr().out
+    assert "pulled apart" in said
+    assert "p = undecided" in said
 
 
 def test_a_heading_says_what_the_columns_are(tmp_path):
@@ -210,3 +266,20 @@ def test_a_table_that_says_too_little_is_refused_with_its_line(tmp_path, text, s
     assert str(path) in str(refused.value)
     with pytest.raises(InvalidInput, match="No such file"):
         read_measured(tmp_path / "none.csv")
+
+
+def test_a_users_table_says_whether_vertical_shifts_are_needed(tmp_path):
+    rng = np.random.default_rng(1)
+    said = {}
+    for by in (0.0, 0.2):
+        table = [
+            ((1 + 3e-4 * load * v**-1.5) ** -0.6 * v**-by * (1 + 0.01 * rng.normal()), load, v)
+            for v in np.geomspace(1e-3, 3e-2, 6)
+            for load in np.geomspace(0.3, 300.0, 12)
+            for _ in range(3)
+        ]
+        said[by] = explain_vertical(read_measured(write(tmp_path / "ball.csv", table)).vertical)
+    assert "are not needed" in said[0.0]
+    assert "are needed too" in said[0.2]
+    assert "v^(0.2" in said[0.2] or "v^(0.19" in said[0.2]
+    assert "cannot be asked" in explain_vertical(None)

@@ -148,7 +148,8 @@ def curves(power=-0.7, overlaps=True):
 
 
 def lossy():
-    found = shifts.Shifted("whole", curves(), 0.02, expected=-0.75, predicted=Misfit(0.05, 12.0, 270))
+    predicted = Misfit(0.05, 12.0, 270)
+    found = shifts.Shifted("whole", curves(), 0.02, (-0.74, -0.66), expected=-0.75, predicted=predicted)
     friction = np.exp([curve.log_friction for curve in found.collapse.curves])
     return shifts.Lossy(
         exponent=0.5,

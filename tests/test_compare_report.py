@@ -19,7 +19,8 @@ from compare.figures import style
 from compare.outcome import Outcome, Row
 from compare.study import points, tasks
 from compare.sweep import Swept
-from compare.verdict import judge, plus_minus
+from compare.verdict import judge
+from compare.wording import plus_minus
 from mdr1d import MDR
 from scene import (
     Cone,

@@ -17,6 +17,7 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
+    SolveError,
     Sphere,
     StandardLinearSolid,
 )
@@ -85,6 +86,46 @@ def test_neighbours_along_a_parameter_save_sweeps():
     # From the sure start alone each takes five.
     assert answers.sweeps[1:].mean() <= 4.5
     assert answers.sweeps.min() >= 1
+
+
+@pytest.mark.parametrize("height", [0.0, 1e-12])
+@pytest.mark.parametrize("points", [8, POINTS])
+def test_a_contact_smoother_than_its_chords_is_found_too(points, height):
+    scene = replace(SPHERE, roughness=replace(ROUGH, rms_height=height))
+    scenes = [moved(scene, load=load) for load in (1e-9, 1.0, 60.0)]
+    answers = solve_profiles(scenes, [points] * len(scenes), seeds=(1,))
+    for i, each in enumerate(scenes):
+        alone = one_at_a_time(each, points, 1)
+        assert answers.friction[i, 0] == pytest.approx(alone.friction_coefficient, rel=MET)
+        assert answers.depth[i, 0] == pytest.approx(alone.depth, rel=MET)
+
+
+def test_where_nothing_is_found_there_is_no_number():
+    lost = [moved(CONE, load=5e-324), moved(CONE, speed=1e308), CONE]
+    lost[1] = replace(lost[1], elastomer=replace(SOLID, relaxation_time=1e3))
+    answers = solve_profiles(lost, [POINTS] * 3, seeds=(1,))
+    for column in vars(answers).values():
+        assert np.isnan(column[:2]).all()
+    assert answers.friction[2, 0] == pytest.approx(one_at_a_time(CONE, POINTS, 1).friction_coefficient, rel=MET)
+
+
+def test_numbers_too_far_apart_say_so():
+    for scene in (
+        replace(CONE, indenter=Sphere(radius=1e300)),
+        replace(CONE, elastomer=replace(SOLID, modulus=1e-300)),
+    ):
+        with pytest.raises(SolveError):
+            solve_profiles([scene], [POINTS], seeds=(1,))
+    wide = replace(SPHERE, roughness=replace(ROUGH, rms_height=1e10))
+    with pytest.raises(SolveError, match=r"contact may take \d\.\de\+09 pixels of 1e-05 m, more than 67108864"):
+        solve_profiles([wide], [POINTS], seeds=(1,))
+
+
+@pytest.mark.parametrize(("points", "shortest", "least"), [(3, None, 4), (199, 1e-4, 200)])
+def test_roughness_that_is_not_resolved_is_refused(points, shortest, least):
+    scene = replace(CONE, roughness=replace(ROUGH, shortest=shortest))
+    with pytest.raises(ValueError, match=rf"points = {points} .* at least {least}"):
+        solve_profiles([scene], [points], seeds=(1,))
 
 
 @pytest.mark.parametrize(

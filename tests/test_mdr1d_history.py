@@ -323,6 +323,14 @@ def test_steps_end_where_the_indenter_passes_a_whole_pixel():
     assert np.abs(slid[:, None] - whole).min(axis=0).max() < 1e-8
 
 
+def test_steps_lengthen_from_the_start_of_each_stage():
+    motion = program((1.0, {"depth": 0.1}), (3.0, {}))
+    times = timeline(motion, 0.1, 200).times
+    k = np.arange(1, 51)
+    np.testing.assert_allclose(times[1:51], (k / 50) ** 2, rtol=ROUNDING)
+    np.testing.assert_allclose(times[51:] - 1.0, 3.0 * (np.arange(1, 151) / 150) ** 2, rtol=ROUNDING)
+
+
 def test_short_steps_late_in_a_program_keep_to_the_pixels():
     # A step is 1e-6 s after 30 s: the time at its end is known to 1e-9 of it.
     motion = program((30.0, {"load": 0.1}), (1e-4, {"speed": 3e3}))
@@ -347,6 +355,27 @@ def test_what_cannot_be_followed_says_what_to_change():
         solved(deep, extent=2.0, points=8)
     with pytest.raises(SolveError, match="slide a shorter path"):
         solved(program((1.0, {"depth": 0.1, "speed": 1e6})))
+
+
+@pytest.mark.parametrize("solid", ["elastic", *GLASSY])
+def test_a_load_lost_in_the_rounding_of_the_heights_is_no_answer(solid):
+    light = program((1.0, {"load": 1e-25}), (1.0, {"speed": 0.01}))
+    with pytest.raises(SolveError, match="differ by more than rounding allows"):
+        solved(light, SOLIDS[solid], roughness=ROUGH, points=50)
+
+
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_rough_contact_of_a_few_elements_is_no_answer(solid):
+    # The steady sweep knows it on less than a pixel; elements a pixel apart miss the force between them.
+    light = program((1.0, {"load": 1e-6}), (1.0, {"speed": 0.3}))
+    with pytest.raises(SolveError, match=r"spans [1-4] pixels of 0\.01 m, 5 are needed"):
+        solved(light, SOLIDS[solid], roughness=ROUGH, points=200, extent=2.0)
+
+
+def test_a_path_beyond_the_range_of_numbers_is_too_long():
+    endless = program((1.0, {"depth": 0.1}), (1e200, {"speed": 1e200}), (1e200, {"speed": 1e-200}))
+    with pytest.raises(SolveError, match="slide a shorter path"):
+        solved(endless, points=50)
 
 
 def test_the_same_names_as_in_three_dimensions_and_the_same_settings():

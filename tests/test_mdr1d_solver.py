@@ -18,6 +18,7 @@ from scene import (
     KelvinChain,
     Plane,
     PowerLaw,
+    Program,
     Prony,
     Refused,
     Scene,
@@ -25,6 +26,7 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
+    Stage,
     StandardLinearSolid,
     Wave,
 )
@@ -161,8 +163,23 @@ def test_a_spot_that_would_touch_beyond_the_grid_counts_as_leaving_it():
     lines = [draw(replace(blunt.roughness, seed=seed), 400).heights for seed in range(50)]
     seed = next(s for s, h in enumerate(lines) if min(h[50], h[-50]) > 2e-6 and h[60:-60].min() < 0)
     scene = replace(blunt, roughness=replace(blunt.roughness, seed=seed))
+    in_time = replace(scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-6),)))
+    for each in (scene, in_time):
+        with pytest.raises(SolveError, match="leaves the grid"):
+            MDR(points=100, extent=1e-3).solve(each)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_spot_on_either_side_of_the_grid_counts(side):
+    # Round enough that a spot reaches down on the side where it comes first alone: a period on it has risen.
+    round_off = replace(PAPER, indenter=Sphere(radius=0.1), motion=Indent(depth=1e-6))
+    nodes = np.arange(50, 450)
+    rise = (nodes * 1e-5) ** 2 / 0.1
+    lines = [draw(replace(round_off.roughness, seed=seed), 400).heights for seed in range(100)]
+    lowest = [[(rise + h[way * nodes % 400]).min() for way in (side, -side)] for h in lines]
+    seed = next(i for i, (near, far) in enumerate(lowest) if near < 1e-6 < far)
     with pytest.raises(SolveError, match="leaves the grid"):
-        MDR(points=100, extent=1e-3).solve(scene)
+        MDR(points=100, extent=1e-3).solve(replace(round_off, roughness=replace(round_off.roughness, seed=seed)))
 
 
 def test_a_depth_that_does_not_reach_the_indenter_is_an_error():
@@ -268,3 +285,17 @@ def test_a_shape_between_cone_and_sphere_is_solved_on_rough_ground():
     result = MDR().solve(replace(ROUGH, indenter=PowerLaw(coefficient=0.5, exponent=1.3)))
     assert result.residual <= 1e-10
     assert result.friction_force > 0
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        # The square of a slope of 1e290; modes of moduli 600 decades apart; a period of 1e310 pixels.
+        Scene(PowerLaw(coefficient=0.018, exponent=100.0), Elastic(1e-300), Slide(speed=1.0, load=2e-5)),
+        replace(ROUGH, elastomer=Prony(1e-300, (1e300, 1.0), (1.0, 2.0))),
+        replace(ROUGH, roughness=replace(ROUGH.roughness, longest=1e308, shortest=1e307)),
+    ],
+)
+def test_numbers_too_far_apart_say_so(scene):
+    with pytest.raises(SolveError, match="too far apart to be computed with"):
+        MDR(points=100).solve(scene)

@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..mastercurve import misfit_at, shifted
-from ..verdict import DIMENSIONS, Judgement, explain, predicted_exponent
+from ..verdict import DIMENSIONS, Judgement, predicted_exponent
+from ..wording import explain
 from . import style
 
 NAME = "collapse"

@@ -79,7 +79,18 @@ def caption(found: Sequence[Lossy]) -> str:
         "frequency. Three forms: with the loss at the frequency of the shortest wave for all waves, as "
         "published; with the loss of every wave at its own frequency; and the latter with the simulated "
         "friction of the smooth sphere added, since Eq. 22 leaves the macroscopic slope out. "
-        f"{' '.join(map(_said, found))}"
+        f"{' '.join(map(_said, found))} {_regime(found[0].regime)}"
+    )
+
+
+def _regime(regime):
+    """Where the loads stand; the same for every loss, as the relaxed contact and the roughness are."""
+    broken = [name for name, holds in regime.flags.items() if not np.all(holds)]
+    return (
+        f"At all loads the rms height is at most {np.max(regime.height_over_depth):.2g} of the depth, the width of the "
+        f"contact at most {np.max(regime.contact_over_period):.2g} of the longest wave, and the macroscopic slope at most "
+        f"{np.max(regime.macro_over_rough):.2g} of that of the roughness, {np.max(regime.rms_slope):.2g}. "
+        f"Conditions of the laws that do not hold everywhere: {', '.join(broken) or 'none'}."
     )
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..mastercurve import shifted
 from ..paper.shifts import Shifted
-from ..verdict import explain, plus_minus
+from ..wording import explain, explain_vertical, plus_minus
 from . import style
 
 NAME = "shifted-curves"
@@ -100,10 +100,12 @@ def _said(each):
         left = f"misfit {rms:.2%}, {each.predicted.verdict}" if np.isfinite(rms) else "curves that do not overlap"
         expected = f"; expected {each.expected:.3g}, which leaves {left}"
     fitted = plus_minus(result.exponent, each.exponent_error) if result.overlaps else "undecided"
+    # Of a user's own table; simulated points share their profiles, and an expectation says what they are.
+    vertical = f" {explain_vertical(each.vertical)}" if each.expected is None else ""
     return (
         f"{each.title} ({len(result.curves)} speeds, {_points(result)} points, reference {reference}): "
         f"{result.verdict}; misfit {result.before.rms:.2%} as they are, {result.after.rms:.2%} shifted, scatter "
-        f"{scatter}; exponent of the speed {fitted}{expected}; {explain(result)}"
+        f"{scatter}; exponent of the speed {fitted}{expected}; {explain(result)}{vertical}"
     )
 
 

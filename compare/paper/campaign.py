@@ -16,12 +16,12 @@ from ..outcome import Outcome
 from ..store import Task
 from ..study import SCENES
 from . import parameters
+from .intervals import interval, left_out, standard_error
 
 # Profiles of one task: some seconds of work are lost at most in an interruption.
 BLOCK = 10
 # Eq. 17 is the limit of Eq. 19: at this xi that lies 0.7 % lower.
 SLOW = 0.05
-RESAMPLINGS = 1000
 
 
 @dataclass(frozen=True)
@@ -186,7 +186,7 @@ def variable(scene: Scene, rms_slope: float) -> float:
 
 @dataclass(frozen=True)
 class Line:
-    """ln mu-tilde = ln factor + slope ln xi, least squares over points; intervals of 95 % from resampled profiles.
+    """ln mu-tilde = ln factor + slope ln xi, least squares over points, with intervals of 95 %.
 
     worst : largest |mu-tilde / xi - 1| of the points ; points : how many; with fewer than two all else is NaN
     """
@@ -207,15 +207,11 @@ def line(collapse: Collapse, where: np.ndarray, over: np.ndarray | float = 1.0) 
     x = np.log(collapse.xi[where])
     samples = (collapse.samples / np.reshape(over, (-1, 1)) if np.ndim(over) else collapse.samples)[where]
     fit = _fit(x, samples.mean(axis=1))
-    generator = np.random.default_rng(0)
-    count = samples.shape[1]
-    # The same profiles stand behind all points: they are drawn again as a whole.
-    weights = generator.multinomial(count, np.full(count, 1 / count), size=RESAMPLINGS) / count
-    again = np.array([_fit(x, mean) for mean in (samples @ weights.T).T])
-    low, high = np.percentile(again, [2.5, 97.5], axis=0)
+    errors = standard_error(np.array([_fit(x, mean) for mean in left_out(samples).T]))
+    freedom = samples.shape[1] - 1
+    slopes, factors = (interval(value, error, freedom) for value, error in zip(fit, errors, strict=True))
     worst = np.abs(samples.mean(axis=1) / collapse.xi[where] - 1).max()
-    slopes, factors = zip(low, high, strict=True)
-    return Line(float(fit[0]), tuple(slopes), float(fit[1]), tuple(factors), float(worst), len(x))
+    return Line(float(fit[0]), slopes, float(fit[1]), factors, float(worst), len(x))
 
 
 def _fit(x, friction):

@@ -2,17 +2,15 @@
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from math import isfinite
+from math import isfinite, nan
 
 import numpy as np
 
 from .campaign import line
+from .intervals import interval, standard_error
 from .law import Law
 from .reproduction import Reproduction
 from .shifts import Shifted
-
-# Of a standard error, for an interval of 95 %.
-WIDE = 1.96
 
 
 @dataclass(frozen=True)
@@ -54,6 +52,8 @@ class Claim:
         """Value and interval in words."""
         if not isfinite(self.value):
             return "undecided"
+        if not (isfinite(self.low) and isfinite(self.high)):
+            return f"{self.value:.4g}, interval undecided"
         return f"{self.value:.4g} ({self.low:.4g} to {self.high:.4g})"
 
 
@@ -100,7 +100,7 @@ def _slope_one(found) -> Iterator[Claim]:
             low=fit.slope_interval[0],
             high=fit.slope_interval[1],
             text=f"Exponent of a power law through {fit.points} {text}. Its factor is {fit.factor:.3f}, and the "
-            f"farthest point is {fit.worst:.1%} away from xi.",
+            f"farthest point is off xi by {fit.worst:.2g} of it.",
         )
 
 
@@ -120,29 +120,32 @@ def _alphas(found) -> Iterator[Claim]:
         )
     one, other = found.laws
     count = min(one.alphas.size, other.alphas.size)
-    between = np.percentile(one.alphas[:count] - other.alphas[:count], [2.5, 97.5])
+    difference = one.alpha - other.alpha
+    error = standard_error(one.alphas[:count] - other.alphas[:count])
+    low, high = interval(difference, error, count - 1)
     yield Claim(
         name=f"alpha does not depend on the shape: {one.shape} minus {other.shape}",
         figure="paper-law",
         expected=0.0,
         tolerance=0.1,
-        value=one.alpha - other.alpha,
-        low=float(between[0]),
-        high=float(between[1]),
-        text="Difference of the two; the profiles are drawn again alike for both shapes.",
+        value=difference,
+        low=low,
+        high=high,
+        text="Difference of the two, on the same profiles.",
     )
 
 
 def _plateaus(laws: tuple[Law, ...]) -> Iterator[Claim]:
     for law in laws:
+        low, high = interval(law.plateau, law.plateau_error, law.alphas.size - 1)
         yield Claim(
             name=f"Eq. 14, the plateau is sqrt(2) times the rms slope, {law.shape}",
             figure="paper-law",
             expected=1.0,
             tolerance=0.03,
             value=law.plateau,
-            low=law.plateau - WIDE * law.plateau_error,
-            high=law.plateau + WIDE * law.plateau_error,
+            low=low,
+            high=high,
             text=f"mu-tilde at xi = {law.xi[-1]:g} over Eq. 19 there, with the rms slope by finite differences.",
         )
 
@@ -155,15 +158,15 @@ def _shifts(found) -> Iterator[Claim]:
 
 def _exponent(exponent, name, shifted: Shifted) -> Claim:
     collapse = shifted.collapse
-    error = WIDE * shifted.exponent_error
+    low, high = shifted.exponent_interval
     return Claim(
         name=f"Fig. 7, shift of {name} as a power of the speed, loss ~ frequency^{exponent:g}",
         figure=f"shifted-curves-{exponent:g}",
         expected=shifted.expected,
         tolerance=0.05 * abs(shifted.expected),
-        value=collapse.exponent,
-        low=collapse.exponent - error,
-        high=collapse.exponent + error,
+        value=collapse.exponent if collapse.overlaps else nan,
+        low=low,
+        high=high,
         text=f"Eq. 23: horizontal shifts that collapse the curves: {collapse.verdict}. They miss one another by "
         f"{collapse.after.rms:.1%} with the scatter of the points at {collapse.scatter:.1%}.",
     )

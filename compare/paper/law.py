@@ -14,7 +14,8 @@ from ..outcome import Outcome
 from ..store import Task as AnyTask
 from ..study import Task
 from . import parameters
-from .campaign import RESAMPLINGS, variable
+from .campaign import variable
+from .intervals import interval, left_out, standard_error
 
 VARIABLES = tuple(float(xi) for xi in np.geomspace(1e-2, 1e2, 25))
 # Exponents among which the best is sought.
@@ -46,8 +47,8 @@ class Law:
     xi : Eq. 18
     friction, error, samples : mu-tilde, its standard error, and that of each profile
     regime : against what the law presupposes
-    alpha, alpha_interval : least squares of ln mu-tilde over all points; 95 % from resampled profiles
-    alphas : those of the resampled profiles (resamplings,)
+    alpha, alpha_interval : least squares of ln mu-tilde over all points; 95 %
+    alphas : each without one profile (profiles,)
     plateau, plateau_error : mu-tilde at the greatest xi over that of Eq. 19 there
     failed : solves without an answer
     """
@@ -80,10 +81,8 @@ def collect(shape: str, found: list[Task], outcomes: Mapping[AnyTask, Outcome]) 
     xi = np.array([variable(task.scenes[0], slope) for task in found])
     kept = samples[:, np.isfinite(samples).all(axis=0)]
     count = kept.shape[1]
-    generator = np.random.default_rng(0)
-    weights = generator.multinomial(count, np.full(count, 1 / count), size=RESAMPLINGS) / count
-    alphas = np.array([_best(xi, mean) for mean in (kept @ weights.T).T])
     mean, error = kept.mean(axis=1), kept.std(axis=1, ddof=1) / np.sqrt(count)
+    alpha, alphas = _best(xi, mean), np.array([_best(xi, without) for without in left_out(kept).T])
     top = equations.interpolation(xi[-1])
     scene = found[0].scenes[0]
     relaxed = elastic_contact(replace(scene, motion=Slide(speed=0.0, load=scene.motion.load)))
@@ -100,8 +99,8 @@ def collect(shape: str, found: list[Task], outcomes: Mapping[AnyTask, Outcome]) 
             longest=parameters.LENGTH,
             rms_slope=slope,
         ),
-        alpha=_best(xi, mean),
-        alpha_interval=tuple(np.percentile(alphas, [2.5, 97.5])),
+        alpha=alpha,
+        alpha_interval=interval(alpha, standard_error(alphas), count - 1),
         alphas=alphas,
         plateau=float(mean[-1] / top),
         plateau_error=float(error[-1] / top),

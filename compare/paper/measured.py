@@ -1,5 +1,6 @@
 """Friction measured by a user at several loads and speeds, on the way of Figs. 5 to 7."""
 
+from math import nan, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,6 @@ from scene.reading import InvalidInput
 from scene.table import read_rows
 
 from ..mastercurve import Curve
-from ..metrics import estimate
 from .shifts import Shifted
 
 COLUMNS = ("mu", "F_N", "v")
@@ -25,11 +25,15 @@ def read_measured(path: str | Path) -> Shifted:
     """Shift the curves of a table: friction coefficient mu, normal force F_N [N] and speed v [m/s], a row a point.
 
     Columns stand in this order, or as a heading names them. Rows of equal load and speed are measurements of one
-    point: their mean counts, with its standard error. Raises InvalidInput naming file, line and what is allowed.
+    point: their mean counts. Its standard error is that of a scatter which, relative to friction, is the same
+    everywhere: two or three measurements say too little of their own. Raises InvalidInput naming file, line and
+    what is allowed.
     """
     try:
         points = _points(path)
-        return Shifted.measured(Path(path).stem, [_curve(speed, points[speed]) for speed in sorted(points)])
+        scatter = _scatter([measured for loads in points.values() for measured in loads.values()])
+        curves = [_curve(speed, points[speed], scatter) for speed in sorted(points)]
+        return Shifted.measured(Path(path).stem, curves)
     except ValueError as error:
         said = str(error)
         raise InvalidInput(said if said.startswith(str(path)) else f"{path}: {said}") from error
@@ -51,11 +55,17 @@ def _points(path):
     return points
 
 
-def _curve(speed, loads):
-    known = [estimate(loads[load]) for load in sorted(loads)]
-    friction = np.array([each.mean for each in known])
-    error = np.array([each.error for each in known])
-    return Curve(speed, np.log(sorted(loads)), np.log(friction), error / friction)
+def _scatter(measurements):
+    """Standard deviation of one measurement over its mean, pooled over all points; NaN where none was repeated."""
+    freedom = sum(len(each) - 1 for each in measurements)
+    squares = sum(np.sum(np.square(np.divide(each, np.mean(each)) - 1)) for each in measurements)
+    return sqrt(squares / freedom) if freedom else nan
+
+
+def _curve(speed, loads, scatter):
+    ordered = [loads[load] for load in sorted(loads)]
+    friction, error = zip(*((np.mean(each), scatter / sqrt(len(each))) for each in ordered), strict=True)
+    return Curve(speed, np.log(sorted(loads)), np.log(friction), np.array(error))
 
 
 def _order(heading):

@@ -20,6 +20,7 @@ from ..outcome import Outcome
 from ..store import Task as AnyTask
 from ..study import Task
 from . import parameters
+from .intervals import interval, standard_error
 
 
 @dataclass(frozen=True)
@@ -30,21 +31,32 @@ class Shifted:
     collapse : the joint fit of the shifts; its curves are ln mu against ln F_N, one a speed
     exponent_error : standard error of the exponent of the shifts against the speed; of simulated curves by leaving
         out one profile at a time, as the same profiles stand behind all points
+    exponent_interval : of 95 %
     expected : that exponent, -beta (n+1)/n; None where nothing is expected
     predicted : misfit of the curves once shifted by it
+    vertical : what vertical shifts achieve beside the horizontal ones; None where points are too few for both, or
+        not independent, as simulated ones on the same profiles
     """
 
     title: str
     collapse: mastercurve.Collapse
     exponent_error: float
+    exponent_interval: tuple[float, float]
     expected: float | None = None
     predicted: Misfit | None = None
+    vertical: mastercurve.Vertical | None = None
 
     @classmethod
     def measured(cls, title: str, curves: Sequence[Curve]) -> "Shifted":
         """Shift curves of which every point was measured by itself. Raises ValueError where points are too few."""
         collapse = mastercurve.collapse(curves)
-        return cls(title, collapse, collapse.exponent_error)
+        error = collapse.exponent_error
+        within = interval(collapse.exponent, error, collapse.after.freedom)
+        try:
+            vertical = mastercurve.vertical(collapse)
+        except ValueError:
+            vertical = None
+        return cls(title, collapse, error, within, vertical=vertical)
 
     @classmethod
     def simulated(cls, title: str, friction: np.ndarray, expected: float) -> "Shifted":
@@ -54,8 +66,9 @@ class Shifted:
         if np.isfinite(collapse.exponent_error) and friction.shape[2] > 2:
             left_out = range(friction.shape[2])
             without = [mastercurve.collapse(_curves(np.delete(friction, k, axis=2))).exponent for k in left_out]
-            error = float(np.std(without) * np.sqrt(len(without) - 1))
-        return cls(title, collapse, error, expected, mastercurve.misfit_at(collapse, expected))
+            error = float(standard_error(np.array(without)))
+        within = interval(collapse.exponent, error, friction.shape[2] - 1)
+        return cls(title, collapse, error, within, expected, mastercurve.misfit_at(collapse, expected))
 
 
 @dataclass(frozen=True)
