@@ -40,17 +40,6 @@ SLIDING = 1e-5, "solving 3D to 1e-9 for 1e-7 moves it by 6e-7 at most, 120 point
 
 
 @dataclass(frozen=True)
-class History(Task):
-    """A task of study whose scenes move by a Program."""
-
-    @property
-    def label(self) -> str:
-        """Short description for people."""
-        scene = self.scenes[0]
-        return f"{self.solver.name} {type(scene.indenter).__name__.lower()}, {len(scene.motion.stages)} stages"
-
-
-@dataclass(frozen=True)
 class Profiles:
     """A task, as of store: one scene on the profiles of the seeds 0, 1, ..., by mdr1d.ensemble.
 
@@ -174,7 +163,7 @@ def _withdrawal() -> Iterator[Quantity]:
             yield Quantity(
                 name=f"withdrawal, {name}, {time:g} s: force 1D/Ting",
                 of="normal_force",
-                numerator=History(MDR(points=400, steps=20), (Scene(shape, solid, Program(stages=stages)),)),
+                numerator=Task(MDR(points=400, steps=20), (Scene(shape, solid, Program(stages=stages)),)),
                 denominator=float(force[0]),
                 tolerance=ROUNDING[0],
                 reason=ROUNDING[1],

@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
+from math import nan
 
 from pydantic import TypeAdapter
 
-from scene import EmptyContact, Indent, Scene, SolveError, Solver
+from scene import EmptyContact, Indent, Program, Scene, SolveError, Solver
+from scene.motion import UNITS
 from scene.protocol import refuse
 from scene.scales import elastic_contact
 
@@ -35,12 +37,11 @@ class Task:
         """Short description for people."""
         scene = self.scenes[0]
         motion, rough = scene.motion, scene.roughness
-        pressed = f"{motion.load:.3g} N" if motion.load is not None else f"{motion.depth * 1e6:.3g} µm"
-        moved = f", {motion.speed:.3g} m/s" if motion.speed else ", at rest"
         body = "smooth" if rough is None else f"surface {rough.seed}"
         if len(self.scenes) > 1:
             body = f"{len(self.scenes)} profiles"
-        return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}{moved}, {body}"
+        pressed, moved = _pressed(motion), _moving(motion)
+        return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}, {moved}, {body}"
 
     @property
     def question(self) -> dict:
@@ -64,7 +65,8 @@ class Task:
             try:
                 result = self.solver.solve(scene)
             except EmptyContact:
-                rows.append(Row(0.0, scene.motion.depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
+                depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
+                rows.append(Row(0.0, depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
                 continue
             except SolveError as error:
                 rows.append(Row(reason=str(error) or type(error).__name__))
@@ -77,6 +79,18 @@ class Task:
     def fits(self, outcome: Outcome) -> bool:
         """A row a scene."""
         return len(outcome.rows) == len(self.scenes)
+
+
+def _pressed(motion):
+    """What presses, with its unit; depths in micrometres."""
+    value, unit = motion.greatest, UNITS[motion.pressed_by]
+    return f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
+
+
+def _moving(motion):
+    if isinstance(motion, Program):
+        return f"{len(motion.stages)} stages"
+    return f"{motion.speed:.3g} m/s" if motion.speed else "at rest"
 
 
 @dataclass(frozen=True)

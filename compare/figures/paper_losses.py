@@ -86,11 +86,12 @@ def caption(found: Sequence[Lossy]) -> str:
 def _regime(regime):
     """Where the loads stand; the same for every loss, as the relaxed contact and the roughness are."""
     broken = [name for name, holds in regime.flags.items() if not np.all(holds)]
+    height, width = np.max(regime.height_over_depth), np.max(regime.contact_over_period)
+    macro, slope = np.max(regime.macro_over_rough), np.max(regime.rms_slope)
     return (
-        f"At all loads the rms height is at most {np.max(regime.height_over_depth):.2g} of the depth, the width of the "
-        f"contact at most {np.max(regime.contact_over_period):.2g} of the longest wave, and the macroscopic slope at most "
-        f"{np.max(regime.macro_over_rough):.2g} of that of the roughness, {np.max(regime.rms_slope):.2g}. "
-        f"Conditions of the laws that do not hold everywhere: {', '.join(broken) or 'none'}."
+        f"At all loads the rms height is at most {height:.2g} of the depth, the width of the contact at most "
+        f"{width:.2g} of the longest wave, and the macroscopic slope at most {macro:.2g} of that of the "
+        f"roughness, {slope:.2g}. Conditions of the laws that do not hold everywhere: {', '.join(broken) or 'none'}."
     )
 
 
