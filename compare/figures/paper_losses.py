@@ -91,7 +91,8 @@ def _regime(regime):
     return (
         f"At all loads the rms height is at most {height:.2g} of the depth, the width of the contact at most "
         f"{width:.2g} of the longest wave, and the macroscopic slope at most {macro:.2g} of that of the "
-        f"roughness, {slope:.2g}. Conditions of the laws that do not hold everywhere: {', '.join(broken) or 'none'}."
+        f"roughness, {slope:.2g}. Conditions of the laws that do not hold everywhere: "
+        f"{', '.join(broken) or 'none'}."
     )
 
 
