@@ -52,6 +52,11 @@ def timeline(program: Program, pixel: float, steps: int) -> Timeline:
         # Not the path at those times: late in a program a short step is known less well than its path.
         place = slid + length * shares
         places.append(np.where(np.abs(place - np.rint(place)) < ROUNDING, np.rint(place), place))
+    if not np.all(np.diff(np.concatenate(times)) > 0):
+        raise SolveError(
+            f"durations of the stages, from {min(stage.duration for stage in program.stages):g} to "
+            f"{program.duration:g} s in all, differ by more than rounding allows: steps of the shortest are lost"
+        )
     place = np.concatenate(places)
     passed = np.floor(place[:-1])
     return Timeline(np.concatenate(times), passed.astype(int), place[:-1] - passed, place[1:] - passed)

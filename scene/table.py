@@ -89,7 +89,8 @@ def _is_number(cell):
 def _row(cells, names, where):
     if len(cells) != len(names):
         needed = ", ".join(names[:-1]) + f" and {names[-1]}"
-        raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others")
+        hint = "; commas separate columns, numbers have decimal points" if len(cells) > len(names) else ""
+        raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others{hint}")
     for name, cell in zip(names, cells, strict=True):
         if not _is_number(cell):
             raise ValueError(f"{where}: {name} = {cell!r} is not a number")

@@ -250,6 +250,7 @@ def test_single_measurements_leave_the_verdict_open(tmp_path):
     [
         ("mu,F,w\n1,2,3\n", "must name each of mu, F_N, v once"),
         ("1,2\n", "line 1: 2 columns; mu, F_N and v are needed"),
+        ("0,5;1,0;3,2\n", "line 1: 6 columns.*numbers have decimal points"),
         ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
         ("1,2,3\n1,x,3\n", "line 2: F_N = 'x' is not a number"),
         ("1,2,3\n1,3,3\n", "1 speeds: at least 2"),
