@@ -89,14 +89,24 @@ def judge(case: Case, points: Sequence[Point], swept: Swept) -> Judgement:
 
 
 def load_curves(table: Sequence[Record], solver: str) -> list[Curve]:
-    """ln mu against ln F at each speed, points without friction or load left out."""
+    """ln mu against ln F at each speed, points without friction or load left out.
+
+    The scatter between surfaces, relative to friction, is taken for the same at all points.
+    """
+    kept = [
+        record
+        for record in metrics.select(table, "load", solver)
+        if record.normal_force.mean > 0 and record.friction_coefficient.mean > 0
+    ]
+    scatter = metrics.pooled_scatter(record.friction_coefficient for record in kept)
     curves = []
-    for speed, records in metrics.by_speed(metrics.select(table, "load", solver)).items():
-        kept = [r for r in records if r.normal_force.mean > 0 and r.friction_coefficient.mean > 0]
-        friction = np.array([r.friction_coefficient.mean for r in kept])
-        error = np.array([r.friction_coefficient.error for r in kept])
-        load = np.array([r.normal_force.mean for r in kept])
-        curves.append(Curve(speed, np.log(load), np.log(friction), error / friction))
+    for speed, records in metrics.by_speed(kept).items():
+        friction, load = (
+            np.array([getattr(record, name).mean for record in records])
+            for name in ("friction_coefficient", "normal_force")
+        )
+        counts = np.array([record.friction_coefficient.count for record in records])
+        curves.append(Curve(speed, np.log(load), np.log(friction), scatter / np.sqrt(counts)))
     return curves
 
 

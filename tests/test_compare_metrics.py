@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from compare import metrics
-from compare.metrics import Estimate, estimate
+from compare.metrics import Estimate, estimate, pooled_scatter
 from compare.outcome import Outcome, Row
 from compare.study import Point, Task
 from mdr1d import MDR
@@ -57,3 +57,13 @@ def test_a_ratio_to_nothing_is_undecided():
     nothing = Estimate(0.0, 0.0, 0.0, 5)
     assert all(isnan(value) for value in metrics.ratio(Estimate(1.0, 0.1, 0.1, 5), nothing))
     assert isnan(metrics.ratio(Estimate(1.0, nan, nan, 1), Estimate(2.0, 0.1, 0.1, 5))[1])
+
+
+def test_the_pooled_scatter_is_that_of_all_values_and_steadier_than_that_of_a_few():
+    rng = np.random.default_rng(0)
+    drawn = [estimate(scale * (1 + 0.03 * rng.normal(size=3))) for scale in np.geomspace(1e-3, 10, 200)]
+    # 400 degrees of freedom: 3.5 %.
+    assert pooled_scatter(drawn) == pytest.approx(0.03, rel=0.12)
+    assert min(each.deviation / each.mean for each in drawn) < 0.005
+    assert pooled_scatter([drawn[0], estimate([5.0])]) == pytest.approx(drawn[0].deviation / drawn[0].mean)
+    assert np.isnan(pooled_scatter([estimate([5.0]), estimate([6.0])]))

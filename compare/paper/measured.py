@@ -1,6 +1,6 @@
 """Friction measured by a user at several loads and speeds, on the way of Figs. 5 to 7."""
 
-from math import nan, sqrt
+from math import sqrt
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +9,7 @@ from scene.reading import InvalidInput
 from scene.table import read_rows
 
 from ..mastercurve import Curve
+from ..metrics import estimate, pooled_scatter
 from .shifts import Shifted
 
 COLUMNS = ("mu", "F_N", "v")
@@ -31,7 +32,7 @@ def read_measured(path: str | Path) -> Shifted:
     """
     try:
         points = _points(path)
-        scatter = _scatter([measured for loads in points.values() for measured in loads.values()])
+        scatter = pooled_scatter(estimate(measured) for loads in points.values() for measured in loads.values())
         curves = [_curve(speed, points[speed], scatter) for speed in sorted(points)]
         return Shifted.measured(Path(path).stem, curves)
     except ValueError as error:
@@ -53,13 +54,6 @@ def _points(path):
         if len(loads) < LEAST_LOADS:
             raise ValueError(f"v = {speed:g} has {len(loads)} load: at least {LEAST_LOADS} are needed for a curve")
     return points
-
-
-def _scatter(measurements):
-    """Standard deviation of one measurement over its mean, pooled over all points; NaN where none was repeated."""
-    freedom = sum(len(each) - 1 for each in measurements)
-    squares = sum(np.sum(np.square(np.divide(each, np.mean(each)) - 1)) for each in measurements)
-    return sqrt(squares / freedom) if freedom else nan
 
 
 def _curve(speed, loads, scatter):
