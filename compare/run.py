@@ -87,8 +87,9 @@ def reproduce(profiles: int, folder: Path, workers: int | None) -> None:
         f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; drawing the figures"
     )
     found = reproduction.collect(size, swept.outcomes)
-    page = write_paper(folder, found, swept)
-    for claim in claims(found):
+    judged = claims(found)
+    page = write_paper(folder, found, judged, swept)
+    for claim in judged:
         console.print(f"  {claim.verdict:9s}  {claim.name}: {claim.written}", markup=False)
     if found.failed:
         console.print(f"  {found.failed} solves failed and are left out")

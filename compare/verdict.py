@@ -11,7 +11,8 @@ from scene.scales import elastic_contact
 
 from . import exact, metrics
 from .cases import Case
-from .mastercurve import Collapse, Curve, collapse, misfit_at
+from .commoncurve import Curve
+from .mastercurve import Collapse, collapse, misfit_at
 from .metrics import Record
 from .study import Point
 from .sweep import Swept

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from .mastercurve import Collapse, Misfit, Vertical
+from .commoncurve import Misfit
+from .mastercurve import Collapse
+from .vertical import Vertical
 
 
 def plus_minus(value: float, error: float, unit: str = "") -> str:

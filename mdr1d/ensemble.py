@@ -7,7 +7,7 @@ period.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from math import ceil, nan
+from math import nan
 
 import numpy as np
 
@@ -17,12 +17,10 @@ from scene.scales import elastic_contact
 
 from .foundation import press_many
 from .indentation import ACCEPTED
-from .surface import Surface, waves_of
+from .surface import MOST_NODES, Surface, nodes_needed, waves_of
 
 # Relative misfit of the load at which a search stops: friction needs no more.
 _AIM = 1e-11
-# On each side of the tip; and in a period of roughness at least.
-_MOST_NODES, _LEAST_NODES = 2**25, 4
 
 
 @dataclass(frozen=True)
@@ -100,9 +98,9 @@ class _Series:
         enough = self.coefficient * (self.radius + self.pixel) ** self.exponent
         rise = enough + np.ptp(surface.heights) * self.rms
         half = np.ceil((rise / self.coefficient) ** (1 / self.exponent) / self.pixel) + 1
-        if half.max() > _MOST_NODES:
+        if half.max() > MOST_NODES:
             raise SolveError(
-                f"contact may take {2 * half.max():.2g} pixels of {self.pixel:g} m, more than {2 * _MOST_NODES}: "
+                f"contact may take {2 * half.max():.2g} pixels of {self.pixel:g} m, more than {2 * MOST_NODES}: "
                 "take fewer points, a longer period or a lesser load"
             )
         found = np.empty((self.rms.size, 6))
@@ -143,7 +141,7 @@ def _check(scene):
 
 
 def _check_resolved(rough, points):
-    needed = _LEAST_NODES if rough.shortest is None else ceil(2 * rough.longest / rough.shortest * (1 - 1e-12))
+    needed = nodes_needed(rough)
     if points < needed:
         raise ValueError(
             f"points = {points} do not resolve roughness with longest = {rough.longest:g}: it takes at least "

@@ -19,10 +19,7 @@ from .maxwell import sweep_modes
 from .measures import measures
 from .modes import modes_of
 from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, unmapped
-from .surface import Spectrum
-
-# One period of roughness must fit into memory, and have waves at all.
-_MOST_NODES, _LEAST_NODES = 2**25, 4
+from .surface import MOST_NODES, Spectrum, nodes_needed
 
 
 @dataclass(frozen=True, config=CLOSED)
@@ -182,18 +179,18 @@ def _flow(scene: Scene) -> Sweep:
 def _too_broad(scene: Scene) -> list[str]:
     """Whether the spectrum alone asks for too much."""
     rough = scene.roughness
-    if rough.shortest is None or rough.longest / rough.shortest <= _MOST_NODES / 16:
+    if rough.shortest is None or rough.longest / rough.shortest <= MOST_NODES / 16:
         return []
     return [
         f"roughness from longest = {rough.longest:g} to shortest = {rough.shortest:g} spans a ratio of "
-        f"{rough.longest / rough.shortest:g}, more than {_MOST_NODES // 16}: raise shortest"
+        f"{rough.longest / rough.shortest:g}, more than {MOST_NODES // 16}: raise shortest"
     ]
 
 
 def _unresolved(scene: Scene, layout: Grid, points: int) -> list[str]:
     """What is wrong with the grid for the roughness."""
     rough = scene.roughness
-    needed = _LEAST_NODES if rough.shortest is None else ceil(2 * rough.longest / rough.shortest * (1 - 1e-12))
+    needed = nodes_needed(rough)
     if layout.period < needed:
         shortest = "" if rough.shortest is None else f", shortest = {rough.shortest:g},"
         enough = ceil(needed * layout.extent / rough.longest)
@@ -202,10 +199,10 @@ def _unresolved(scene: Scene, layout: Grid, points: int) -> list[str]:
             f"which roughness with longest = {rough.longest:g}{shortest} is not resolved: "
             f"it takes at least points = {enough}"
         ]
-    if layout.period > _MOST_NODES:
+    if layout.period > MOST_NODES:
         return [
             f"points = {points} over an extent of {layout.extent:g} m divide the period roughness.longest = "
-            f"{rough.longest:g} into {layout.period} pixels, more than {_MOST_NODES}: take fewer points, a larger "
+            f"{rough.longest:g} into {layout.period} pixels, more than {MOST_NODES}: take fewer points, a larger "
             "extent or a shorter period"
         ]
     return []

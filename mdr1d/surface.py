@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import floor, pi, sqrt
+from math import ceil, floor, pi, sqrt
 from typing import Literal
 
 import numpy as np
@@ -16,6 +16,17 @@ Spectrum = Literal["mapped", "line-scan"]
 _PHASES, _MODULI = (1,), (1, 0)
 # Phases kept for the next spectrum: 2 MB of them at most, for each of a few seeds.
 _MOST_KEPT = 2**17
+
+
+# One period of roughness must fit into memory, and have waves at all.
+MOST_NODES, _LEAST_NODES = 2**25, 4
+
+
+def nodes_needed(roughness: SelfAffine) -> int:
+    """Nodes in a period that the shortest wave asks for, two of them to a wave."""
+    if roughness.shortest is None:
+        return _LEAST_NODES
+    return ceil(2 * roughness.longest / roughness.shortest * (1 - 1e-12))
 
 
 @dataclass(frozen=True)

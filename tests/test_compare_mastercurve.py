@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from compare.mastercurve import DEGREE, LEAST_OVERLAP, Curve, _Fit, collapse, misfit_at, shifted, vertical
+from compare.commoncurve import LEAST_OVERLAP, Curve, Fit
+from compare.mastercurve import DEGREE, collapse, misfit_at, shifted
+from compare.vertical import vertical_shifts
 from mdr1d.equations import force_shift_exponent, interpolation
 
 LOADS = np.log(np.geomspace(0.2, 10.0, 6))
@@ -93,7 +95,7 @@ def test_a_law_that_holds_is_rejected_no_more_often_than_stated_however_small_th
 
 @pytest.mark.parametrize("degree", [4, 10])
 def test_slopes_of_the_misfits_are_those_of_differences_outside_the_polynomials(degree):
-    fit = _Fit(curves(eq_19(0.3, 2.0), -1.5, noise=0.03, loads=MANY, speeds=(0.1, 0.3, 1.0, 2.0)), degree)
+    fit = Fit(curves(eq_19(0.3, 2.0), -1.5, noise=0.03, loads=MANY, speeds=(0.1, 0.3, 1.0, 2.0)), degree)
     at, step = np.array([0.4, -0.7, 1.1]), 1e-5
     differences = np.transpose(
         [(fit.residuals(at + by) - fit.residuals(at - by)) / (2 * step) for by in step * np.eye(at.size)]
@@ -195,7 +197,7 @@ def raised(by, noise, rng):
 
 def test_a_vertical_shift_that_is_there_is_found_and_measured():
     rng = np.random.default_rng(2)
-    found = [vertical(collapse(raised(0.1, 0.005, rng))) for _ in range(10)]
+    found = [vertical_shifts(collapse(raised(0.1, 0.005, rng))) for _ in range(10)]
     assert [each.needed for each in found] == ["yes"] * 10
     exponents = np.array([each.exponent for each in found])
     errors = np.array([each.exponent_error for each in found])
@@ -207,7 +209,7 @@ def test_a_vertical_shift_that_is_there_is_found_and_measured():
 
 def test_a_vertical_shift_that_is_not_there_is_seldom_asked_for_and_zero_within_its_error():
     rng = np.random.default_rng(3)
-    found = [vertical(collapse(raised(0.0, 0.01, rng))) for _ in range(12)]
+    found = [vertical_shifts(collapse(raised(0.0, 0.01, rng))) for _ in range(12)]
     # One in a hundred is the rate.
     assert [each.needed for each in found].count("yes") <= 1
     over = np.array([each.exponent / each.exponent_error for each in found])
@@ -219,15 +221,15 @@ def test_the_need_of_a_vertical_shift_does_not_ask_for_known_errors():
     rng = np.random.default_rng(4)
     for by, needed in ((0.1, "yes"), (0.0, "no")):
         unknown = [replace(c, error=np.full_like(c.error, np.nan)) for c in raised(by, 0.005, rng)]
-        assert vertical(collapse(unknown)).needed == needed
+        assert vertical_shifts(collapse(unknown)).needed == needed
 
 
 def test_on_straight_lines_a_vertical_shift_is_a_horizontal_one():
     straight = curves(lambda x: -0.3 * x, -1.5, error=0.01, noise=0.01, loads=MANY, speeds=WIDE)
-    assert vertical(collapse(straight)).needed == "undecided"
+    assert vertical_shifts(collapse(straight)).needed == "undecided"
 
 
 def test_too_few_points_for_both_shifts_are_refused():
     few = curves(cubic, -1.5, error=0.01, noise=0.01, loads=LOADS[:3])
     with pytest.raises(ValueError, match="too few points"):
-        vertical(collapse(few))
+        vertical_shifts(collapse(few))

@@ -7,6 +7,7 @@ import matplotlib.colors
 import numpy as np
 import pytest
 
+from compare.commoncurve import Curve, Misfit
 from compare.figures import (
     paper_contacts,
     paper_law,
@@ -17,7 +18,6 @@ from compare.figures import (
     style,
 )
 from compare.mastercurve import Collapse as Curves
-from compare.mastercurve import Curve, Misfit
 from compare.outcome import Row
 from compare.paper import campaign, contacts, law, parameters, shifts
 from compare.paper.campaign import Campaign, Collapse

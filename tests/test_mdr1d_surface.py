@@ -8,6 +8,7 @@ import pytest
 
 from bem3d.surface import RoughSurface
 from mdr1d import amplitudes, draw
+from mdr1d.surface import nodes_needed
 from scene import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=1e-2, shortest=5e-5)
@@ -178,3 +179,11 @@ def test_a_line_scan_has_the_waves_of_a_cut_through_the_rough_surface(hurst):
 def test_both_spectra_are_drawn_with_the_same_phases():
     mapped, scan = (np.fft.rfft(draw(ROUGH, 1000, s).heights)[1:190] for s in ("mapped", "line-scan"))
     np.testing.assert_allclose(np.angle(mapped / scan), 0.0, atol=1e-9)
+
+
+def test_the_shortest_wave_asks_for_two_nodes():
+    rough = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, shortest=1e-4)
+    assert nodes_needed(rough) == 200
+    # 100/3 is rounded up, and a quotient that is whole but for rounding is not.
+    assert nodes_needed(replace(rough, shortest=3e-4)) == 67
+    assert nodes_needed(replace(rough, longest=0.3, shortest=0.1)) == 6

@@ -8,7 +8,7 @@ import numpy as np
 from scene.reading import InvalidInput
 from scene.table import read_rows
 
-from ..mastercurve import Curve
+from ..commoncurve import Curve
 from ..metrics import estimate, pooled_scatter
 from .shifts import Shifted
 

@@ -1,21 +1,24 @@
 """The page of the paper: claims, figures, tables."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..figures import paper_contacts, paper_law, paper_losses, paper_sketch, paper_studies, shifted_curves
 from ..publish import Drawn, draw, machine, render, versions, write_csv, write_json, write_text
 from ..sweep import Swept
 from . import parameters
-from .claims import claims
+from .claims import Claim
 from .reproduction import Reproduction
 
 PAGE, MANIFEST = "paper.html", "manifest.json"
 
 
-def write_paper(folder: Path, found: Reproduction, swept: Swept) -> Path:
-    """Write page, figures and tables into a folder, and return the path of the page."""
+def write_paper(folder: Path, found: Reproduction, said: Sequence[Claim], swept: Swept) -> Path:
+    """Write page, figures and tables into a folder, and return the path of the page.
+
+    said : the claims
+    """
     drawn = figures(folder, found)
-    said = claims(found)
     write_csv(folder / "claims.csv", [claim.row for claim in said])
     manifest = {
         "versions": versions(),

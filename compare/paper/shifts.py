@@ -15,10 +15,11 @@ from scene import Regime, Scene
 from scene.scales import elastic_contact
 
 from .. import mastercurve
-from ..mastercurve import Curve, Misfit
+from ..commoncurve import Curve, Misfit
 from ..outcome import Outcome
 from ..store import Task as AnyTask
 from ..study import Task
+from ..vertical import Vertical, vertical_shifts
 from . import parameters
 from .intervals import interval, standard_error
 
@@ -44,7 +45,7 @@ class Shifted:
     exponent_interval: tuple[float, float]
     expected: float | None = None
     predicted: Misfit | None = None
-    vertical: mastercurve.Vertical | None = None
+    vertical: Vertical | None = None
 
     @classmethod
     def measured(cls, title: str, curves: Sequence[Curve]) -> "Shifted":
@@ -53,7 +54,7 @@ class Shifted:
         error = collapse.exponent_error
         within = interval(collapse.exponent, error, collapse.after.freedom)
         try:
-            vertical = mastercurve.vertical(collapse)
+            vertical = vertical_shifts(collapse)
         except ValueError:
             vertical = None
         return cls(title, collapse, error, within, vertical=vertical)
