@@ -31,3 +31,22 @@ def measured(problem: Problem, grid: Grid, pressure: np.ndarray, gap: np.ndarray
             "contact_fraction": float(contact_points / pressure.size),
         }
     return measures
+
+
+def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray, slopes: np.ndarray) -> float:
+    """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
+
+    pressure : not zero everywhere [Pa] (rows, points)
+    slopes : dz/dx at the pixels' centres [1] (rows, points)
+
+    Slopes are differenced in fourth order: what is left is the error of the pressure, of second order in the
+    pixel, and of first order around the tip of a cone, where pressure and d2z/dx2 are infinite.
+    """
+    two = (0, 0), (2, 2)
+    if isinstance(problem.scene.indenter, Plane):
+        slopes = np.pad(slopes, two, "wrap")
+    else:
+        slopes = np.pad(slopes, two, "reflect", reflect_type="odd")
+    next_to, next_but_one = slopes[:, 3:-1] - slopes[:, 1:-3], slopes[:, 4:] - slopes[:, :-4]
+    gained = np.sum(pressure * (8 * next_to - next_but_one)) / 12
+    return float(gained / pressure.sum() / grid.pixel)

@@ -15,7 +15,7 @@ from . import window
 from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .history import marched
-from .measures import measured
+from .measures import curvature_by_pressure, measured
 from .problem import Problem
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
@@ -48,6 +48,8 @@ class BEM:
     Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
     preconditioner too (half where it transforms along x alone), both in equivalents of the finest grid.
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, rounds, transform_pairs;
+    curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and roughness weighted with the pressure: at rest
+    it is mu at low speed over that speed and the mean lag of the elastomer;
     friction_by_traction, friction_by_loss, friction_by_work [N]: by the indenter's slope, by the slope of the
     displacement, by the work done on the surface from pixel to pixel; friction_disagreement, what the second
     differs from the third, or from the first as far as that counts, over the normal force: an indicator of the
@@ -58,7 +60,7 @@ class BEM:
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
     depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
     leaves nothing in contact, as is its gap. Its measures are of the last step; of friction by_traction and
-    by_work alone, the second NaN at rest; rounds of all steps; and time_steps.
+    by_work alone, the second NaN at rest; rounds of all steps; and time_steps; no curvature_by_pressure.
     """
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
@@ -148,7 +150,8 @@ class BEM:
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus
         normal_force = float(pressure.sum() * grid.patch)
-        traction = float(-np.sum(pressure * problem.slopes(grid, problem.surface(grid))) * grid.patch)
+        slopes = problem.slopes(grid, problem.surface(grid))
+        traction = float(-np.sum(pressure * slopes) * grid.patch)
         loss, work = problem.lost(grid, pressure)
         lag = problem.flow.lag(grid)
         frictions = {"friction_by_traction": traction, "friction_by_loss": loss, "friction_by_work": work}
@@ -164,6 +167,7 @@ class BEM:
             seconds=time.process_time() - started,
             measures={
                 **measured(problem, grid, pressure, answer.gap * grid.pixel),
+                "curvature_by_pressure": curvature_by_pressure(problem, grid, pressure, slopes),
                 **frictions,
                 "friction_disagreement": max(abs(work - loss), lag * abs(traction - loss)) / normal_force,
                 "rounds": float(answer.rounds),

@@ -6,7 +6,7 @@ import numpy as np
 
 from scene import CrossedWaves, SelfAffine, SolveError
 
-MOST_WAVES = 2048  # wavelengths of the cut-off on the period, each way: 135 MB of amplitudes
+MOST_WAVES = 2560  # of the cut-off on the period, each way: 210 MB of amplitudes, 1.4 GB while they are drawn
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
 CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell
 # Spawn keys keep a surface apart from a line drawn with the same seed, and the moduli of waves from the phases.

@@ -82,6 +82,32 @@ def mastercurve(
 
 
 @app.command()
+def study(
+    name: Annotated[str | None, typer.Argument(help="Study; without it, they are listed.")] = None,
+    size: Annotated[str, typer.Option(help="quick (two minutes), standard (an hour) or paper (days).")] = "quick",
+    output: Annotated[Path, typer.Option(help="Folder of pages and of what has been solved.")] = Path(
+        "crosscheck-study"
+    ),
+    workers: Workers = None,
+) -> None:
+    """Ask the claims of the paper of many contacts in one and in three dimensions, and write a page."""
+    from .run import SIZES, STUDIES, conduct_study, make_folders
+
+    if name is None:
+        for each, asked in STUDIES.items():
+            typer.echo(f"{each:12s} {asked.title} {asked.about}")
+        return
+    for given, option, known in ((name, "NAME", STUDIES), (size, "--size", SIZES)):
+        if given not in known:
+            typer.echo(f"crosscheck: {option} = {given}: allowed are {', '.join(known)}", err=True)
+            raise typer.Exit(MISTAKE)
+    with _mistakes_said(output):
+        make_folders(output, [f"{name}-{size}"])
+    with _interrupts_said():
+        conduct_study(name, size, output, workers)
+
+
+@app.command()
 def regress(
     baseline: Annotated[
         Path | None, typer.Option(help="Stored quantities as TOML; without it, those of the package.")

@@ -17,6 +17,10 @@ LEAST_OVERLAP = 0.25
 STARTS = np.linspace(-3.0, 3.0, 7)
 # Of the largest singular value, what still counts.
 _TOLD = 1e-12
+# Of the range between the bounds, what counts as at one of them.
+_CLEAR = 1e-3
+# Of Gauss-Newton: steps at most, and the square of what a step still changes over the sum of squares.
+_NEAR, _SETTLED = 20, 1e-12
 
 
 @dataclass(frozen=True)
@@ -45,19 +49,39 @@ class Misfit:
         return "holds" if self.chi_square <= 1 + 2 * sqrt(2 / self.freedom) else "fails"
 
 
+@dataclass(frozen=True)
+class Common:
+    """The best common polynomial of curves shifted in some way; arrays over all points (N,), over their errors.
+
+    basis, orthonormal : polynomials and levels (N, M), as they are and orthonormal
+    slopes : of the polynomial
+    coefficients : of the polynomial, then the increments of the level (M,)
+    domain : least and greatest ln F, shifted as the first curve is
+    """
+
+    basis: np.ndarray
+    orthonormal: np.ndarray
+    slopes: np.ndarray
+    coefficients: np.ndarray
+    domain: tuple[float, float]
+
+
 class Fit:
     """Misfit of the curves to their best common polynomial, given the increments of the shifts."""
 
     def __init__(self, curves, degree, lifted=False):
-        self.curves, self.degree = curves, degree
+        self.curves, self.degree, self.lifted = curves, degree, lifted
         self.owner = np.repeat(np.arange(len(curves)), [curve.log_load.size for curve in curves])
         self.log_load = np.concatenate([curve.log_load for curve in curves])
         self.log_friction = np.concatenate([curve.log_friction for curve in curves])
         self.error = np.concatenate([curve.error for curve in curves])
         self.known = bool(np.all(np.isfinite(self.error) & (self.error > 0)))
         self.weight = 1 / self.error if self.known else np.ones_like(self.log_load)
-        # An increment of the level moves every later curve down.
-        self.levels = (self.owner[:, None] > np.arange(len(curves) - 1 if lifted else 0)).astype(float)
+        # An increment moves every later curve.
+        self.later = (self.owner[:, None] > np.arange(len(curves) - 1)).astype(float)
+        # One of the level moves it down.
+        self.levels = self.later if lifted else self.later[:, :0]
+        self._last = None
 
     def misfits(self, increments):
         """ln mu minus the best polynomial, (N,)."""
@@ -74,29 +98,43 @@ class Fit:
         Kaufman, BIT 15, 49 (1975). The gradient of the sum of squares is exact, as residuals do not lie there.
         """
         basis, slopes, _ = self._projected(increments)
-        # An increment moves every later curve.
-        moved = slopes[:, None] * (self.owner[:, None] > np.arange(len(increments)))
+        moved = slopes[:, None] * self.later
         return basis @ (basis.T @ moved) - moved
+
+    def tangent(self, increments):
+        """What the fit can change to first order: polynomials, levels and shifts (N, M), over the error."""
+        common = self.common(increments)
+        return np.hstack([common.basis, common.slopes[:, None] * self.later])
+
+    def lifts(self, increments):
+        """Increments of the level (K - 1,), zero where curves are not lifted."""
+        return (
+            self.common(increments).coefficients[self.degree + 1 :] if self.lifted else np.zeros(len(increments))
+        )
 
     def linearised(self, increments):
         """Increments of the level (K - 1,), and the covariance of those of both shifts for unit errors."""
-        basis, _, slopes, coefficients = self._linear(increments)
-        moved = slopes[:, None] * (self.owner[:, None] > np.arange(len(increments)))
+        common = self.common(increments)
         levels = slice(self.degree + 1, None)
-        design = np.hstack([moved, basis[:, levels], basis[:, : self.degree + 1]])
+        moved = common.slopes[:, None] * self.later
+        design = np.hstack([moved, common.basis[:, levels], common.basis[:, : self.degree + 1]])
         scale = np.linalg.norm(design, axis=0)
         inverse = np.linalg.pinv((design / scale).T @ (design / scale)) / np.outer(scale, scale)
         count = 2 * len(increments)
-        return coefficients[levels], inverse[:count, :count]
+        return common.coefficients[levels], inverse[:count, :count]
 
     def _projected(self, increments):
         """Orthonormal polynomials and levels (N, M), slope of the best curve and ln mu (N,), over the error."""
-        _, orthonormal, slopes, _ = self._linear(increments)
-        return orthonormal, slopes, self.log_friction * self.weight
+        common = self.common(increments)
+        return common.orthonormal, common.slopes, self.log_friction * self.weight
 
-    def _linear(self, increments):
-        """Polynomials and levels (N, M), the same orthonormal, slope of the best curve (N,), over the error; and
-        its coefficients (M,)."""
+    def common(self, increments):
+        """The best polynomial once the curves are shifted; kept, as residuals and slopes are asked for in turn."""
+        if self._last is None or not np.array_equal(self._last[0], increments):
+            self._last = np.array(increments), self._common(increments)
+        return self._last[1]
+
+    def _common(self, increments):
         x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
         middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
         scaled = (x - middle) / half
@@ -107,7 +145,13 @@ class Fit:
         orthonormal = left[:, told]
         coefficients = right[told].T @ (orthonormal.T @ (self.log_friction * self.weight) / sizes[told])
         slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients[: self.degree + 1])) / half
-        return basis, orthonormal, slopes * self.weight, coefficients
+        return Common(
+            basis=basis,
+            orthonormal=orthonormal,
+            slopes=slopes * self.weight,
+            coefficients=coefficients,
+            domain=(x.min(), x.max()),
+        )
 
     def misfit(self, increments, shifts):
         """shifts : how many of the increments were fitted."""
@@ -135,11 +179,38 @@ def best_of_starts(fit, lengths, lower, upper):
 
 
 def minimum(fit, guess, lower, upper):
-    margin = 1e-3 * (upper - lower)
-    guess = np.clip(guess, lower + margin, upper - margin)
+    guess = within(guess, lower, upper)
     return least_squares(
         fit.residuals, guess, fit.jacobian, bounds=(lower, upper), xtol=1e-14, ftol=1e-14, gtol=1e-14
     )
+
+
+def near(fit, guess, lower, upper):
+    """Increments of least misfit close to a guess (Gauss-Newton), from `minimum` where they are not that close."""
+    at, least = guess, np.inf
+    for _ in range(_NEAR):
+        residuals, jacobian = fit.residuals(at), fit.jacobian(at)
+        cost = residuals @ residuals
+        if not cost <= least or np.any((at <= lower) | (at >= upper)):
+            break
+        least = cost
+        step = np.linalg.lstsq(jacobian, -residuals, rcond=_TOLD)[0]
+        gain = jacobian @ step
+        at = at + step
+        if gain @ gain <= _SETTLED * (cost + _TOLD**2):
+            return at
+    return minimum(fit, guess, lower, upper).x
+
+
+def within(increments, lower, upper):
+    """The nearest increments that keep clear of the bounds."""
+    margin = _CLEAR * (upper - lower)
+    return np.clip(increments, lower + margin, upper - margin)
+
+
+def inside(increments, lower, upper):
+    """Whether the demand for overlap leaves the increments free."""
+    return bool(np.all(np.minimum(increments - lower, upper - increments) > _CLEAR * (upper - lower)))
 
 
 def from_increments(increments, covariance, reference):

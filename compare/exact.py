@@ -43,6 +43,27 @@ def slow_friction_1d(speed, radius, lag, indentation_modulus, coefficient, expon
     return 2 * slow_friction_3d(speed, radius, lag, indentation_modulus, coefficient, exponent)
 
 
+def slow_friction_by_curvature(speed, lag, load, curvature):
+    """Friction force [N] of any contact that slides slowly on a viscoelastic half-space, smooth or rough.
+
+    F_x -> v tau int p d2z/dx2 dA, to first order in the speed v, with the mean lag tau [s] and the pressure p at
+    rest: the displacement w = A p trails by tau, so that F_x = -v tau int p d2w/dx2 dA, and in contact w + z is
+    constant. Of a body of revolution it is slow_friction_3d.
+
+    load : normal force [N]; curvature : mean of d2z/dx2 weighted with p [1/m], `curvature_by_pressure` of BEM
+    """
+    return speed * lag * load * curvature
+
+
+def slow_friction_by_slope(speed, lag, indentation_modulus, rms_slope, length):
+    """The same friction force [N] in the MDR, smooth or rough: F_x -> E* tau v int g'^2 dx over the real contact.
+
+    Eq. 10 with 4G = E*. rms_slope, length : of the profile over the contact at rest [1], and its length [m];
+    `rms_slope_contact` and `contact_length` of MDR at rest
+    """
+    return speed * lag * indentation_modulus * rms_slope**2 * length
+
+
 def loss_exponent(elastomer, wave_number, speeds):
     """beta of G'' ~ omega^beta, from the lowest to the highest of some speeds [m/s] at a wave number [rad/m]."""
     slow, fast = min(speeds), max(speeds)

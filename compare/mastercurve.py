@@ -9,7 +9,18 @@ from math import nan, sqrt
 
 import numpy as np
 
-from .commoncurve import Curve, Fit, Misfit, best_of_starts, bounds, from_increments, minimum, power_of_speed, rms
+from .commoncurve import (
+    Curve,
+    Fit,
+    Misfit,
+    best_of_starts,
+    bounds,
+    from_increments,
+    inside,
+    minimum,
+    power_of_speed,
+    rms,
+)
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
@@ -66,8 +77,8 @@ def collapse(curves: Sequence[Curve]) -> Collapse:
     lower, upper = bounds(curves)
     speeds = np.array([curve.speed for curve in curves])
     fit, best = _freed(*best_of_starts(Fit(curves, DEGREE), np.diff(np.log(speeds)), lower, upper), lower, upper)
-    inside = bool(np.all(np.minimum(best.x - lower, upper - best.x) > 1e-3 * (upper - lower)))
-    certain = fit.known and inside
+    overlaps = inside(best.x, lower, upper)
+    certain = fit.known and overlaps
     covariance = _covariance(fit, best)
     reference = len(curves) // 2
     shifts, covariance = from_increments(best.x, covariance, reference)
@@ -82,7 +93,7 @@ def collapse(curves: Sequence[Curve]) -> Collapse:
         scatter=rms(fit.error) if fit.known else nan,
         exponent=exponent,
         exponent_error=exponent_error if certain else nan,
-        overlaps=inside,
+        overlaps=overlaps,
         separable=not _straight(fit),
         curves=curves,
         degree=fit.degree,

@@ -84,7 +84,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def render(template: str, **content: Any) -> str:
-    """A template of the folder `pages` as HTML that needs nothing else: images are inside, nothing is linked."""
+    """A template of the folder `pages` as HTML: images are inside, what is linked lies beside it."""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("compare", "pages"),
         autoescape=True,

@@ -24,10 +24,14 @@ from .quantity import Quantity
 from .regression import Change, changes, measure, said
 from .report import MANIFEST, PAGE, slug, write_report
 from .store import Store
+from .studies.catalogue import SIZES, STUDIES
+from .studies.judgement import judge_study
+from .studies.report import write_study
+from .studies.series import tasks as study_tasks
 from .study import points, tasks
 from .sweep import sweep
 from .verdict import judge
-from .wording import explain, explain_vertical, plus_minus
+from .wording import explain, explain_vertical, plus_minus, said_of
 
 SOLVED = "solved"
 
@@ -123,3 +127,22 @@ def shift_measured(path: Path, folder: Path) -> None:
     console.print(f"  shift ~ v^p, p = {plus_minus(exponent, shifted.exponent_error)}")
     console.print(f"  {explain_vertical(shifted.vertical)}", markup=False)
     console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
+
+
+def conduct_study(name: str, size: str, folder: Path, workers: int | None) -> None:
+    """Solve a study that comes with the package, judge it, and write its page."""
+    console = Console(highlight=False, soft_wrap=True)
+    series = STUDIES[name].series(SIZES[size])
+    with watch(console) as progress:
+        solving = [task for each in series for task in study_tasks(each)]
+        swept = sweep(solving, Store(folder / SOLVED), workers, progress)
+    console.print(f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; judging")
+    judged = judge_study(name, size, series, swept.outcomes)
+    page = write_study(folder / slug(f"{name}-{size}"), judged, swept)
+    for each in judged.series:
+        console.print(f"\n{each.solved.series.title}", markup=False, style="bold")
+        for finding in each.findings:
+            console.print(f"  {said_of(finding)}", markup=False)
+    for finding in judged.findings:
+        console.print(f"\n{said_of(finding)}", markup=False)
+    console.print(f"\nPage: {page.resolve()}", markup=False)

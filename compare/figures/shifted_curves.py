@@ -3,20 +3,15 @@
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.figure import Figure
 
 from ..mastercurve import shifted
 from ..paper.shifts import Shifted
 from ..wording import explain, explain_vertical, plus_minus
-from . import style
+from . import shades, style
 
 NAME = "shifted-curves"
-# Of the speed, slow to fast; without the yellow end, which is lost on white.
-SHADES = LinearSegmentedColormap.from_list("speed", colormaps["plasma"](np.linspace(0, 0.88, 256)))
 LOG10 = np.log(10)
 
 
@@ -27,10 +22,10 @@ def figure(found: Sequence[Shifted]) -> Figure | None:
     drawing = style.canvas(style.DOUBLE, 0.55 + 2.0 * len(found))
     panels = drawing.subplots(len(found), 3, squeeze=False)
     every = np.concatenate([each.collapse.speeds for each in found])
-    between = LogNorm(every.min(), every.max())
+    between = shades.between(every)
     for row, each in zip(panels, found, strict=True):
         result = each.collapse
-        colours = SHADES(between(result.speeds))
+        colours = shades.SPEED(between(result.speeds))
         _curves(row[0], result, [curve.log_load for curve in result.curves], colours)
         _curves(row[1], result, shifted(result), colours)
         _shifts(row[2], each, colours)
@@ -41,10 +36,7 @@ def figure(found: Sequence[Shifted]) -> Figure | None:
         for axes in row:
             style.decades(axes)
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / len(found)}
-    bar = drawing.colorbar(ScalarMappable(between, SHADES), ax=panels, **place)
-    style.decades(bar.ax)
-    bar.set_label("speed [m/s]")
-    bar.outline.set_linewidth(0.5)
+    shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
     return drawing
 
 

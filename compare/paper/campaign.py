@@ -13,10 +13,10 @@ from scene import Regime, Scene
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome
+from ..resampling import interval, left_out, standard_error
 from ..store import Task
 from ..study import SCENES
 from . import parameters
-from .intervals import interval, left_out, standard_error
 
 # Profiles of one task: some seconds of work are lost at most in an interruption.
 BLOCK = 10

@@ -6,8 +6,8 @@ from math import isfinite, nan
 
 import numpy as np
 
+from ..resampling import interval, standard_error
 from .campaign import line
-from .intervals import interval, standard_error
 from .law import Law
 from .reproduction import Reproduction
 from .shifts import Shifted

@@ -11,11 +11,11 @@ from scene import Regime, Slide
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome
+from ..resampling import interval, left_out, standard_error
 from ..store import Task as AnyTask
 from ..study import Task
 from . import parameters
 from .campaign import variable
-from .intervals import interval, left_out, standard_error
 
 VARIABLES = tuple(float(xi) for xi in np.geomspace(1e-2, 1e2, 25))
 # Exponents among which the best is sought.

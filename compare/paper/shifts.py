@@ -17,11 +17,11 @@ from scene.scales import elastic_contact
 from .. import mastercurve
 from ..commoncurve import Curve, Misfit
 from ..outcome import Outcome
+from ..resampling import interval, standard_error
 from ..store import Task as AnyTask
 from ..study import Task
 from ..vertical import Vertical, vertical_shifts
 from . import parameters
-from .intervals import interval, standard_error
 
 
 @dataclass(frozen=True)

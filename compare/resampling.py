@@ -1,0 +1,231 @@
+"""Intervals of what follows from averages over rough surfaces, by leaving some of them out (Tukey 1958).
+
+The same surfaces stand behind all points: each is left out everywhere at once. With Student's quantile a number
+is inside as often as stated from three surfaces on; percentiles of resampled surfaces are too narrow there.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot, inf, nan, sqrt
+from typing import Protocol, Self
+
+import numpy as np
+from scipy import stats
+from scipy.optimize import brentq
+
+# Statistics are found this often at most: above that, surfaces are left out in groups.
+MOST_GROUPS = 20
+
+
+class Grouped(Protocol):
+    """What is averaged over surfaces."""
+
+    @property
+    def groups(self) -> Sequence[np.ndarray]:
+        """Indices of the surfaces that are left out together; none of a body that has no random surface."""
+
+    def without(self, group: np.ndarray) -> Self:
+        """The same without some surfaces."""
+
+
+@dataclass(frozen=True)
+class Estimated:
+    """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
+
+    freedom : degrees of freedom of the error
+    """
+
+    value: float | np.ndarray
+    error: float | np.ndarray
+    freedom: float
+
+    @classmethod
+    def exact(cls, value: float | np.ndarray) -> Self:
+        """Of a body without random surfaces."""
+        return cls(value, value * 0.0, inf)
+
+    def interval(self, level: float = 0.95) -> tuple:
+        """Ends between which the number is, as often as stated."""
+        half = self.error * _student(level, self.freedom)
+        return self.value - half, self.value + half
+
+
+@dataclass(frozen=True)
+class Size:
+    """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
+
+    square : mean of the squares less their variances; negative by chance where there is little but scatter
+    noise : mean of the variances
+    along : of that, what changes the size to first order
+    modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
+    freedom : degrees of freedom of the noise
+    """
+
+    square: float
+    noise: float
+    along: float
+    modes: float
+    freedom: float
+
+    @classmethod
+    def unknown(cls) -> Self:
+        """Of what cannot be had."""
+        return cls(nan, nan, nan, nan, 0)
+
+    @property
+    def value(self) -> float:
+        """Zero where the scatter explains all; NaN where it is not known."""
+        return sqrt(max(self.square, 0.0)) if np.isfinite(self.square) else nan
+
+    def interval(self, level: float = 0.95) -> tuple[float, float]:
+        """Sizes that the data do not contradict.
+
+        To first order the square is off by 2 size sqrt(along) t, and where there is nothing but noise by an F
+        quantile of that; both count, added as squares, for the size asked about. Where it is nil the second
+        decides: there a jackknife of the square itself sees no derivative. Downwards, what is along stops at zero.
+        """
+        if not (np.isfinite(self.noise) and np.isfinite(self.square)):
+            return nan, nan
+        if self.noise == 0:
+            return self.value, self.value
+        reach = self.along * _student(level, self.freedom) ** 2
+        second = (stats.f.ppf(level, self.modes, self.modes * self.freedom) - 1) * self.noise
+        middle = self.square + 2 * reach
+        above = self.square**2 - second**2
+        low = above / (middle + sqrt(middle**2 - above)) if self.square > second else 0.0
+        second = max(second, self.noise)
+
+        def beyond(square):
+            first = square + self.along - max(sqrt(square) - sqrt(reach), 0.0) ** 2
+            return square - hypot(first, second) - self.square
+
+        least = max(self.square, 0.0)
+        most = 2 * (least + 4 * reach + self.along + second)
+        high = brentq(beyond, least, most, xtol=1e-12 * most)
+        return sqrt(low), sqrt(high)
+
+    def verdict(self, tolerance: float) -> str:
+        """holds, fails or undecided: whether the size is within the tolerance, from its interval of 95 %."""
+        low, high = self.interval()
+        if high <= tolerance:
+            return "holds"
+        return "fails" if low > tolerance else "undecided"
+
+
+@dataclass(frozen=True)
+class Replicates:
+    """A statistic, (...), and how it changes with the surfaces.
+
+    deviations : (groups, ...), of which the mean of products estimates the covariance of the statistic
+    """
+
+    value: float | np.ndarray
+    deviations: np.ndarray
+
+    @classmethod
+    def first_order(cls, value: float | np.ndarray, changes: np.ndarray) -> Self:
+        """changes : (surfaces, ...), with the deviation of each surface from the mean; none of an exact value."""
+        count = len(changes)
+        return cls(value, changes / sqrt(count - 1) if count > 1 else _unseen(count, value))
+
+    @property
+    def freedom(self) -> float:
+        """Degrees of freedom of the errors."""
+        return len(self.deviations) - 1 if len(self.deviations) else inf
+
+    @property
+    def estimated(self) -> Estimated:
+        """Each number with its own error."""
+        if not len(self.deviations):
+            return Estimated.exact(self.value)
+        return Estimated(self.value, np.sqrt(np.mean(np.square(self.deviations), axis=0)), self.freedom)
+
+    @property
+    def size(self) -> Size:
+        """Of all numbers together."""
+        value = np.ravel(self.value)
+        square = float(np.mean(np.square(value)))
+        if not len(self.deviations):
+            return Size(square, 0.0, 0.0, 1.0, inf)
+        deviations = self.deviations.reshape(len(self.deviations), -1) / sqrt(len(self.deviations))
+        if not (np.all(np.isfinite(value)) and np.all(np.isfinite(deviations))):
+            return Size.unknown()
+        products = deviations @ deviations.T
+        noise, length = float(np.trace(products)), float(np.linalg.norm(value))
+        along = float(np.sum(np.square(deviations @ value))) / length**2 if length else 0.0
+        modes = noise**2 / float(np.sum(np.square(products))) if noise else 1.0
+        return Size(square - noise / value.size, noise / value.size, along / value.size, modes, self.freedom)
+
+
+def groups(count: int) -> list[np.ndarray]:
+    """Surfaces that are left out together: each alone, or as many as give the most groups."""
+    return np.array_split(np.arange(count), min(count, MOST_GROUPS))
+
+
+def resample(
+    statistic: Callable[[Grouped], Mapping[str, float | np.ndarray]], samples: Grouped
+) -> dict[str, Replicates]:
+    """Find statistics of all surfaces, and again without each group of them.
+
+    Groups need not be equal (Busing, Meijer and van der Leeden, Stat. Comput. 9, 3, 1999). One group alone leaves
+    the deviations NaN.
+    """
+    whole = statistic(samples)
+    sizes = np.array([group.size for group in samples.groups])
+    if sizes.size < 2:
+        return {name: Replicates(value, _unseen(sizes.size, value)) for name, value in whole.items()}
+    found = [statistic(samples.without(group)) for group in samples.groups]
+    return {
+        name: Replicates(value, _deviations(np.array([each[name] for each in found]), sizes))
+        for name, value in whole.items()
+    }
+
+
+def _unseen(count, value):
+    return np.full((count, *np.shape(value)), nan)
+
+
+def _deviations(without, sizes):
+    """Of a statistic, from its values without groups of so many surfaces."""
+    share = sizes / sizes.sum()
+    middle = np.tensordot(1 - share, without, axes=1) / (sizes.size - 1)
+    weight = np.sqrt(1 / share - 1)
+    return weight.reshape(-1, *(1,) * (without.ndim - 1)) * (without - middle)
+
+
+def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated:
+    """Ratio of the means over the surfaces of both, the last axis, which share them; errors to first order.
+
+    Surfaces with a NaN are left out where they have it. Errors are NaN with fewer than two surfaces; where none is
+    left so is the ratio.
+    """
+    above, below = np.broadcast_arrays(above, below)
+    known = np.isfinite(above) & np.isfinite(below)
+    count = known.sum(axis=-1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        top, bottom = (np.where(known, each, 0.0).sum(axis=-1) / count for each in (above, below))
+        value = top / bottom
+        left = np.where(known, above - value[..., None] * below, 0.0) / bottom[..., None]
+        error = np.sqrt(np.sum(np.square(left), axis=-1) / np.where(count > 1, count * (count - 1.0), nan))
+    return Estimated(value, error, np.maximum(count - 1, 0))
+
+
+def left_out(samples: np.ndarray) -> np.ndarray:
+    """Averages over the surfaces, the last axis, without one: (..., surfaces) from (..., surfaces)."""
+    count = samples.shape[-1]
+    return (samples.sum(axis=-1, keepdims=True) - samples) / (count - 1)
+
+
+def standard_error(without: np.ndarray) -> np.ndarray:
+    """Of a number, from its values (surfaces, ...) each found without one surface."""
+    return np.std(without, axis=0) * np.sqrt(len(without) - 1)
+
+
+def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
+    """Of 95 %, from a standard error known with so many degrees of freedom."""
+    low, high = Estimated(value, error, freedom).interval()
+    return float(low), float(high)
+
+
+def _student(level, freedom):
+    return stats.t.ppf((1 + level) / 2, freedom)

@@ -1,0 +1,1 @@
+"""Studies: many points of a few scenes in both dimensionalities, and what becomes of each claim there."""

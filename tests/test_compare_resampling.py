@@ -1,0 +1,215 @@
+"""Numbers that follow from averages over surfaces lie in their intervals as often as stated."""
+
+from dataclasses import dataclass, replace
+from math import inf, sqrt
+
+import numpy as np
+import pytest
+
+from compare.resampling import (
+    MOST_GROUPS,
+    Estimated,
+    Replicates,
+    groups,
+    interval,
+    left_out,
+    resample,
+    standard_error,
+)
+
+DRAWS = 250
+# Of an interval of 95 %: what it may lose to first-order theory, 2 %, and three deviations of as many draws.
+LEAST = 0.93 - 3 * sqrt(0.93 * 0.07 / DRAWS)
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Two quantities on the same surfaces (2, surfaces)."""
+
+    values: np.ndarray
+
+    @property
+    def groups(self):
+        return groups(self.values.shape[1])
+
+    def without(self, group):
+        return Columns(np.delete(self.values, group, axis=1))
+
+
+def mean(part):
+    return {"mean": part.values[0].mean()}
+
+
+def ratio(part):
+    above, below = part.values.mean(axis=1)
+    return {"ratio": above / below}
+
+
+def scattered(rng, surfaces):
+    """Two correlated positive quantities whose means are in the ratio 2."""
+    shared, own = rng.normal(size=surfaces), rng.normal(size=(2, surfaces))
+    logs = 0.2 * shared + 0.15 * own
+    return Columns(np.array([[2.0], [1.0]]) * np.exp(logs))
+
+
+def test_the_error_of_a_mean_is_its_standard_error():
+    sample = scattered(np.random.default_rng(0), 7)
+    found = resample(mean, sample)["mean"].estimated
+    first = sample.values[0]
+    assert found.error == pytest.approx(first.std(ddof=1) / sqrt(7), rel=1e-12)
+    assert found.freedom == 6
+
+
+def test_one_surface_left_out_at_a_time_is_what_arrays_left_out_give():
+    sample = scattered(np.random.default_rng(1), 9)
+    above, below = left_out(sample.values)
+    found = resample(ratio, sample)["ratio"].estimated
+    error = standard_error(above / below)
+    assert found.error == pytest.approx(error, rel=1e-12)
+    assert found.interval() == pytest.approx(interval(found.value, error, 8), rel=1e-12)
+
+
+@pytest.mark.parametrize("surfaces", [3, 5, 10, 20])
+def test_a_ratio_of_means_is_in_its_interval_as_often_as_stated(surfaces):
+    rng = np.random.default_rng(surfaces)
+    kept = halved = 0
+    for _ in range(DRAWS):
+        found = resample(ratio, scattered(rng, surfaces))["ratio"].estimated
+        for error in (found.error, found.error / 2):
+            low, high = replace(found, error=error).interval()
+            inside = low <= 2.0 <= high
+            kept, halved = (kept + inside, halved) if error == found.error else (kept, halved + inside)
+    assert kept >= LEAST * DRAWS
+    # The test would see an error that is half of what it should be.
+    assert halved < LEAST * DRAWS
+
+
+@pytest.mark.parametrize("surfaces", [20, 53, 200])
+def test_many_surfaces_are_left_out_in_groups_equal_or_not_without_bias(surfaces):
+    rng = np.random.default_rng(2)
+    parts = groups(surfaces)
+    assert len(parts) == MOST_GROUPS
+    np.testing.assert_array_equal(np.concatenate(parts), np.arange(surfaces))
+    squares = [
+        resample(mean, Columns(rng.normal(size=(2, surfaces))))["mean"].estimated.error ** 2 for _ in range(DRAWS)
+    ]
+    # Each is chi square over its 19 degrees of freedom: the mean is off by sqrt(2 / 19 / DRAWS), here thrice.
+    assert np.mean(squares) * surfaces == pytest.approx(1.0, abs=3 * sqrt(2 / 19 / DRAWS))
+
+
+def test_the_order_of_the_surfaces_does_not_matter():
+    sample = scattered(np.random.default_rng(3), 8)
+    turned = Columns(sample.values[:, ::-1])
+    for one, other in zip(
+        resample(ratio, sample)["ratio"].estimated.interval(),
+        resample(ratio, turned)["ratio"].estimated.interval(),
+        strict=True,
+    ):
+        assert one == pytest.approx(other, rel=1e-12)
+
+
+def test_one_surface_gives_a_value_and_no_error():
+    found = resample(ratio, scattered(np.random.default_rng(4), 1))["ratio"]
+    assert np.isfinite(found.estimated.value)
+    assert np.isnan(found.estimated.error)
+    assert np.all(np.isnan(found.estimated.interval()))
+    assert np.isnan(found.size.value)
+    assert np.all(np.isnan(found.size.interval()))
+    assert found.size.verdict(1.0) == "undecided"
+
+
+def test_what_knows_no_surface_is_exact():
+    assert Estimated.exact(0.7).interval() == (0.7, 0.7)
+    found = Replicates.first_order(np.array([3.0, 4.0]), np.empty((0, 2)))
+    assert found.estimated.freedom == inf
+    np.testing.assert_array_equal(found.estimated.error, 0.0)
+    assert found.size.interval() == pytest.approx((sqrt(12.5), sqrt(12.5)), rel=1e-15)
+    assert found.size.verdict(4.0) == "holds"
+    assert found.size.verdict(3.0) == "fails"
+
+
+def test_a_statistic_that_fails_without_a_surface_has_no_error():
+    def fragile(part):
+        return {"": part.values[0].mean() if 3.0 in part.values else np.nan}
+
+    found = resample(fragile, Columns(np.array([[1.0, 3.0, 2.0], [1.0, 1.0, 1.0]])))[""]
+    assert np.isnan(found.estimated.error)
+    assert np.isnan(found.size.value)
+
+
+# Standard deviations of independent components of the scatter: one, a few alike, ever smaller ones, many.
+MODES = {
+    "one": [1.0, 0.0, 0.0],
+    "three": [1.0, 1.0, 1.0, 0.0, 0.0],
+    "falling": [*0.7 ** np.arange(8), 0.0, 0.0],
+    "thirty": [1.0] * 30,
+}
+
+
+def vectors(rng, modes, surfaces, size):
+    """A vector as long as size standard errors of it, along the first mode, on each surface (surfaces, N)."""
+    modes = np.array(modes)
+    length = size * np.linalg.norm(modes) / sqrt(surfaces)
+    return length * np.eye(modes.size)[0] + modes * rng.normal(size=(surfaces, modes.size)), length
+
+
+def size_of(samples, scatter=1.0):
+    """scatter : factor that its deviations are wrong by."""
+    middle = samples.mean(axis=0)
+    return Replicates.first_order(middle, scatter * (samples - middle)).size
+
+
+@pytest.mark.parametrize("surfaces", [3, 10])
+@pytest.mark.parametrize("size", [0.0, 3.0, 20.0])
+@pytest.mark.parametrize("modes", MODES)
+def test_a_size_is_in_its_interval_as_often_as_stated(modes, size, surfaces):
+    rng, kept = np.random.default_rng(11), 0
+    squares = []
+    for _ in range(DRAWS):
+        samples, length = vectors(rng, MODES[modes], surfaces, size)
+        found = size_of(samples)
+        low, high = found.interval()
+        truth = length / sqrt(samples.shape[1])
+        kept += low <= truth <= high
+        squares.append(found.square - truth**2)
+    assert kept >= LEAST * DRAWS
+    # What scatter adds is taken out: three standard errors of the mean.
+    assert abs(np.mean(squares)) <= 3 * np.std(squares) / sqrt(DRAWS)
+
+
+@pytest.mark.parametrize("size", [0.0, 3.0])
+def test_a_size_with_half_its_errors_is_not_in_its_interval_as_often(size):
+    rng, kept = np.random.default_rng(8), 0
+    for _ in range(DRAWS):
+        samples, length = vectors(rng, MODES["falling"], 10, size)
+        low, high = size_of(samples, scatter=0.5).interval()
+        kept += low <= length / sqrt(samples.shape[1]) <= high
+    assert kept < LEAST * DRAWS
+
+
+def test_a_size_scales_and_forgets_the_sign():
+    samples, _ = vectors(np.random.default_rng(9), MODES["three"], 5, 2.0)
+    one, other = size_of(samples), size_of(-3 * samples)
+    assert other.interval() == pytest.approx(3 * np.array(one.interval()), rel=1e-9)
+    assert other.value == pytest.approx(3 * one.value, rel=1e-9)
+
+
+def test_a_size_is_nil_for_all_that_is_known_where_there_is_less_than_the_scatter_explains():
+    rng = np.random.default_rng(12)
+    seen = []
+    for _ in range(DRAWS):
+        samples, _ = vectors(rng, MODES["thirty"], 10, 0.0)
+        found = size_of(samples)
+        seen.append(found.square)
+        if found.square < 0:
+            assert (found.value, found.interval()[0]) == (0.0, 0.0)
+            assert found.interval()[1] > 0
+    assert np.mean(np.array(seen) < 0) > 0.3
+
+
+def test_a_size_is_within_a_tolerance_only_if_its_whole_interval_is():
+    samples, _ = vectors(np.random.default_rng(10), MODES["three"], 10, 20.0)
+    found = size_of(samples)
+    low, high = found.interval()
+    assert low < found.value < high
+    assert [found.verdict(at) for at in (0.9 * low, found.value, 1.1 * high)] == ["fails", "undecided", "holds"]
