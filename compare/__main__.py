@@ -4,6 +4,7 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from textwrap import fill
 from typing import Annotated
 
 import typer
@@ -84,7 +85,9 @@ def mastercurve(
 @app.command()
 def study(
     name: Annotated[str | None, typer.Argument(help="Study; without it, they are listed.")] = None,
-    size: Annotated[str, typer.Option(help="quick (two minutes), standard (an hour) or paper (days).")] = "quick",
+    size: Annotated[
+        str, typer.Option(help="quick (minutes), standard (up to an hour) or paper (up to a day).")
+    ] = "quick",
     output: Annotated[Path, typer.Option(help="Folder of pages and of what has been solved.")] = Path(
         "crosscheck-study"
     ),
@@ -95,7 +98,9 @@ def study(
 
     if name is None:
         for each, asked in STUDIES.items():
-            typer.echo(f"{each:12s} {asked.title} {asked.about}")
+            typer.echo(f"{each:12s}{asked.title}")
+            typer.echo(fill(asked.about, 79, initial_indent=12 * " ", subsequent_indent=12 * " "))
+        typer.echo("`crosscheck study NAME` solves one, in minutes; --size says how much of it.")
         return
     for given, option, known in ((name, "NAME", STUDIES), (size, "--size", SIZES)):
         if given not in known:

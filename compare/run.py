@@ -26,12 +26,14 @@ from .report import MANIFEST, PAGE, slug, write_report
 from .store import Store
 from .studies.catalogue import SIZES, STUDIES
 from .studies.judgement import judge_study
-from .studies.report import write_study
+from .studies.report import failures, write_study
 from .studies.series import tasks as study_tasks
+from .studies.tableau import columns
+from .studies.wording import line
 from .study import points, tasks
 from .sweep import sweep
 from .verdict import judge
-from .wording import explain, explain_vertical, plus_minus, said_of
+from .wording import explain, explain_vertical, plus_minus
 
 SOLVED = "solved"
 
@@ -139,10 +141,10 @@ def conduct_study(name: str, size: str, folder: Path, workers: int | None) -> No
     console.print(f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; judging")
     judged = judge_study(name, size, series, swept.outcomes)
     page = write_study(folder / slug(f"{name}-{size}"), judged, swept)
-    for each in judged.series:
-        console.print(f"\n{each.solved.series.title}", markup=False, style="bold")
-        for finding in each.findings:
-            console.print(f"  {said_of(finding)}", markup=False)
-    for finding in judged.findings:
-        console.print(f"\n{said_of(finding)}", markup=False)
+    for column in columns(judged):
+        console.print(f"\n{column.title}", markup=False, style="bold")
+        for finding in column.findings:
+            console.print(f"  {line(finding)}", markup=False)
+    if failed := sum(len(failures(each)) for each in judged.series):
+        console.print(f"\n{failed} solves failed; the page says why")
     console.print(f"\nPage: {page.resolve()}", markup=False)

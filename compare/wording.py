@@ -3,7 +3,6 @@
 import numpy as np
 
 from .commoncurve import Misfit
-from .finding import Finding
 from .mastercurve import Collapse
 from .vertical import Vertical
 
@@ -53,14 +52,3 @@ def said(misfit: Misfit) -> str:
         return "undecided."
     they = "collapse" if misfit.verdict == "holds" else "do not collapse"
     return f"the curves {they} within their scatter (chi square {misfit.chi_square:.3g} per degree of freedom)."
-
-
-def said_of(finding: Finding) -> str:
-    """Verdict, claim, number and both errors, in one line."""
-    low, high = finding.statistical
-    why = f"; {finding.undecidable}" if finding.undecidable else ""
-    errors = f"95 % of surfaces {low:.3g} to {high:.3g}, grid ± {finding.grid:.2g}"
-    return (
-        f"{finding.dimension:5s} {finding.verdict:9s}  {finding.claim}: {finding.value:.3g} for "
-        f"{finding.expected:.3g} ± {finding.tolerance:.2g} ({errors}{why})"
-    )

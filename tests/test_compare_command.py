@@ -27,6 +27,29 @@ points = 32
 points = 1000
 """
 )
+# Two studies that ask for the same contacts, the second for more.
+STUDIES = """
+from dataclasses import replace
+
+from bem3d import BEM
+from compare.__main__ import main
+from compare.studies.catalogue import STUDIES, Study, kelvin
+from compare.studies.series import Series
+from mdr1d import MDR
+
+
+def study(presses):
+    scene = kelvin("sphere")
+    scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
+    solvers = {"bem": BEM(points=32), "mdr": MDR(points=500)}
+    series = Series("s", "Sphere", scene, (0.05, 0.1), presses, surfaces=2, profiles=2, **solvers)
+    return Study("Tiny", "A few contacts.", lambda size: [series])
+
+
+if __name__ == "__main__":
+    STUDIES.update(collapse=study((5.0, 10.0)), hurst=study((5.0, 10.0, 20.0)))
+    main()
+"""
 # A machine under load starts processes slowly.
 PATIENCE = 120
 
@@ -44,9 +67,9 @@ def wait_for(condition):
     assert condition()
 
 
-def start(folder, *arguments):
+def start(folder, *arguments, program=("-m", "compare")):
     return subprocess.Popen(
-        [sys.executable, "-m", "compare", *arguments],
+        [sys.executable, *program, *arguments],
         cwd=folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -121,6 +144,60 @@ def test_a_users_table_is_shifted(folder):
     status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
     assert status == 2
     assert "ball.csv, line 1: 2 columns" in complained
+
+
+def counts(said):
+    return tuple(map(int, re.search(r"(\d+) tasks solved, (\d+) reused", said).groups()))
+
+
+def test_an_interrupted_study_resumes_and_another_shares_what_is_solved(folder):
+    (folder / "studies.py").write_text(STUDIES)
+    ask = {"program": ("studies.py", "study")}
+    process = start(folder, "collapse", "--workers", "1", **ask)
+    solved = folder / "crosscheck-study" / "solved"
+    wait_for(lambda: len(list(solved.glob("*.json"))) >= 3)
+    process.send_signal(signal.SIGTERM)
+    status, _, complained = finish(process)
+    assert (status, "resumes" in complained, "Traceback" in complained) == (130, True, False)
+    kept = sorted(solved.glob("*.json"))
+    kept[0].write_text("{")
+
+    status, said, complained = finish(start(folder, "collapse", "--workers", "2", **ask))
+    assert (status, complained) == (0, "")
+    now, reused = counts(said)
+    assert reused == len(kept) - 1  # all but the damaged one
+    page = folder / "crosscheck-study" / "collapse-quick" / "study.html"
+    assert str(page) in said
+    assert "friction in 1D is that in 3D, smooth" in said
+    assert "nan" not in said
+    assert page.exists()
+    assert counts(finish(start(folder, "collapse", **ask))[1]) == (0, now + reused)
+
+    status, said, complained = finish(start(folder, "hurst", "--workers", "2", **ask))
+    assert (status, complained) == (0, "")
+    more, shared = counts(said)
+    assert shared == now + reused
+    assert more == shared // 2  # three presses for two
+    assert page.exists()
+
+
+def test_studies_are_listed_and_mistakes_are_said_before_anything_is_solved(folder):
+    status, said, complained = finish(start(folder, "study"))
+    assert (status, complained) == (0, "")
+    assert max(map(len, said.splitlines())) < 80
+    for name in ("collapse", "solids", "hurst", "parameters", "regime", "depth"):
+        assert re.search(rf"^{name} +[A-Z]", said, re.MULTILINE)
+    (folder / "file").touch()
+    for arguments, message in (
+        (["collaps"], "NAME = collaps: allowed are collapse, "),
+        (["collapse", "--size", "big"], "--size = big: allowed are quick, "),
+        (["collapse", "--output", "file"], "crosscheck: --output file: "),
+    ):
+        status, said, complained = finish(start(folder, "study", *arguments))
+        assert (status, said) == (2, "")
+        assert message in complained
+        assert "Traceback" not in complained
+    assert not (folder / "crosscheck-study").exists()
 
 
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])

@@ -405,7 +405,9 @@ def test_effects_stand_at_their_tolerances_and_beyond_the_end_as_arrows(whole):
 
 
 def test_one_variable_puts_all_series_on_the_curve_they_were_made_of(whole):
-    other = replace(whole, solved=replace(whole.solved, series=replace(SERIES, name="again", title="Again")))
+    scene = replace(SCENE, roughness=replace(SCENE.roughness, hurst=0.2))
+    series = replace(SERIES, name="again", title="Again", scene=scene)
+    other = replace(whole, solved=replace(whole.solved, series=series))
     asked = study(whole, other)
     left, right = drawn(study_family, asked).axes
     for axes, solver in ((left, "MDR"), (right, "BEM")):

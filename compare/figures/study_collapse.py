@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..shifting import Alignment, Shifting
-from ..studies.claims import TOLERANCE
+from ..alignment import Alignment
+from ..shifting import Shifting
 from ..studies.judgement import JudgedSeries
 from ..studies.points import friction, mean_of
+from ..studies.question import TOLERANCE
 from ..studies.series import ROUGH
 from ..verdict import DIMENSIONS
 from . import shades, style

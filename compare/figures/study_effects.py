@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..finding import Finding
-from ..studies.claims import BOTH
 from ..studies.judgement import JudgedSeries
+from ..studies.question import BOTH
 from ..studies.tableau import DIMENSIONS, claims
 from . import style
 

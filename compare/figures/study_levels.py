@@ -9,7 +9,7 @@ from matplotlib.ticker import EngFormatter
 
 from ..resampling import Estimated
 from ..studies.judgement import JudgedSeries
-from ..studies.points import friction, quotient
+from ..studies.points import friction, quotient, ratio
 from ..studies.series import ROUGH, SMOOTH
 from ..verdict import DIMENSIONS
 from . import shades, style
@@ -17,6 +17,8 @@ from . import shades, style
 NAME = "study-levels"
 # Of what is prescribed: unit, and what the bar of shades is in.
 UNITS = {"load": "N", "depth": "m"}
+# What friction of the rough and of the smooth body is shown against.
+MEMORIES = ("memory_over_shortest", "memory_over_contact")
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
 
 
@@ -47,11 +49,10 @@ def sheets(judged: JudgedSeries) -> dict[str, list[dict]]:
     if not judged.laws:
         return {}
     series, rows = judged.solved.series, []
-    ratios = {body: _ratio(judged, body) for body in (ROUGH, SMOOTH)}
+    over = {body: _ratio(judged, body) for body in (ROUGH, SMOOTH)}
     for solver, laws in judged.laws.items():
         mu, smooth = (friction(judged.solved, solver, body) for body in (ROUGH, SMOOTH))
-        memory = laws.regime.memory_over_shortest.reshape(laws.law.shape)
-        contact = laws.regime.memory_over_contact.reshape(laws.law.shape)
+        memory, contact = (ratio(judged.solved, solver, name) for name in MEMORIES)
         for i, speed in enumerate(series.speeds):
             for j, press in enumerate(series.presses):
                 row = {
@@ -68,8 +69,8 @@ def sheets(judged: JudgedSeries) -> dict[str, list[dict]]:
                     "plateau": laws.plateau,
                     "eq_19": laws.law[i, j],
                 }
-                for body, ratio in ratios.items():
-                    row |= {f"{body}_1d_over_3d": ratio.value[i, j], f"{body}_1d_over_3d_error": ratio.error[i, j]}
+                for body, each in over.items():
+                    row |= {f"{body}_1d_over_3d": each.value[i, j], f"{body}_1d_over_3d_error": each.error[i, j]}
                 rows.append(row)
     return {NAME: rows}
 
@@ -81,7 +82,7 @@ def caption(judged: JudgedSeries) -> str:
         "Above: friction against speed at the least, a middle and the greatest "
         f"{judged.solved.series.pressed_by}. Markers: rough body, means over surfaces with standard errors; "
         "thin lines: the smooth body; dotted: the exact limit of low speed of each dimensionality, from its own "
-        "contact at rest; grey: the plateau of Eq. 14 and Eq. 19 with the rms slope of one dimension "
+        "contact at rest; pale: Eq. 19 and its plateau, Eq. 14, with the rms slope of each dimensionality "
         f"(plateaus: {plateaus}). Below: friction in one dimension over that in three at the same point, with "
         "standard errors, rough (left) against v τ q_s and smooth (right) against v τ / a, with the mean lag τ "
         "of the solid, the highest wave number q_s and the radius a of the smooth contact at rest. Lines at 1, "
@@ -95,9 +96,17 @@ def _level(axes: Axes, judged, place):
     for index, (solver, laws) in enumerate(judged.laws.items()):
         mu, smooth = (friction(judged.solved, solver, body) for body in (ROUGH, SMOOTH))
         colour, dimension = style.COLOUR[solver], DIMENSIONS[solver]
-        if index == 0:
-            axes.plot(speeds, laws.law[:, place], "-.", color="0.5", linewidth=0.9, zorder=1, label="Eq. 19")
-            axes.axhline(laws.plateau, color="0.75", linewidth=0.9, zorder=0, label="plateau, Eq. 14")
+        # Dashes of one lie in the gaps of the other: the laws of both may coincide.
+        law = {"color": colour, "alpha": 0.5, "linewidth": 1.2}
+        axes.plot(
+            speeds,
+            laws.law[:, place],
+            linestyle=(6 * index, (6, 6)),
+            zorder=1,
+            label=f"{dimension}, Eq. 19",
+            **law,
+        )
+        axes.axhline(laws.plateau, linestyle=(2 * index, (2, 2)), zorder=0, label=f"{dimension}, Eq. 14", **law)
         axes.errorbar(
             speeds,
             mu.value[:, place],
@@ -135,20 +144,19 @@ def _ratio(judged, body) -> Estimated:
 
 def _ratios(drawing, panels: Sequence[Axes], judged):
     """Rough at left, smooth at right, a shade for each load or depth."""
-    series, regime = judged.solved.series, judged.laws["BEM"].regime
-    shape, (unit, label) = (len(series.speeds), len(series.presses)), BAR[series.pressed_by]
+    series = judged.solved.series
+    unit, label = BAR[series.pressed_by]
     scale = shades.between([unit * press for press in series.presses])
-    abscissae = (regime.memory_over_shortest, regime.memory_over_contact)
     names = ("v τ q$_s$ [1]", "v τ / a [1]")
-    for axes, body, x, name in zip(panels, (ROUGH, SMOOTH), abscissae, names, strict=True):
-        ratio, x = _ratio(judged, body), x.reshape(shape)
+    for axes, body, memory, name in zip(panels, (ROUGH, SMOOTH), MEMORIES, names, strict=True):
+        over, x = _ratio(judged, body), ratio(judged.solved, "BEM", memory)
         for level in (1, 2):
             axes.axhline(level, color="0.6", linewidth=0.7, linestyle="-" if level == 1 else ":", zorder=0)
         for j, press in enumerate(series.presses):
             axes.errorbar(
                 x[:, j],
-                ratio.value[:, j],
-                yerr=np.nan_to_num(ratio.error[:, j]),
+                over.value[:, j],
+                yerr=np.nan_to_num(over.error[:, j]),
                 color=shades.PRESS(scale(unit * press)),
                 marker=style.SERIES_MARKERS[j % len(style.SERIES_MARKERS)],
                 markersize=3,

@@ -5,8 +5,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..resampling import Estimated
-from ..studies.claims import TOLERANCE
 from ..studies.judgement import JudgedSeries
+from ..studies.question import TOLERANCE
+from ..studies.shiftclaims import inseparable
 from ..verdict import DIMENSIONS
 from . import style
 
@@ -100,7 +101,7 @@ def _power(found):
 def _said(found):
     if found.horizontal.reason:
         return f"undecided, {found.horizontal.reason}."
-    if not found.separable:
-        return "straight parallel lines fit, so that one shift cannot be told from the other."
+    if why := inseparable(found):
+        return f"{why}."
     low, high = found.both.raised.interval()
     return f"rms of c_v {found.both.raised.value:.3f} ({low:.3f} to {high:.3f})."

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..finding import Finding
-from ..studies.claims import BOTH
 from ..studies.judgement import JudgedStudy
+from ..studies.question import BOTH
 from ..studies.tableau import DIMENSIONS, claims, columns, every, rows
 from . import style
 

@@ -2,96 +2,43 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import radians
 
 import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import (
-    Cone,
-    Fractional,
-    Indent,
-    Kelvin,
-    Program,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
-)
+from scene import Fractional, Indent, Kelvin, Program, Slide, Stage, StandardLinearSolid
 from scene.scales import elastic_contact
 
 from ..paper import parameters
+from .contacts import SHORTEST, STEEP, kelvin
 from .series import Series
+from .sizes import Size, between
 
-# The waves that three dimensions resolve: the paper's own reach down to 4 micrometres.
-SHORTEST = 5e-4
-LOADS = (0.2, 20.0)
 # Across the knee. In three dimensions friction hardly falls with the load where it is slow: neighbouring speeds
 # must lie close for their curves to share a stretch of one curve.
 SPEEDS = (7.5e-3, 2.0)
-HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
+LOADS = (0.2, 20.0)
 SHAPES = ("sphere", "cone")
 # Glassy over rubbery modulus.
 GLASSY = 10.0
-# In time, of pressing in.
-STEPS = 100
-# Contacts within the regime of the paper, rms slope 0.28 and h0 at most 0.09 d, and the loads [N] between which.
-STEEP = {
-    "sphere": (
-        Scene(
-            Sphere(radius=30e-3),
-            parameters.SOLID,
-            Slide(speed=1.0, load=1.0),
-            SelfAffine(hurst=0.2, rms_height=3.01e-6, longest=1e-2, rolloff=1.2e-4, shortest=3.2e-5),
-        ),
-        (0.18, 0.9),
-    ),
-    "cone": (
-        Scene(
-            Cone(angle=radians(2)),
-            parameters.SOLID,
-            Slide(speed=1.0, load=1.0),
-            SelfAffine(hurst=0.2, rms_height=5.22e-6, longest=1e-2, rolloff=3.1e-4, shortest=4.6e-5),
-        ),
-        (0.25, 1.25),
-    ),
-}
-
-
-@dataclass(frozen=True)
-class Size:
-    """How much is solved.
-
-    range : of speeds [m/s]
-    speeds, presses : how many
-    surfaces, profiles : drawn in three and in one dimension
-    points : a side of the finer grid in three dimensions
-    """
-
-    range: tuple[float, float]
-    speeds: int
-    presses: int
-    surfaces: int
-    profiles: int
-    points: int
-
-    @property
-    def rates(self) -> tuple[float, ...]:
-        """The speeds [m/s]."""
-        return _between(*self.range, self.speeds)
-
-    def presses_of(self, low: float, high: float) -> tuple[float, ...]:
-        return _between(low, high, self.presses)
-
-
+HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
+# fmt: off
 SIZES = {
-    "quick": Size(range=(0.03, 0.6), speeds=6, presses=4, surfaces=3, profiles=12, points=128),
-    "standard": Size(range=SPEEDS, speeds=12, presses=8, surfaces=10, profiles=60, points=256),
-    "paper": Size(range=SPEEDS, speeds=20, presses=16, surfaces=40, profiles=200, points=512),
+    "quick": Size(
+        range=(0.03, 0.6), speeds=6, presses=4, surfaces=3, profiles=12, points=128,
+        hurst=HURST[::2], few=3, indentations=2, steps=50,
+    ),
+    "standard": Size(
+        range=SPEEDS, speeds=12, presses=8, surfaces=10, profiles=60, points=256,
+        hurst=HURST, few=4, indentations=3, steps=100,
+    ),
+    "paper": Size(
+        range=SPEEDS, speeds=20, presses=16, surfaces=40, profiles=200, points=512,
+        hurst=HURST, few=4, indentations=3, steps=100,
+    ),
 }
+# fmt: on
 
 
 @dataclass(frozen=True)
@@ -107,12 +54,6 @@ class Study:
     series: Callable[[Size], list[Series]]
 
 
-def kelvin(shape: str, **roughness) -> Scene:
-    """A contact of Fig. 1 of the paper with a shortest wave that both dimensionalities resolve."""
-    rough = replace(parameters.contact(shape).roughness, shortest=SHORTEST, **roughness)
-    return replace(parameters.contact(shape), roughness=rough)
-
-
 def _collapse(size: Size) -> list[Series]:
     """At prescribed load, and at the depths that the smooth relaxed bodies have under these loads."""
     loads = size.presses_of(*LOADS)
@@ -123,12 +64,12 @@ def _collapse(size: Size) -> list[Series]:
         depths = tuple(_depth(scene, load) for load in loads)
         sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
         title = f"Rough {shape}, depth prescribed"
-        found.append(_series(_coarser(size), f"{shape}-depth", title, sunk, presses=depths))
+        found.append(_series(size.coarser, f"{shape}-depth", title, sunk, presses=depths))
     return found
 
 
 def _solids(size: Size) -> list[Series]:
-    rubber, size = parameters.SOLID, _coarser(size)
+    rubber, size = parameters.SOLID, size.coarser
     highest = 2 * np.pi / SHORTEST * SPEEDS[1]
     solids = {
         "standard linear solid": StandardLinearSolid(
@@ -158,18 +99,17 @@ def _solids(size: Size) -> list[Series]:
 
 
 def _hurst(size: Size) -> list[Series]:
-    few = replace(_coarser(size), presses=min(size.presses, 6), surfaces=min(size.surfaces, 10))
-    size = replace(few, range=(max(size.range[0], 0.02), min(size.range[1], 1.0)), speeds=min(size.speeds, 8))
+    size = size.coarser.at_most(speeds=8, presses=6, surfaces=10).within(0.02, 1.0)
     return [
         _series(size, f"{shape}-hurst-{hurst:g}", f"Rough {shape}, H = {hurst:g}", kelvin(shape, hurst=hurst))
         for shape in SHAPES
-        for hurst in (HURST if size.speeds > 6 else HURST[::2])
+        for hurst in size.hurst
     ]
 
 
 def _parameters(size: Size) -> list[Series]:
     """One parameter changed at a time, around the contacts of Fig. 1."""
-    size = _coarser(_fewer(size, 4 if size.speeds > 6 else 3))
+    size = size.coarser.at_most(speeds=size.few, presses=size.few)
     found = []
     for shape in SHAPES:
         base = kelvin(shape)
@@ -202,10 +142,7 @@ def _depth_study(size: Size) -> list[Series]:
         )
         time = scene.elastomer.relaxation_time
         solid = StandardLinearSolid(scene.elastomer.modulus, GLASSY * scene.elastomer.modulus, time)
-        few = _fewer(
-            replace(size, points=max(128, size.points // 2), surfaces=min(size.surfaces, 6)),
-            3 if size.speeds > 6 else 2,
-        )
+        few = size.coarser.at_most(speeds=size.indentations, presses=size.indentations, surfaces=6)
         presses = tuple(depths[i] for i in np.linspace(0, len(depths) - 1, few.presses).round().astype(int))
         pressed = replace(scene, elastomer=solid, motion=Program(stages=(Stage(duration=1.0, depth=presses[0]),)))
         series = _series(
@@ -215,9 +152,11 @@ def _depth_study(size: Size) -> list[Series]:
             pressed,
             presses=presses,
         )
-        rates = _between(0.1 * presses[-1] / time, 10 * presses[-1] / time, few.speeds)
+        rates = between(0.1 * presses[-1] / time, 10 * presses[-1] / time, few.speeds)
         found.append(
-            replace(series, speeds=rates, bem=replace(series.bem, steps=STEPS), mdr=MDR(2000, steps=STEPS))
+            replace(
+                series, speeds=rates, bem=replace(series.bem, steps=size.steps), mdr=MDR(2000, steps=size.steps)
+            )
         )
     return found
 
@@ -228,23 +167,22 @@ def _regime(size: Size) -> list[Series]:
     Slow speeds stand apart, since those of a collapse must lie close. The seeds of each series are the same.
     """
     found, small = [], size.points <= 128
-    points = 512 if small else 3 * size.points
+    points = 512 if small else 5 * size.points // 2
+    few = replace(size.at_most(speeds=6, presses=6, surfaces=6), points=points)
     for shape, (scene, (low, high)) in STEEP.items():
         wave = scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
-        few = replace(size, points=points, presses=min(size.presses, 6), surfaces=min(size.surfaces, 8))
         # Wider contacts have fewer pixels a wave.
         loads = few.presses_of(low, 2 * low if small else high)
-        knee = replace(few, range=(0.3 * wave, 40 * wave), speeds=min(size.speeds, 7))
+        knee = replace(few, range=(2.5 * wave, 35 * wave))
         found.append(_series(knee, shape, f"Steeply rough {shape}", scene, presses=loads))
         if small:
             continue
         slow = replace(few, range=(0.03 * wave, 0.06 * wave), speeds=2)
         found.append(_series(slow, f"{shape}-slow", f"Steeply rough {shape}, slow", scene, presses=loads))
-        depths = tuple(_depth(scene, load) for load in loads[:: len(loads) // 3])
+        depths = tuple(_depth(scene, load) for load in loads[::2])
         sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
-        fewer = replace(knee, surfaces=min(few.surfaces, 6))
         title = f"Steeply rough {shape}, depth prescribed"
-        found.append(_series(fewer, f"{shape}-depth", title, sunk, presses=depths))
+        found.append(_series(knee, f"{shape}-depth", title, sunk, presses=depths))
     return found
 
 
@@ -257,18 +195,20 @@ STUDIES = {
     ),
     "solids": Study(
         "Other solids",
-        "The same at prescribed load on a standard linear solid, E_g = 10 E_r, and on a solid whose loss grows as "
-        "the root of the frequency.",
+        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 at prescribed load, on a standard linear solid, "
+        "E_g = 10 E_r, and on a solid whose loss grows as the root of the frequency.",
         _solids,
     ),
     "hurst": Study(
         "From H = 0.1 to 0.9",
-        "The same on a Kelvin solid, for five Hurst exponents with the same rms height and the same waves.",
+        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, of several Hurst exponents, "
+        "with the same rms height and the same waves.",
         _hurst,
     ),
     "parameters": Study(
         "One parameter at a time",
-        "The same with another rms height, another shortest wave, another relaxation time.",
+        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, with another rms height, "
+        "another shortest wave, another relaxation time.",
         _parameters,
     ),
     "regime": Study(
@@ -279,7 +219,8 @@ STUDIES = {
     ),
     "depth": Study(
         "Force and depth",
-        "Pressed in to rest, and at constant rates on a standard linear solid.",
+        "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
+        "linear solid.",
         _depth_study,
     ),
 }
@@ -300,22 +241,9 @@ def _series(size, name, title, scene, presses=None):
     )
 
 
-def _fewer(size, most):
-    return replace(size, speeds=min(size.speeds, most), presses=min(size.presses, most))
-
-
-def _coarser(size):
-    """For many series: the pixel doubled, where that still resolves the waves."""
-    return replace(size, points=max(128, size.points // 2))
-
-
 def _slower(solid: Kelvin, factor):
     return replace(solid, relaxation_time=factor * solid.relaxation_time)
 
 
 def _depth(scene, load):
     return elastic_contact(replace(scene, motion=Indent(load=load))).depth
-
-
-def _between(low, high, count):
-    return tuple(float(value) for value in np.geomspace(low, high, count))

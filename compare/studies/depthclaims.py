@@ -9,29 +9,26 @@ from scene.scales import elastic_contact
 
 from ..finding import Finding
 from ..references.indentation import loading_force
-from .claims import BOTH, DIMENSIONS, Question, answered, pair, rest_questions
+from ..verdict import DIMENSIONS
+from .pairclaims import pairs, rest_questions
+from .question import BOTH, DEPTH, Question, answered
 from .series import COARSE, FINE, REST, ROUGH, SMOOTH, SMOOTH_REST, Series, Solved
 from .sides import Pair, Side
 
-DEPTH, PRESSED_IN = "study-depth", "study-pressed-in"
+PRESSED_IN = "study-pressed-in"
 # How close theory and solution are where theory is exact.
 CLOSED = 0.01
 
 
 def depth_findings(solved: Solved) -> list[Finding]:
     """At rest, and pressed in where the motion is a Program."""
-    series, found = solved.series, []
+    series, words, found = solved.series, where(solved.series), []
     for solver, dimension in DIMENSIONS.items():
-        fine, coarse = (Side.of(solved, solver, grid) for grid in (FINE, COARSE))
-        for question, figure in _smooth(series):
-            found.append(answered(question, dimension, fine, coarse, where(series), figure, surfaces=0))
-    fine, coarse = (pair(solved, grid) for grid in (FINE, COARSE))
-    questions = [(question, DEPTH) for question in (*rest_questions(solved), *_stiffness(series))]
-    if isinstance(series.scene.motion, Program):
-        questions += [(question, PRESSED_IN) for question in _pressed_in(series)]
-    return found + [
-        answered(question, BOTH, fine, coarse, where(series), figure) for question, figure in questions
-    ]
+        fine, coarse = (Side.of(solved, solver, grid).smooth for grid in (FINE, COARSE))
+        found += [answered(question, dimension, fine, coarse, words) for question in _smooth(series)]
+    fine, coarse = pairs(solved)
+    questions = [*rest_questions(series), *_stiffness(series), *_pressed_in(series)]
+    return found + [answered(question, BOTH, fine, coarse, words) for question in questions]
 
 
 def closed_forms(series: Series) -> tuple[np.ndarray, np.ndarray]:
@@ -40,54 +37,55 @@ def closed_forms(series: Series) -> tuple[np.ndarray, np.ndarray]:
     return np.array([contact.load for contact in contacts]), np.array([contact.depth for contact in contacts])
 
 
-def loading(series: Series) -> np.ndarray:
-    """Force [N] on the smooth body pressed in at constant rates, at the end, (rates, presses): Lee and Radok."""
-    body, solid = series.scene.indenter, series.scene.elastomer
-    ends = [[press / rate for press in series.presses] for rate in series.speeds]
+def loading(series: Series, depths: np.ndarray | None = None) -> np.ndarray:
+    """Force [N] on the smooth body pressed in at constant rates, (rates, presses): Lee and Radok.
+
+    depths : reached [m], (rates, presses); those prescribed if absent. A march answers for the middle of its last
+        step, half a step before the end
+    """
+    reached = np.broadcast_to(series.presses, (len(series.speeds), len(series.presses)))
+    reached = reached if depths is None else depths
     return np.array(
         [
-            [
-                float(loading_force(body, solid, (0.0, end), (0.0, press), (end,))[0])
-                for end, press in zip(row, series.presses, strict=True)
-            ]
-            for row in ends
+            [_loading(series, rate, depth) for depth in row]
+            for rate, row in zip(series.speeds, reached.tolist(), strict=True)
         ]
     )
 
 
+def _loading(series, rate, depth):
+    if not depth > 0:
+        return np.nan
+    body, solid, end = series.scene.indenter, series.scene.elastomer, depth / rate
+    return float(loading_force(body, solid, (0.0, end), (0.0, depth), (end,))[0])
+
+
 def where(series: Series) -> str:
     """Depth over rms height of the presses, in words."""
-    if series.scene.roughness is None:
-        return "smooth"
     _, depths = closed_forms(series)
     over = depths / series.scene.roughness.rms_height
     return f"d/h0 {over.min():.2g} to {over.max():.2g}"
 
 
-def _smooth(series) -> Iterator[tuple[Question, str]]:
-    """With the figure that shows it."""
+def _smooth(series) -> Iterator[Question]:
+    """Of one Side of smooth bodies."""
     load, depth = closed_forms(series)
     name, known = ("depth", depth) if series.pressed_by == "load" else ("normal_force", load)
-    yield (
-        Question(
-            f"smooth bodies at rest have the {name.split('_')[-1]} of Galin and Sneddon",
-            0.0,
-            "rms over the presses of the relative deviation from the closed form.",
-            lambda side: side.mean(name, SMOOTH_REST)[0] / known - 1,
-            CLOSED,
-        ),
+    yield Question(
+        f"smooth bodies at rest have the {name.split('_')[-1]} of Galin and Sneddon",
+        0.0,
+        "rms over the presses of the relative deviation from the closed form.",
+        lambda side: side.mean(name, SMOOTH_REST)[0] / known - 1,
+        CLOSED,
         DEPTH,
     )
     if isinstance(series.scene.motion, Program):
-        forces = loading(series)
-        yield (
-            Question(
-                "smooth bodies pressed into a viscoelastic solid have the force of Lee and Radok",
-                0.0,
-                "rms over rates and depths of the relative deviation from the closed form.",
-                lambda side: side.mean("normal_force", SMOOTH) / forces - 1,
-                CLOSED,
-            ),
+        yield Question(
+            "smooth bodies pressed into a viscoelastic solid have the force of Lee and Radok",
+            0.0,
+            "rms over rates and depths of the relative deviation from the closed form at the depth reached.",
+            lambda side: _over_smooth(series, side, SMOOTH) - 1,
+            CLOSED,
             PRESSED_IN,
         )
 
@@ -100,7 +98,13 @@ def _stiffness(series) -> Iterator[Question]:
             0.0,
             "rms over neighbouring presses of ln of the ratio of dF/dd.",
             lambda both: np.log(_secants(both.one) / _secants(both.three)),
+            figure=DEPTH,
         )
+
+
+def _over_smooth(series, side: Side, body):
+    """Force over that of the smooth body in closed form, (rates, presses)."""
+    return side.mean("normal_force", body) / loading(series, side.mean("depth", body))
 
 
 def _secants(side: Side):
@@ -108,15 +112,20 @@ def _secants(side: Side):
 
 
 def _pressed_in(series) -> Iterator[Question]:
+    """At the slowest and the fastest rate, of two at least."""
+    if not isinstance(series.scene.motion, Program) or len(series.speeds) < 2:
+        return
     for place, what in ((0, "slowest"), (-1, "fastest")):
 
         def deviation(both: Pair, place=place):
-            one, three = (side.mean("normal_force", ROUGH)[place, -1] for side in (both.one, both.three))
+            one, three = (_over_smooth(series, side, ROUGH)[place, -1] for side in (both.one, both.three))
             return float(np.log(one / three))
 
         yield Question(
             f"pressed in at the {what} rate, rough, the force at the greatest depth is the same in 1D and 3D",
             0.0,
-            f"ln of the ratio of forces, at {series.speeds[place]:.2g} m/s.",
+            f"ln of the ratio of forces, each over that of the smooth body at the depth reached, at "
+            f"{series.speeds[place]:.2g} m/s.",
             deviation,
+            figure=PRESSED_IN,
         )

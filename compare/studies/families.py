@@ -2,16 +2,18 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
+from math import isfinite
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from ..finding import Finding
-from ..resampling import mean_ratio
+from ..resampling import Size, mean_ratio
 from ..samples import Samples
 from ..shifting import shift
-from .claims import DIMENSIONS, TOLERANCE, Question, answered
+from ..verdict import DIMENSIONS
+from .claims import FAST, SLOW
+from .question import TOLERANCE, Question, answered, geometric, power
 from .series import COARSE, FINE, ROUGH
 from .sides import Side
 
@@ -41,14 +43,18 @@ class Family:
 
 
 def families(series: "Sequence[JudgedSeries]") -> "dict[str, list[JudgedSeries]]":
-    """Series that slide, by the name of their shape; two at least."""
+    """Series that slide, by the name of their shape, where roughness or solid differ.
 
-    def shape(judged):
-        return type(judged.solved.series.scene.indenter).__name__.lower()
-
-    sliding = sorted((judged for judged in series if judged.laws), key=shape)
-    grouped = {name: list(members) for name, members in groupby(sliding, shape)}
-    return {name: members for name, members in grouped.items() if len(members) > 1}
+    All of a family have as many surfaces; of several such families of one shape it is the largest.
+    """
+    found = {}
+    for judged in series:
+        if judged.laws:
+            each = judged.solved.series
+            draws = type(each.scene.indenter).__name__.lower(), each.surfaces, each.profiles
+            found.setdefault(draws, []).append(judged)
+    rising = sorted(found.items(), key=lambda family: len(family[1]))
+    return {shape: members for (shape, *_), members in rising if _differ(members)}
 
 
 def reduced(members: "Sequence[JudgedSeries]", solver: str, grid: str = FINE) -> Samples:
@@ -74,7 +80,7 @@ def family_findings(series: "Sequence[JudgedSeries]") -> Iterator[Finding]:
 
 
 def _one_curve(members, solver, dimension, shape):
-    fine, coarse = (shift(reduced(members, solver, grid)).none.misfit for grid in (FINE, COARSE))
+    fine, coarse = (_missed(members, solver, grid) for grid in (FINE, COARSE))
     low, high = fine.interval()
     return Finding(
         claim=f"Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid, {shape}",
@@ -84,43 +90,80 @@ def _one_curve(members, solver, dimension, shape):
         value=fine.value,
         statistical=(low, high),
         grid=abs(fine.value - coarse.value),
-        surfaces=members[0].solved(solver).depth.shape[2],
-        regime="; ".join(dict.fromkeys(judged.laws[solver].regime.words for judged in members)),
+        surfaces=members[0].solved.series.drawn(solver),
+        regime=_words(members, solver),
         figure=FAMILY,
         text=f"rms of ln mu about one curve through all points of {len(members)} series, none shifted, without "
         "what scatter adds.",
+        undecidable="" if isfinite(fine.value + coarse.value) else "too few points or surfaces have an answer",
     )
+
+
+def _missed(members, solver, grid):
+    """By all points of one curve; unknown where there are too few."""
+    try:
+        return shift(reduced(members, solver, grid)).none.misfit
+    except ValueError:
+        return Size.unknown()
 
 
 def _slope_exponents(members, solver, dimension, shape):
-    """Between series that differ in the rms height alone."""
-    first = members[0].solved.series.scene
-    alike = [
-        judged
-        for judged in members
-        if replace(judged.solved.series.scene, roughness=first.roughness) == first
-        and replace(judged.solved.series.scene.roughness, rms_height=first.roughness.rms_height) == first.roughness
-    ]
+    """At the presses where all are slow, or all are fast."""
+    alike = _apart_by_height(members)
     if len(alike) < 3:
         return
-    slopes = np.log([judged.laws[solver].plateau for judged in alike])
+    ruled = [judged.laws[solver] for judged in alike]
+    plateaus = np.array([each.plateau for each in ruled])
     fine, coarse = (
         Family(tuple(Side.of(judged.solved, solver, grid) for judged in alike)) for grid in (FINE, COARSE)
     )
-    for place, expected, what in ((0, 2.0, "slowest"), (-1, 1.0, "fastest")):
+    slow = np.all([(each.xi[0] <= SLOW) & (each.slowest_loss <= SLOW) for each in ruled], axis=0)
+    fast = np.all([each.xi[-1] >= FAST for each in ruled], axis=0)
+    for place, presses, expected, what in ((0, slow, 2.0, "slowest"), (-1, fast, 1.0, "fastest")):
+        if not presses.any():
+            continue
+        # What Eq. 19 still lacks of either limit.
+        lacking = [each.law[place] / (each.plateau * each.xi[place] ** (expected - 1)) for each in ruled]
 
-        def exponent(family: Family, place=place):
-            levels = [np.mean(np.log(side.friction()[place])) for side in family.sides]
-            return float(np.polyfit(slopes, levels, 1)[0])
+        def exponent(family: Family, place=place, presses=presses, lacking=lacking):
+            levels = [side.friction()[place] / each for side, each in zip(family.sides, lacking, strict=True)]
+            return power(plateaus, np.array([geometric(each[presses]) for each in levels]))
 
         question = Question(
             f"Eqs. 14, 17: friction at the {what} speed goes as the rms slope to the power {expected:g}, {shape}",
             expected,
-            f"d ln mu / d ln of the rms slope, least squares over {len(alike)} rms heights, mean of the presses.",
+            f"d ln mu / d ln of the rms slope, least squares over {len(alike)} rms heights, mean of the "
+            f"{presses.sum()} presses at which all are at that limit, but for what Eq. 19 still lacks of it.",
             exponent,
             TOLERANCE * expected,
+            FAMILY,
         )
-        yield answered(question, dimension, fine, coarse, members[0].laws[solver].regime.words, FAMILY)
+        yield answered(question, dimension, fine, coarse, _words(alike, solver))
+
+
+def _apart_by_height(members):
+    """The first and those that differ from it in the rms height alone."""
+
+    def but_for_height(judged):
+        series = judged.solved.series
+        return (
+            series.speeds,
+            series.presses,
+            replace(series.scene, roughness=replace(series.scene.roughness, rms_height=1.0)),
+        )
+
+    return [judged for judged in members if but_for_height(judged) == but_for_height(members[0])]
+
+
+def _differ(members):
+    """Whether roughness or solid do."""
+    scenes = [judged.solved.series.scene for judged in members]
+    return any(each.roughness != scenes[0].roughness or each.elastomer != scenes[0].elastomer for each in scenes)
+
+
+def _words(members, solver):
+    """The regimes of all."""
+    return "; ".join(dict.fromkeys(judged.laws[solver].regime.words for judged in members))
 
 
 def _filled(rows, count):

@@ -11,13 +11,14 @@ from ..finding import Finding
 from ..outcome import Outcome
 from ..shifting import Shifting
 from ..study import Task
+from ..verdict import DIMENSIONS
 from .catalogue import SIZES, STUDIES, Size, Study
-from .claims import DIMENSIONS, friction_findings
+from .claims import friction_findings
 from .depthclaims import depth_findings, loading
 from .families import family_findings
 from .laws import Laws, laws
 from .series import Series, Solved, collect
-from .shiftclaims import shift_findings, shiftings
+from .shiftclaims import shift_findings, shiftings, unshifted
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class JudgedSeries:
     """One series.
 
     solved : its answers
-    laws : by solver's name; empty of a series that does not slide
+    laws : by solver's name; empty of a series that does not slide, or of which a solver has no rough answer
     shiftings : by solver's name, what shifts of its curves achieve; a solver with too few points is missing
     findings : what each claim comes to
     closed : force [N] on the smooth body pressed in at rates, (rates, depths), in closed form; None of others
@@ -67,9 +68,13 @@ def judge_series(solved: Solved) -> JudgedSeries:
         closed = loading(series) if isinstance(series.scene.motion, Program) else None
         return JudgedSeries(solved, {}, {}, tuple(depth_findings(solved)), closed)
     ruled = {solver: laws(solved, solver) for solver in DIMENSIONS}
-    shifted = {solver: both for solver in DIMENSIONS if (both := shiftings(solved, solver))}
-    found = [
-        finding for solver, both in shifted.items() for finding in shift_findings(solver, both, ruled[solver])
-    ]
-    finer = {solver: fine for solver, (fine, _) in shifted.items()}
-    return JudgedSeries(solved, ruled, finer, tuple(found + friction_findings(solved, ruled)))
+    if None in ruled.values():
+        return JudgedSeries(solved, {}, {}, ())
+    shifted, found = {}, []
+    for solver, ruling in ruled.items():
+        if both := shiftings(solved, solver):
+            shifted[solver] = both[0]
+            found += shift_findings(solver, both, ruling)
+        else:
+            found += unshifted(solved.series, solver, ruling)
+    return JudgedSeries(solved, ruled, shifted, tuple(found + friction_findings(solved, ruled)))

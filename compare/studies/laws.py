@@ -22,7 +22,7 @@ class Laws:
 
     speeds : (speeds,) [m/s]
     regime : where each point lies, flat, the presses of the first speed first, but for points without any answer
-    load : mean over surfaces [N]
+    load : mean over surfaces, or prescribed [N]
     exponent_of_load : of xi, -n/(n+1)
     xi : friction at low speed over the plateau, Eq. 18 with the loss of the solid at the shortest wave
     wave_number : the highest of the roughness [rad/m]
@@ -63,9 +63,16 @@ class Laws:
         return np.where(np.isfinite(xi), self.plateau * equations.interpolation(np.nan_to_num(xi)), np.nan)
 
 
-def laws(solved: Solved, solver: str) -> Laws:
-    """Of rough answers. The load in Eqs. 18 to 23 is that of the answer, the slope the solver's own measure."""
+def laws(solved: Solved, solver: str) -> Laws | None:
+    """Of rough answers, None where there are none.
+
+    The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
+    solver's own measure.
+    """
     series, answers = solved.series, solved(solver)
+    regime_of_points = regime(solved, solver)
+    if regime_of_points is None:
+        return None
     scene, speeds = series.scene, np.array(series.speeds)
     body, solid, rough = scene.indenter, scene.elastomer, scene.roughness
     c, n = body.mdr_coefficient, body.exponent
@@ -77,6 +84,8 @@ def laws(solved: Solved, solver: str) -> Laws:
         return solid.complex_modulus(omega).imag
 
     load = mean_ratio(answers.normal_force).value
+    if series.pressed_by == "load":
+        load = np.where(np.isfinite(load), load, series.presses)
     one = equations.one_frequency_friction(
         np.nan_to_num(load, nan=1.0), modulus, loss, highest, speeds[:, None], slope, c, n
     )
@@ -85,7 +94,7 @@ def laws(solved: Solved, solver: str) -> Laws:
     rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
     return Laws(
         speeds=speeds,
-        regime=regime(solved, solver),
+        regime=regime_of_points,
         load=load,
         exponent_of_load=-n / (n + 1),
         xi=xi,

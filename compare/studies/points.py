@@ -57,6 +57,12 @@ def regime(solved: Solved, solver: str) -> PointRegime | None:
     return gathered(found) if found else None
 
 
+def ratio(solved: Solved, solver: str, name: str) -> np.ndarray:
+    """One ratio of every rough point that slides, (speeds, presses), NaN where every solve failed."""
+    rows = _regimes(solved, Key(solver, ROUGH, FINE))
+    return np.array([[nan if at is None else getattr(at, name) for at in row] for row in rows])
+
+
 def table(solved: Solved) -> list[dict]:
     """A row a point, of every solver, body and grid; units SI, errors standard errors over surfaces."""
     return [row for key in solved.answers for row in _rows(solved, key)]

@@ -17,13 +17,14 @@ from ..figures import (
     study_verdicts,
 )
 from ..finding import Finding
+from ..pointregime import PointRegime
 from ..publish import Drawn, draw, machine, render, versions, write_csv, write_json, write_text
 from ..report import described, slug
 from ..sweep import Swept
 from ..verdict import DIMENSIONS
 from . import points, tableau
-from .claims import BOTH
 from .judgement import JudgedSeries, JudgedStudy
+from .question import BOTH
 from .series import REST, ROUGH
 from .wording import claimed, errors, number, written
 
@@ -94,7 +95,7 @@ class Part:
 def write_study(folder: Path, judged: JudgedStudy, swept: Swept) -> Path:
     """Write page, figures and tables below a folder, a subfolder a series, and return the path of the page."""
     folder.mkdir(parents=True, exist_ok=True)
-    whole = Part("", 0, judged.findings, _drawn(folder, OF_THE_STUDY, judged), _tables(folder))
+    whole = Part("", 0, judged.findings, *_drawn(folder, OF_THE_STUDY, judged))
     parts = [_part(folder, number, each) for number, each in enumerate(judged.series, 1)]
     write_csv(folder / FINDINGS, list(tableau.rows(judged)))
     write_json(folder / MANIFEST, manifest(judged, swept))
@@ -120,7 +121,7 @@ def page(judged: JudgedStudy, whole: Part, parts: list[Part], swept: Swept) -> s
         claimed=claimed,
         number=number,
         slopes=slopes,
-        regime=points.regime,
+        regime=regime,
         failures=failures,
         seconds=seconds,
         findings=FINDINGS,
@@ -137,6 +138,11 @@ def slopes(each: JudgedSeries) -> dict[str, float]:
         if np.isfinite(known).any():
             found[dimension] = float(np.nanmean(known))
     return found
+
+
+def regime(each: JudgedSeries, solver: str) -> PointRegime | None:
+    """Where the rough points of a solver lie; None of none."""
+    return each.laws[solver].regime if each.laws else points.regime(each.solved, solver)
 
 
 def failures(each: JudgedSeries) -> list[dict]:
@@ -174,20 +180,19 @@ def _part(folder, number, each: JudgedSeries):
     name = slug(each.solved.series.name)
     below = folder / name
     below.mkdir(parents=True, exist_ok=True)
-    drawn = _drawn(below, OF_A_SERIES, each)
     write_csv(below / POINTS, points.table(each.solved))
+    # Of an earlier run in which more failed.
+    (below / FAILED).unlink(missing_ok=True)
     if failed := failures(each):
         write_csv(below / FAILED, failed)
-    return Part(name, number, each.findings, drawn, _tables(below))
+    return Part(name, number, each.findings, *_drawn(below, OF_A_SERIES, each))
 
 
 def _drawn(folder, modules, data):
-    found = (draw(folder, module, data) for module in modules)
-    return {figure.name: figure for figure in found if figure}
-
-
-def _tables(folder):
-    return frozenset(path.name for path in folder.glob("*.csv"))
+    """Figures by name, and the names of the tables beside them."""
+    found = {module: figure for module in modules if (figure := draw(folder, module, data))}
+    tables = frozenset(f"{sheet}.csv" for module in found for sheet in module.sheets(data))
+    return {figure.name: figure for figure in found.values()}, tables
 
 
 def _overview(judged, whole, parts):

@@ -23,7 +23,7 @@ CONTACT = {"BEM": "contact_area", "MDR": "contact_length"}
 
 @dataclass(frozen=True)
 class Series:
-    """A rectangle of points around one scene, in both dimensionalities and on two grids each.
+    """A rectangle of points around one rough scene, in both dimensionalities and on two grids each.
 
     name, title : for files and for people
     scene : its motion says whether load or depth is prescribed; that of a Program is pressed in from nothing at a
@@ -50,6 +50,10 @@ class Series:
     def pressed_by(self) -> str:
         """load or depth."""
         return self.scene.motion.pressed_by
+
+    def drawn(self, solver: str) -> int:
+        """Surfaces or profiles of a solver."""
+        return self.profiles if solver == self.mdr.name else self.surfaces
 
     @property
     def slides(self) -> bool:
@@ -123,7 +127,12 @@ class Solved:
 
 
 def blocks(series: Series) -> dict[Key, Block]:
-    """Everything that is solved of a series. Raises Refused if a solver lacks what a scene asks for."""
+    """Everything that is solved of a series.
+
+    Raises Refused if a solver lacks what a scene asks for, ValueError if the scene has no roughness.
+    """
+    if series.scene.roughness is None:
+        raise ValueError(f"{series.title}: a series asks what roughness does, and this scene has none")
     found = {}
     for finest, draws in ((series.mdr, series.profiles), (series.bem, series.surfaces)):
         half = replace(finest, points=finest.points // 2, steps=max(1, finest.steps // 2))
@@ -147,13 +156,11 @@ def collect(series: Series, outcomes: Mapping[Task, Outcome]) -> Solved:
 def _bodies(series):
     """Which bodies are solved, and at which speeds."""
     smooth = replace(series, scene=replace(series.scene, roughness=None))
-    rough = series.scene.roughness is not None
-    for body, stripped in ((ROUGH, series), (SMOOTH, smooth)):
-        if series.speeds and (rough or body == SMOOTH):
-            yield body, stripped, series.speeds
-    for body, stripped in ((REST, series), (SMOOTH_REST, smooth)):
-        if rough or body == SMOOTH_REST:
-            yield body, stripped, (0.0,)
+    if series.speeds:
+        yield ROUGH, series, series.speeds
+        yield SMOOTH, smooth, series.speeds
+    yield REST, series, (0.0,)
+    yield SMOOTH_REST, smooth, (0.0,)
 
 
 def _block(series, solver, speeds, draws):

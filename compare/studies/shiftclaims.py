@@ -1,17 +1,23 @@
 """The claims of Eq. 23: what shifts of the curves of one series come to."""
 
 from collections.abc import Iterator
+from math import isfinite, nan
 
 import numpy as np
 
+from ..commoncurve import LEAST_OVERLAP
 from ..finding import Finding
+from ..mastercurve import DEGREE
 from ..samples import Samples
 from ..shifting import Shifting, misfit_at, shift
-from .claims import DIMENSIONS, TOLERANCE
+from ..verdict import DIMENSIONS
 from .laws import Laws
-from .series import COARSE, FINE, ROUGH, Solved
+from .question import COLLAPSE, TOLERANCE
+from .series import COARSE, FINE, ROUGH, Series, Solved
 
-COLLAPSE, SHIFTS = "study-collapse", "study-shifts"
+SHIFTS = "study-shifts"
+_UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
+ONE_CURVE = "Eq. 23: shifts along the load bring friction at all speeds onto one curve"
 
 
 def shiftings(solved: Solved, solver: str) -> tuple[Shifting, Shifting] | None:
@@ -31,15 +37,14 @@ def samples(solved: Solved, solver: str, grid: str = FINE) -> Samples:
 def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[Finding]:
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
     fine, coarse = both
-    straight = (
-        ""
-        if fine.separable
-        else ("straight parallel lines fit: a horizontal shift cannot be told from a vertical one")
-    )
+    straight = inseparable(fine)
+    parted = fine.horizontal.reason or ""
+    beside = "" if fine.both.reason else f" Shifted along friction too, they miss by {fine.both.misfit.value:.1%}."
 
     def found(claim, expected, tolerance, numbers, figure, text, undecidable=""):
         measured, other = numbers
         low, high = measured.interval()
+        known = isfinite(low) and isfinite(high) and isfinite(float(other.value))
         return Finding(
             claim=claim,
             dimension=DIMENSIONS[solver],
@@ -52,18 +57,18 @@ def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> 
             regime=laws.regime.words,
             figure=figure,
             text=text,
-            undecidable=undecidable,
+            undecidable=undecidable or ("" if known else _UNKNOWN),
         )
 
     yield found(
-        "Eq. 23: shifts along the load bring friction at all speeds onto one curve",
+        ONE_CURVE,
         0.0,
         TOLERANCE,
         (fine.horizontal.misfit, coarse.horizontal.misfit),
         COLLAPSE,
         f"rms of ln mu about one curve without what scatter adds; {fine.none.rms:.0%} before shifting. All shifts "
-        "are found at once.",
-        straight or fine.horizontal.reason or "",
+        f"are found at once, and neighbouring curves share {LEAST_OVERLAP:.0%} of their range at least.{beside}",
+        straight or _unless_beyond(fine.horizontal.misfit, parted),
     )
     yield found(
         "Eq. 23: no shift along friction is needed",
@@ -73,7 +78,7 @@ def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> 
         SHIFTS,
         "rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit; vertical "
         f"shifts alone leave {fine.vertical.misfit.value:.1%}.",
-        straight or fine.horizontal.reason or "",
+        straight or _unless_beyond(fine.horizontal.mended, parted),
     )
     yield found(
         "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve",
@@ -82,18 +87,51 @@ def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> 
         tuple(misfit_at(each, _kept(each, laws)) for each in both),
         COLLAPSE,
         "The same with the shifts that the theory gives, none fitted.",
-        straight,
     )
     if np.isfinite(laws.exponent):
         yield found(
-            "Eqs. 22, 23: p(v) is that power of the speed",
+            "Eqs. 22, 23: p(v) is the power of the speed that the loss at the shortest wave gives",
             laws.exponent,
             TOLERANCE * abs(laws.exponent),
             (fine.horizontal.exponent, coarse.horizontal.exponent),
             SHIFTS,
             "Exponent of the horizontal shifts against the speed, least squares.",
-            straight or fine.horizontal.reason or "",
+            straight or parted,
         )
+
+
+def inseparable(shifting: Shifting) -> str:
+    """Why a horizontal shift cannot be told from a vertical one; empty where it can."""
+    if shifting.separable:
+        return ""
+    if not isfinite(shifting.straight.value):
+        return "scatter is not known, nor whether the curves are bent"
+    return "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
+
+
+def unshifted(series: Series, solver: str, laws: Laws) -> Iterator[Finding]:
+    """The first of these claims where points were asked for that can be shifted, and too few have an answer."""
+    speeds, presses = len(series.speeds), len(series.presses)
+    if speeds > 1 and speeds * presses > 2 * (speeds - 1) + DEGREE + 1:
+        yield Finding(
+            claim=ONE_CURVE,
+            dimension=DIMENSIONS[solver],
+            expected=0.0,
+            tolerance=TOLERANCE,
+            value=nan,
+            statistical=(nan, nan),
+            grid=nan,
+            surfaces=series.drawn(solver),
+            regime=laws.regime.words,
+            figure=COLLAPSE,
+            text="Nothing was shifted.",
+            undecidable="too few points have an answer on half of the surfaces",
+        )
+
+
+def _unless_beyond(size, reason):
+    """Curves that part miss by more at any overlap that is larger: beyond the tolerance that decides."""
+    return "" if size.interval()[0] > TOLERANCE else reason
 
 
 def _kept(shifting, laws):

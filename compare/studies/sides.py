@@ -52,13 +52,20 @@ class Side:
             },
         )
 
+    @property
+    def smooth(self) -> Self:
+        """The smooth bodies alone, of which no surface can be left out."""
+        return replace(self, bodies={body: self[body] for body in (SMOOTH, SMOOTH_REST) if body in self.bodies})
+
     def friction(self, body: str = ROUGH) -> np.ndarray:
-        """mu of the means over surfaces, (speeds, presses)."""
-        return self[body].friction
+        """mu of the means over surfaces, (speeds, presses); NaN as of mean."""
+        answers = self[body]
+        return np.where(_enough(answers.friction_force), answers.friction, np.nan)
 
     def mean(self, name: str, body: str) -> np.ndarray:
-        """Of a number over surfaces, (speeds, presses)."""
-        return mean_ratio(getattr(self[body], name)).value
+        """Of a number over surfaces, (speeds, presses); NaN where fewer than half of them have it."""
+        values = getattr(self[body], name)
+        return np.where(_enough(values), mean_ratio(values).value, np.nan)
 
 
 @dataclass(frozen=True)
@@ -73,6 +80,16 @@ class Pair:
     three: Side
 
     @property
+    def surfaces(self) -> int:
+        """How many were drawn in three dimensions."""
+        return self.three.surfaces
+
+    @property
+    def smooth(self) -> Self:
+        """The smooth bodies alone."""
+        return replace(self, one=self.one.smooth, three=self.three.smooth)
+
+    @property
     def groups(self) -> Sequence[np.ndarray]:
         """As of resampling.Samples."""
         return [np.array([k]) for k in range(min(len(self.one.groups), len(self.three.groups)))]
@@ -82,6 +99,11 @@ class Pair:
         (k,), count = group, len(self.groups)
         one, three = (np.array_split(np.arange(side.surfaces), count)[k] for side in (self.one, self.three))
         return replace(self, one=self.one.without(one), three=self.three.without(three))
+
+
+def _enough(values):
+    """Whether half of the surfaces or more have an answer."""
+    return 2 * np.isfinite(values).sum(axis=-1) >= values.shape[-1]
 
 
 def _without(answers: Answers, group) -> Answers:

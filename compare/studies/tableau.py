@@ -3,11 +3,12 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from .. import verdict
 from ..finding import Finding
-from .claims import BOTH
 from .judgement import JudgedStudy
+from .question import BOTH
 
-DIMENSIONS = ("1D", "3D")
+DIMENSIONS = tuple(verdict.DIMENSIONS.values())
 VERDICTS = ("holds", "fails", "undecided")
 ALL_SERIES = "all series"
 

@@ -34,3 +34,12 @@ def claimed(finding: Finding) -> str:
 def number(value: float) -> str:
     """Three digits; what is not known says so."""
     return f"{value:.3g}" if isfinite(value) else "unknown"
+
+
+def line(finding: Finding) -> str:
+    """A finding in one line: verdict, claim, number with both errors, and why there is no verdict."""
+    why = f"; {finding.undecidable}" if finding.undecidable else ""
+    return (
+        f"{finding.dimension:5s} {finding.verdict:9s}  {finding.claim}: {written(finding)}, "
+        f"claimed {claimed(finding)} ({errors(finding)}{why})"
+    )
