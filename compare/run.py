@@ -128,6 +128,8 @@ def shift_measured(path: Path, folder: Path) -> None:
     exponent = collapse.exponent if collapse.overlaps else nan
     console.print(f"  shift ~ v^p, p = {plus_minus(exponent, shifted.exponent_error)}")
     console.print(f"  {explain_vertical(shifted.vertical)}", markup=False)
+    if shifted.vertical:
+        console.print(f"  vertical shifts alone leave a misfit of {shifted.vertical.alone.rms:.2%}")
     console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
 
 

@@ -21,6 +21,7 @@ class Vertical:
     exponent, exponent_error : of exp(c_v) ~ v^exponent
     horizontal_exponent, horizontal_exponent_error : of p(v), now with vertical shifts beside it
     after : misfit with both
+    alone : misfit with vertical shifts only
     chance : of a misfit that falls as much if no vertical shift is needed (F test); errors need not be known, but
         points must be independent
     separable : False where straight parallel lines fit: then one shift is the other
@@ -33,6 +34,7 @@ class Vertical:
     horizontal_exponent: float
     horizontal_exponent_error: float
     after: Misfit
+    alone: Misfit
     chance: float
     separable: bool
 
@@ -79,6 +81,7 @@ def vertical_shifts(result: Collapse) -> Vertical:
         horizontal_exponent=horizontal_exponent,
         horizontal_exponent_error=horizontal_error,
         after=fit.misfit(best.x, shifts=count),
+        alone=fit.misfit(np.zeros(count), shifts=0),
         chance=float(f_distribution.sf(gain, count, freedom)),
         separable=result.separable,
     )

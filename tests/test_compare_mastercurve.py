@@ -195,6 +195,12 @@ def raised(by, noise, rng):
     return [replace(c, log_friction=c.log_friction + noise * rng.normal(size=c.log_load.size)) for c in exact]
 
 
+def test_curves_raised_and_not_shifted_fall_onto_one_by_vertical_shifts_alone():
+    found = vertical_shifts(collapse(curves(cubic, 0.0, vertical=0.3)))
+    assert found.alone.rms < 1e-2
+    assert vertical_shifts(collapse(curves(cubic, -1.5))).alone.rms > 10 * found.alone.rms
+
+
 def test_a_vertical_shift_that_is_there_is_found_and_measured():
     rng = np.random.default_rng(2)
     found = [vertical_shifts(collapse(raised(0.1, 0.005, rng))) for _ in range(10)]

@@ -6,6 +6,7 @@ from math import isfinite, nan
 
 import numpy as np
 
+from ..finding import verdict
 from ..resampling import interval, standard_error
 from .campaign import line
 from .law import Law
@@ -34,13 +35,8 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """holds if the whole interval lies within the tolerance, fails if none of it does, else undecided."""
-        low, high = self.expected - self.tolerance, self.expected + self.tolerance
-        if not (isfinite(self.low) and isfinite(self.high)):
-            return "undecided"
-        if low <= self.low and self.high <= high:
-            return "holds"
-        return "fails" if self.high < low or self.low > high else "undecided"
+        """holds, fails or undecided, from the interval."""
+        return verdict(self.expected, self.tolerance, self.low, self.high)
 
     @property
     def row(self) -> dict:

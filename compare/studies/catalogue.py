@@ -31,7 +31,7 @@ SIZES = {
     ),
     "standard": Size(
         range=SPEEDS, speeds=12, presses=8, surfaces=10, profiles=60, points=256,
-        hurst=HURST, few=4, indentations=3, steps=100,
+        hurst=HURST, few=3, indentations=3, steps=100,
     ),
     "paper": Size(
         range=SPEEDS, speeds=20, presses=16, surfaces=40, profiles=200, points=512,
@@ -109,7 +109,7 @@ def _hurst(size: Size) -> list[Series]:
 
 def _parameters(size: Size) -> list[Series]:
     """One parameter changed at a time, around the contacts of Fig. 1."""
-    size = size.coarser.at_most(speeds=size.few, presses=size.few)
+    size = size.coarser.at_most(speeds=size.few, presses=size.few, surfaces=6)
     found = []
     for shape in SHAPES:
         base = kelvin(shape)
@@ -182,7 +182,7 @@ def _regime(size: Size) -> list[Series]:
         depths = tuple(_depth(scene, load) for load in loads[::2])
         sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
         title = f"Steeply rough {shape}, depth prescribed"
-        found.append(_series(knee, f"{shape}-depth", title, sunk, presses=depths))
+        found.append(_series(knee.at_most(surfaces=4), f"{shape}-depth", title, sunk, presses=depths))
     return found
 
 
