@@ -6,7 +6,7 @@ What has been solved once is in docs/study/solved; from nothing it takes some ho
 
 from collections.abc import Iterator
 from dataclasses import replace
-from math import isnan, nan, pi
+from math import isfinite, isnan, nan, pi
 from pathlib import Path
 
 from rich.console import Console
@@ -14,7 +14,14 @@ from study_answer import answer
 from tables import table
 
 from bem3d import BEM
-from compare.figures import study_collapse, study_family, study_levels, study_verdicts
+from compare.figures import (
+    study_collapse,
+    study_depth,
+    study_family,
+    study_levels,
+    study_pressed_in,
+    study_verdicts,
+)
 from compare.finding import Finding
 from compare.paper import parameters
 from compare.progress import watch
@@ -34,7 +41,11 @@ from scene.scales import elastic_contact
 FOLDER = Path(__file__).with_suffix("")
 SIZE = "standard"
 # Series whose curves are shown; the pages of `crosscheck study` show all.
-SHOWN = {"collapse": ("sphere", "cone"), "regime": ("sphere", "cone")}
+SHOWN = {
+    "collapse": (("sphere", "cone"), (study_collapse, study_levels)),
+    "regime": (("sphere", "cone"), (study_collapse, study_levels)),
+    "depth": (("sphere-rest", "cone-pressed-in"), (study_depth, study_pressed_in)),
+}
 MARKS = {"holds": "holds", "fails": "**fails**", "undecided": "undecided"}
 # Points a side for the spectrum of the paper; two pixels a wave at least.
 FINER = (2100, 4096, 8192)
@@ -127,15 +138,17 @@ def _cell(judged, claim, dimension):
     if len(found) > FEW:
         counts = {verdict: [f for _, f in found if f.verdict == verdict] for verdict in MARKS}
         return "; ".join(f"{MARKS[name]} {len(each)} ({_span(each)})" for name, each in counts.items() if each)
-    return "; ".join(f"{place}: {MARKS[each.verdict]} {_written(each)}" for place, each in found)
+    return "; ".join(f"{place}: {MARKS[each.verdict]} {_written(each)}".strip() for place, each in found)
 
 
 def _span(findings: list[Finding]):
-    values = [finding.value for finding in findings]
+    values = [finding.value for finding in findings if isfinite(finding.value)] or [nan]
     return number(min(values)) if len(values) == 1 else f"{number(min(values))} to {number(max(values))}"
 
 
 def _written(finding: Finding):
+    if not isfinite(finding.value):
+        return ""
     low, high = finding.interval
     return f"{number(finding.value)} ({number(low)} to {number(high)})"
 
@@ -144,9 +157,10 @@ def _figures(judged):
     yield study_verdicts, judged, f"-{judged.name}"
     if judged.findings:
         yield study_family, judged, f"-{judged.name}"
+    series, modules = SHOWN.get(judged.name, ((), ()))
     for each in judged.series:
-        if each.solved.series.name in SHOWN.get(judged.name, ()):
-            for module in (study_collapse, study_levels):
+        if each.solved.series.name in series:
+            for module in modules:
                 yield module, each, f"-{judged.name}-{each.solved.series.name}"
 
 

@@ -138,6 +138,15 @@ def test_an_empty_contact_is_an_answer_with_forces_of_zero():
     assert np.isnan(row.friction_coefficient)
 
 
+@pytest.fixture
+def heeded():
+    """SIGINT raises, also where the tests run in the background of a shell, which ignores it there."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("heeded")
 @pytest.mark.parametrize(("presses", "stored"), [(1, 1), (2, 0)])
 def test_one_interrupt_waits_for_what_is_under_way_and_two_do_not(tmp_path, presses, stored):
     class Impatient(Heard):
