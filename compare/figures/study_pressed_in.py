@@ -75,8 +75,8 @@ def caption(judged: JudgedSeries) -> str:
         "Normal force at the end of an indentation from nothing at a constant rate, by colour, against the "
         "depth reached: rough bodies, means over surfaces (markers), and smooth ones (thin lines; crosses: Lee "
         "and Radok). Right: the force in one dimension over that in three at the same depth and rate, less one, "
-        "rough (markers) and smooth (thin lines); in 3D the last half step is still to come, which the claims allow "
-        "for and the figure does not. Bars are intervals of 95 % over the surfaces; points are drawn "
+        "rough (markers) and smooth (thin lines); in 3D the last half step is still to come, which the claims "
+        "allow for and the figure does not. Bars are intervals of 95 % over the surfaces; points are drawn "
         "apart along the depth."
     )
 
