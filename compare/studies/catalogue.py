@@ -168,12 +168,13 @@ def _regime(size: Size) -> list[Series]:
     """
     found, small = [], size.points <= 128
     points = 512 if small else 5 * size.points // 2
-    few = replace(size.at_most(speeds=6, presses=6, surfaces=6), points=points)
+    speeds, presses, fastest = (4, 3, 12.0) if small else (6, 6, 35.0)
+    few = replace(size.at_most(speeds=speeds, presses=presses, surfaces=6), points=points)
     for shape, (scene, (low, high)) in STEEP.items():
         wave = scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
         # Wider contacts have fewer pixels a wave.
         loads = few.presses_of(low, 2 * low if small else high)
-        knee = replace(few, range=(2.5 * wave, 35 * wave))
+        knee = replace(few, range=(2.5 * wave, fastest * wave))
         found.append(_series(knee, shape, f"Steeply rough {shape}", scene, presses=loads))
         if small:
             continue
