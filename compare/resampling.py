@@ -49,6 +49,10 @@ class Estimated:
         half = self.error * _student(level, self.freedom)
         return self.value - half, self.value + half
 
+    def apart(self, other: Self) -> float:
+        """How far from another."""
+        return abs(float(self.value) - float(other.value))
+
 
 @dataclass(frozen=True)
 class Size:
@@ -103,6 +107,11 @@ class Size:
         most = 2 * (least + 4 * reach + self.along + second)
         high = brentq(beyond, least, most, xtol=1e-12 * most)
         return sqrt(low), sqrt(high)
+
+    def apart(self, other: Self) -> float:
+        """How far from another, by roots with the sign of the square: two sizes of nil need not be the same."""
+        one, two = (np.copysign(sqrt(abs(each.square)), each.square) for each in (self, other))
+        return float(abs(one - two))
 
     def verdict(self, tolerance: float) -> str:
         """holds, fails or undecided: whether the size is within the tolerance, from its interval of 95 %."""

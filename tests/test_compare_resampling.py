@@ -10,6 +10,7 @@ from compare.resampling import (
     MOST_GROUPS,
     Estimated,
     Replicates,
+    Size,
     groups,
     interval,
     left_out,
@@ -213,3 +214,14 @@ def test_a_size_is_within_a_tolerance_only_if_its_whole_interval_is():
     low, high = found.interval()
     assert low < found.value < high
     assert [found.verdict(at) for at in (0.9 * low, found.value, 1.1 * high)] == ["fails", "undecided", "holds"]
+
+
+def test_sizes_of_nil_are_apart_by_what_their_squares_are():
+    # scatter explains both, and yet one grid is not the other
+    fine, coarse = (Size(square, 1e-3, 0.0, 4.0, 9) for square in (-1e-4, -4e-4))
+    assert fine.value == coarse.value == 0
+    assert fine.apart(coarse) == pytest.approx(0.01)
+    large, larger = (Size(square, 1e-3, 0.0, 4.0, 9) for square in (0.01, 0.04))
+    assert large.apart(larger) == pytest.approx(larger.value - large.value)
+    assert np.isnan(large.apart(Size.unknown()))
+    assert Estimated(1.0, 0.1, 9).apart(Estimated(3.0, 0.5, 9)) == 2.0

@@ -89,7 +89,7 @@ def _one_curve(members, solver, dimension, shape):
         tolerance=2 * TOLERANCE,
         value=fine.value,
         statistical=(low, high),
-        grid=abs(fine.value - coarse.value),
+        grid=fine.apart(coarse),
         surfaces=members[0].solved.series.drawn(solver),
         regime=_words(members, solver),
         figure=FAMILY,

@@ -1,6 +1,7 @@
 """The claims of Eq. 23: what shifts of the curves of one series come to."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import isfinite, nan
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from ..commoncurve import LEAST_OVERLAP
 from ..finding import Finding
 from ..mastercurve import DEGREE
+from ..resampling import Estimated, Size
 from ..samples import Samples
 from ..shifting import Shifting, misfit_at, shift
 from ..verdict import DIMENSIONS
@@ -36,67 +38,80 @@ def samples(solved: Solved, solver: str, grid: str = FINE) -> Samples:
 
 def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[Finding]:
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
-    fine, coarse = both
-    straight = inseparable(fine)
-    parted = fine.horizontal.reason or ""
-    beside = "" if fine.both.reason else f" Shifted along friction too, they miss by {fine.both.misfit.value:.1%}."
-
-    def found(claim, expected, tolerance, numbers, figure, text, undecidable=""):
-        measured, other = numbers
-        low, high = measured.interval()
-        known = isfinite(low) and isfinite(high) and isfinite(float(other.value))
-        return Finding(
-            claim=claim,
+    for claim in (*_fitted(*both), *_predicted(both, laws)):
+        measured, other = claim.numbers
+        low, high = (float(end) for end in measured.interval())
+        grid = measured.apart(other)
+        known = isfinite(low) and isfinite(high) and isfinite(grid)
+        yield Finding(
+            claim=claim.claim,
             dimension=DIMENSIONS[solver],
-            expected=expected,
-            tolerance=tolerance,
+            expected=claim.expected,
+            tolerance=claim.tolerance,
             value=float(measured.value),
-            statistical=(float(low), float(high)),
-            grid=abs(float(measured.value) - float(other.value)),
-            surfaces=fine.samples.surfaces,
+            statistical=(low, high),
+            grid=grid,
+            surfaces=both[0].samples.surfaces,
             regime=laws.regime.words,
-            figure=figure,
-            text=text,
-            undecidable=undecidable or ("" if known else _UNKNOWN),
+            figure=claim.figure,
+            text=claim.text,
+            undecidable=claim.undecidable or ("" if known else _UNKNOWN),
         )
 
-    yield found(
+
+@dataclass(frozen=True)
+class _Claim:
+    """What two fits say of a claim: numbers of the fine and of the coarse one, all else as of Finding."""
+
+    claim: str
+    numbers: tuple[Size, Size] | tuple[Estimated, Estimated]
+    figure: str
+    text: str
+    undecidable: str = ""
+    expected: float = 0.0
+    tolerance: float = TOLERANCE
+
+
+def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim]:
+    """With the shifts that are best."""
+    straight, parted = inseparable(fine), fine.horizontal.reason or ""
+    beside = "" if fine.both.reason else f" Shifted along friction too, they miss by {fine.both.misfit.value:.1%}."
+    yield _Claim(
         ONE_CURVE,
-        0.0,
-        TOLERANCE,
         (fine.horizontal.misfit, coarse.horizontal.misfit),
         COLLAPSE,
         f"rms of ln mu about one curve without what scatter adds; {fine.none.rms:.0%} before shifting. All shifts "
         f"are found at once, and neighbouring curves share {LEAST_OVERLAP:.0%} of their range at least.{beside}",
         straight or _unless_beyond(fine.horizontal.misfit, parted),
     )
-    yield found(
+    yield _Claim(
         "Eq. 23: no shift along friction is needed",
-        0.0,
-        TOLERANCE,
         (fine.horizontal.mended, coarse.horizontal.mended),
         SHIFTS,
         "rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit; vertical "
         f"shifts alone leave {fine.vertical.misfit.value:.1%}.",
         straight or _unless_beyond(fine.horizontal.mended, parted),
     )
-    yield found(
+
+
+def _predicted(both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[_Claim]:
+    """With those of the theory, and how the best ones compare."""
+    fine, coarse = both
+    yield _Claim(
         "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve",
-        0.0,
-        TOLERANCE,
         tuple(misfit_at(each, _kept(each, laws)) for each in both),
         COLLAPSE,
         "The same with the shifts that the theory gives, none fitted.",
     )
-    if np.isfinite(laws.exponent):
-        yield found(
+    if isfinite(laws.exponent):
+        yield _Claim(
             "Eqs. 22, 23: p(v) is the power of the speed that the loss at the shortest wave gives",
-            laws.exponent,
-            TOLERANCE * abs(laws.exponent),
             (fine.horizontal.exponent, coarse.horizontal.exponent),
             SHIFTS,
             "Exponent of the horizontal shifts against the speed, least squares.",
-            straight or parted,
+            inseparable(fine) or fine.horizontal.reason or "",
+            laws.exponent,
+            TOLERANCE * abs(laws.exponent),
         )
 
 
