@@ -12,7 +12,7 @@ import numpy as np
 from . import kernels
 from .krylov import conjugate_gradients, direct, gmres
 
-ROUNDS = 400  # sets of contact tried before giving up; 5 to 20 are usual
+ROUNDS = 400  # sets of contact tried before giving up, and one more a pixel along; 5 to 20 are usual
 ACCURACY = 0.3  # of the error on one set of contact: rougher solves drop what belongs to it
 ADDED = 0.3  # of the penetration outside: what may be left inside when the set grows; at 1 it cycles
 PATIENCE = 30  # rounds after which solves are closer by a tenth, each time: rough ones can cycle
@@ -56,6 +56,8 @@ def solve(
 ) -> Contact:
     """Solve on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
 
+    Sets that follow one another in a cycle are joined: what pulls is then dropped from one that holds them all.
+
     start : pressure to begin with (ny, nx), >= 0; its support is the first set of contact
     tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z),
         or what the heights in contact span where that is more (depths under a line may be negative)
@@ -73,18 +75,25 @@ def solve(
     pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
     gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
     lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
-    for rounds in range(1, ROUNDS + 1):
+    most, marked, tried = ROUNDS + max(heights.shape), *xp.zeros((2, *heights.shape), bool)
+    for rounds in range(1, most + 1):
         contact = pressure > 0
+        if not contact.any():
+            raise NotConverged("nothing is pressed: the pressure is below the range of numbers")
         operator(pressure, out=displacement)
         level = float((displacement + heights)[contact].mean()) if depth is None else depth
         inside, outside = sums.gaps(displacement, heights, level, contact, gap)
         aim = tolerance * max(level - lowest, float(heights[contact].max()) - lowest, least)
         if inside <= aim and outside <= aim:
             return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
-        if rounds % PATIENCE == 0:
-            accuracy /= 10
         if inside <= max(aim, ADDED * outside):
             contact |= gap < -aim
+        tried |= contact
+        if rounds % PATIENCE == 0:
+            accuracy /= 10
+            marked, tried = contact, contact.copy()
+        elif (contact == marked).all():
+            contact = tried.copy()
         on_set = _OnSet(operator, precondition, contact, depth is None, sums)
         correction = solver(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
         values = xp.maximum(pressure.reshape(-1)[on_set.where] + correction, 0.0)
@@ -93,7 +102,7 @@ def solve(
             pressure, accuracy = xp.maximum(level - heights, 0.0), accuracy / 4
         pressure = _balanced(pressure, load)
     violation = max(inside, outside) / aim * tolerance
-    raise NotConverged(f"after {ROUNDS} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
+    raise NotConverged(f"after {most} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
 
 
 def first_guess(heights: np.ndarray, count: int) -> np.ndarray:

@@ -1,6 +1,7 @@
 """The piece of surface on which a contact is sought."""
 
 from dataclasses import dataclass, replace
+from math import isfinite
 
 import numpy as np
 
@@ -22,9 +23,12 @@ class Grid:
     def around(cls, box: "Box", points: int, margin: float, width: float | None = None) -> "Grid":
         """A square, or a row of this width, `margin` times the longer side of a box.
 
-        Its centre is moved to a whole pixel, so that the tip of an indenter lies alike on every grid.
+        Its centre is moved to a whole pixel, so that the tip of an indenter lies alike on every grid. Raises
+        OverflowError beyond the range of numbers.
         """
         extent = float(margin * box.side)
+        if not isfinite(extent + sum(box.centre)):
+            raise OverflowError("a window beyond the range of numbers")
         pixel = extent / points
         x, y = (float(round(at / pixel) * pixel) for at in box.centre)
         return cls(points, extent, (x, y), width)

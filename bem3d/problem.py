@@ -21,6 +21,21 @@ COARSEST = 32  # points a side from which a solve starts, or all there are below
 COARSE_TOLERANCE = 1e-5  # on all grids but the finest: a set of contact right to the pixel pays on the next
 
 
+class Unseen(SolveError):
+    """A smooth contact lies between the centres of pixels; its forces are not zero."""
+
+
+def row_width(scene: Scene) -> float | None:
+    """Of the single row of pixels [m] that stands for a contact alike all along y; None when it is not."""
+    match scene:
+        case Scene(indenter=Cylinder()):
+            return 1.0  # forces are per metre
+        case Scene(indenter=Plane(), roughness=Wave() as wave) if not isinstance(wave, CrossedWaves):
+            return wave.period
+        case _:
+            return None
+
+
 def _medium(indenter, flow, engine):
     match indenter:
         case Plane():
@@ -45,14 +60,8 @@ class Problem:
 
     @property
     def width(self) -> float | None:
-        """Of the single row of pixels [m] that stands for a contact alike all along y; None when it is not."""
-        match self.scene:
-            case Scene(indenter=Cylinder()):
-                return 1.0  # forces are per metre
-            case Scene(indenter=Plane(), roughness=Wave() as wave) if not isinstance(wave, CrossedWaves):
-                return wave.period
-            case _:
-                return None
+        """As of `row_width`."""
+        return row_width(self.scene)
 
     def surface(self, grid: Grid) -> RoughSurface | None:
         """The rough surface as a grid cuts it off; None for a smooth indenter."""
@@ -99,7 +108,7 @@ class Problem:
         for grid in reversed(grids[1:]):
             try:
                 start = self.solve_on(grid, surface, start, max(tolerance, COARSE_TOLERANCE)).pressure
-            except EmptyContact:
+            except (EmptyContact, Unseen):
                 start = None  # the coarse grid misses the peaks that the finer one has
         return self.solve_on(finest, surface, start, tolerance)
 
@@ -141,7 +150,7 @@ class Problem:
         self.transforms += product.applications * grid.points * grid.rows
 
     def _pressed(self, grid, heights):
-        """Depth [pixel] or load [pixels times E*], the other None. Raises EmptyContact."""
+        """Depth [pixel] or load [pixels times E*], the other None. Raises EmptyContact, Unseen."""
         motion, prescribed = self.scene.motion, self.scene.motion.pressed_by
         value, patches = getattr(motion, prescribed), self.flow.modulus * grid.patch
         if prescribed in ("load", "line_load"):
@@ -151,6 +160,11 @@ class Problem:
         depth = (value if prescribed == "depth" else -value) / grid.pixel
         lowest = heights.min()
         if depth <= lowest:
+            if prescribed == "depth" and self.surface(grid) is None:
+                raise Unseen(
+                    f"the contact lies between the centres of pixels of {grid.pixel:g} m: take more points or a "
+                    f"smaller extent than {grid.extent:g} m"
+                )
             wanted = "larger depth" if prescribed == "depth" else f"gap below {-lowest * grid.pixel:g} m"
             raise EmptyContact(
                 f"motion.{prescribed} = {value:g} m leaves the contact empty: the indenter's lowest point is "

@@ -1,7 +1,7 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
 import time
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -11,7 +11,7 @@ from scene import Cylinder, Plane, Program, Result, Scene, SolveError
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 
-from . import window
+from . import accuracy, window
 from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .history import marched
@@ -40,21 +40,24 @@ class BEM:
     transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
 
-    Result.friction_force joins two estimates from one pressure, of which each has its strength: by traction, the
-    pressure times the indenter's slope, and by loss, the energy lost per length slid. Traction counts in
-    proportion to the lag of the grid's shortest wave, 0 to 1: an elastic contact has some friction by traction on
-    a coarse grid and none by loss; a fast Kelvin contact, singular at its edge, loses digits by loss alone.
+    Result.friction_force joins three estimates from one pressure, of which each has its strength: by traction, the
+    pressure times the indenter's slope; by loss, the energy lost per length slid; and by curvature, the first
+    order in the speed. Traction counts in proportion to the lag of the grid's shortest wave, 0 to 1: an
+    elastic contact has some friction by traction on a coarse grid and none by loss; a fast Kelvin contact,
+    singular at its edge, loses digits by loss alone. Curvature counts where the contact trails by less than a
+    quarter of a pixel: loss comes from short waves there, of which edges on a grid leave little.
 
     Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
     preconditioner too (half where it transforms along x alone), both in equivalents of the finest grid.
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, rounds, transform_pairs;
-    curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and roughness weighted with the pressure: at rest
-    it is mu at low speed over that speed and the mean lag of the elastomer;
-    friction_by_traction, friction_by_loss, friction_by_work [N]: by the indenter's slope, by the slope of the
-    displacement, by the work done on the surface from pixel to pixel; friction_disagreement, what the second
-    differs from the third, or from the first as far as that counts, over the normal force: an indicator of the
-    error of mu. Of a rough indenter also rms_height [m], rms_slope (spectral, of the full gradient), each over a
-    period, and points_per_shortest_wave; of a Plane mean_pressure [Pa], mean_gap [m], contact_fraction.
+    curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and roughness weighted with the pressure: at
+    rest it is mu at low speed over that speed and the mean lag of the elastomer; friction_by_traction,
+    friction_by_loss, friction_by_work, friction_by_curvature [N]: by the indenter's slope, by the slope of the
+    displacement, by the work done on the surface from pixel to pixel, to first order in the speed;
+    friction_disagreement, what the second differs from the third, or from the first and the last as far as
+    these count, over the normal force: an indicator of the error of mu. Of a rough indenter also rms_height
+    [m], rms_slope (spectral, of the full gradient), each over a period, and points_per_shortest_wave; of a
+    Plane mean_pressure [Pa], mean_gap [m], contact_fraction.
     Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
@@ -78,6 +81,29 @@ class BEM:
                 f"tolerance = {self.tolerance:g} cannot be reached in single precision: at least {LEAST_SINGLE:g}"
             )
         return self
+
+    @classmethod
+    def for_accuracy(
+        cls,
+        scene: Scene,
+        friction: float | None = None,
+        depth: float | None = None,
+        load: float | None = None,
+        **settings: Any,
+    ) -> accuracy.Choice:
+        """Settings that keep wanted relative errors, by measured ones; the scene is solved coarsely first.
+
+        friction, depth, load : wanted errors of the friction coefficient, and of the depth, over that of the
+            smooth contact at rest, or of the load, whichever is not prescribed
+        settings : all others but points and tolerance
+
+        Choice.solve() gives the answer, and warns where half the points do not confirm it. Raises ValueError for
+        what cannot be promised: programs, roughness without a shortest wave, errors beyond those measured.
+        """
+        wanted = {"friction": friction, "depth": depth, "load": load}
+        return accuracy.choose(
+            cls(**settings), scene, {name: error for name, error in wanted.items() if error is not None}
+        )
 
     @property
     def name(self) -> str:
@@ -153,23 +179,33 @@ class BEM:
         slopes = problem.slopes(grid, problem.surface(grid))
         traction = float(-np.sum(pressure * slopes) * grid.patch)
         loss, work = problem.lost(grid, pressure)
-        lag = problem.flow.lag(grid)
-        frictions = {"friction_by_traction": traction, "friction_by_loss": loss, "friction_by_work": work}
+        curvature = curvature_by_pressure(problem, grid, pressure, slopes)
+        slow = problem.flow.trail * curvature * normal_force
+        lag, slowness = problem.flow.lag(grid), problem.flow.slowness(grid)
+        if answer.pressure.all():  # no edge, and nothing is lost of the loss
+            slowness = 0.0
+        frictions = {
+            "friction_by_traction": traction,
+            "friction_by_loss": loss,
+            "friction_by_work": work,
+            "friction_by_curvature": slow,
+        }
+        apart = (1 - slowness) * abs(work - loss), lag * abs(traction - loss), slowness * abs(slow - loss)
         return Result(
             scene=problem.scene,
             solver=self.name,
             settings=self.settings(problem, grid),
             normal_force=normal_force,
             depth=answer.depth * grid.pixel,
-            friction_force=lag * traction + (1 - lag) * loss,
+            friction_force=slowness * slow + (1 - slowness) * (lag * traction + (1 - lag) * loss),
             residual=answer.violation,
             applications=problem.work / (grid.points * grid.rows),
             seconds=time.process_time() - started,
             measures={
                 **measured(problem, grid, pressure, answer.gap * grid.pixel),
-                "curvature_by_pressure": curvature_by_pressure(problem, grid, pressure, slopes),
+                "curvature_by_pressure": curvature,
                 **frictions,
-                "friction_disagreement": max(abs(work - loss), lag * abs(traction - loss)) / normal_force,
+                "friction_disagreement": max(apart) / normal_force,
                 "rounds": float(answer.rounds),
                 "transform_pairs": problem.transforms / (grid.points * grid.rows),
             },

@@ -1,6 +1,6 @@
 """Rough surfaces in two dimensions: one draw from the spectrum of a scene, evaluated wherever a grid asks."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -54,14 +54,15 @@ class RoughSurface:
         k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
         k = np.hypot(k_x, k_y)
         drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))
-        power = np.where(drawn, _cell_means(roughness, k_x, k_y, q_max), 0.0)
-        power *= roughness.rms_height**2 / power.sum()
+        # Of unit height: the square of a tiny one would vanish.
+        power = np.where(drawn, _cell_means(replace(roughness, rms_height=1.0), k_x, k_y, q_max), 0.0)
+        power /= power.sum()
         order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))
         phases, moduli = np.empty(k.size), np.ones(k.size)
         phases[order] = 2 * np.pi * _stream(roughness.seed, PHASES).random(k.size)
         if roughness.amplitudes == "gaussian":
             moduli[order] = np.sqrt(_stream(roughness.seed, MODULI).standard_exponential(k.size))
-        waves = np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape))
+        waves = roughness.rms_height * np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape))
         return cls(roughness.q_min, waves * moduli.reshape(k.shape))
 
     @property

@@ -17,7 +17,7 @@ def timeline(program: Program, pixel: float, steps: int) -> np.ndarray:
 
     `steps` are shared out by duration, one to a stage at least, RAMP to a stage that loads or unloads; after a
     shorter step they grow by GROWTH. Where the indenter slides they are a pixel [m] of path at most, or a whole
-    fraction of it. The last two of a stage share what is left. Raises SolveError for too many.
+    fraction of it. The last two of a stage share what is left. Raises SolveError for too many, or too unlike ones.
     """
     longest = _longest(program, pixel, program.duration / steps)
     count = sum(stage.duration / step for stage, step in zip(program.stages, longest, strict=True))
@@ -31,6 +31,11 @@ def timeline(program: Program, pixel: float, steps: int) -> np.ndarray:
         ends = _ends(stage.duration, step, before)
         times.extend(times[-1] + ends)
         before = step
+    if not np.all(np.diff(times) > 0):
+        raise SolveError(
+            f"durations of the stages, from {min(stage.duration for stage in program.stages):g} to "
+            f"{program.duration:g} s in all, differ by more than rounding allows: steps of the shortest are lost"
+        )
     return np.array(times)
 
 

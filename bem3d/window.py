@@ -6,7 +6,7 @@ from scene import Cylinder, EmptyContact, SolveError
 from scene.scales import elastic_contact
 
 from .grid import Box, Grid
-from .problem import Problem
+from .problem import Problem, Unseen
 
 PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the surroundings allow for
 MARGIN = 1.15  # window over contact
@@ -45,7 +45,7 @@ def fitted(problem: Problem, points: int) -> Grid:
         grid = Grid.around(box, coarse, margin, problem.width)
         try:
             touched = problem.solve_on(grid, problem.surface(grid), None, COARSE_TOLERANCE).pressure > 0
-        except EmptyContact:
+        except (EmptyContact, Unseen):
             break
         found, margin = grid.box(touched).padded(grid.pixel), MARGIN
         if grid.on_rim(touched):

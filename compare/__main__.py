@@ -1,11 +1,11 @@
 """The command `crosscheck`."""
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from textwrap import fill
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -97,19 +97,63 @@ def study(
     from .run import SIZES, STUDIES, conduct_study, make_folders
 
     if name is None:
-        for each, asked in STUDIES.items():
-            typer.echo(f"{each:12s}{asked.title}")
-            typer.echo(fill(asked.about, 79, initial_indent=12 * " ", subsequent_indent=12 * " "))
+        _listed(STUDIES)
         typer.echo("`crosscheck study NAME` solves one, in minutes; --size says how much of it.")
         return
-    for given, option, known in ((name, "NAME", STUDIES), (size, "--size", SIZES)):
-        if given not in known:
-            typer.echo(f"crosscheck: {option} = {given}: allowed are {', '.join(known)}", err=True)
-            raise typer.Exit(MISTAKE)
+    _known((name, "NAME", STUDIES), (size, "--size", SIZES))
     with _mistakes_said(output):
         make_folders(output, [f"{name}-{size}"])
     with _interrupts_said():
         conduct_study(name, size, output, workers)
+
+
+@app.command()
+def workprecision(
+    name: Annotated[
+        str | None, typer.Argument(help="Diagram, or all of them by the name all; without it, they are listed.")
+    ] = None,
+    size: Annotated[str, typer.Option(help="quick (a minute a diagram) or full (up to ten).")] = "quick",
+    output: Annotated[Path, typer.Option(help="Folder of the page and of what has been solved.")] = Path(
+        "crosscheck-workprecision"
+    ),
+    workers: Workers = None,
+) -> None:
+    """Measure what accuracy costs in time, in one and in three dimensions, and write a page."""
+    from .run import INQUIRIES, conduct_workprecision, make_folders
+    from .workprecision.diagram import SIZES
+    from .workprecision.report import PAGE
+
+    if name is None:
+        _listed(INQUIRIES)
+        typer.echo("`crosscheck workprecision NAME` measures one, in about a minute; --size full does it in full.")
+        return
+    _known((name, "NAME", [*INQUIRIES, "all"]), (size, "--size", SIZES))
+    with _mistakes_said(output):
+        make_folders(output, page=PAGE)
+    with _interrupts_said():
+        conduct_workprecision(list(INQUIRIES) if name == "all" else [name], size, output, workers)
+
+
+@app.command()
+def stability(
+    size: Annotated[str, typer.Option(help="small (half a minute) or large (some minutes).")] = "small",
+    output: Annotated[Path, typer.Option(help="Folder of the table and of what has been examined.")] = Path(
+        "crosscheck-stability"
+    ),
+    workers: Workers = None,
+) -> None:
+    """Solve the named hard cases, and say whether each keeps its law; status 1 if any does not."""
+    from .run import examine_stability, make_folders
+    from .stability.hardcase import SIZES
+    from .stability.report import PAGE
+
+    _known((size, "--size", SIZES))
+    with _mistakes_said(output):
+        make_folders(output, page=PAGE)
+    with _interrupts_said():
+        broken = examine_stability(size, output, workers)
+    if broken:
+        raise typer.Exit(FAILED)
 
 
 @app.command()
@@ -137,6 +181,21 @@ def regress(
         typer.echo(f"Baseline: {path}")
     if left:
         raise typer.Exit(FAILED)
+
+
+def _listed(offered: Mapping[str, Any]) -> None:
+    """What can be named, each with its title and what it is about."""
+    for name, each in offered.items():
+        typer.echo(f"{name:12s}{each.title}")
+        typer.echo(fill(each.about, 79, initial_indent=12 * " ", subsequent_indent=12 * " "))
+
+
+def _known(*choices: tuple[str, str, Collection[str]]) -> None:
+    """End with a mistake where something is given, under the name of its option, that is not known."""
+    for given, option, known in choices:
+        if given not in known:
+            typer.echo(f"crosscheck: {option} = {given}: allowed are {', '.join(known)}", err=True)
+            raise typer.Exit(MISTAKE)
 
 
 @contextmanager

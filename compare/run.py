@@ -10,6 +10,7 @@ from pathlib import Path
 from pydantic import ValidationError
 from rich.console import Console
 
+from scene import SolveError
 from scene.reading import InvalidInput
 
 from .cases import Case, read_case, shipped_cases
@@ -23,6 +24,7 @@ from .publish import draw
 from .quantity import Quantity
 from .regression import Change, changes, measure, said
 from .report import MANIFEST, PAGE, slug, write_report
+from .stability import report as stability
 from .store import Store
 from .studies.catalogue import SIZES, STUDIES
 from .studies.judgement import judge_study
@@ -34,6 +36,8 @@ from .study import points, tasks
 from .sweep import sweep
 from .verdict import judge
 from .wording import explain, explain_vertical, plus_minus
+from .workprecision.catalogue import INQUIRIES
+from .workprecision.report import chapter, write_workprecision
 
 SOLVED = "solved"
 
@@ -44,7 +48,7 @@ def named_cases(path: Path | None) -> dict[str, Case]:
         cases = shipped_cases() if path is None else {path.stem: read_case(path)}
         for case in cases.values():
             points(case)
-    except (ArithmeticError, ValidationError) as error:
+    except (ArithmeticError, SolveError, ValidationError) as error:
         # The file is valid; what follows from it is not.
         raise InvalidInput(f"{path}: its numbers are so far apart that the contact leaves their range") from error
     return cases
@@ -131,6 +135,43 @@ def shift_measured(path: Path, folder: Path) -> None:
     if shifted.vertical:
         console.print(f"  vertical shifts alone leave a misfit of {shifted.vertical.alone.rms:.2%}")
     console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
+
+
+def conduct_workprecision(names: Sequence[str], size: str, folder: Path, workers: int | None) -> None:
+    """Measure what accuracy costs, and write the page. What is timed is solved alone, after all else."""
+    console = Console(highlight=False, soft_wrap=True)
+    store, inquiries = Store(folder / SOLVED), [INQUIRIES[name] for name in names]
+    with watch(console) as progress:
+        known = sweep([task for each in inquiries for task in each.untimed(size)], store, workers, progress)
+    with watch(console) as progress:
+        timed = sweep([task for each in inquiries for task in each.timed(size)], store, 1, progress, tasks_each=1)
+    swept = known.joined(timed)
+    console.print(
+        f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; drawing the figures"
+    )
+    chapters = [chapter(folder, each, each.judge(size, swept.outcomes)) for each in inquiries]
+    page = write_workprecision(folder, chapters, size, swept)
+    for each in chapters:
+        console.print(f"\n{each.title}", markup=False, style="bold")
+        console.print(f"  {each.advice}", markup=False)
+    console.print(f"\nPage: {page.resolve()}", markup=False)
+
+
+def examine_stability(size: str, folder: Path, workers: int | None) -> int:
+    """Solve the collection of hard cases, write its table, and tell what is broken. Returns how many are."""
+    console = Console(highlight=False, soft_wrap=True)
+    with watch(console) as progress:
+        found = stability.conduct(size, folder, folder / SOLVED, workers, progress)
+    verdicts = [record.verdict for record in found]
+    console.print(", ".join(f"{verdict} {verdicts.count(verdict)}" for verdict in stability.VERDICTS))
+    broken = [record for record in found if record.verdict == stability.BROKEN]
+    for record in broken:
+        console.print(
+            f"  {record.name}: {record.what} {record.found:.2g}, allowed {record.allowed:.2g}", markup=False
+        )
+        console.print(f"    {record.law} {record.message}", markup=False)
+    console.print(f"\nTable: {(folder / stability.PAGE).resolve()}", markup=False)
+    return len(broken)
 
 
 def conduct_study(name: str, size: str, folder: Path, workers: int | None) -> None:

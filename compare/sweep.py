@@ -64,13 +64,25 @@ class Swept:
     reused: int
     seconds: float
 
+    def joined(self, later: "Swept") -> "Swept":
+        """This and a later one."""
+        outcomes = {**self.outcomes, **later.outcomes}
+        return Swept(
+            outcomes, self.solved + later.solved, self.reused + later.reused, self.seconds + later.seconds
+        )
+
 
 def sweep(
-    tasks: Sequence[Task], store: Store, workers: int | None = None, progress: Progress | None = None
+    tasks: Sequence[Task],
+    store: Store,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    tasks_each: int | None = None,
 ) -> Swept:
     """Solve tasks, longest first, storing each as it ends.
 
     workers : processes, one thread each; absent, as many as there are processors
+    tasks_each : that a process solves before a fresh one takes its place; absent, any number
 
     An exception in a task is a fault and is raised. On an interrupt, any signal that raises KeyboardInterrupt,
     nothing more is started; what is being solved is finished and stored, and KeyboardInterrupt is raised. A second
@@ -85,7 +97,7 @@ def sweep(
     progress.planned(waiting)
     if waiting:
         workers = min(workers or os.cpu_count() or 1, solved)
-        with closing(_run(waiting, workers, progress)) as solving:
+        with closing(_run(waiting, workers, progress, tasks_each)) as solving:
             for task, outcome in solving:
                 store.put(task, outcome)
                 outcomes[task] = outcome
@@ -98,7 +110,9 @@ def solve(task: Task) -> Outcome:
     return task.solve()
 
 
-def _run(waiting: Sequence[Task], workers: int, progress: Progress) -> Iterator[tuple[Task, Outcome]]:
+def _run(
+    waiting: Sequence[Task], workers: int, progress: Progress, tasks_each: int | None
+) -> Iterator[tuple[Task, Outcome]]:
     """Never more tasks handed out than there are workers: what has not started is not in any queue."""
     context = multiprocessing.get_context("spawn")
     upcoming, running, interrupted = iter(waiting), {}, False
@@ -108,7 +122,9 @@ def _run(waiting: Sequence[Task], workers: int, progress: Progress) -> Iterator[
         _environment(ONE_THREAD),
         tether,
         ours,
-        ProcessPoolExecutor(workers, context, _tie_to_the_parent, (tether,)) as pool,
+        ProcessPoolExecutor(
+            workers, context, _tie_to_the_parent, (tether,), max_tasks_per_child=tasks_each
+        ) as pool,
     ):
 
         def hand_out():

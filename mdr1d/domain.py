@@ -1,5 +1,7 @@
 """What the arguments of a formula may be: each function raises ValueError naming the argument and its value."""
 
+from numbers import Integral
+
 import numpy as np
 
 
@@ -16,6 +18,14 @@ def not_negative(**arguments):
 def between(low, high, **arguments):
     """Numbers from low to high, both included, or arrays of such."""
     _require(arguments, lambda x: (x >= low) & (x <= high), f"from {low:g} to {high:g}")
+
+
+def whole(least, **arguments):
+    """Sequences of whole numbers, none below the least."""
+    for name, values in arguments.items():
+        for value in values:
+            if not isinstance(value, Integral) or isinstance(value, bool) or value < least:
+                raise ValueError(f"{name} = {value!r} must be a whole number, at least {least}")
 
 
 def one_of(allowed, **arguments):

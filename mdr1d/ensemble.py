@@ -15,6 +15,7 @@ from scene import Kelvin, Scene, SelfAffine, Slide, SolveError
 from scene.protocol import trusted
 from scene.scales import elastic_contact
 
+from .domain import whole
 from .foundation import press_many
 from .indentation import ACCEPTED
 from .surface import MOST_NODES, Surface, nodes_needed, waves_of
@@ -50,9 +51,14 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
         seeds of their own are replaced
     points : pixels on the longest wavelength, one number a scene
 
-    Raises ValueError where a scene is another or its roughness is not resolved; SolveError where contact would
-    take too many pixels, or the numbers of a scene are too far apart.
+    Raises ValueError where a scene is another, its roughness is not resolved, or points or seeds are no whole
+    numbers; SolveError where a period or contact would take too many pixels, or the numbers of a scene are too far
+    apart.
     """
+    if len(points) != len(scenes):
+        raise ValueError(f"points has {len(points)} values, scenes has {len(scenes)}: each scene needs one number")
+    whole(1, points=points)
+    whole(0, seeds=seeds)
     for scene, count in zip(scenes, points, strict=True):
         _check(scene)
         _check_resolved(scene.roughness, count)
@@ -147,3 +153,5 @@ def _check_resolved(rough, points):
             f"points = {points} do not resolve roughness with longest = {rough.longest:g}: it takes at least "
             f"{needed}" + ("" if rough.shortest is None else f" for shortest = {rough.shortest:g}")
         )
+    if points > MOST_NODES:
+        raise SolveError(f"points = {points} on roughness.longest = {rough.longest:g} are more than {MOST_NODES}")

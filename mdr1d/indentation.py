@@ -31,13 +31,13 @@ def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact,
     if depth > body.rim:
         raise _too_short(scene, body)
     # Heights from the first touch on: a light contact keeps its digits.
-    contact = sweep(body.heights - body.lowest, body.pixel, depth - body.lowest)
-    if not contact.force > 0:
+    if not depth > body.lowest:
         raise EmptyContact(
             f"motion.depth = {depth:g} does not press the indenter in: its lowest point lies at {body.lowest:g} m "
             "above the macroscopic tip; a greater depth is needed, or a load"
         )
-    _check_finite(contact)
+    contact = sweep(body.heights - body.lowest, body.pixel, depth - body.lowest)
+    _check_range(contact)
     return depth - body.lowest, contact, 1
 
 
@@ -58,14 +58,14 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
     surely = max(greatest_depth(scene, body.surface) - body.lowest, elastic_contact(scene).depth)
     approach = min(surely, most)
     lower, upper = 0.0, inf
-    best, sweeps = None, 0
+    best, sweeps = (inf, approach, None), 0
     while sweeps < _MOST_SWEEPS and lower < approach < upper:
         contact = sweep(heights, body.pixel, approach)
         sweeps += 1
         if approach >= most and contact.force < load:
             raise _too_short(scene, body)
         misfit = abs(contact.force / load - 1)
-        stalled = best is not None and misfit >= best[0]
+        stalled = misfit >= best[0]
         if not stalled:
             best = misfit, approach, contact
         if misfit <= AIM or (stalled and best[0] <= ACCEPTED):
@@ -77,14 +77,14 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
             f"motion.load = {scene.motion.load:g} is met only to a relative {misfit:.1e} after {sweeps} sweeps: "
             "the lengths of the scene differ by more than rounding allows; prescribe the depth"
         )
-    _check_finite(contact)
+    _check_range(contact)
     return approach, contact, sweeps
 
 
-def _check_finite(contact: Contact) -> None:
-    """Raise OverflowError where the squares of slopes, or their forces, have left the range of numbers."""
-    if not isfinite(contact.dissipation + contact.traction):
-        raise OverflowError("forces beyond the range of numbers")
+def _check_range(contact: Contact) -> None:
+    """Raise ArithmeticError where the squares of slopes, or their forces, have left the range of numbers."""
+    if not (contact.force > 0 and isfinite(contact.force + contact.dissipation + contact.traction)):
+        raise ArithmeticError("forces beyond the range of numbers")
 
 
 def _too_short(scene: Scene, body: Profile) -> SolveError:

@@ -1,6 +1,6 @@
 """The one-dimensional solver: the method of dimensionality reduction (MDR) behind the common protocol."""
 
-from math import ceil
+from math import ceil, inf
 from time import process_time
 from typing import Annotated, Literal
 
@@ -103,6 +103,8 @@ class MDR:
             modulus, load = scene.elastomer.indentation_modulus, scene.motion.load
             seconds = process_time() - start
             force = modulus * contact.force
+            if not 0 < force < inf:
+                raise ArithmeticError(f"a force of {force:g} N is beyond the range of numbers")
             return Result(
                 scene=scene,
                 solver=self.name,

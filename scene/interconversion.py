@@ -37,6 +37,8 @@ def distances(poles, weights, constant):
     poles : (K,) >= 0, ascending and distinct
     weights : (K,) > 0
     constant : c >= 0, in units of weight / pole; R = K if c > 0, else K - 1
+
+    Raises ArithmeticError where the constant vanishes beside the weights.
     """
     count = len(poles) - (constant == 0)
     if count <= 0:
@@ -44,6 +46,8 @@ def distances(poles, weights, constant):
     # Powers of two scale without rounding.
     unit, heaviest = 2.0 ** frexp(poles[-1])[1], 2.0 ** frexp(weights.max())[1]
     p, w, c = poles / unit, weights / heaviest, constant * (unit / heaviest)
+    if constant and c < np.finfo(float).tiny:
+        raise ArithmeticError("modes not found: moduli further apart than the range of numbers")
     gap = np.arange(count)
     below = np.arange(len(p)) <= gap[:, None]
     half = np.append(np.diff(p) / 2, w.sum() / c if c else [])

@@ -49,6 +49,8 @@ def trusted():
 
 
 def refuse(solver: Solver, scene: Scene) -> None:
-    """Raise Refused with every reason at once, if there is any."""
-    if reasons := solver.refusals(scene):
+    """Raise Refused with every reason at once, if there is any; SolveError as `trusted`."""
+    with trusted():
+        reasons = solver.refusals(scene)
+    if reasons:
         raise Refused(f"{solver.name} cannot solve this scene: " + "; ".join(reasons))

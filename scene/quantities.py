@@ -11,8 +11,12 @@ CLOSED = ConfigDict(extra="forbid")
 
 def _as_float(value):
     """Take any real number (numpy scalars too), leave the rest for the strict check to name."""
-    is_real = isinstance(value, numbers.Real) and not isinstance(value, bool)
-    return float(value) if is_real else value
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        return value
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError("Input should be within the range of floating-point numbers") from None
 
 
 def _as_int(value):

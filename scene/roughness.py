@@ -5,10 +5,22 @@ from math import pi, sqrt
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .quantities import CLOSED, Finite, NonNegative, Positive, Whole
+
+# Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
+_SHORTEST = 1e-300
+
+
+def _has_wave_number(wavelength):
+    if wavelength < _SHORTEST:
+        raise ValueError(f"wavelengths are at least {_SHORTEST:g} m, for their wave numbers to be finite")
+    return wavelength
+
+
+Wavelength = Annotated[Positive, AfterValidator(_has_wave_number)]
 
 # Enough for directions over seven decades of wave numbers, to 1e-12.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(28)
@@ -43,9 +55,9 @@ class SelfAffine:
 
     hurst: Annotated[Finite, Field(ge=0, le=1)]
     rms_height: NonNegative
-    longest: Positive
-    shortest: Positive | None = None
-    rolloff: Positive | None = None
+    longest: Wavelength
+    shortest: Wavelength | None = None
+    rolloff: Wavelength | None = None
     seed: Annotated[Whole, Field(ge=0)] = 0
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["self-affine"] = Field(default="self-affine", repr=False)
@@ -141,7 +153,7 @@ class Wave:
     """One wave along the sliding direction, h = amplitude cos(2 pi x / wavelength). amplitude, wavelength [m]."""
 
     amplitude: NonNegative
-    wavelength: Positive
+    wavelength: Wavelength
     type: Literal["wave"] = Field(default="wave", repr=False)
 
     @property

@@ -1,7 +1,7 @@
 """Scales of a scene: the relaxed, smooth contact that surrounds every answer. Not of planes."""
 
 from dataclasses import dataclass
-from math import log, pi, sqrt
+from math import isfinite, log, pi, sqrt
 
 from .indenter import Cylinder
 from .scene import Scene
@@ -23,6 +23,7 @@ def elastic_contact(scene: Scene) -> ElasticContact:
     """Galin-Sneddon solution for z = c r^n with the scene's load or depth, roughness left out.
 
     d = kappa_n c a^n and F = [2n/(n+1)] E* kappa_n c a^(n+1); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).
+    Raises ArithmeticError where radius or depth are beyond the range of numbers.
     """
     shape, motion = scene.indenter, scene.motion
     if isinstance(shape, Cylinder):
@@ -30,11 +31,22 @@ def elastic_contact(scene: Scene) -> ElasticContact:
     n, g = shape.exponent, shape.mdr_coefficient
     stiffness = 2 * n / (n + 1) * scene.elastomer.indentation_modulus * g
     radius = (motion.depth / g) ** (1 / n) if motion.load is None else (motion.load / stiffness) ** (1 / (n + 1))
-    return ElasticContact(radius, g * radius**n, stiffness * radius ** (n + 1))
+    depth = g * radius**n
+    _check_finite(stiffness=stiffness, radius=radius, depth=depth)
+    return ElasticContact(radius, depth, stiffness * radius ** (n + 1))
 
 
 def _line_contact(radius, load, modulus):
     """Hertz: a^2 = 4 P R / (pi E*), d = (P / (pi E*)) (2 ln(2R/a) + 1); Johnson (1985), ch. 4."""
     half_width = sqrt(4 * load * radius / (pi * modulus))
+    _check_finite(half_width=half_width)
     depth = load / (pi * modulus) * (2 * log(2 * radius / half_width) + 1)
+    _check_finite(depth=depth)
     return ElasticContact(half_width, depth, load)
+
+
+def _check_finite(**quantities):
+    """Raise OverflowError for a quantity beyond the range of numbers."""
+    for name, value in quantities.items():
+        if not isfinite(value):
+            raise OverflowError(f"the smooth relaxed contact would have {name} = {value:g}")

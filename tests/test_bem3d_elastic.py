@@ -7,6 +7,7 @@ from bem3d import BEM
 from scene import (
     Cone,
     Elastic,
+    EmptyContact,
     Indent,
     Kelvin,
     PowerLaw,
@@ -14,6 +15,7 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
+    SolveError,
     Sphere,
     StandardLinearSolid,
 )
@@ -119,3 +121,14 @@ def test_force_rises_with_depth_on_a_rough_sphere():
         for d in np.linspace(2e-5, 3e-4, 8)
     ]
     assert np.all(np.diff(forces) > 0)
+
+
+def test_a_smooth_contact_between_the_centres_of_pixels_is_an_error_and_not_an_empty_one():
+    scene = Scene(Sphere(R), Elastic(G), Indent(depth=D))
+    with pytest.raises(SolveError, match="between the centres of pixels") as error:
+        BEM(points=16, extent=1.0).solve(scene)
+    assert not isinstance(error.value, EmptyContact)
+    # and on the way from a coarse grid, which sees nothing of it, to a fine one it is none
+    pixel = 4e-3 / 192
+    found = BEM(points=192, extent=4e-3).solve(Scene(Sphere(R), Elastic(G), Indent(depth=(2.5 * pixel) ** 2 / R)))
+    assert found.measures["contact_points"] >= 9

@@ -15,6 +15,7 @@ from scene import (
     Cylinder,
     Indent,
     Kelvin,
+    KelvinChain,
     Plane,
     PowerLaw,
     Scene,
@@ -115,6 +116,33 @@ def test_slow_friction_misses_the_law_by_less_on_a_finer_grid():
     law = slow_friction_by_curvature(slid.motion.speed, TAU, 1.0, curvature(scene, 512))
     coarse, fine = (abs(BEM(points=points).solve(slid).friction_force / law - 1) for points in (128, 256))
     assert fine < 0.6 * coarse
+
+
+@pytest.mark.parametrize("elastomer", [KELVIN, SOLID])
+@pytest.mark.parametrize("scene", ROUGH_SCENES)
+def test_on_a_coarse_grid_slow_friction_is_known_by_curvature_and_not_by_the_energy_lost(scene, elastomer):
+    slid = slow(replace(scene, elastomer=elastomer), 1e-3)
+    law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
+    found = BEM(points=64).solve(slid)
+    error, of_loss = (abs(force / law - 1) for force in (found.friction_force, found.measures["friction_by_loss"]))
+    assert error < of_loss / 4
+    assert of_loss > 0.01
+    # which the indicator of the error says
+    assert found.measures["friction_disagreement"] > 3 * error * found.friction_coefficient
+
+
+def test_a_faint_mode_of_long_memory_keeps_curvature_from_counting():
+    # To first order in the speed its friction would be a hundred times that of the other, and it has next to none.
+    faint = KelvinChain(
+        instantaneous_compliance=0.1 / G, compliances=(1 / G, 1e-6 / G), retardation_times=(TAU, 1e8 * TAU)
+    )
+    scene = Scene(Sphere(radius=R), faint, Slide(speed=1e-6, load=1.0))
+    found = BEM(points=64).solve(scene)
+    assert found.measures["friction_by_curvature"] > 50 * found.friction_force
+    without = replace(faint, compliances=(1 / G,), retardation_times=(TAU,))
+    assert found.friction_force == pytest.approx(
+        BEM(points=64).solve(replace(scene, elastomer=without)).friction_force, rel=0.1
+    )
 
 
 @pytest.mark.parametrize(

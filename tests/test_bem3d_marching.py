@@ -331,3 +331,9 @@ def test_too_many_steps_are_refused_with_what_to_change():
 def test_a_contact_that_reaches_the_edge_is_an_error():
     with pytest.raises(SolveError, match=r"reaches the edge of extent = 0\.5 m; take a larger extent"):
         marched(SPHERE, SOLID, RAMP, 8, 32, extent=0.5)
+
+
+def test_a_stage_that_is_lost_to_rounding_beside_another_is_an_error_that_names_both():
+    stages = Stage(duration=1e15, depth=1e-4), Stage(duration=1e-15, depth=2e-4)
+    with pytest.raises(SolveError, match=r"durations of the stages, from 1e-15 to 1e\+15 s in all"):
+        timeline(Program(stages=stages), pixel=1e-5, steps=20)

@@ -114,3 +114,9 @@ def test_heights_over_many_gaussian_surfaces_are_gaussian():
     assert square == pytest.approx(5e-5**2, rel=SIGMAS * np.sqrt(2 / 6000))
     assert np.mean(heights**4) / square**2 == pytest.approx(3.0, abs=SIGMAS * np.sqrt(24 / 6000))
     assert np.std([surface.rms_height for surface in surfaces]) > 0.05 * 5e-5
+
+
+@pytest.mark.parametrize("height", [1e-200, 1e-300])
+def test_heights_whose_square_is_no_number_are_drawn_in_proportion(height):
+    tiny, ordinary = draw(rough(rms_height=height)), draw(rough(rms_height=1.0))
+    np.testing.assert_allclose(tiny.amplitudes / height, ordinary.amplitudes, rtol=ROUNDING)

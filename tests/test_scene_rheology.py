@@ -405,3 +405,8 @@ def test_a_solid_is_its_fields_and_a_changed_one_is_another(solid):
     assert hash(same) == hash(solid)
     assert other != solid
     assert "type" not in repr(solid)
+
+
+def test_moduli_too_far_apart_to_be_converted_are_an_error_and_no_solid_without_modes():
+    with pytest.raises(ArithmeticError, match="further apart than the range of numbers"):
+        StandardLinearSolid(1e-300, 1e300, 1e-3).retardation()

@@ -87,7 +87,9 @@ def _at_low_speed(solved: Solved, laws: Laws) -> Iterator[Question]:
             1.0,
             "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
             "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the "
-            "presses, on the same surfaces. It tells a fault of a solver from the failure of a law.",
+            "presses, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
+            "friction is found by that mean where the contact trails by less than a quarter of a pixel "
+            "(docs/theory.md, Eq. 5e): the check is then of the pressure found in sliding.",
             lambda side: geometric(side.friction()[0] / _limit(solved, side)),
         )
 

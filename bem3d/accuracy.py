@@ -1,0 +1,223 @@
+"""Settings for a wanted accuracy, from errors that were measured; and whether an answer keeps the promise.
+
+`ladder.csv` has the largest errors of many contacts against far finer solutions, by how finely they were resolved.
+"""
+
+import csv
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from math import inf, pi, sqrt
+from pathlib import Path
+
+import numpy as np
+from scipy.fft import next_fast_len
+
+from scene import Cylinder, Plane, Program, Refused, Result, Scene, SolveError, Solver
+from scene.scales import elastic_contact
+
+from .problem import row_width
+from .sliding import Flow
+
+LADDER = Path(__file__).with_name("ladder.csv")
+BANDS = ("rest", "slow", "middle", "fast")
+SLOW, FAST = 0.1, 10.0  # memory over the shortest length of the contact, between which it slides at middle speed
+SHARE = 1 / 30  # tolerance over wanted error: what a tolerance leaves is at most three times itself
+LOOSEST = 1e-3  # tolerance
+LADDERS = {"friction": "friction", "depth": "pressing", "load": "pressing"}
+PILOTS = (64, 128, 256, 512, 1024)  # points a side of the solve that finds the contact
+LEAST, MOST = 32, 16384
+
+
+class Unconfirmed(UserWarning):
+    """An answer changes by more than the wanted error when the pixel is halved."""
+
+
+@dataclass(frozen=True)
+class Assured:
+    """An answer, and what of it changed from half the points to all, relative as the wanted errors are.
+
+    The error of a method of first order or better is no larger than that change.
+    """
+
+    result: Result
+    wanted: Mapping[str, float]
+    change: Mapping[str, float]
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether everything changed by less than the error wanted of it."""
+        return all(self.change[name] <= wanted for name, wanted in self.wanted.items())
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Settings chosen for one scene.
+
+    wanted, expected : relative errors by name: friction, and depth or load, whichever the scene does not
+        prescribe; depth over that of the smooth contact at rest
+    resolution : points across what has to be resolved, see `resolution`
+    seconds : of processor on the machine on which the ladder was measured, the confirmation excluded
+    """
+
+    scene: Scene
+    solver: Solver
+    wanted: Mapping[str, float]
+    expected: Mapping[str, float]
+    resolution: float
+    seconds: float
+
+    def solve(self) -> Assured:
+        """The answer, confirmed on half the points, which costs about a quarter more.
+
+        Warns Unconfirmed where it changes by more than is wanted. Raises SolveError as the solver does.
+        """
+        fine = self.solver.solve(self.scene)
+        coarse = replace(self.solver, points=self.solver.points // 2).solve(self.scene)
+        change = {name: apart(name, coarse, fine) for name in self.wanted}
+        assured = Assured(fine, self.wanted, change)
+        if not assured.confirmed:
+            said = ", ".join(f"{name} by {change[name]:.2g}, wanted {self.wanted[name]:g}" for name in change)
+            message = f"from half the points to all the answer changed: {said}; take more points"
+            warnings.warn(message, Unconfirmed, stacklevel=2)
+        return assured
+
+
+def apart(name: str, one: Result, other: Result) -> float:
+    """How far two answers to one scene are apart in friction, depth or load, relative to the other."""
+    match name:
+        case "friction":
+            return abs(one.friction_coefficient / other.friction_coefficient - 1)
+        case "load":
+            return abs(one.normal_force / other.normal_force - 1)
+        case "depth":
+            return abs(one.depth - other.depth) / elastic_contact(other.scene).depth
+    raise ValueError(f"{name} is none of friction, depth, load")
+
+
+def choose(solver: Solver, scene: Scene, wanted: Mapping[str, float]) -> Choice:
+    """The least points and the loosest tolerance that keep every wanted error, by the ladder.
+
+    solver : everything else that is set. Raises ValueError for what cannot be promised, Refused and SolveError as
+    the solver does.
+    """
+    _check(scene, wanted)
+    pilot, found = _pilot(replace(solver, tolerance=LOOSEST), scene)
+    kind = _body(scene), band(scene)
+    rungs = {name: ladder()[*kind, LADDERS[name]] for name in wanted}
+    needed = max(_needed(name, rungs[name], error) for name, error in wanted.items())
+    points = next_fast_len(int(np.ceil(pilot * max(needed / found, LEAST / pilot))), real=True)
+    if points > MOST:
+        raise ValueError(
+            f"it takes {points} points a side, {needed:.0f} across what has to be resolved, and {MOST} are the "
+            "most: accept larger errors, or a longer roughness.shortest"
+        )
+    tolerance = min(LOOSEST, SHARE * min(wanted.values()))
+    resolved = found * points / pilot
+    return Choice(
+        scene,
+        replace(solver, points=points, tolerance=max(tolerance, 1e-12)),
+        dict(wanted),
+        {name: _expected(rungs[name], resolved) for name in wanted},
+        resolved,
+        _between(ladder()[*kind, "seconds"], points),
+    )
+
+
+def resolution(scene: Scene, measures: Mapping[str, float]) -> float:
+    """The fewest points across anything that a contact has to resolve, from the measures of a result.
+
+    Those to the shortest wave of the roughness, and those across the contact, were it all in one circle; of what
+    is alike all along y, those along x.
+    """
+    points = measures["contact_points"]
+    across = points if row_width(scene) else 2 * sqrt(points / pi)
+    return min(across, measures.get("points_per_shortest_wave", inf))
+
+
+def band(scene: Scene) -> str:
+    """How fast a scene slides: the length of its memory over the shortest length that its contact has to show."""
+    flow = Flow.of(scene.elastomer, scene.motion.speed)
+    if flow.at_rest:
+        return "rest"
+    shortest = scene.roughness.shortest if scene.roughness else elastic_contact(scene).radius
+    memory = flow.memory / shortest
+    return "slow" if memory < SLOW else "middle" if memory < FAST else "fast"
+
+
+@cache
+def ladder() -> Mapping[tuple[str, str, str], np.ndarray]:
+    """By body (smooth, rough), band and quantity: resolutions and largest errors (2, rungs), sorted.
+
+    Quantities: friction; pressing, of depth or load alike; and seconds, of which there are points a side and
+    processor seconds of a solve.
+    """
+    rungs = {}
+    with LADDER.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            kind = row["body"], row["band"], row["quantity"]
+            rungs.setdefault(kind, []).append((float(row["resolution"]), float(row["value"])))
+    return {kind: np.array(sorted(pairs)).T for kind, pairs in rungs.items()}
+
+
+def _needed(name, rungs, error):
+    """The resolution at which the ladder's errors are, and stay, at most this large."""
+    good = rungs[0][rungs[1] <= error]
+    if not good.size:
+        raise ValueError(
+            f"{name} = {error:g} is less than was measured, {rungs[1].min():.1g} at {rungs[0].max():.0f} points "
+            "across what has to be resolved: no promise can be made"
+        )
+    return good.min()
+
+
+def _expected(rungs, resolved):
+    """Of the last rung passed."""
+    return float(rungs[1][max(0, np.searchsorted(rungs[0], resolved, side="right") - 1)])
+
+
+def _between(rungs, points):
+    """In proportion to a power of the points, that of the nearest two rungs."""
+    x, y = np.log(rungs)
+    k = int(np.clip(np.searchsorted(x, np.log(points)), 1, len(x) - 1))
+    slope = (y[k] - y[k - 1]) / (x[k] - x[k - 1])
+    return float(np.exp(y[k] + slope * (np.log(points) - x[k])))
+
+
+def _body(scene):
+    return "smooth" if scene.roughness is None or scene.roughness.rms_height == 0 else "rough"
+
+
+def _pilot(solver, scene):
+    """Points of the first grid that has an answer, and how finely that resolves the contact."""
+    for points in PILOTS:
+        try:
+            return points, resolution(scene, replace(solver, points=points).solve(scene).measures)
+        except Refused:
+            if solver.extent is None:
+                raise
+            left = "refused"
+        except SolveError as error:
+            left = error
+    raise SolveError(f"no contact to choose settings for on up to {PILOTS[-1]} points: {left}")
+
+
+def _check(scene, wanted):
+    """Raise ValueError for what the ladder does not know."""
+    if isinstance(scene.motion, Program):
+        raise ValueError("motion = Program: errors are promised at rest and in steady sliding")
+    allowed = {"friction"} if scene.motion.speed > 0 and len(scene.elastomer.retardation()[2]) else set()
+    if not isinstance(scene.indenter, Plane | Cylinder):
+        allowed.add("depth" if scene.motion.depth is None else "load")
+    if not wanted:
+        raise ValueError(f"an error has to be wanted, of {' or '.join(sorted(allowed)) or 'what slides'}")
+    for name, error in wanted.items():
+        if name not in allowed:
+            known = ", ".join(sorted(allowed)) or "nothing"
+            raise ValueError(f"{name} = {error:g}: of this scene errors are promised of {known}")
+        if not 0 < error < 1:
+            raise ValueError(f"{name} = {error:g}: a relative error between 0 and 1")
+    rough = scene.roughness
+    if _body(scene) == "rough" and getattr(rough, "shortest", None) is None and not hasattr(rough, "wavelength"):
+        raise ValueError("roughness.shortest = None: every grid has another surface, state the shortest wave")

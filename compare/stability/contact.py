@@ -1,0 +1,350 @@
+"""Contacts of one point and of all points, plateaus, ties, and sets of contact that would not settle."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from scipy.optimize import nnls
+
+from bem3d import BEM, contact
+from compare.references import waves
+from scene import CrossedWaves, Indent, Plane, Scene, Slide, SolveError, Wave
+
+from .complementarity import Matrix, Ring, conditions, rounds_at_once, solved
+from .conditions import conditions as conditions_of
+from .hardcase import Check, HardCase, deviation, refusal
+from .ordinary import DEPTH, ELASTIC, LOAD, PACE, RADIUS, ROUGH, SOLID, TOLERANCE, dense, line, resting, space
+
+FINE = 1e-9  # tolerance of problems given as a matrix
+AMPLITUDE, WAVELENGTH = 1e-5, 1e-3
+WAVE, CROSSED = (kind(amplitude=AMPLITUDE, wavelength=WAVELENGTH) for kind in (Wave, CrossedWaves))
+WAVE_CLOSURE = waves.wave_closure(ELASTIC.indentation_modulus, AMPLITUDE, WAVELENGTH)
+CROSSED_CLOSURE = waves.crossed_closure(ELASTIC.indentation_modulus, AMPLITUDE, WAVELENGTH)
+
+
+def _plane(rough, elastomer=ELASTIC, **pressed):
+    motion = pressed.pop("speed", 0.0)
+    return Scene(Plane(), elastomer, Slide(speed=motion, **pressed), rough)
+
+
+def _one_point(size):
+    matrix, heights = Matrix(12, 12), np.ones((12, 12))
+    heights[5, 7] = 0.0
+    itself = float(matrix.values[0, 0])
+    for load in (1e-12, 1e-3, 0.1):
+        found = solved(matrix, heights, FINE, load=load)
+        yield deviation(f"depth under {load:g}", found.depth, load * itself, 1e-12)
+        yield Check(f"points under {load:g}, less one", abs(np.count_nonzero(found.pressure) - 1.0), 0.0)
+
+
+def _few_points(size):
+    for solver in (line(size), space(size)):
+        asked, pixel = f"{solver.name}: a contact of three pixels across", 4 * RADIUS / solver.points
+        scene = resting(motion=Indent(depth=DEPTH * (1.2 * pixel / RADIUS) ** 2))
+        ask = partial(replace(solver, extent=4 * RADIUS).solve, scene)
+        yield refusal(asked, SolveError, ("needed", "take more points"), ask)
+
+
+def _whole_domain(size):
+    for rough, closure in ((WAVE, WAVE_CLOSURE), (CROSSED, CROSSED_CLOSURE)):
+        for fraction in (1.001, 2.0, 1e3):
+            scene = _plane(rough, pressure=fraction * closure)
+            answer = BEM(points=size.square, tolerance=TOLERANCE).solve(scene)
+            x, y = (2 * np.pi / WAVELENGTH * answer.fields[name] for name in ("x", "y"))
+            across = np.cos(y)[:, None] if rough is CROSSED else 1.0
+            known = closure * (fraction - across * np.cos(x))
+            apart = np.abs(answer.fields["pressure"] - known).max() / closure
+            what = f"{type(rough).__name__}, p/p* = {fraction:g}: pressure against the closed form"
+            yield Check(what, apart, 1e-4 * max(1.0, fraction))
+
+
+def _flat(size):
+    """Everything ties: the whole grid is a flat punch."""
+    still, heights = Matrix(10, 13), np.zeros((10, 13))
+    known = np.linalg.solve(still.values, np.ones(heights.size))
+    found = solved(still, heights, FINE, load=1.0).pressure.ravel()
+    yield Check("at rest, against elimination", np.abs(found - known / known.sum()).max() / found.max(), 1e-6)
+    flowing = Matrix(10, 13, memory=5.0)
+    yield from conditions(flowing, heights, solved(flowing, heights, FINE, load=1.0), FINE, "flowing")
+
+
+def _nearly_full(size):
+    for fraction in (0.99, 0.9999):
+        scene = _plane(WAVE, pressure=fraction * WAVE_CLOSURE)
+        answer = BEM(points=size.row, tolerance=1e-9).solve(scene)
+        apart = answer.measures["contact_fraction"] - waves.wave_contact_fraction(fraction)
+        yield Check(f"p/p* = {fraction:g}: contact fraction, in pixels", abs(apart) * size.row, 2.0)
+        gap = answer.measures["mean_gap"] / AMPLITUDE - waves.wave_mean_gap(fraction)
+        yield Check(f"p/p* = {fraction:g}: mean gap over h0", abs(gap), 2 / size.row**2)
+
+
+def _just_closed(size):
+    for rough, closure in ((WAVE, WAVE_CLOSURE), (CROSSED, CROSSED_CLOSURE)):
+        answer = BEM(points=size.square, tolerance=TOLERANCE).solve(_plane(rough, pressure=closure))
+        yield Check(
+            f"{type(rough).__name__}: mean gap over h0", abs(answer.measures["mean_gap"] / AMPLITUDE), 1e-3
+        )
+        yield from conditions_of(answer, 2 * TOLERANCE, type(rough).__name__)
+
+
+def _gap_to_nothing(size):
+    for gap in (1e-9, 1e-300):
+        scene = _plane(CROSSED, gap=gap * AMPLITUDE)
+        ask = partial(BEM(points=size.square).solve, scene)
+        names = ("motion.gap", f"{gap * AMPLITUDE:g}", "prescribe the pressure")
+        yield refusal(f"a mean gap of {gap:g} h0", SolveError, names, ask)
+
+
+def _nearly_no_load(size):
+    for fraction in (1e-9, 1e-300):
+        scene = _plane(CROSSED, pressure=fraction * CROSSED_CLOSURE)
+        ask = partial(BEM(points=size.square).solve, scene)
+        yield refusal(f"p/p* = {fraction:g}", SolveError, ("covers", "take more points"), ask)
+
+
+def _terraces(size):
+    """Heights that take five values: every pixel ties with many."""
+    n = 16
+    y, x = np.mgrid[:n, :n] - (n - 1) / 2
+    heights = np.floor((x**2 + y**2) / 30) + np.random.default_rng(3).integers(0, 2, (n, n)) / 4
+    matrix = Matrix(n, n)
+    root = np.linalg.cholesky(matrix.values)
+    for depth in (0.25, 1.0, 2.0):
+        found = solved(matrix, heights, FINE, start=np.maximum(depth - heights, 0.0), depth=depth)
+        yield from conditions(matrix, heights, found, FINE, f"depth {depth:g}")
+        known, _ = nnls(root.T, np.linalg.solve(root, (depth - heights).ravel()), maxiter=10_000)
+        apart = np.abs(found.pressure.ravel() - known).max() / known.max()
+        yield Check(f"depth {depth:g}: against least squares", apart, 1e-6)
+
+
+def _checkerboard(size):
+    heights = np.indices((14, 14)).sum(axis=0) % 2 * 1.0
+    for memory in (0.0, 3.0):
+        matrix = Matrix(14, 14, memory)
+        for load in (0.5, 50.0):
+            found = solved(matrix, heights, FINE, load=load)
+            yield from conditions(matrix, heights, found, FINE, f"memory {memory:g}, load {load:g}")
+
+
+def _mirrored(size):
+    """Of a mirrored plateau the pressure is mirrored, ties or not."""
+    heights = np.round(np.random.default_rng(5).standard_normal((15, 15)))
+    matrix = Matrix(15, 15)
+    found = solved(matrix, heights, FINE, load=20.0)
+    for name, turned in (("left and right", np.fliplr), ("rows and columns", np.transpose)):
+        other = solved(matrix, turned(heights).copy(), FINE, load=20.0)
+        apart = np.abs(turned(found.pressure) - other.pressure).max() / found.pressure.max()
+        yield Check(f"{name}: pressure", apart, 1e-6)
+
+
+def _wrong_start(size):
+    n = 16
+    rough = np.random.default_rng(7).standard_normal((n, n))
+    starts = {
+        "the highest point": (rough == rough.max()) * 1.0,
+        "all points": np.ones((n, n)),
+        "what will not touch": np.where(rough > 0.5, 1.0, 0.0),
+        "a pressure of 1e300": np.where(rough < 0, 1e150, 0.0),
+        "a pressure of 1e-300": np.where(rough < 0, 1e-300, 0.0),
+    }
+    for memory in (0.0, 8.0):
+        matrix = Matrix(n, n, memory)
+        known = solved(matrix, rough, FINE, load=5.0)
+        for name, start in starts.items():
+            found = solved(matrix, rough, FINE, start=start, load=5.0)
+            apart = np.abs(found.pressure - known.pressure).max() / known.pressure.max()
+            yield Check(f"memory {memory:g}, from {name}", apart, 1e-6)
+
+
+def _many_sets(size):
+    """Rough and fast: at once, the set of contact takes many rounds to settle."""
+    n = 24
+    y, x = np.mgrid[:n, :n] - (n - 1) / 2
+    for memory in (1.0, 100.0, 1e4):
+        matrix = Matrix(n, n, memory)
+        for seed in (0, 1):
+            heights = (x**2 + y**2) / (5 * n) + 0.3 * np.random.default_rng(seed).standard_normal((n, n))
+            found = solved(matrix, heights, FINE, depth=0.5)
+            yield from conditions(matrix, heights, found, FINE, f"memory {memory:g}, seed {seed}")
+
+
+def _cycle(size):
+    ring = Ring(copies=8, coupling=1.5)
+    heights = np.zeros(ring.shape) + 1e-3 * np.arange(3)
+    start = np.zeros(ring.shape)
+    start[:, 0] = 1.0
+    most = 50
+    yield Check(
+        "rounds at once, short of never", float(most - rounds_at_once(ring, heights, 1.0, most, start > 0)), 0.0
+    )
+    found = contact.solve(ring, heights, start, FINE, depth=1.0)
+    yield from conditions(ring, heights, found, FINE, "ring")
+
+
+def _noisy(size):
+    """An operator in single precision cannot be solved to twelve digits."""
+    matrix = Matrix(12, 12)
+
+    def rounded(plane, out):
+        out[:] = matrix(plane.astype(np.float32)).astype(np.float32)
+        return out
+
+    heights = np.random.default_rng(2).standard_normal((12, 12))
+    start = np.maximum(1.0 - heights, 0.0)
+    ask = partial(contact.solve, rounded, heights, start, 1e-13, depth=1.0, symmetric=True)
+    yield refusal(
+        "thirteen digits of seven", contact.NotConverged, ("sets of contact", "violation", "1.00e-13"), ask
+    )
+
+
+def _indefinite(size):
+    matrix = Matrix(12, 12)
+    matrix.values = -matrix.values
+    heights = np.random.default_rng(2).standard_normal((12, 12))
+    start = np.maximum(1.0 - heights, 0.0)
+    for symmetric in (True, False):
+        ask = partial(contact.solve, matrix, heights, start, FINE, depth=1.0, symmetric=symmetric)
+        yield refusal("an attracting half-space", contact.NotConverged, ("violation", "1.00e-09"), ask)
+
+
+def _beyond_the_window(size):
+    for solver in (line(size, extent=RADIUS), space(size, extent=RADIUS)):
+        for motion in (Indent(depth=DEPTH), Indent(load=LOAD), Slide(speed=PACE, depth=DEPTH)):
+            names = ("contact", f"{RADIUS:g}", "extent")
+            ask = partial(solver.solve, resting(elastomer=SOLID, motion=motion))
+            yield refusal(f"{solver.name}: {motion}", SolveError, names, ask)
+
+
+def _monotone(size):
+    depths = DEPTH * (1 + 1e-3 * np.arange(12))
+    for solver in (line(size), dense(size, tolerance=1e-9)):
+        for rough in (None, ROUGH):
+            scenes = [resting(motion=Indent(depth=depth), roughness=rough) for depth in depths]
+            forces = np.array([solver.solve(scene).normal_force for scene in scenes])
+            stiffness = np.diff(forces)
+            body = "smooth" if rough is None else "rough"
+            yield Check(
+                f"{solver.name}, {body}: least gain over the greatest, negative",
+                -stiffness.min() / stiffness.max(),
+                -0.5,
+            )
+            bend = -np.diff(stiffness).min() / stiffness.max()
+            yield Check(f"{solver.name}, {body}: greatest loss of stiffness", bend, 1e-5)
+
+
+case = partial(HardCase, "contact")
+CASES = (
+    case(
+        "one-point",
+        "One spike on a plain: a contact of a single pixel, under loads from 1e-12.",
+        "The depth is load times the influence of a pixel on itself, to 1e-12, rounding; one pixel touches.",
+        _one_point,
+    ),
+    case(
+        "few-pixels",
+        "A contact three pixels across, of which a force is no more than a guess.",
+        "Refused: the error says how many there are, how many are needed, and to take more points.",
+        _few_points,
+    ),
+    case(
+        "whole-domain",
+        "Pressed beyond closure a wavy plane touches everywhere: there is no free point.",
+        "Pressure of the closed form at every pixel, within 1e-4 of p* and of the mean: contact is solved to "
+        "1e-7, and what that leaves of the gap is felt as pressure by the wave number.",
+        _whole_domain,
+    ),
+    case(
+        "flat-punch-of-ties",
+        "All heights are the same: no point is deeper than any other, and at rest all touch.",
+        "At rest pressure as by elimination, to 1e-6 of its peak, as contact is solved to 1e-9; in a flow, which "
+        "lifts the trailing points, conditions of contact by a plain product.",
+        _flat,
+    ),
+    case(
+        "nearly-full-contact",
+        "At 0.99 and 0.9999 of closure a wave leaves gaps of a few pixels, with hardly any height.",
+        "Westergaard's contact fraction to two pixels, of the two edges, and mean gap to 2/N^2, the order of the "
+        "discretisation.",
+        _nearly_full,
+    ),
+    case(
+        "just-closed",
+        "At the pressure of closure itself points touch under no pressure, or are about to.",
+        "The mean gap is zero to 1e-3 h0, that of the last pixels; conditions of contact, computed anew.",
+        _just_closed,
+    ),
+    case(
+        "gap-to-nothing",
+        "A mean gap of 1e-9 and 1e-300 of the amplitude: any pressure above closure would do.",
+        "Refused: the error names motion.gap and its value, and says to prescribe the pressure.",
+        _gap_to_nothing,
+    ),
+    case(
+        "load-to-nothing",
+        "Two crests of a crossed wave carry 1e-9 and 1e-300 of the pressure of closure: less than a pixel each.",
+        "Refused: the error says how many points the contact covers, and to take more.",
+        _nearly_no_load,
+    ),
+    case(
+        "terraces",
+        "Heights take few values: most pixels tie with many others.",
+        "Conditions of contact by a plain product to 1e-9; pressure as of nonnegative least squares, another "
+        "algorithm, to 1e-6 of its peak.",
+        _terraces,
+    ),
+    case(
+        "checkerboard",
+        "Every second pixel is high: the shortest wave of the grid, all crests tied.",
+        "Conditions of contact by a plain product to 1e-9.",
+        _checkerboard,
+    ),
+    case(
+        "mirrored-plateaus",
+        "Rounded random heights, tied everywhere, seen from the other side: ties must not be broken by order.",
+        "Pressure of the mirrored problem is the mirrored one, to 1e-6 of its peak: contact is solved to 1e-9.",
+        _mirrored,
+    ),
+    case(
+        "wrong-start",
+        "The search starts on the highest point, on all, on those that will not touch, at 1e150 and at 1e-300.",
+        "The same pressure from each start to 1e-6 of its peak: contact is unique, and solved to 1e-9.",
+        _wrong_start,
+    ),
+    case(
+        "rough-and-fast",
+        "On rough bodies under memories up to 1e4 pixels all trailing edges shed and gain points in each round.",
+        "Conditions of contact by a plain product to 1e-9.",
+        _many_sets,
+    ),
+    case(
+        "contact-set-cycles",
+        "Rings of three points, each pushed by the next: dropping and adding at once never ends.",
+        "It does cycle at once, and conditions of contact hold to 1e-9 all the same.",
+        _cycle,
+    ),
+    case(
+        "tolerance-out-of-reach",
+        "An operator of seven digits is to be solved to thirteen.",
+        "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
+        _noisy,
+    ),
+    case(
+        "attracting-half-space",
+        "An operator that is not positive definite: there may be no answer, or several.",
+        "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
+        _indefinite,
+    ),
+    case(
+        "beyond-the-window",
+        "The contact is twice as wide as the stated extent.",
+        "Refused by both solvers: the error names the contact, the extent and its value.",
+        _beyond_the_window,
+    ),
+    case(
+        "force-rises-with-depth",
+        "Depths a thousandth apart: on a grid, contact grows by whole pixels.",
+        "Force rises by no less than half of its greatest gain, as stiffness falls nowhere by more than 1e-5 of "
+        "itself: contact grows with the depth, and stiffness with the contact.",
+        _monotone,
+    ),
+)

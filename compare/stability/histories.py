@@ -1,0 +1,373 @@
+"""Long histories, separation and return, holds of ages, and stages that do not fit together."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from pydantic import ValidationError
+
+from bem3d import BEM
+from compare.references import indentation
+from scene import EmptyContact, Indent, Plane, Program, Refused, Scene, SolveError, Stage
+
+from .hardcase import Check, HardCase, deviation, refusal
+from .ordinary import (
+    CONE,
+    DEPTH,
+    ELASTIC,
+    KELVIN,
+    LOAD,
+    PACE,
+    RADIUS,
+    ROUGH,
+    SOLID,
+    SPHERE,
+    TIME,
+    dense,
+    line,
+    resting,
+    sliding,
+    space,
+)
+
+REFUSED = (Refused, SolveError)
+
+
+def _program(*stages, elastomer=SOLID, **changed):
+    return resting(
+        elastomer=elastomer, motion=Program(stages=tuple(Stage(**stage) for stage in stages)), **changed
+    )
+
+
+def _balanced(what, answer):
+    """Work is what was lost and what is stored, at every step."""
+    work, lost, stored = (answer.fields[name] for name in ("work", "dissipated", "stored"))
+    off = np.abs(work - lost - stored).max() / np.abs(work).max()
+    return Check(f"{what}: balance of energy", off, 1e-10)
+
+
+def _no_drift(size):
+    """The same window of elastomer after hundreds of its lengths: steady sliding."""
+    solver = line(size, points=400, extent=2.4 * RADIUS, steps=size.steps)
+    path = size.steps / 400 * 2.4 * RADIUS
+    scene = _program({"duration": TIME, "depth": DEPTH}, {"duration": path / PACE, "speed": PACE}, elastomer=SOLID)
+    answer = solver.solve(scene)
+    yield Check("steps less those wanted, negative", size.steps - answer.measures["time_steps"], 0.0)
+    half = len(answer.fields["time"]) // 2
+    for name in ("normal_force", "friction_force"):
+        late = answer.fields[name][half:]
+        first, last = late[: len(late) // 4].mean(), late[-(len(late) // 4) :].mean()
+        yield deviation(f"{name}: last quarter against one before", last, first, 1e-4)
+    steady = solver.solve(sliding(1.0))
+    yield deviation("friction against steady sliding", answer.friction_force, steady.friction_force, 0.02)
+    yield _balanced("all steps", answer)
+
+
+def _no_drift_in_space(size):
+    points, pace = 24, 0.1
+    solver = BEM(points=points, extent=3.2 * RADIUS, steps=size.march)
+    path = size.march / points * 3.2 * RADIUS
+    scene = _program(
+        {"duration": TIME, "depth": DEPTH},
+        {"duration": path / (pace * PACE), "speed": pace * PACE},
+    )
+    answer = solver.solve(scene)
+    steady = solver.solve(sliding(pace))
+    friction = answer.fields["friction_force"][-(len(answer.fields["time"]) // 3) :]
+    yield Check("friction in the last third: spread", np.ptp(friction) / friction.mean(), 0.02)
+    yield deviation("friction against steady sliding", friction[-1], steady.friction_force, 0.05)
+    yield Check("worst residual of all steps", answer.residual, solver.tolerance)
+
+
+def _held_for_ages(size):
+    """A load held for a billion relaxation times creeps to its relaxed depth, monotonously."""
+    for solver, allowed in (
+        (line(size, points=400, steps=size.steps // 4), 1e-4),
+        (space(size, points=24, steps=40), 0.02),
+    ):
+        scene = _program({"duration": 1e-3 * TIME, "load": LOAD}, {"duration": 1e9 * TIME})
+        answer = solver.solve(scene)
+        yield deviation(f"{solver.name}: depth at the end", answer.depth, DEPTH, allowed)
+        sunk = -np.diff(answer.fields["depth"]).min() / DEPTH
+        yield Check(f"{solver.name}: greatest rise of the indenter", sunk, 1e-6)
+
+
+def _creep(size):
+    """Lee and Radok at every step of a load that rises, holds and rises."""
+    times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
+    scene = _program(
+        {"duration": TIME, "load": LOAD}, {"duration": 2 * TIME}, {"duration": TIME, "load": 2 * LOAD}
+    )
+    answer = line(size, points=1000, steps=200).solve(scene)
+    at = answer.fields["time"][20::20]
+    known = indentation.loading_depth(SPHERE, SOLID, times, loads, at)
+    apart = np.abs(answer.fields["depth"][20::20] / known - 1).max()
+    yield Check("1D: depth against Lee and Radok", apart, 1e-3)
+
+
+def _separation(size):
+    """Drawn back faster than the elastomer recovers, and out of it."""
+    times, depths = (0.0, 2 * TIME, 4 * TIME), (0.0, DEPTH, 0.0)
+    for name, shape in (("sphere", SPHERE), ("cone", CONE)):
+        for solver, allowed in (
+            (line(size, points=500, steps=100), 1e-3),
+            (space(size, points=32, steps=60), 0.1),
+        ):
+            scene = _program(
+                {"duration": 2 * TIME, "depth": DEPTH}, {"duration": 2 * TIME, "depth": 0.0}, indenter=shape
+            )
+            solver = replace(solver, extent=4 * RADIUS)
+            answer = solver.solve(scene)
+            yield Check(
+                f"{solver.name}, {name}: force at the end over the greatest", answer.normal_force / LOAD, 0.0
+            )
+            at = answer.fields["time"]
+            known, _ = indentation.force_of_depth(shape, SOLID, times, depths, at)
+            off = np.abs(answer.fields["normal_force"] - known).max() / known.max()
+            yield Check(f"{solver.name}, {name}: force against Lee, Radok and Ting", off, allowed)
+            yield Check(f"{solver.name}, {name}: pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
+
+
+def _return(size):
+    """After separation and a long rest the second pressing is like the first; after a short one it is lighter."""
+    for solver in (line(size, points=400, steps=20), space(size, points=24, steps=20)):
+        forces = []
+        for rest in (1e3 * TIME, TIME):
+            scene = _program(
+                {"duration": TIME, "depth": DEPTH},
+                {"duration": TIME, "depth": 0.0},
+                {"duration": rest, "depth": 0.0},
+                {"duration": TIME, "depth": DEPTH},
+            )
+            forces.append(solver.solve(scene).normal_force)
+        once = solver.solve(_program({"duration": TIME, "depth": DEPTH})).normal_force
+        yield deviation(f"{solver.name}: after a long rest", forces[0], once, 1e-3)
+        yield Check(f"{solver.name}: after a short one, over the first", forces[1] / once, 1.0)
+
+
+def _no_load(size):
+    """A load that falls to zero: the indenter lifts off, and comes back."""
+    for solver in (line(size, points=400, steps=100), space(size, points=24, steps=60)):
+        scene = _program(
+            {"duration": TIME, "load": LOAD},
+            {"duration": TIME, "load": 0.0},
+            {"duration": TIME},
+            {"duration": TIME, "load": LOAD},
+        )
+        answer = solver.solve(scene)
+        force, time = answer.fields["normal_force"], answer.fields["time"]
+        away = (time > 2.05 * TIME) & (time < 2.95 * TIME)
+        yield Check(f"{solver.name}: greatest force without load", np.abs(force[away]).max(), 1e-9 * LOAD)
+        yield deviation(f"{solver.name}: force at the end", force[-1], LOAD, 0.03)
+
+
+def _cycles(size):
+    """Forty cycles of load on a rough body in sliding."""
+    stages = [{"duration": TIME, "depth": DEPTH}]
+    for _ in range(40):
+        stages += [
+            {"duration": TIME / 5, "depth": DEPTH / 5, "speed": PACE / 10},
+            {"duration": TIME / 5, "depth": DEPTH},
+        ]
+    answer = line(size, points=500, extent=4 * RADIUS, steps=40).solve(_program(*stages, roughness=ROUGH))
+    yield _balanced("80 stages", answer)
+    gained = -np.diff(answer.fields["dissipated"]).min() / answer.fields["dissipated"][-1]
+    yield Check("greatest gain of lost energy", gained, 1e-12)
+    yield Check("pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
+
+
+def _stop(size):
+    """Sliding, then standing still for a thousand relaxation times: friction goes."""
+    for solver in (line(size, points=400, steps=200), space(size, points=24, steps=60)):
+        scene = _program(
+            {"duration": TIME, "depth": DEPTH},
+            {"duration": 2 * TIME, "speed": PACE},
+            {"duration": 1e3 * TIME},
+        )
+        answer = solver.solve(scene)
+        friction = answer.fields["friction_force"]
+        yield Check(f"{solver.name}: friction left, over the greatest", abs(friction[-1]) / friction.max(), 0.01)
+
+
+def _elastic_march(size):
+    """Nothing is remembered and nothing lost."""
+    scene = _program(
+        {"duration": TIME, "depth": DEPTH},
+        {"duration": TIME, "speed": PACE},
+        {"duration": TIME, "depth": DEPTH / 2},
+        elastomer=ELASTIC,
+        roughness=ROUGH,
+    )
+    answer = line(size, points=500, extent=4 * RADIUS).solve(scene)
+    yield Check(
+        "1D: energy lost over work", abs(answer.fields["dissipated"]).max() / answer.fields["work"].max(), 1e-12
+    )
+    for solver, allowed in ((line(size, points=500, extent=4 * RADIUS), 1e-4), (dense(size, steps=20), 1e-2)):
+        last = solver.solve(replace(scene, roughness=None))
+        still = solver.solve(resting(motion=Indent(depth=last.depth)))
+        yield deviation(
+            f"{solver.name}: force after all, against rest", last.normal_force, still.normal_force, allowed
+        )
+
+
+def _kelvin_march(size):
+    """A dashpot answers a change of rate with a jump of force."""
+    scene = _program(
+        {"duration": TIME, "depth": DEPTH}, {"duration": 1e-6 * TIME}, {"duration": 50 * TIME}, elastomer=KELVIN
+    )
+    answer = line(size, points=1000, steps=200).solve(scene)
+    still = line(size).solve(resting()).normal_force
+    yield deviation("1D: force at the end", answer.normal_force, still, 1e-4)
+    yield _balanced("1D", answer)
+
+
+def _stages_apart(size):
+    solvers = line(size), space(size, points=24, steps=20)
+    for solver in solvers:
+        answer = solver.solve(_program({"duration": 1e-15, "depth": DEPTH}, {"duration": 1e15}))
+        still = solver.solve(resting()).normal_force
+        yield deviation(f"{solver.name}: force after 1e15 s", answer.normal_force, still, 1e-4)
+    lost = _program({"duration": 1e15, "depth": DEPTH}, {"duration": 1e-15, "depth": 2 * DEPTH})
+    for solver in solvers:
+        ask = partial(solver.solve, lost)
+        yield refusal(
+            f"{solver.name}: 1e15 s and then 1e-15 s", SolveError, ("durations", "1e-15", "rounding"), ask
+        )
+
+
+def _too_many_steps(size):
+    scene = _program({"duration": TIME, "depth": DEPTH}, {"duration": 1.0, "speed": 1e6 * PACE})
+    for solver in (line(size), space(size)):
+        names = ("steps on pixels", "1000000", "shorter path")
+        yield refusal(f"{solver.name}: a path of 1000 km", REFUSED, names, partial(solver.solve, scene))
+
+
+def _never_touching(size):
+    scene = _program({"duration": TIME, "depth": 1e-9 * DEPTH})
+    names = ("nothing touches in the whole program", "press")
+    yield refusal("BEM", EmptyContact, names, partial(space(size).solve, scene))
+    names = ("pixels", "take more points")
+    yield refusal("MDR", SolveError, names, partial(line(size, extent=4 * RADIUS).solve, scene))
+
+
+def _no_programs(size):
+    asks = {
+        "no stage": ((), ("stages", "at least 1")),
+        "pressed nowhere": (({"duration": 1.0},), ("press nowhere",)),
+        "pressed by nothing": (({"duration": 1.0, "load": 0.0},), ("press nowhere", "above zero")),
+        "load, then depth": (
+            ({"duration": 1.0, "load": 1.0}, {"duration": 1.0, "depth": 1.0}),
+            ("load and depth", "one and the same"),
+        ),
+        "a duration of 0": (({"duration": 0.0, "load": 1.0},), ("duration", "greater than 0")),
+        "a speed backwards": (
+            ({"duration": 1.0, "speed": -1.0, "load": 1.0},),
+            ("speed", "-1", "greater than or equal to 0"),
+        ),
+        "a pull": (({"duration": 1.0, "load": -1.0},), ("load", "-1", "greater than or equal to 0")),
+    }
+    for what, (stages, names) in asks.items():
+        yield refusal(what, ValidationError, names, partial(_program, *stages))
+    gap = partial(Scene, Plane(), SOLID, Program(stages=(Stage(duration=1.0, load=1.0),)), ROUGH)
+    yield refusal("a plane under a load in time", ValidationError, ("load", "Plane", "pressure"), gap)
+
+
+case = partial(HardCase, "histories")
+CASES = (
+    case(
+        "many-steps-1d",
+        "Up to 1e5 steps of sliding: rounding and forgotten memory would add up.",
+        "Forces of the last quarter are those before to 1e-4, of the ripple of pixels; friction is that of steady "
+        "sliding within 0.02, of 400 points; work is energy lost and stored to 1e-10.",
+        _no_drift,
+    ),
+    case(
+        "many-steps-3d",
+        "Thousands of steps on a small grid.",
+        "Friction spreads by at most 0.02 in the last third and is that of steady sliding within 0.05, of 24 "
+        "points; every step is solved to the tolerance.",
+        _no_drift_in_space,
+    ),
+    case(
+        "held-for-ages",
+        "A load put on in a thousandth of the relaxation time and held for a billion of them.",
+        "The indenter never rises, and ends at the relaxed depth: within 1e-4 in 1D and 0.02 in 3D, of the grids.",
+        _held_for_ages,
+    ),
+    case(
+        "load-up-hold-up",
+        "A load that rises, rests and rises again.",
+        "Depth of Lee and Radok within 1e-3, as a load is met once a step.",
+        _creep,
+    ),
+    case(
+        "drawn-out",
+        "Drawn back faster than the elastomer recovers: contact is lost before depth zero.",
+        "Force of Lee, Radok and Ting at every step, within 1e-3 of the greatest in 1D and 0.1 in 3D, of 32 "
+        "points and 60 steps; no pull; zero at the end.",
+        _separation,
+    ),
+    case(
+        "separation-and-return",
+        "Pressed in, drawn out, and pressed in again into a surface that has or has not recovered.",
+        "After 1000 relaxation times the force is that of the first time within 1e-3, what is left of it; after "
+        "one it is less.",
+        _return,
+    ),
+    case(
+        "load-to-zero-and-back",
+        "Without load nothing touches, or the indenter just rests on the surface.",
+        "No force beyond 1e-9 of the load while there is none, and the load at the end within 0.03, half of the "
+        "last step in 3D.",
+        _no_load,
+    ),
+    case(
+        "forty-cycles",
+        "A rough body lifted to a fifth and pressed in again forty times, sliding half of the time.",
+        "Work is energy lost and stored to 1e-10; lost energy never comes back; no pull.",
+        _cycles,
+    ),
+    case(
+        "stop",
+        "Sliding that ends at once, and a rest of a thousand relaxation times.",
+        "Friction falls to a hundredth of its greatest at least.",
+        _stop,
+    ),
+    case(
+        "elastic-march",
+        "An elastic solid in time has no modes to follow.",
+        "No energy is lost, to 1e-12 of the work; force after all of it as at rest, within 1e-3 in 1D and 0.03 "
+        "in 3D, of the sums over pixels.",
+        _elastic_march,
+    ),
+    case(
+        "dashpot-march",
+        "A Kelvin body held after a ramp: its force jumps within a millionth of the relaxation time.",
+        "Force at rest in the end, within 1e-4; work is energy lost and stored to 1e-10.",
+        _kelvin_march,
+    ),
+    case(
+        "stages-apart",
+        "Stages of 1e-15 and 1e15 s: after the long one steps of the short one are lost to rounding.",
+        "The short one first, force at rest within 1e-4, of the sums over pixels; last, refused by the durations.",
+        _stages_apart,
+    ),
+    case(
+        "too-many-steps",
+        "A path of a thousand kilometres over pixels of micrometres.",
+        "Refused at once: the error says how many steps, the most allowed and what to change.",
+        _too_many_steps,
+    ),
+    case(
+        "never-touching",
+        "A program that presses in by less than a pixel can see.",
+        "Refused: the error says so and what to do.",
+        _never_touching,
+    ),
+    case(
+        "no-programs",
+        "Programs without stages, without load, of two quantities, backwards in time or place.",
+        "Refused: each error names the field, the value and what is allowed.",
+        _no_programs,
+    ),
+)

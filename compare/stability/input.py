@@ -1,0 +1,375 @@
+"""Numbers that are none, or hardly: NaN, infinities, zero, negative, huge and denormal ones, in every field."""
+
+import tempfile
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from pydantic import ValidationError
+
+from bem3d import BEM
+from compare.references import indentation
+from mdr1d import MDR
+from scene import (
+    Cylinder,
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    Plane,
+    PowerLaw,
+    Program,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    Wave,
+    read_table,
+)
+from scene.reading import InvalidInput, read
+
+from .hardcase import Check, HardCase, deviation, refusal
+from .ordinary import (
+    CONE,
+    DEPTH,
+    ELASTIC,
+    KELVIN,
+    LOAD,
+    ROUGH,
+    SOLID,
+    SPHERE,
+    dense,
+    line,
+    resting,
+    sliding,
+    space,
+)
+
+POWER = PowerLaw(coefficient=50.0, exponent=2.0)
+FRACTIONAL = Fractional(
+    modulus=1e6, relaxation_time=1e-3, exponent=0.5, lowest_frequency=1e-2, highest_frequency=1e4
+)
+PARTS = (
+    SPHERE,
+    CONE,
+    POWER,
+    ELASTIC,
+    KELVIN,
+    SOLID,
+    FRACTIONAL,
+    Indent(load=1.0),
+    Slide(speed=1.0, depth=1e-4),
+    ROUGH,
+)
+REFUSED = (Refused, SolveError, ValidationError)
+
+
+def _numbers(part) -> Iterator[str]:
+    """Names of the fields of a part that hold a real number."""
+    assert is_dataclass(part)
+    return (field.name for field in fields(part) if isinstance(getattr(part, field.name), float))
+
+
+def _in_every_field(size, value, said):
+    for part in PARTS:
+        for name in _numbers(part):
+            ask, names = partial(replace, part, **{name: value}), (name, *said)
+            yield refusal(f"{type(part).__name__}.{name} = {value}", ValidationError, names, ask)
+
+
+def _nan(size):
+    return _in_every_field(size, float("nan"), ("finite number", "nan"))
+
+
+def _infinite(size):
+    yield from _in_every_field(size, float("inf"), ("finite number", "inf"))
+    yield from _in_every_field(size, -float("inf"), ("finite number", "-inf"))
+
+
+def _negative(size):
+    for refused in _in_every_field(size, -1.0, ()):
+        # The only number that may be negative is one of Poisson's.
+        if ".poisson_ratio" not in refused.what:
+            yield refused
+
+
+def _zero(size):
+    may = {"hurst", "rms_height", "speed", "poisson_ratio"}
+    for part in PARTS:
+        for name in set(_numbers(part)) - may:
+            ask, names = partial(replace, part, **{name: 0.0}), (name, "greater than")
+            yield refusal(f"{type(part).__name__}.{name} = 0", ValidationError, names, ask)
+
+
+def _no_numbers(size):
+    for value in ("1e6", True, 1 + 0j, None, [1.0], np.array([1.0, 2.0])):
+        for kind in (Elastic, Sphere):
+            name = next(iter(fields(kind))).name
+            ask = partial(kind, **{name: value})
+            yield refusal(f"{kind.__name__}({name}={value!r})", ValidationError, (name, "valid number"), ask)
+    for number in (np.float32(1e6), np.int64(1_000_000), 1_000_000):
+        yield Check(f"{type(number).__name__} as a modulus", abs(Elastic(number).modulus - 1e6), 0.0)
+
+
+def _answered_or_refused(solver, scene, known=None, allowed=0.1):
+    """One check: a refusal in words, or a force that is finite, positive and, if known, right."""
+    what = f"{solver.name}: {scene.indenter}, {scene.motion}"
+    try:
+        force = solver.solve(scene).normal_force
+    except REFUSED as error:
+        said = str(error)
+        return Check(
+            f"{what}: refused in words", float(len(said) < 20 or ("take" not in said and "units" not in said)), 0.0
+        )
+    if known is not None:
+        return deviation(f"{what}: force", force, known, allowed)
+    return Check(f"{what}: force", float(not 0 < force < np.inf), 0.0)
+
+
+def _huge(size):
+    for value in (1e150, 1e300, 1.7e308):
+        scenes = (
+            resting(indenter=Sphere(value)),
+            resting(motion=Indent(depth=value)),
+            resting(motion=Indent(load=value)),
+            resting(elastomer=Elastic(value)),
+            resting(elastomer=Kelvin(1e6, value), motion=Slide(speed=1.0, depth=DEPTH)),
+            sliding(value / 1e300 + 1e100),
+        )
+        for scene in scenes:
+            for solver in (line(size), BEM(points=24)):
+                yield _answered_or_refused(solver, scene)
+
+
+def _denormal(size):
+    for value in (5e-324, 1e-310, 1e-160):
+        scenes = (
+            resting(indenter=Sphere(value)),
+            resting(motion=Indent(depth=value)),
+            resting(motion=Indent(load=value)),
+            resting(elastomer=Elastic(value)),
+            resting(elastomer=Kelvin(1e6, value), motion=Slide(speed=1.0, depth=DEPTH)),
+        )
+        for scene in scenes:
+            for solver in (line(size), BEM(points=24)):
+                yield _answered_or_refused(solver, scene)
+
+
+def _denormal_waves(size):
+    for value in (5e-324, 1e-310):
+        for build, name in (
+            (partial(SelfAffine, hurst=0.5, rms_height=1e-6), "longest"),
+            (partial(Wave, amplitude=1e-6), "wavelength"),
+        ):
+            names = (name, "1e-300")
+            yield refusal(f"{name} = {value:g}", ValidationError, names, partial(build, **{name: value}))
+    flat = replace(ROUGH, rms_height=5e-324)
+    for solver in (line(size, extent=4e-3), space(size)):
+        rough, smooth = (solver.solve(resting(roughness=each)).normal_force for each in (flat, None))
+        yield deviation(f"{solver.name}: force at a rms height of 5e-324 m", rough, smooth, 1e-9)
+
+
+def _extent_off(size):
+    for extent, said in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units")):
+        for solver in (line(size, extent=extent), space(size, extent=extent)):
+            ask = partial(solver.solve, resting())
+            yield refusal(f"{solver.name}: extent = {extent:g} m", SolveError, (said,), ask)
+
+
+def _both_or_neither(size):
+    asks = {
+        "no load, no depth": (partial(Indent), ("none given", "exactly one", "load [N]", "depth [m]")),
+        "load and depth": (
+            partial(Slide, speed=1.0, load=1.0, depth=1e-4),
+            ("load = 1", "depth = 0.0001", "exactly one"),
+        ),
+        "a backward speed": (partial(Slide, speed=-1.0, load=1.0), ("speed", "-1")),
+        "shortest beyond longest": (partial(replace, ROUGH, shortest=1.0), ("shortest = 1", "longest")),
+        "a roll-off beyond longest": (partial(replace, ROUGH, rolloff=1.0), ("rolloff = 1", "longest")),
+        "H = 1.1": (partial(replace, ROUGH, hurst=1.1), ("hurst", "1.1", "less than or equal to 1")),
+        "a seed of -1": (partial(replace, ROUGH, seed=-1), ("seed", "-1")),
+        "a seed of 1/2": (partial(replace, ROUGH, seed=0.5), ("seed", "0.5", "integer")),
+        "an unknown field": (partial(Elastic, modulus=1e6, colour=3.0), ("colour", "Unexpected")),
+        "glass below rubber": (
+            partial(replace, SOLID, glassy_modulus=1.0),
+            ("glassy_modulus = 1", "must exceed", "rubbery_modulus"),
+        ),
+        "moduli without times": (
+            partial(Prony, 1e6, (1e6, 1e6), (1.0,)),
+            ("relaxation_times has 1", "moduli has 2"),
+        ),
+        "no moduli": (
+            partial(Prony, equilibrium_modulus=1e6, moduli=(), relaxation_times=()),
+            ("moduli", "at least 1"),
+        ),
+        "frequencies in no order": (
+            partial(replace, FRACTIONAL, lowest_frequency=1e5),
+            ("highest_frequency = 10000", "exceed lowest_frequency = 100000"),
+        ),
+    }
+    for what, (ask, names) in asks.items():
+        yield refusal(what, ValidationError, names, ask)
+
+
+def _not_for_this_solver(size):
+    plane = Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH)
+    cylinder = Scene(Cylinder(1e-2), SOLID, Indent(line_load=1e3))
+    wave = resting(roughness=Wave(amplitude=1e-6, wavelength=1e-3))
+    asks = {
+        "MDR: a plane": (line(size), plane, ("Plane", "no body of revolution")),
+        "MDR: a cylinder": (line(size), cylinder, ("Cylinder", "no body of revolution")),
+        "MDR: one wave": (line(size), wave, ("Wave", "not isotropic")),
+        "BEM: a rough cylinder": (
+            space(size),
+            replace(cylinder, roughness=ROUGH),
+            ("rough Cylinder", "Sphere or a Plane"),
+        ),
+        "BEM: a plane on an extent": (space(size), plane, ("extent", "period")),
+    }
+    for what, (solver, scene, names) in asks.items():
+        yield refusal(what, Refused, names, partial(solver.solve, scene))
+
+
+def _files(size):
+    """Every mistake of a file at once, by its place."""
+    scene = (
+        '[indenter]\ntype = "sphere"\nradius = -1.0\n[elastomer]\ntype = "kelvin"\nmodulus = nan\n'
+        '[motion]\ntype = "slide"\nspeed = "fast"\nload = 1.0\ndepht = 2.0\n'
+    )
+    tables = {
+        "a table of words": ("frequency storage loss\n1 2 none\n", ("line 2", "loss = 'none'", "not a number")),
+        "a table with decimal commas": ("1,5;2,5;3,5\n", ("line 1", "6 columns", "decimal points")),
+        "a table with zero": ("1 1 1\n2 0 1\n", ("line 2", "storage = 0", "greater than 0")),
+        "a table with nan": ("1 1 1\n2 nan 1\n", ("line 2", "storage = nan", "finite")),
+        "an empty table": ("# nothing\n", ("0 frequencies", "at least 4")),
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.toml"
+        path.write_text(scene, encoding="utf-8")
+        names = (
+            "indenter.radius = -1.0",
+            "elastomer.modulus = nan",
+            "relaxation_time: missing",
+            "motion.speed",
+            "depht",
+        )
+        yield refusal("a scene with five mistakes", InvalidInput, names, partial(read, path, Scene))
+        path.write_text("[indenter\n", encoding="utf-8")
+        yield refusal(
+            "a scene cut off", InvalidInput, ("scene.toml", "not valid TOML"), partial(read, path, Scene)
+        )
+        for what, (content, names) in tables.items():
+            path.write_text(content, encoding="utf-8")
+            yield refusal(what, ValueError, names, partial(read_table, path))
+
+
+def _mixed_extremes(size):
+    """A kilometre of glass under a picometre of load beside its opposite."""
+    for radius, modulus, load in ((1e3, 1e12, 1e-12), (1e-9, 1.0, 1e-15), (1e6, 1e-6, 1e6), (1e-9, 1e12, 1e-6)):
+        scene = resting(indenter=Sphere(radius), elastomer=Elastic(modulus), motion=Indent(load=load))
+        known = (9 * load**2 / (16 * radius * (4 * modulus) ** 2)) ** (1 / 3)
+        for solver in (line(size), dense(size, extent=None)):
+            what = f"{solver.name}: R = {radius:g} m, G = {modulus:g} Pa, {load:g} N"
+            yield deviation(f"{what}: depth", solver.solve(scene).depth, known, 1 / size.dense)
+
+
+def _denormal_history(size):
+    stages = (Stage(duration=1e-300, depth=DEPTH), Stage(duration=1e-300, depth=DEPTH / 2))
+    scene = resting(elastomer=SOLID, motion=Program(stages=stages))
+    times, depths = (0.0, 1e-300, 2e-300), (0.0, DEPTH, DEPTH / 2)
+    (known,), _ = indentation.force_of_depth(SPHERE, SOLID, times, depths, 2e-300)
+    yield deviation("MDR: force after 2e-300 s", MDR(points=size.line).solve(scene).normal_force, known, 1e-3)
+    heavy = replace(scene, motion=Program(stages=(Stage(duration=1e-300, load=LOAD),)))
+    yield deviation("MDR: load after 1e-300 s", line(size).solve(heavy).normal_force, LOAD, 1e-9)
+
+
+case = partial(HardCase, "input")
+CASES = (
+    case(
+        "nan",
+        "NaN in every real field of every part of a scene.",
+        "Refused: the error names the field, the value and that it must be finite.",
+        _nan,
+    ),
+    case(
+        "infinite",
+        "Plus and minus infinity in every real field.",
+        "Refused: the error names the field, the value and that it must be finite.",
+        _infinite,
+    ),
+    case(
+        "negative", "-1 in every real field but Poisson's ratio.", "Refused: the error names the field.", _negative
+    ),
+    case(
+        "zero",
+        "0 in every real field that must not be zero.",
+        "Refused: the error names the field and that it must be greater.",
+        _zero,
+    ),
+    case(
+        "no-numbers",
+        "Words, truth values, complex numbers, nothing, lists and arrays for a number; numpy's scalars.",
+        "Refused by field and kind; numpy's scalars are taken as they are.",
+        _no_numbers,
+    ),
+    case(
+        "huge",
+        "1e150 to 1.7e308 as radius, depth, load, modulus, relaxation time and speed.",
+        "A force that is finite and positive, or a refusal in words that says what to change.",
+        _huge,
+    ),
+    case(
+        "denormal",
+        "The least numbers that there are, as radius, depth, load, modulus and relaxation time.",
+        "A force that is finite and positive, or a refusal in words that says what to change.",
+        _denormal,
+    ),
+    case(
+        "denormal-waves",
+        "Wavelengths whose wave numbers overflow, heights whose squares vanish.",
+        "Wavelengths are refused by name and bound; without height the force is that of the smooth body to 1e-9.",
+        _denormal_waves,
+    ),
+    case(
+        "extents-that-miss",
+        "Extents of 5e-324, 1e-5, 1e4 and 1e300 m around a contact of a millimetre.",
+        "Refused: the error names the extent, says what to take, or asks for the units.",
+        _extent_off,
+    ),
+    case(
+        "contradictions",
+        "Both load and depth, or neither, wavelengths out of order, unknown names, moduli without times.",
+        "Refused: each error names the fields and values that contradict each other.",
+        _both_or_neither,
+    ),
+    case(
+        "not-for-this-solver",
+        "Planes, cylinders and waves in 1D, rough cylinders in 3D.",
+        "Refused before anything is solved, by the name of what is lacking.",
+        _not_for_this_solver,
+    ),
+    case(
+        "files-with-mistakes",
+        "Scene files with several mistakes, tables with words, commas, zeros, nan and nothing.",
+        "Refused: every mistake by its place in the file, its value and what is allowed.",
+        _files,
+    ),
+    case(
+        "mixed-extremes",
+        "Kilometres of glass under piconewtons, nanometres of it under micronewtons, planets of jelly.",
+        "Hertz's depth within 1/N of the 3D grid.",
+        _mixed_extremes,
+    ),
+    case(
+        "history-of-1e-300-s",
+        "Stages of 1e-300 s.",
+        "Force of Ting within 1e-3 of the grid in 1D; a load is met to 1e-9.",
+        _denormal_history,
+    ),
+)

@@ -1,0 +1,1 @@
+"""What accuracy costs in time: ladders of settings, measured against what is known better."""

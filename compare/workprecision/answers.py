@@ -1,0 +1,224 @@
+"""To know the true answer of three dimensions within a wanted error: which model, which settings, how long."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf, isfinite, nan
+
+import numpy as np
+
+from .contest import Judged, Quantity
+from .ensemble import JudgedEnsemble
+from .statistics import Bias, Reached, cheapest
+from .wording import seconds, share
+
+LEVELS = (0.1, 0.03, 0.01, 0.003)
+DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+
+Found = Judged | JudgedEnsemble
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The shortest way to a wanted error.
+
+    solver : by name; settings : in words; seconds : of processor time
+    """
+
+    solver: str
+    settings: str
+    seconds: float
+
+    @property
+    def said(self) -> str:
+        """In words."""
+        return f"{DIMENSIONS[self.solver]}, {self.settings}: {seconds(self.seconds)}"
+
+
+def title(found: Found) -> str:
+    """Of the regime, for people."""
+    match found:
+        case Judged():
+            return found.contest.title
+        case JudgedEnsemble():
+            return found.ensemble.title
+
+
+def named(found: Found) -> str:
+    """The same within a sentence."""
+    return title(found).replace(", ", " at ")
+
+
+def quantities(found: Found) -> tuple[Quantity, ...]:
+    """Those of which the truth is asked for."""
+    match found:
+        case Judged():
+            return tuple(each for each in found.contest.quantities if each.name in found.known)
+        case JudgedEnsemble():
+            return found.ensemble.quantities
+
+
+def restricted(found: Sequence[Found], names: Sequence[str]) -> list[Found]:
+    """Of all regimes, only the quantities of some names; regimes without any are left out."""
+    return [_restricted(each, names) for each in found if any(q.name in names for q in quantities(each))]
+
+
+def answer(found: Found, quantity: str, level: float, solver: str | None = None) -> Answer | None:
+    """The shortest way of one solver, or of both, whose error and that of the truth stay within a level together.
+
+    None where there is none. The time of an ensemble grows with the number of surfaces, however large.
+    """
+    match found:
+        case Judged():
+            options = list(_rungs(found, quantity, level, solver))
+            return min(options, key=lambda option: option.seconds, default=None)
+        case JudgedEnsemble():
+            ways = [way for way in found.standings[quantity].ways if solver in (None, way.solver)]
+            reached = cheapest(ways, level)
+            return None if reached is None else _of_surfaces(reached)
+
+
+def best(found: Found, quantity: str, solver: str | None = None) -> float:
+    """Least error that one solver, or either, is known to reach with any of its settings; NaN if not known."""
+    match found:
+        case Judged():
+            errors = [
+                climbed.errors[quantity][-1] + found.known[quantity].relative_error
+                for climbed in _ladders(found, solver)
+            ]
+        case JudgedEnsemble():
+            errors = [way.bias.most for way in found.standings[quantity].ways if solver in (None, way.solver)]
+    return float(np.nanmin([*errors, inf])) if np.isfinite(errors).any() else nan
+
+
+def floor(found: Found, quantity: str) -> Bias:
+    """Of the 1D model on its finest grid: the error that no setting passes; NaN where it was not solved."""
+    match found:
+        case Judged():
+            errors = [climbed.errors[quantity][-1] for climbed in _ladders(found, "MDR")]
+            return Bias(float(errors[-1]), found.known[quantity].relative_error) if errors else Bias(nan, nan)
+        case JudgedEnsemble():
+            return found.standings[quantity].floor or Bias(nan, nan)
+
+
+def failures(found: Found) -> list[str]:
+    """What was not solved, and why."""
+    match found:
+        case Judged():
+            return [
+                f"{climbed.ladder.label} with {value:g} {climbed.ladder.setting}: {reason}"
+                for climbed in found.climbed
+                for value, reason in zip(climbed.ladder.values, climbed.reasons, strict=True)
+                if reason is not None
+            ]
+        case JudgedEnsemble():
+            return [
+                f"{len(sample.reasons)} of {sample.count} in {DIMENSIONS[sample.solver]} with {sample.points} "
+                f"points: {sample.reasons[0]}"
+                for sample in found.samples
+                if sample.reasons
+            ]
+
+
+def table(found: Sequence[Found], levels: Sequence[float] = LEVELS) -> list[Mapping]:
+    """A row for each regime, quantity and wanted error; times in seconds, errors relative."""
+    return [_row(each, quantity, level) for each in found for quantity in quantities(each) for level in levels]
+
+
+def cells(found: Sequence[Found], of: Sequence[str], levels: Sequence[float] = LEVELS) -> list[dict[str, str]]:
+    """In words, of the quantities of some names: regimes as rows, wanted errors as columns."""
+    return [
+        {
+            "regime": title(each) if len(of) == 1 else f"{title(each)}: {quantity.label}",
+            **{f"within {share(level)}": _cell(each, quantity.name, level) for level in levels},
+            "error that 1D keeps": interval(floor(each, quantity.name)),
+        }
+        for each in found
+        for quantity in quantities(each)
+        if quantity.name in of
+    ]
+
+
+def markdown(found: Sequence[Found], of: Sequence[str], levels: Sequence[float] = LEVELS) -> str:
+    """The same as a Markdown table; empty without any."""
+    rows = cells(found, of, levels)
+    if not rows:
+        return ""
+    lines = [list(rows[0]), ["---"] * len(rows[0]), *(list(row.values()) for row in rows)]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def interval(bias: Bias) -> str:
+    """A size with the ends of its interval, in words."""
+    if not isfinite(bias.size):
+        return "not known"
+    if not isfinite(bias.reach):
+        return f"{share(bias.size)}, interval not known"
+    if bias.reach < 0.05 * bias.size:
+        return share(bias.size)
+    return f"{share(bias.size)} ({percent(bias.least)} to {share(bias.most)})"
+
+
+def percent(value: float) -> str:
+    """A share without its unit, where the unit follows."""
+    return share(value).removesuffix(" %") if value else "0"
+
+
+def _restricted(found, names):
+    kept = tuple(quantity for quantity in quantities(found) if quantity.name in names)
+    match found:
+        case Judged():
+            return replace(found, contest=replace(found.contest, quantities=kept))
+        case JudgedEnsemble():
+            return replace(found, ensemble=replace(found.ensemble, quantities=kept))
+
+
+def _cell(found: Found, quantity: str, level) -> str:
+    taken, known = answer(found, quantity, level), best(found, quantity)
+    if taken is not None:
+        return taken.said
+    return f"not reached; best known {share(known)}" if isfinite(known) else "not known"
+
+
+def _row(found: Found, quantity: Quantity, level) -> Mapping[str, object]:
+    taken, own = answer(found, quantity.name, level), floor(found, quantity.name)
+    each = {solver: answer(found, quantity.name, level, solver) for solver in DIMENSIONS}
+    return {
+        "regime": title(found),
+        "quantity": quantity.label,
+        "wanted": level,
+        "model": "" if taken is None else DIMENSIONS[taken.solver],
+        "settings": "" if taken is None else taken.settings,
+        "seconds": nan if taken is None else taken.seconds,
+        **{
+            f"seconds_{DIMENSIONS[solver].lower()}": nan if found is None else found.seconds
+            for solver, found in each.items()
+        },
+        "best_known": best(found, quantity.name),
+        "floor_1d": own.size,
+        "floor_1d_least": own.least,
+        "floor_1d_most": own.most,
+    }
+
+
+def _rungs(found: Judged, quantity, level, solver) -> Iterator[Answer]:
+    room = level - found.known[quantity].relative_error
+    for climbed in _ladders(found, solver):
+        k = climbed.reaching(quantity, room)
+        if k is not None:
+            ladder = climbed.ladder
+            settings = f"{ladder.values[k]:g} {ladder.setting}"
+            yield Answer(ladder.rungs[k].solver.name, settings, float(climbed.processor[k]))
+
+
+def _ladders(found: Judged, solver):
+    return [each for each in found.climbed if solver in (None, each.ladder.rungs[0].solver.name)]
+
+
+def _of_surfaces(reached: Reached) -> Answer:
+    way = reached.way
+    what = "profiles" if way.solver == "MDR" else "surfaces"
+    (count, *more), (draw, *finer) = reached.counts, way.draws
+    settings = f"{count:,} {what if count > 1 else what[:-1]} of {draw.points[0]} points"
+    for number, correction in zip(more, finer, strict=True):
+        settings += f", corrected by {number:,} of {correction.points[0]}"
+    return Answer(way.solver, settings, reached.seconds)

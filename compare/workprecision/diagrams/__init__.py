@@ -1,0 +1,1 @@
+"""The diagrams: what each setting of a solver buys, a module each with its `DIAGRAM`."""

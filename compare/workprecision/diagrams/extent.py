@@ -1,0 +1,197 @@
+"""A free surface against a cell that repeats: what is paid for extent, and what neighbours falsify.
+
+Crossed waves pressed lightly are a lattice of tips of known curvature, two a cell. Two things part them from one
+free sphere: their neighbours, and their own shape, which rises less than a paraboloid. Averaged over angles it is
+
+    z = r^2/(2R) (1 - q^2 r^2/8),  1/R = q^2 h0,  q = 2 pi / lambda,
+
+a body of revolution, of which F = (4 E*/3R) a^3 (1 - q^2 a^2/5) by Galin and Sneddon, and slow friction goes as
+int_0^a g'^2 dx with g' = (2x/R) (1 - q^2 x^2/3). With these the shape is taken out, to the order q^2 a^2.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import nan, pi
+
+import numpy as np
+from scipy.optimize import brentq
+
+from bem3d import BEM
+from scene import CrossedWaves, Indent, Plane, Scene, Slide
+from scene.scales import elastic_contact
+
+from .. import wording
+from ..contest import FRICTION, ClosedForm, Contest, Finer, Judged, Known, Ladder, Quantity
+from ..diagram import Diagram
+from ..rung import Rung
+from .scenes import CONTACT, KELVIN, SPHERE, TIME, pressed
+
+ACROSS = {"quick": 24, "full": 32}  # pixels across the contact at rest, the same in all
+PERIODS = {"quick": (2, 4, 8), "full": (2, 4, 8, 16, 32)}  # of a cell, over the diameter of a contact
+EXTENTS = {"quick": (1.25, 4), "full": (1.25, 2, 4, 8)}  # of a free window, over the same
+FLOWS = {"quick": (0.1,), "full": (0.1, 1.0, 10.0)}
+REFERENCE = {"quick": 256, "full": 1024}
+LOAD = elastic_contact(pressed(SPHERE)).load
+LEVELS = (1e-1, 1e-2, 1e-3)
+LESS_SHAPE = "less the wave's shape"
+
+
+def contests(size: str) -> Sequence[Contest]:
+    """At rest by the radius of contact, in sliding by friction."""
+    return [_at_rest(size), *(_sliding(flow, size) for flow in FLOWS[size])]
+
+
+def cell(period: float, motion) -> Scene:
+    """Crossed waves with the curvature of the sphere at their tips; motion : under a load [N] on each tip."""
+    wavelength = 2 * CONTACT * period
+    waves = CrossedWaves(amplitude=wavelength**2 / (4 * pi**2 * SPHERE.radius), wavelength=wavelength)
+    pressure = 2 * motion.load / wavelength**2
+    return Scene(Plane(), KELVIN, replace(motion, load=None, pressure=pressure), waves)
+
+
+def contact_radius(row, fields) -> float:
+    """From the second moment of the pressure about its tip, which of Hertz's is 2 a^2 / 5 [m]."""
+    if row.reason is not None:
+        return nan
+    x, y, p = fields["x"], fields["y"][:, None], fields["pressure"]
+    if _repeats(row):
+        period = row.settings["extent"]
+        x_to, y_to = (_wrapped(each - period / 2, period) for each in (x, y))
+        x, y = _wrapped(x, period), _wrapped(y, period)
+        square = np.minimum(np.square(x_to) + np.square(y), np.square(x) + np.square(y_to))
+    else:
+        square = np.square(x) + np.square(y)
+    return float(np.sqrt(2.5 * np.sum(p * square) / p.sum()))
+
+
+def wave_radius(wave_number: float) -> float:
+    """Of one wave's contact under LOAD [m], as a body of revolution; NaN where the series ends before it."""
+    modulus, sphere = KELVIN.indentation_modulus, SPHERE.radius
+
+    def excess(a):
+        return 4 * modulus / (3 * sphere) * a**3 * (1 - np.square(wave_number * a) / 5) / LOAD - 1
+
+    top = np.sqrt(3) / wave_number  # where the load of the series is greatest
+    return brentq(excess, 0.5 * CONTACT, top) if excess(top) > 0 else nan
+
+
+def wave_friction(wave_number: float) -> float:
+    """Slow friction of one wave over that of the sphere, under LOAD."""
+    a = wave_radius(wave_number)
+    square = np.square(wave_number * a)
+    return (a / CONTACT) ** 3 * (1 - 2 * square / 5 + square**2 / 21)
+
+
+def _moment(wave_number):
+    """Contact radius from the second moment of one wave's pressure over that of the sphere, under LOAD.
+
+    From p = (E*/pi) int_r^a g'/sqrt(x^2 - r^2) dx the moment is (2 E*/3) int_0^a 2 x^3 g' dx.
+    """
+    a = wave_radius(wave_number)
+    square = np.square(wave_number * a)
+    return a / CONTACT * np.sqrt((1 - 5 * square / 21) / (1 - square / 5))
+
+
+def _repeats(row):
+    return "contact_fraction" in row.measures
+
+
+def _shape(row, factor):
+    return factor(2 * pi / row.settings["extent"]) if _repeats(row) else 1.0
+
+
+def _less(of, factor):
+    return lambda row, fields: nan if row.reason is not None else of(row, fields) / _shape(row, factor)
+
+
+RADIUS = Quantity("radius", "contact radius", contact_radius, "as it is")
+SHAPED_RADIUS = Quantity("radius_less_shape", RADIUS.label, _less(contact_radius, _moment), LESS_SHAPE)
+SLOW = replace(FRICTION, by="as it is")
+SHAPED_SLOW = Quantity("friction_less_shape", FRICTION.label, _less(FRICTION.of, wave_friction), LESS_SHAPE)
+
+
+def _wrapped(offset, period):
+    return offset - period * np.round(offset / period)
+
+
+def _at_rest(size):
+    known = Known(CONTACT)
+    truth = ClosedForm("Hertz", {RADIUS.name: known, SHAPED_RADIUS.name: known})
+    ladders = _ladders(Indent(load=LOAD), size, ("x", "y", "pressure"))
+    return Contest("rest", "tip at rest", truth, (RADIUS, SHAPED_RADIUS), ladders)
+
+
+def _sliding(flow, size):
+    motion = Slide(speed=flow * CONTACT / TIME, load=LOAD)
+    reference = BEM(points=REFERENCE[size], tolerance=1e-7)
+    truth = Finer.of(Scene(SPHERE, KELVIN, motion), reference, f"the free sphere, {reference.points} points")
+    quantities = (SLOW, SHAPED_SLOW) if flow <= FLOWS["quick"][0] else (FRICTION,)
+    return Contest(
+        f"sliding-{flow:g}", f"tip, Kelvin, v τ = {flow:g} a", truth, quantities, _ladders(motion, size, ())
+    )
+
+
+def _ladders(motion, size, keeps):
+    periods, extents, across = PERIODS[size], EXTENTS[size], ACROSS[size]
+    free = Scene(SPHERE, KELVIN, motion)
+    cells = (Rung(BEM(points=across * k), cell(k, motion), keeps, float(across * k) ** 2.2 * 50) for k in periods)
+    windows = [BEM(points=round(across * k), extent=2 * CONTACT * k) for k in extents]
+    return (
+        Ladder("cell that repeats, by period over 2 a", "period over 2 a", periods, tuple(cells)),
+        Ladder.through("free, by extent over 2 a", free, windows, "extent over 2 a", extents, keeps=keeps),
+        Ladder.of("free, extent fitted, by points", free, BEM(), "points", _fitted(size), keeps=keeps),
+    )
+
+
+def _fitted(size):
+    return (ACROSS[size], 2 * ACROSS[size], 4 * ACROSS[size])
+
+
+def advice(found: Sequence[Judged]) -> str:
+    """How large a cell has to be, what it costs beside a free window, and what of its error is shape."""
+    said = []
+    for judged in found:
+        cells, windows, fitted = judged.climbed
+        first, *others = judged.contest.quantities
+        said.append(
+            f"For the {first.label} of a {judged.contest.title}: in a cell that repeats "
+            f"{wording.levels(judged, cells, first.name, LEVELS)}; on a free surface of any extent "
+            f"{_spread(windows, first.name)}, and with the extent fitted "
+            f"{wording.levels(judged, fitted, first.name, LEVELS)}."
+        )
+        said += [_parted(cells, first.name, each.name) for each in others]
+    return (
+        "A free window costs what it covers and is exact however small, if it holds the contact; leave its extent "
+        f"to the solver. {' '.join(said)} Where no shape is taken out, that of the wave and its neighbours are "
+        f"not told apart.{wording.failures(found)}"
+    )
+
+
+def _spread(climbed, name):
+    errors = climbed.errors[name]
+    if (why := wording.unsolved(climbed, name)) is not None:
+        return why
+    return f"the error is {wording.share(np.nanmin(errors))} to {wording.share(np.nanmax(errors))}"
+
+
+def _parted(cells, name, less):
+    whole, left = cells.errors[name], cells.errors[less]
+    both = np.isfinite(whole) & np.isfinite(left)
+    if not both.any():
+        return "What of it is the wave's shape cannot be told."
+    parts = ", ".join(
+        f"{wording.share(left[k])} of {wording.share(whole[k])} at {wording.digits(cells.ladder.values[k])}"
+        for k in np.flatnonzero(both)
+    )
+    return f"Without the wave's own shape, what is left by period over 2 a is {parts}: of neighbours and grid."
+
+
+DIAGRAM = Diagram(
+    "extent",
+    "A free surface against a cell that repeats",
+    "BEM of one tip by extent at a fixed pixel: free, where the extent has no error of its own, and as a lattice "
+    "of tips of the same curvature in a cell that repeats, whose neighbours and whose shape part it from the free "
+    "sphere.",
+    contests,
+    advice,
+)

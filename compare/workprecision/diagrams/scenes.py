@@ -1,0 +1,45 @@
+"""The contacts that the diagrams are made of, and how far into their ladders a size goes."""
+
+from dataclasses import replace
+from math import radians
+
+from scene import Cone, Indent, Kelvin, Scene, Slide, Sphere, StandardLinearSolid
+
+from ...studies import contacts
+
+# Radius [m] of the contacts at rest, and the time [s] in which the solids relax.
+CONTACT, TIME = 1e-3, 1e-3
+SPHERE, CONE = Sphere(radius=10e-3), Cone(angle=radians(5))
+KELVIN = Kelvin(modulus=1e6, relaxation_time=TIME)
+STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=TIME)
+# Whose surface is the same on every grid, as its shortest wave is stated.
+ROUGH = contacts.kelvin("sphere", seed=1)
+
+
+def depth(shape) -> float:
+    """At which the contact at rest has the radius CONTACT [m]."""
+    return shape.mdr_coefficient * CONTACT**shape.exponent
+
+
+def pressed(shape) -> Scene:
+    """At rest, to that depth."""
+    return Scene(shape, KELVIN, Indent(depth=depth(shape)))
+
+
+def slid(shape, solid, flow: float) -> Scene:
+    """Sliding at that depth; flow : v tau / a, of the speed, the relaxation time and the contact at rest."""
+    return Scene(shape, solid, Slide(speed=flow * CONTACT / TIME, depth=depth(shape)))
+
+
+def rough(speed: float, load: float = 1.0) -> Scene:
+    """The rough sphere under a load [N], at rest or sliding at a speed [m/s]."""
+    motion = Slide(speed=speed, load=load) if speed else Indent(load=load)
+    return replace(ROUGH, motion=motion)
+
+
+def powers(first: int, last: int, base: int = 2) -> tuple[int, ...]:
+    """first, base * first, ... up to last."""
+    found = [first]
+    while base * found[-1] <= last:
+        found.append(base * found[-1])
+    return tuple(found)

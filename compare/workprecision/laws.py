@@ -1,0 +1,208 @@
+"""Powers by which costs grow: fitted to what was measured, and how far they may be trusted beyond it."""
+
+from dataclasses import dataclass
+from math import exp, inf, log, nan, sqrt
+
+import numpy as np
+from scipy import stats
+from scipy.optimize import least_squares
+
+FEWEST = 3  # points that a power is fitted to
+WITH_OVERHEAD = 5  # points from which on a fixed cost can be told from a power
+# The least time of some repeats comes out again to so much, and so does a count of iterations: less is no misfit.
+REPEATABLE = 0.1
+CHANCE = 0.01  # of calling a power none
+NEEDED = 0.05  # chance of a fixed cost found where there is none
+LEVEL = 0.95  # of intervals
+STARTS = (1.0, 2.5)  # exponents from which a fit begins
+EXACT = 1e-9  # a scatter of less is rounding
+
+
+@dataclass(frozen=True)
+class Law:
+    """cost = overhead + factor (x / centre)^exponent, with a scatter that is relative.
+
+    lowest, highest : x that it was fitted to; count : how many
+    scatter : standard deviation of ln cost about it
+    covariance : of ln factor, exponent and, where there is an overhead, its logarithm
+    """
+
+    overhead: float
+    factor: float
+    exponent: float
+    centre: float
+    lowest: float
+    highest: float
+    count: int
+    scatter: float
+    covariance: np.ndarray
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom of the scatter."""
+        return self.count - len(self.covariance)
+
+    @property
+    def exponent_interval(self) -> tuple[float, float]:
+        """Of 95 %, by Student."""
+        half = stats.t.ppf((1 + LEVEL) / 2, self.freedom) * sqrt(self.covariance[1, 1])
+        return float(self.exponent - half), float(self.exponent + half)
+
+    def at(self, x):
+        """The cost expected at one x or at many."""
+        return self.overhead + self.factor * (x / self.centre) ** self.exponent
+
+    def interval(self, x: float) -> tuple[float, float]:
+        """Of 95 %, of one more measurement at x, if the law goes on as it is; by Student, to first order."""
+        low, high = self._ends(np.array([x]))
+        return float(low[0]), float(high[0])
+
+    def reach(self, cost: float) -> tuple[float, float, float]:
+        """The x at which a cost is reached, and between which it is; infinite where it never is."""
+        x = self.centre * np.logspace(-3, 6, 2000)
+        low, high = self._ends(x)
+        return tuple(_crossing(x, costs, cost) for costs in (self.at(x), high, low))
+
+    def _ends(self, x):
+        power, whole = self.at(x) - self.overhead, self.at(x)
+        parts = np.array([power, power * np.log(x / self.centre), np.full(len(x), self.overhead)])
+        slopes = parts[: len(self.covariance)] / whole
+        width = np.sqrt(self.scatter**2 + np.einsum("ik,ij,jk->k", slopes, self.covariance, slopes))
+        factor = np.exp(np.minimum(stats.t.ppf((1 + LEVEL) / 2, self.freedom) * width, 700.0))
+        return whole / factor, whole * factor
+
+
+@dataclass(frozen=True)
+class NoLaw:
+    """A cost that no power follows.
+
+    reason : why
+    least, most : of the cost, NaN without any; at_most : x of the most
+    """
+
+    reason: str
+    least: float
+    most: float
+    at_most: float
+
+
+def fit(x: np.ndarray, cost: np.ndarray) -> Law | NoLaw:
+    """The power that a cost follows, on the longest upper part of the range where one does.
+
+    As `fit_whole`, but that a misfit drops the smallest x, as long as half of the points are left and FEWEST.
+    """
+    x, cost = _usable(x, cost)
+    found: Law | NoLaw = fit_whole(x, cost)
+    for first in range(1, len(x) - max(FEWEST, (len(x) + 1) // 2) + 1):
+        if isinstance(found, Law):
+            return found
+        found = fit_whole(x[first:], cost[first:])
+    return found if isinstance(found, Law) else _no_law(found.reason, x, cost)
+
+
+def fit_whole(x: np.ndarray, cost: np.ndarray) -> Law | NoLaw:
+    """The power that a cost follows over the whole range.
+
+    Points that are not finite and above zero are left out. A fixed cost is added where an F test asks for it. With
+    a misfit beyond REPEATABLE (chi square, 1 in 100) there is no law.
+    """
+    x, cost = _usable(x, cost)
+    if len(np.unique(x)) < FEWEST:
+        return _no_law(f"{len(x)} points are too few", x, cost)
+    law = _fitted(x, cost)
+    return _no_law("the misfit of a power is beyond the scatter", x, cost) if _misfits(law) else law
+
+
+def held_out(x: np.ndarray, cost: np.ndarray) -> tuple[float, Law | NoLaw, float]:
+    """The largest x that was measured, the law without it, and its cost as found; NaN without any."""
+    x, cost = _usable(x, cost)
+    if not len(x):
+        return nan, fit(x, cost), nan
+    return float(x[-1]), fit(x[:-1], cost[:-1]), float(cost[-1])
+
+
+def _usable(x, cost):
+    """Points above zero, by x."""
+    x, cost = (np.asarray(each, float) for each in (x, cost))
+    good = np.flatnonzero(np.isfinite(cost) & (cost > 0) & np.isfinite(x) & (x > 0))
+    good = good[np.argsort(x[good], kind="stable")]
+    return x[good], cost[good]
+
+
+def _fitted(x, cost):
+    plain = _power(x, cost)
+    if len(x) < WITH_OVERHEAD or plain.scatter < EXACT:
+        return plain
+    more = _with_overhead(x, cost, plain)
+    without, with_it = (law.scatter**2 * law.freedom for law in (plain, more))
+    if with_it >= without or more.exponent <= 0:  # what falls to a level is no cost that grows beside another
+        return plain
+    gain = (without - with_it) / max(with_it / more.freedom, np.finfo(float).tiny)
+    return more if stats.f.sf(gain, 1, more.freedom) < NEEDED else plain
+
+
+def _power(x, cost):
+    """A straight line in logarithms."""
+    centre = exp(np.log(x).mean())
+    along = np.log(x / centre)
+    matrix = np.column_stack([np.ones(len(x)), along])
+    (start, exponent), *_ = np.linalg.lstsq(matrix, np.log(cost), rcond=None)
+    left = np.log(cost) - matrix @ [start, exponent]
+    return _law(x, centre, (start, exponent), left, matrix)
+
+
+def _with_overhead(x, cost, plain):
+    """The same with a fixed cost, by least squares in logarithms."""
+    along, seen = np.log(x / plain.centre), np.log(cost)
+
+    def parts(values):
+        start, exponent, fixed = values
+        return np.exp(np.clip(start + exponent * along, -700, 700)), np.exp(np.clip(fixed, -700, 700))
+
+    def residuals(values):
+        power, fixed = parts(values)
+        return np.log(power + fixed) - seen
+
+    def jacobian(values):
+        power, fixed = parts(values)
+        whole = power + fixed
+        return np.column_stack([power / whole, power / whole * along, fixed / whole])
+
+    lowest, middle = log(cost.min()), log(plain.factor)
+    found = min(
+        (least_squares(residuals, (middle, p, lowest + log(0.5)), jacobian, x_scale="jac") for p in STARTS),
+        key=lambda each: each.cost,
+    )
+    return _law(x, plain.centre, found.x, found.fun, jacobian(found.x))
+
+
+def _law(x, centre, values, left, matrix):
+    freedom = len(x) - len(values)
+    scatter = sqrt(float(left @ left) / freedom)
+    overhead = exp(values[2]) if len(values) > 2 else 0.0
+    covariance = scatter**2 * np.linalg.pinv(matrix.T @ matrix)
+    ends = float(x.min()), float(x.max())
+    return Law(overhead, exp(values[0]), float(values[1]), centre, *ends, len(x), scatter, covariance)
+
+
+def _misfits(law):
+    squares = law.scatter**2 * law.freedom / REPEATABLE**2
+    return stats.chi2.sf(squares, law.freedom) < CHANCE
+
+
+def _no_law(reason, x, cost):
+    if not len(cost):
+        return NoLaw(reason, nan, nan, nan)
+    return NoLaw(reason, float(cost.min()), float(cost.max()), float(x[np.argmax(cost)]))
+
+
+def _crossing(x, costs, cost):
+    """Where costs that rise in the end pass one; between points by logarithms."""
+    above = np.flatnonzero(costs > cost)
+    if not len(above):
+        return inf
+    k = above[0]
+    if k == 0:
+        return 0.0
+    share = log(cost / costs[k - 1]) / log(costs[k] / costs[k - 1])
+    return float(x[k - 1] * (x[k] / x[k - 1]) ** share)

@@ -1,0 +1,112 @@
+"""One step of a ladder: a scene solved with one choice of settings, alone in a process, with all that it costs."""
+
+import platform
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from math import nan
+
+from scene import Plane, Result, Scene, SelfAffine, SolveError, Solver
+
+from ..outcome import Outcome, Row, row
+from ..study import SCENES
+
+# A solve is repeated until so many seconds have gone, at least and at most as often as said; once, if it is long.
+SECONDS, LEAST, MOST, LONG = 1.0, 3, 50, 6.0
+# Settings of the solve that loads compiled code before anything is measured.
+WARM = {"points": 64, "steps": 20}
+COSTS = ("processor", "wall", "memory")
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A task, as of store: one scene, solved until its least time is known. It wants a process of its own.
+
+    keeps : names of the fields that are kept
+    work : see store
+
+    Row.measures has, besides those of the result, processor and wall [s], each the least of the repeats, from the
+    scene to the result; memory [bytes], by which the first raised the peak of the process; and repeats.
+    """
+
+    solver: Solver
+    scene: Scene
+    keeps: tuple[str, ...] = ()
+    work: float = 1.0
+
+    @property
+    def label(self) -> str:
+        """Short description for people."""
+        return f"{self.solver.name}, {self.solver.points} points, {type(self.scene.indenter).__name__.lower()}"
+
+    @property
+    def question(self) -> dict:
+        """The scene, the solver by its name and settings, and the machine."""
+        (scene,) = SCENES.dump_python((self.scene,), mode="json")
+        asked = {"scene": scene, "solver": self.solver.name, "settings": asdict(self.solver)}
+        return {"timed": asked, "keeps": list(self.keeps), "machine": [platform.machine(), platform.node()]}
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """Those of the scene, of the solver and of this measurement."""
+        return "scene", type(self.solver).__module__.split(".")[0], __name__
+
+    @property
+    def keeps_fields(self) -> bool:
+        """As of store."""
+        return bool(self.keeps)
+
+    def solve(self) -> Outcome:
+        """The numbers of the last repeat, with the costs; NaN with its reason where the solve fails."""
+        self._warm_up()
+        try:
+            result, costs = _measured(lambda: self.solver.solve(self.scene))
+        except SolveError as error:
+            return Outcome((Row(reason=str(error) or type(error).__name__),))
+        found = row(result)
+        fields = {name: result.fields[name] for name in self.keeps}
+        return Outcome((replace(found, measures={**found.measures, **costs}),), fields)
+
+    def fits(self, outcome: Outcome) -> bool:
+        """One row."""
+        return len(outcome.rows) == 1
+
+    def _warm_up(self):
+        """The scene on few points, smooth where its roughness is refused on so few, a plane less its short waves.
+
+        That it fails is no matter.
+        """
+        few = replace(self.solver, **{name: min(most, getattr(self.solver, name)) for name, most in WARM.items()})
+        scene, rough = self.scene, self.scene.roughness
+        if few.refusals(scene) and isinstance(rough, SelfAffine):
+            cut_off = replace(rough, shortest=None) if isinstance(scene.indenter, Plane) else None
+            scene = replace(scene, roughness=cut_off)
+        try:
+            few.solve(scene)
+        except (SolveError, ValueError):
+            return
+
+
+def _measured(solve: Callable[[], Result]) -> tuple[Result, dict[str, float]]:
+    held, memory, spent, started = _peak(), nan, [], time.perf_counter()
+    while True:
+        processor, wall = time.process_time(), time.perf_counter()
+        result = solve()
+        spent.append((time.process_time() - processor, time.perf_counter() - wall))
+        if len(spent) == 1:
+            memory = _peak() - held
+        passed = time.perf_counter() - started
+        if passed > LONG or len(spent) >= MOST or (passed > SECONDS and len(spent) >= LEAST):
+            least = (min(times) for times in zip(*spent, strict=True))
+            return result, dict(zip(COSTS, (*least, memory), strict=True)) | {"repeats": float(len(spent))}
+
+
+def _peak() -> float:
+    """Largest memory that the process has held so far [bytes]; NaN where the system does not say."""
+    try:
+        import resource
+    except ImportError:
+        return nan
+    unit = 1 if sys.platform == "darwin" else 1024
+    return float(unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)

@@ -1,0 +1,180 @@
+"""What accuracy costs in time: writes docs/workprecision.md and docs/promises.md, with docs/workprecision/.
+
+The same is `crosscheck workprecision all --size full`, which writes a page to read, but for the promises of
+`BEM.for_accuracy`. What has been measured once is in docs/workprecision/solved. It wants a quiet machine.
+
+python docs/workprecision.py [ladder]   with the word ladder, first measures again what the promises rest on
+"""
+
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from rich.console import Console
+from tables import table
+
+import bem3d.accuracy
+from compare.progress import watch
+from compare.publish import machine, versions, write_csv, write_text
+from compare.run import INQUIRIES
+from compare.store import Store
+from compare.sweep import sweep
+from compare.workprecision import kept, promises
+from compare.workprecision.report import Chapter, chapter
+
+FOLDER = Path(__file__).with_suffix("")
+SIZE = "full"
+INTRODUCTION = """# What accuracy costs in time
+
+Measured by `python docs/workprecision.py`, which writes this page; `crosscheck workprecision NAME` measures one
+of its parts on your machine, quickly, and with `--size full` as here. {machine}
+
+Errors are relative: against a closed form where there is one, elsewhere against a far finer solution of the
+same, whose own error is the grey band; points within it are drawn hollow and say only that they are as good as
+that. Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
+solve alone in a process of its own, after one that loads compiled code. A setting counts as reaching an error
+only if all finer ones of its ladder do. A solve that fails is NaN, with its reason in the table.
+
+"""
+PROMISES = """# Settings for a wanted accuracy
+
+`BEM.for_accuracy(scene, friction=0.01)` takes the least points and the loosest tolerance that keep the error
+wanted of friction, of the depth or of the load, from a ladder of errors that were measured: {probes} contacts,
+smooth and rough, spheres, cones, a blunt body, lines and planes, on a Kelvin and a standard linear solid, each
+on seven to nine grids against 512 points a side, solved to {tight:g}. Of each body and speed it keeps the
+largest error of all that was resolved as finely or more finely. What has to be resolved is the shortest wave of
+the roughness, and the contact as a whole; how finely a grid does is found by a coarse solve, which comes first.
+
+```python
+choice = BEM.for_accuracy(scene, friction=0.01)
+choice.solver, choice.expected, choice.seconds   # the settings, the errors expected of them, and how long it takes
+answer = choice.solve()                          # answer.result; warns where half the points do not confirm it
+```
+
+`Choice.solve` solves on half the points too: what changes from there to all is no less than the error of a
+method of first order, and where that is more than was wanted, `Unconfirmed` is warned. No promise is made of
+programs, of roughness without a shortest wave, nor of errors below those measured.
+
+Written by `python docs/workprecision.py`.
+
+## The ladder
+
+Largest relative error, by points across what has to be resolved. Slow: the solid remembers less than a tenth of
+the shortest wave (of the contact, if smooth); fast: more than ten of them. All of it:
+[bem3d/ladder.csv](../bem3d/ladder.csv).
+
+{ladder}
+
+## Kept?
+
+Asked on {scenes} scenes of which the ladder knows nothing: other shapes and speeds, other spectra and seeds, a
+solid of three relaxation times, one with a glass a hundred times as stiff, a fractional one. Errors are against
+twice the points chosen, solved to {tight:g}. Confirmed: changed by less than was wanted from half the points to
+all. All of them: [promises.csv](workprecision/promises.csv).
+
+{kept}
+
+{found}"""
+
+
+def main() -> None:
+    """Measure everything and write the pages."""
+    console, store = Console(highlight=False, soft_wrap=True), Store(FOLDER / "solved")
+    if "ladder" in sys.argv[1:]:
+        measured = promises.probes()
+        outcomes = _swept(console, store, [task for probe in measured for task in probe.tasks])
+        write_csv(bem3d.accuracy.LADDER, promises.rows(measured, outcomes))
+    outcomes = _swept(console, store, [task for each in INQUIRIES.values() for task in each.untimed(SIZE)])
+    timed = [task for each in INQUIRIES.values() for task in each.timed(SIZE)]
+    outcomes = {**outcomes, **_swept(console, store, timed, 1, tasks_each=1)}
+    chapters = [chapter(FOLDER, each, each.judge(SIZE, outcomes)) for each in INQUIRIES.values()]
+    write_text(Path(__file__).with_suffix(".md"), page(chapters))
+    asked = kept.promises()
+    made = kept.rows(asked, _swept(console, store, asked))
+    write_csv(FOLDER / "promises.csv", made)
+    write_text(Path(__file__).with_name("promises.md"), promised(made))
+
+
+def page(chapters: Sequence[Chapter]) -> str:
+    """Everything but the promises."""
+    told = ", ".join(f"{name} {number}" for name, number in versions().items())
+    where = "{system}, {machine}, {processors} processors".format(**machine())
+    parts = [INTRODUCTION.format(machine=f"{where}; {told}.")]
+    parts += [f"- [{each.title}](#{_anchor(each.title)})\n" for each in chapters]
+    return "".join(parts) + "\n" + "\n".join(_section(each) for each in chapters)
+
+
+def promised(made: Sequence[Mapping]) -> str:
+    """What the ladder is, and whether its promises are kept."""
+    given = [each for each in made if not each["reason"]]
+    sure = [each for each in given if each["change"] <= each["wanted"]]
+    right = [each for each in sure if each["error"] <= each["wanted"]]
+    all_right = [each for each in given if each["error"] <= each["wanted"]]
+    late = [each["seconds"] / each["promised_seconds"] for each in given]
+    found = (
+        f"Of {len(made)} promises asked for, {len(given)} were made, and {len(all_right)} of them were kept. "
+        f"{len(sure)} were confirmed, of which {len(right)} were kept. The table has why others were not made. "
+        f"Solves took {min(late):.1f} to {max(late):.1f} times as long as said, with two at once."
+    )
+    return PROMISES.format(
+        probes=len(promises.probes()),
+        tight=promises.TIGHT,
+        ladder=_ladder(),
+        scenes=len(list(kept.scenes())),
+        kept=_kept(made),
+        found=found,
+    )
+
+
+def _swept(console, store, tasks, workers=None, **how):
+    with watch(console) as progress:
+        return sweep(tasks, store, workers, progress, **how).outcomes
+
+
+def _section(each: Chapter) -> str:
+    lines = [f"## {each.title}", each.about, f"**What to do.** {each.advice}"]
+    for figure in each.figures:
+        lines += [f"![{figure.name}]({FOLDER.name}/{figure.name}.png)", figure.caption]
+    for title, rows in each.tables.items():
+        lines += [f"### {title}", _table(rows)] if rows else []
+    sheets = (f"[{sheet}.csv]({FOLDER.name}/{sheet}.csv)" for sheet in each.sheets)
+    return "\n\n".join([*lines, f"Numbers: {', '.join(sheets)}."]) + "\n"
+
+
+def _table(rows: Sequence[Mapping[str, str]]) -> str:
+    return table("|".join(rows[0]), (tuple(row.values()) for row in rows))
+
+
+def _ladder() -> str:
+    known = {kind: rungs for kind, rungs in bem3d.accuracy.ladder().items() if kind[2] != "seconds"}
+    resolved = sorted({float(value) for rungs in known.values() for value in rungs[0]})
+
+    def rows():
+        for (body, band, quantity), rungs in known.items():
+            errors = dict(zip(rungs[0].tolist(), rungs[1].tolist(), strict=True))
+            cells = (f"{errors[value]:.1e}" if value in errors else "" for value in resolved)
+            yield body, band, "depth, load" if quantity == "pressing" else quantity, *cells
+
+    return table("|".join(["body", "speed", "error of", *(f"{value:g}" for value in resolved)]), rows())
+
+
+def _kept(made) -> str:
+    def rows():
+        for each in kept.kept(made):
+            yield (
+                each["quantity"],
+                f"{each['wanted']:.1%}",
+                *(str(each[name]) for name in ("asked", "promised", "kept", "confirmed", "confirmed_and_kept")),
+                f"{each['worst_error']:.2%}",
+                f"{each['median_points']:.0f}",
+            )
+
+    return table("of|wanted|asked|promised|kept|confirmed|confirmed and kept|worst error|points, median", rows())
+
+
+def _anchor(title: str) -> str:
+    return "".join(c for c in title.lower().replace(" ", "-") if c.isalnum() or c == "-")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,389 @@
+"""Laws of the three-dimensional contact over scenes drawn at random: signs, work, symmetry, invariance, scale."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from hypothesis import given, reject
+from hypothesis import strategies as st
+from strategies import (
+    bodies,
+    decades,
+    elastic,
+    evenly,
+    examples,
+    planes,
+    powers_of_two,
+    rescaled,
+    solids,
+    speeds,
+    units,
+    viscoelastic,
+)
+
+from bem3d import BEM, contact
+from bem3d.cell import Cell
+from bem3d.engine import Engine
+from bem3d.grid import Grid
+from bem3d.halfspace import HalfSpace
+from bem3d.sliding import Flow
+from scene import CrossedWaves, Plane, Program, Prony, Scene, Slide, SolveError, Stage, StandardLinearSolid
+
+POINTS = 32
+# Of the depth of the lowest point: to what the conditions of contact are solved here.
+TOLERANCE = 1e-9
+ROUNDING = 1e-12
+SOLVER = BEM(points=POINTS, tolerance=1e-7)
+
+
+class Pressed(NamedTuple):
+    """Heights [pixel] (N, N), a medium on a grid of unit pixels, and a load, as `contact.solve` takes them."""
+
+    heights: np.ndarray
+    medium: Cell | HalfSpace
+    load: float
+
+    @property
+    def grid(self):
+        return Grid(len(self.heights), float(len(self.heights)))
+
+    def solved(self, depth=None):
+        load = self.load if depth is None else None
+        medium, grid = self.medium, self.grid
+        return solved(self.heights, medium.operator(grid), medium.preconditioners(grid), medium.flow, load, depth)
+
+
+def solved(heights, operator, preconditioners, flow, load, depth=None):
+    if depth is not None and depth <= heights.min():
+        reject()
+    start = contact.first_guess(heights, heights.size // 4)
+    return contact.solve(
+        operator,
+        heights,
+        start / np.sqrt(np.count_nonzero(start)),
+        TOLERANCE,
+        depth=depth,
+        load=load,
+        precondition=preconditioners,
+        symmetric=flow.at_rest,
+    )
+
+
+def waves(seed, count=POINTS):
+    """A random surface (count, count) that repeats, of rms slope about 1 and waves of 4 pixels and more."""
+    k = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(count, 1 / count)], indexing="ij"))
+    amplitude = np.where((k > 0) & (k <= count / 4), 1 / np.maximum(k, 1) ** 1.8, 0.0)
+    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((count, count)))
+    heights = np.fft.ifft2(amplitude * noise).real
+    return heights / np.std(np.diff(heights, axis=1))
+
+
+@st.composite
+def presses(draw, elastomers=solids, media=(Cell, HalfSpace)):
+    """Rough cells, or rough bowls on a half-space, from a few peaks to full contact. Memories over all decades."""
+    flow = Flow.of(draw(elastomers), draw(speeds) * POINTS)
+    heights = draw(evenly(0, 1)) * waves(draw(st.integers(0, 100)))
+    if draw(st.sampled_from(media)) is Cell:
+        heights = heights + 1e-3 * waves(0)
+        return Pressed(heights, Cell(flow, Engine()), POINTS**2 * draw(decades(-2.5, 0.5)) * np.ptp(heights) / 8)
+    along = np.arange(POINTS) - (POINTS - 1) / 2
+    heights = heights / 4 + (along[:, None] ** 2 + along**2) / (2 * POINTS)
+    return Pressed(heights, HalfSpace(flow, Engine()), POINTS * draw(decades(-1, 1)))
+
+
+def broken(pressed: Pressed, found: contact.Contact, load=None) -> list[str]:
+    """Which conditions of contact do not hold, of: no pull, no penetration, no gap under pressure, the load."""
+    p, z, touching = found.pressure, pressed.heights, found.pressure > 0
+    gap = pressed.medium.operator(pressed.grid)(p) + z - found.depth
+    lowest = np.sort(z, axis=None)
+    size = max(found.depth - lowest[0], z[touching].max() - lowest[0], lowest[contact.FEW] - lowest[0])
+    least = TOLERANCE * size * (1 + ROUNDING) + ROUNDING * np.ptp(z)
+    return [
+        name
+        for name, holds in {
+            "p >= 0": np.all(p >= 0),
+            "gap >= 0": np.all(gap >= -least),
+            "p gap = 0": np.all(np.abs(gap[touching]) <= least),
+            "the sum of p is the load": load is None or abs(p.sum() / load - 1) <= ROUNDING,
+        }.items()
+        if not holds
+    ]
+
+
+@examples(120)
+@given(presses())
+def test_contact_neither_penetrates_nor_pulls_and_pushes_only_where_it_touches(pressed):
+    """p >= 0, gap >= 0, p * gap = 0 and the load, with the gap computed again from the pressure: to the tolerance
+    of the solve over the depth of the lowest point, or what the heights in contact span."""
+    assert broken(pressed, pressed.solved(), pressed.load) == []
+
+
+def test_the_conditions_of_contact_can_be_broken():
+    """Of an answer that was spoilt, each by its name."""
+    pressed = Pressed(waves(3), Cell(Flow(1.0, 1.0, np.empty(0), np.empty(0)), Engine()), 100.0)
+    found = pressed.solved()
+    assert broken(pressed, found, 100.0) == []
+    assert broken(pressed, found, 101.0) == ["the sum of p is the load"]
+    assert broken(pressed, replace(found, depth=found.depth + 1e-6)) == ["gap >= 0", "p gap = 0"]
+    assert broken(pressed, replace(found, depth=found.depth - 1e-6)) == ["p gap = 0"]
+    assert "p >= 0" in broken(pressed, replace(found, pressure=found.pressure - 1e-6))
+
+
+# Pressures follow gaps by the stiffest wave of the grid, pi/2 a pixel: they are known to the tolerance of the gap
+# times the depth in pixels, and as far as that leaves the set of contact open.
+ALIKE = 1e-6
+
+
+def alike(pressure, other):
+    """Whether two pressures are the same but for what the tolerance of a solve leaves open."""
+    return np.abs(pressure - other).max() <= ALIKE * max(pressure.max(), other.max())
+
+
+@examples(50)
+@given(presses(media=(HalfSpace,)), decades(-4, 0))
+def test_a_deeper_contact_carries_more(pressed, more):
+    """sum p rises with d: of two answers (p2 - p1) (w2 - w1) <= 0 on every point, and the operator is definite."""
+    shallow = pressed.solved()
+    deep = pressed.solved(depth=shallow.depth + more * np.ptp(pressed.heights))
+    assert broken(pressed, deep) == []
+    assert deep.pressure.sum() >= shallow.pressure.sum() * (1 - ALIKE)
+
+
+@examples(50)
+@given(presses(), decades(-4, 0))
+def test_a_heavier_contact_is_deeper(pressed, more):
+    """The same the other way round, of cells too, where full contact has no depth of its own."""
+    light, heavy = pressed.solved(), pressed._replace(load=pressed.load * (1 + more)).solved()
+    assert heavy.depth >= light.depth - ALIKE * np.ptp(pressed.heights)
+
+
+@examples(60)
+@given(presses(media=(Cell,)), st.tuples(st.integers(0, POINTS), st.integers(0, POINTS)))
+def test_a_repeated_surface_moved_by_whole_pixels_has_the_pressure_moved_as_far(pressed, by):
+    """At rest and in any flow: a cell has no origin."""
+    here = pressed.solved()
+    there = pressed._replace(heights=np.roll(pressed.heights, by, (0, 1))).solved()
+    assert there.depth == pytest.approx(here.depth, abs=ALIKE * np.ptp(pressed.heights))
+    assert alike(np.roll(here.pressure, by, (0, 1)), there.pressure)
+
+
+@examples(60)
+@given(presses(elastomers=elastic()))
+def test_at_rest_no_direction_is_special(pressed):
+    """Turned by 90 degrees and mirrored, the surface has its pressure turned and mirrored."""
+    here = pressed.solved()
+    for turned in (np.transpose, np.rot90, np.fliplr, np.flipud):
+        there = pressed._replace(heights=np.ascontiguousarray(turned(pressed.heights))).solved()
+        assert there.depth == pytest.approx(here.depth, abs=ALIKE * np.ptp(pressed.heights))
+        assert alike(turned(here.pressure), there.pressure)
+
+
+@examples(60)
+@given(presses(elastomers=viscoelastic()))
+def test_across_the_flow_a_surface_may_be_mirrored(pressed):
+    """The flow is along x alone: mirrored in y, the pressure is mirrored in y."""
+    here = pressed.solved()
+    there = pressed._replace(heights=np.ascontiguousarray(pressed.heights[::-1])).solved()
+    assert alike(here.pressure[::-1], there.pressure)
+
+
+@examples(60)
+@given(presses(elastomers=viscoelastic(), media=(Cell,)))
+def test_the_mirrored_surface_slid_the_other_way_has_the_mirrored_answer(pressed):
+    """Memories of negative length are those of a flow along -x."""
+    flow = pressed.medium.flow
+    other_way = replace(pressed.medium, flow=replace(flow, lengths=-flow.lengths))
+    here = pressed.solved()
+    there = Pressed(np.ascontiguousarray(pressed.heights[:, ::-1]), other_way, pressed.load).solved()
+    assert there.depth == pytest.approx(here.depth, abs=ALIKE * np.ptp(pressed.heights))
+    assert alike(here.pressure[:, ::-1], there.pressure)
+
+
+@examples(60)
+@given(presses(elastomers=viscoelastic()))
+def test_sliding_along_y_is_sliding_along_x_of_the_surface_on_its_side(pressed):
+    """With the operator on its side too, contact is the same: it knows of no direction."""
+
+    def on_its_side(product):
+        def turned(values, out=None):
+            image = product(np.ascontiguousarray(values.T)).T
+            if out is None:
+                return image
+            out[:] = image
+            return out
+
+        return turned
+
+    medium, grid = pressed.medium, pressed.grid
+    factors = [on_its_side(factor) for factor in medium.preconditioners(grid)]
+    heights = np.ascontiguousarray(pressed.heights.T)
+    there = solved(heights, on_its_side(medium.operator(grid)), factors, medium.flow, pressed.load)
+    assert alike(pressed.solved().pressure, there.pressure.T)
+
+
+@examples(60)
+@given(presses(elastomers=viscoelastic()))
+def test_a_pressure_never_gains_energy_from_the_flow(pressed):
+    """sum p dw/dx, the energy lost per length slid, of the pressure of a contact and of any other.
+
+    It is the sum of the loss compliance over the spectrum: >= 0, but for rounding of the sum of its terms.
+    """
+    slope = pressed.medium.slope(pressed.grid)
+    anything = np.random.default_rng(0).standard_normal(pressed.heights.shape)
+    for p in (pressed.solved().pressure, anything):
+        image = slope(p)
+        assert np.sum(p * image) >= -ROUNDING * np.sum(np.abs(p)) * np.abs(image).max()
+
+
+@examples(60)
+@given(viscoelastic(), decades(-6, 6), st.integers(0, 100))
+def test_work_from_pixel_to_pixel_is_the_energy_lost_to_second_order_in_the_pixel(solid, speed, seed):
+    """Of a pressure with waves of 2 pi / q pixels and more, (1 - q^2/6) loss <= work <= loss: sin(q) for q."""
+    cell, grid = Cell(Flow.of(solid, speed * POINTS), Engine()), Grid(POINTS, float(POINTS))
+    pressure = waves(seed)
+    loss, work = (np.sum(pressure * product(grid)(pressure)) for product in (cell.slope, cell.gain))
+    longest_step = (2 * np.pi / 4) ** 2 / 6
+    assert (1 - longest_step) * loss * (1 - ROUNDING) <= work <= loss * (1 + ROUNDING)
+
+
+@examples(40)
+@given(presses(elastomers=viscoelastic()))
+def test_of_a_flow_and_its_reverse_each_is_the_adjoint_of_the_other(pressed):
+    """Reciprocity: what p does to the work of q in a flow, q does to that of p in the reverse one; to rounding."""
+    operator = pressed.medium.operator(pressed.grid)
+    rng = np.random.default_rng(1)
+    p, q = rng.standard_normal((2, *pressed.heights.shape))
+    there = operator(np.ascontiguousarray(q[:, ::-1]))[:, ::-1]
+    scale = np.linalg.norm(q) * np.linalg.norm(operator(p))
+    assert np.sum(q * operator(p)) == pytest.approx(np.sum(p * there), abs=ROUNDING * scale)
+
+
+def answer(scene, solver=SOLVER):
+    """The answer; a contact that the grid cannot hold or resolve is no example of a law."""
+    try:
+        return solver.solve(scene)
+    except SolveError:
+        reject()
+
+
+@examples(40)
+@given(planes(), units())
+def test_every_plane_has_forces_of_the_right_sign_and_the_pressure_asked_for(scene, unit):
+    """F_N as asked, p >= 0, F_x >= 0 but for the disagreement of its estimates, and zero of an elastic solid."""
+    scene = rescaled(scene, **unit)
+    result = answer(scene)
+    checked(result)
+    assert result.measures["mean_pressure"] == pytest.approx(scene.motion.pressure, rel=1e-9)
+
+
+@examples(12)
+@given(bodies(ratio=4), units())
+def test_every_body_has_forces_of_the_right_sign_and_the_load_asked_for(scene, unit):
+    """The same of bodies of revolution, on windows that are found."""
+    scene = rescaled(scene, **unit)
+    result = answer(scene)
+    checked(result)
+    if scene.motion.load is not None:
+        assert result.normal_force == pytest.approx(scene.motion.load, rel=1e-9)
+
+
+def checked(result):
+    """Signs and sums of forces; and what `friction_disagreement` bounds.
+
+    mu is a mean of estimates, and the disagreement the greatest of what two of them differ from the energy lost,
+    each as far as it counts: mu differs from the energy lost by twice as much at most. As the energy lost is >= 0,
+    so far can mu be negative. Of the error of the grid the disagreement is an indicator, and no bound.
+    """
+    mu, measures = result.friction_coefficient, result.measures
+    assert np.isfinite([result.normal_force, mu, result.depth]).all()
+    assert result.normal_force > 0
+    assert np.all(result.fields["pressure"] >= 0)
+    assert result.residual <= SOLVER.tolerance
+    by_loss = measures["friction_by_loss"] / result.normal_force
+    assert by_loss >= 0
+    assert abs(mu - by_loss) <= 2 * measures["friction_disagreement"] + ROUNDING * by_loss
+    if result.scene.elastomer.type == "elastic" or result.scene.motion.speed == 0:
+        assert result.friction_force == measures["friction_by_work"] == 0
+
+
+# Of answers of one tolerance that differ in rounding alone: fields follow pressures as above, friction may cancel.
+SAME = 1e-4
+
+
+def same(one, other, length=1.0, modulus=1.0):
+    """Whether two answers are one, asked at another size."""
+    force, size = modulus * length**2, one.measures["rms_height"] * length
+    pressure, rescaled_pressure = one.fields["pressure"] * modulus, other.fields["pressure"]
+    steep = one.measures["rms_slope"]
+    return (
+        other.normal_force == pytest.approx(one.normal_force * force, rel=SAME)
+        and abs(other.depth - one.depth * length) <= SAME * size
+        and np.abs(pressure - rescaled_pressure).max() <= SAME * pressure.max()
+        and other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=SAME, abs=SAME**2 * steep)
+    )
+
+
+@examples(20)
+@given(planes(), powers_of_two())
+def test_units_change_no_bit_of_a_plane(scene, by):
+    """Lengths times L, moduli times M: pressures times M, forces times M L^2, depths times L. Powers of two are
+    exact; what is left is of the wave number 2 pi / wavelength and of transforms."""
+    here, there = answer(scene), answer(rescaled(scene, **by))
+    assert there.measures["rounds"] == here.measures["rounds"]
+    np.testing.assert_array_equal(there.fields["pressure"], here.fields["pressure"] * by["modulus"])
+    assert there.friction_coefficient == here.friction_coefficient
+
+
+@examples(20)
+@given(planes(), units())
+def test_forces_scale_with_modulus_and_length_squared(scene, unit):
+    """In any units, to what the tolerance leaves open."""
+    assert same(answer(scene), answer(rescaled(scene, **unit)), unit["length"], unit["modulus"])
+
+
+@examples(20)
+@given(planes(), decades(-6, 6), decades(-6, 6), evenly(-0.9, 0.5))
+def test_only_v_tau_and_pressure_over_modulus_count(scene, faster, stiffer, nu):
+    """Speed times c and times over c, another Poisson ratio at the same E*: the same contact."""
+    sped = rescaled(scene, time=1 / faster, modulus=stiffer)
+    change = (1 - nu) / (1 - scene.elastomer.poisson_ratio)
+    other = replace(sped, elastomer=replace(rescaled(sped.elastomer, modulus=change), poisson_ratio=nu))
+    assert same(answer(scene), answer(other), modulus=stiffer)
+
+
+@examples(15)
+@given(
+    planes(),
+    st.lists(st.tuples(decades(-2, 4), decades(-3, 3)), min_size=2, max_size=4),
+    evenly(0.01, 0.99),
+)
+def test_modes_may_stand_in_any_order_and_be_split(scene, branches, share):
+    """G(t) is a sum: neither its order nor how a term is written counts."""
+    moduli, times = zip(*branches, strict=True)
+    split = (share * moduli[0], *moduli[1:], (1 - share) * moduli[0]), (*times, times[0])
+    solids = Prony(0.25, moduli, times), Prony(0.25, moduli[::-1], times[::-1]), Prony(0.25, *split)
+    in_order, backwards, in_parts = (answer(replace(scene, elastomer=solid)) for solid in solids)
+    assert same(in_order, backwards)
+    assert same(in_order, in_parts)
+
+
+# Of rms slope and rms height: a march on 16 points keeps a pressure for a pixel. Measured over 8 starts: 1.0e-2 in
+# friction, which is a tenth of the rms slope there, and 1.8e-2 in depth.
+MARCHED = 2.5e-2
+
+
+@examples(4)
+@given(decades(-0.5, 0.5), decades(0, 0.5), decades(-0.5, 0.5))
+def test_a_march_at_constant_speed_ends_in_the_steady_contact(speed, ratio, load):
+    """Galilean invariance: an indenter moved over material that stays is a flow past an indenter that stays, once
+    the start is forgotten."""
+    solid, waved = StandardLinearSolid(0.25, 0.25 * (1 + ratio), 1.0), CrossedWaves(amplitude=0.02, wavelength=1.0)
+    steady = Scene(Plane(), solid, Slide(speed=speed, pressure=0.05 * load), waved)
+    start = Stage(duration=0.5, pressure=0.05 * load)
+    program = Program(stages=(start, Stage(duration=4 * (1 + ratio), speed=speed)))
+    solver = BEM(points=16, steps=20)
+    flowing, marched = solver.solve(steady), solver.solve(replace(steady, motion=program))
+    steep, high = flowing.measures["rms_slope"], flowing.measures["rms_height"]
+    assert marched.friction_coefficient == pytest.approx(flowing.friction_coefficient, abs=MARCHED * steep)
+    assert marched.depth == pytest.approx(flowing.depth, abs=MARCHED * high)

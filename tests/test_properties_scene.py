@@ -1,0 +1,266 @@
+"""Whatever stands in a field: an error that names it, an answer within the laws, or a reason why there is none."""
+
+from dataclasses import fields, replace
+from math import inf, isfinite, nan
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+from strategies import evenly, examples
+
+from bem3d import BEM
+from mdr1d import MDR
+from mdr1d.ensemble import solve_profiles
+from scene import (
+    Cone,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    Plane,
+    PowerLaw,
+    Program,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Table,
+    Tabulated,
+    Wave,
+)
+
+ROUGH = SelfAffine(hurst=0.7, rms_height=1e-5, longest=1e-3, shortest=2.5e-4, rolloff=5e-4, seed=1)
+SOLID = StandardLinearSolid(1e6, 1e7, 1e-3)
+BALL = Scene(Sphere(1e-2), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
+PRESSED = Scene(Plane(), SOLID, Slide(speed=0.1, pressure=1e4), ROUGH)
+LINE = Scene(Cylinder(1e-2), SOLID, Slide(speed=0.1, line_load=100.0))
+START = Program(stages=(Stage(duration=1e-3, speed=0.1, load=1.0), Stage(duration=1e-3, speed=0.1)))
+MEASURED = Table((1.0, 1e2, 1e4, 1e6), (1e6, 1.5e6, 4e6, 6e6), (3e5, 1e6, 2e6, 5e5))
+SOLVERS = MDR(points=200, steps=20), BEM(points=16, steps=20)
+
+# A scene for each part whose fields are tried.
+SCENES = {
+    "indenter": (
+        BALL,
+        replace(BALL, indenter=Cone(0.2)),
+        replace(BALL, indenter=PowerLaw(50.0, 2.5)),
+        LINE,
+    ),
+    "elastomer": tuple(
+        replace(BALL, elastomer=solid)
+        for solid in (
+            Elastic(1e6),
+            Kelvin(1e6, 1e-3),
+            SOLID,
+            Prony(1e6, (1e6, 1e7), (1e-3, 1e-4)),
+            KelvinChain(1e-7, (1e-6, 1e-7), (1e-3, 1e-2)),
+            Fractional(
+                modulus=1e6, relaxation_time=1e-3, exponent=0.4, lowest_frequency=1.0, highest_frequency=1e5
+            ),
+            Tabulated(table=MEASURED, frequency_unit="rad/s", kind="shear", tolerance=0.5),
+        )
+    ),
+    "motion": (
+        BALL,
+        replace(BALL, motion=Slide(speed=0.1, depth=1e-4)),
+        replace(BALL, motion=Indent(load=1.0)),
+        replace(BALL, motion=Indent(depth=1e-4)),
+        LINE,
+        PRESSED,
+        replace(PRESSED, motion=Indent(gap=1e-5)),
+    ),
+    "roughness": (
+        BALL,
+        PRESSED,
+        replace(PRESSED, roughness=Wave(amplitude=1e-6, wavelength=1e-3)),
+        replace(PRESSED, roughness=CrossedWaves(amplitude=1e-6, wavelength=1e-3)),
+    ),
+}
+FIELDS = [
+    pytest.param(scene, part, field.name, id=f"{type(getattr(scene, part)).__name__}-{field.name}-{i}")
+    for part, scenes in SCENES.items()
+    for i, scene in enumerate(scenes)
+    for field in fields(getattr(scene, part))
+    if getattr(getattr(scene, part), field.name) is not None
+]
+# Not numbers, or no number that anything may be.
+NEVER = (nan, inf, -inf, -1.0, "1", b"1", True, [1.0], {"value": 1.0}, 1j)
+# Numbers that may be allowed, and must then have an answer or none for a reason.
+EXTREME = (0.0, 5e-324, 1e-310, 1e-300, 1e-150, 1e150, 1e300, 1.7e308)
+
+
+def placed(part, name, value):
+    """The part with a value in a field, in the first place of one with several."""
+    given = getattr(part, name)
+    return replace(part, **{name: (value, *given[1:]) if isinstance(given, tuple) else value})
+
+
+def answered(solver, scene):
+    """The answer, or the reason why there is none."""
+    try:
+        return solver.solve(scene)
+    except (Refused, SolveError) as reason:
+        return str(reason)
+
+
+def lawful(answer):
+    """Whether forces are numbers of the right sign: of friction as far as its estimates on a grid agree."""
+    if isinstance(answer, str):
+        return len(answer) > 20
+    least = -2 * answer.measures.get("friction_disagreement", 0.0)
+    return (
+        isfinite(answer.depth)
+        and 0 < answer.normal_force < inf
+        and least <= answer.friction_coefficient < inf
+        and 0 <= answer.residual < 1
+    )
+
+
+def test_unlawful_answers_are_seen():
+    answer = SOLVERS[0].solve(BALL)
+    assert lawful(answer)
+    spoilt = {"depth": nan, "normal_force": 0.0, "friction_force": -1e-9, "residual": nan}
+    assert not any(lawful(replace(answer, **{name: value})) for name, value in spoilt.items())
+
+
+@pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
+@pytest.mark.parametrize("value", NEVER, ids=repr)
+def test_what_can_be_no_value_is_named_with_its_field(scene, part, name, value):
+    """-1 is a value of none but poisson_ratio, of which it is just out of range."""
+    with pytest.raises(ValidationError) as caught:
+        placed(getattr(scene, part), name, value)
+    mistake = caught.value.errors()[0]
+    assert mistake["loc"][0] == name
+    assert mistake["input"] is value or mistake["input"] == value or value == [1.0]
+    assert len(mistake["msg"]) > 10
+
+
+@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+@pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
+def test_extreme_numbers_are_solved_within_the_laws_or_declined_with_a_reason(scene, part, name, solver):
+    """Zero, denormal, tiny and huge numbers in every field of a scene."""
+    for value in EXTREME:
+        try:
+            changed = replace(scene, **{part: placed(getattr(scene, part), name, value)})
+        except ValidationError:
+            continue
+        assert lawful(answered(solver, changed)), value
+
+
+@pytest.mark.parametrize("value", NEVER, ids=repr)
+@pytest.mark.parametrize("name", ["duration", "speed", "load"])
+def test_stages_take_no_impossible_values(name, value):
+    with pytest.raises(ValidationError) as caught:
+        replace(START.stages[0], **{name: value})
+    assert caught.value.errors()[0]["loc"] == (name,)
+
+
+@pytest.mark.parametrize("name", ["duration", "speed", "load", "depth"])
+def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name):
+    """Friction by traction may cancel to rounding of the steepest slope times the force, whatever its sign."""
+    for value in EXTREME:
+        try:
+            stage = replace(START.stages[0], load=None if name == "depth" else 1.0)
+            program = Program(stages=(replace(stage, **{name: value}), START.stages[1]))
+        except ValidationError:
+            continue
+        for solver in SOLVERS:
+            answer = answered(solver, replace(BALL, motion=program))
+            if isinstance(answer, str):
+                assert len(answer) > 20
+            else:
+                assert isfinite(answer.normal_force), (solver.name, value)
+                assert isfinite(answer.friction_force), (solver.name, value)
+
+
+@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+@pytest.mark.parametrize("value", [*NEVER, 0], ids=repr)
+def test_settings_that_can_be_no_value_are_named(solver, value):
+    for field in fields(solver):
+        with pytest.raises(ValidationError) as caught:
+            replace(solver, **{field.name: value})
+        assert caught.value.errors()[0]["loc"][0] == field.name
+
+
+@pytest.mark.parametrize(
+    ("part", "name"), [(BALL.indenter, "radius"), (BALL.motion, "load"), (SOLVERS[0], "extent")]
+)
+def test_a_whole_number_beyond_the_range_of_numbers_is_named(part, name):
+    with pytest.raises(ValidationError, match=rf"{name}\n.*within the range of floating-point numbers"):
+        replace(part, **{name: 10**400})
+
+
+@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+@pytest.mark.parametrize("value", [5e-324, 1e-310, 1e-150, 1e150, 1.7e308])
+def test_extents_beyond_all_bounds_are_declined_with_a_reason(value, solver):
+    for scene in (BALL, replace(BALL, roughness=None)):
+        assert lawful(answered(replace(solver, extent=value), scene)), scene
+
+
+@pytest.mark.parametrize(
+    ("points", "seeds", "message"),
+    [
+        ([1000], [-1], r"seeds = -1 must be a whole number, at least 0"),
+        ([1000], [1.5], r"seeds = 1.5 must be a whole number"),
+        ([1000], [nan], r"seeds = nan must be a whole number"),
+        ([1000], ["1"], r"seeds = '1' must be a whole number"),
+        ([1000], [None], r"seeds = None must be a whole number"),
+        ([1000], [True], r"seeds = True must be a whole number"),
+        ([0], [1], r"points = 0 must be a whole number, at least 1"),
+        ([nan], [1], r"points = nan must be a whole number"),
+        ([1000.5], [1], r"points = 1000.5 must be a whole number"),
+        ([], [1], r"points has 0 values, scenes has 1"),
+    ],
+)
+def test_profiles_solved_together_name_bad_points_and_seeds(points, seeds, message):
+    scene = replace(BALL, elastomer=Kelvin(1e6, 1e-3))
+    with pytest.raises(ValueError, match=message):
+        solve_profiles([scene], points, seeds)
+
+
+def test_profiles_that_fit_in_no_memory_are_an_error_before_they_are_drawn():
+    scene = replace(BALL, elastomer=Kelvin(1e6, 1e-3))
+    with pytest.raises(SolveError, match=r"points = 1000000000000 .* are more than"):
+        solve_profiles([scene], [10**12], [1])
+
+
+@pytest.mark.parametrize("name", ["longest", "shortest", "rolloff"])
+def test_a_wavelength_without_a_wave_number_is_named(name):
+    with pytest.raises(ValidationError, match=f"{name}\n.*wavelengths are at least 1e-300 m"):
+        replace(ROUGH, **{name: 1e-310})
+
+
+ANY = st.one_of(
+    st.integers(-53, 51).map(lambda k: 10.0 ** (6 * k)), st.sampled_from((5e-324, 2.3e-308, 1.7e308, 1.0))
+)
+
+
+@examples(150)
+@given(st.data(), st.sampled_from(("sphere", "cone", "power-law")), st.booleans(), st.booleans())
+def test_any_positive_numbers_at_all_have_an_answer_of_one_dimension_or_none_for_a_reason(
+    data, kind, rough, by_load
+):
+    """Every number of a scene drawn alone, from the least denormal to the greatest."""
+    try:
+        indenter = {
+            "sphere": lambda: Sphere(data.draw(ANY)),
+            "cone": lambda: Cone(data.draw(ANY)),
+            "power-law": lambda: PowerLaw(data.draw(ANY), data.draw(evenly(1, 100))),
+        }[kind]()
+        elastomer = Prony(data.draw(ANY), (data.draw(ANY), data.draw(ANY)), (data.draw(ANY), data.draw(ANY)))
+        motion = Slide(speed=data.draw(ANY), **{"load" if by_load else "depth": data.draw(ANY)})
+        longest = data.draw(ANY)
+        roughness = SelfAffine(hurst=0.5, rms_height=data.draw(ANY), longest=longest, shortest=longest / 4)
+        scene = Scene(indenter, elastomer, motion, roughness if rough else None)
+    except ValidationError:
+        return
+    assert lawful(answered(SOLVERS[0], scene))
