@@ -1,6 +1,6 @@
 """Settings for a wanted accuracy, from errors that were measured; and whether an answer keeps the promise.
 
-`ladder.csv` has the largest errors of many contacts against far finer solutions, by how finely they were resolved.
+`ladder.csv` has the largest errors of many contacts against finer solutions, by how finely they were resolved.
 """
 
 import csv
@@ -9,7 +9,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from math import inf, pi, sqrt
+from numbers import Real
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -23,11 +25,13 @@ from .sliding import Flow
 LADDER = Path(__file__).with_name("ladder.csv")
 BANDS = ("rest", "slow", "middle", "fast")
 SLOW, FAST = 0.1, 10.0  # memory over the shortest length of the contact, between which it slides at middle speed
-SHARE = 1 / 30  # tolerance over wanted error: what a tolerance leaves is at most three times itself
-LOOSEST = 1e-3  # tolerance
+LEAVES = 3.0  # error over tolerance, at most
+SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
+TOLERANCES = (1e-3, 1e-5, 1e-7)  # of the solve that finds the contact; a narrow gap is lost at the first
 LADDERS = {"friction": "friction", "depth": "pressing", "load": "pressing"}
 PILOTS = (64, 128, 256, 512, 1024)  # points a side of the solve that finds the contact
 LEAST, MOST = 32, 16384
+LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 
 class Unconfirmed(UserWarning):
@@ -38,7 +42,8 @@ class Unconfirmed(UserWarning):
 class Assured:
     """An answer, and what of it changed from half the points to all, relative as the wanted errors are.
 
-    The error of a method of first order or better is no larger than that change.
+    The error of the grid is no larger than that change where it falls with the first power of the points or
+    faster: an indication, and no bound. It is infinite where half the points have no answer.
     """
 
     result: Result
@@ -74,8 +79,11 @@ class Choice:
         Warns Unconfirmed where it changes by more than is wanted. Raises SolveError as the solver does.
         """
         fine = self.solver.solve(self.scene)
-        coarse = replace(self.solver, points=self.solver.points // 2).solve(self.scene)
-        change = {name: apart(name, coarse, fine) for name in self.wanted}
+        try:
+            coarse = replace(self.solver, points=self.solver.points // 2).solve(self.scene)
+            change = {name: apart(self.scene, name, coarse, fine) for name in self.wanted}
+        except (Refused, SolveError):
+            change = dict.fromkeys(self.wanted, inf)
         assured = Assured(fine, self.wanted, change)
         if not assured.confirmed:
             said = ", ".join(f"{name} by {change[name]:.2g}, wanted {self.wanted[name]:g}" for name in change)
@@ -84,16 +92,28 @@ class Choice:
         return assured
 
 
-def apart(name: str, one: Result, other: Result) -> float:
+class Answer(Protocol):
+    """What two answers are compared by: a Result, or numbers of one."""
+
+    friction_coefficient: float
+    normal_force: float
+    depth: float
+
+
+def apart(scene: Scene, name: str, one: Answer, other: Answer) -> float:
     """How far two answers to one scene are apart in friction, depth or load, relative to the other."""
     match name:
         case "friction":
-            return abs(one.friction_coefficient / other.friction_coefficient - 1)
+            values = one.friction_coefficient, other.friction_coefficient
         case "load":
-            return abs(one.normal_force / other.normal_force - 1)
+            values = one.normal_force, other.normal_force
         case "depth":
-            return abs(one.depth - other.depth) / elastic_contact(other.scene).depth
-    raise ValueError(f"{name} is none of friction, depth, load")
+            return abs(one.depth - other.depth) / elastic_contact(scene).depth
+        case _:
+            raise ValueError(f"{name} is none of friction, depth, load")
+    if values[1] == 0:
+        return 0.0 if values[0] == 0 else inf
+    return abs(values[0] / values[1] - 1)
 
 
 def choose(solver: Solver, scene: Scene, wanted: Mapping[str, float]) -> Choice:
@@ -102,24 +122,23 @@ def choose(solver: Solver, scene: Scene, wanted: Mapping[str, float]) -> Choice:
     solver : everything else that is set. Raises ValueError for what cannot be promised, Refused and SolveError as
     the solver does.
     """
-    _check(scene, wanted)
-    pilot, found = _pilot(replace(solver, tolerance=LOOSEST), scene)
+    _check(solver, scene, wanted)
+    pilot, loosest, found = _pilot(solver, scene)
     kind = _body(scene), band(scene)
     rungs = {name: ladder()[*kind, LADDERS[name]] for name in wanted}
     needed = max(_needed(name, rungs[name], error) for name, error in wanted.items())
-    points = next_fast_len(int(np.ceil(pilot * max(needed / found, LEAST / pilot))), real=True)
+    # Even, so that half of them are half as many.
+    points = max(LEAST, 2 * next_fast_len(int(np.ceil(pilot * needed / found / 2)), real=True))
     if points > MOST:
         raise ValueError(
-            f"it takes {points} points a side, {needed:.0f} across what has to be resolved, and {MOST} are the "
-            "most: accept larger errors, or a longer roughness.shortest"
+            f"it takes {points} points a side, {needed:.0f} across what has to be resolved; {MOST} are the most"
         )
-    tolerance = min(LOOSEST, SHARE * min(wanted.values()))
-    resolved = found * points / pilot
+    tolerance, resolved = min(loosest, SHARE * min(wanted.values())), found * points / pilot
     return Choice(
         scene,
-        replace(solver, points=points, tolerance=max(tolerance, 1e-12)),
+        replace(solver, points=points, tolerance=tolerance),
         dict(wanted),
-        {name: _expected(rungs[name], resolved) for name in wanted},
+        {name: _expected(rungs[name], resolved) + LEAVES * tolerance for name in wanted},
         resolved,
         _between(ladder()[*kind, "seconds"], points),
     )
@@ -141,7 +160,7 @@ def band(scene: Scene) -> str:
     flow = Flow.of(scene.elastomer, scene.motion.speed)
     if flow.at_rest:
         return "rest"
-    shortest = scene.roughness.shortest if scene.roughness else elastic_contact(scene).radius
+    shortest = scene.roughness.shortest if _body(scene) == "rough" else elastic_contact(scene).radius
     memory = flow.memory / shortest
     return "slow" if memory < SLOW else "middle" if memory < FAST else "fast"
 
@@ -163,7 +182,7 @@ def ladder() -> Mapping[tuple[str, str, str], np.ndarray]:
 
 def _needed(name, rungs, error):
     """The resolution at which the ladder's errors are, and stay, at most this large."""
-    good = rungs[0][rungs[1] <= error]
+    good = rungs[0][rungs[1] <= error * (1 - LEAVES * SHARE)]
     if not good.size:
         raise ValueError(
             f"{name} = {error:g} is less than was measured, {rungs[1].min():.1g} at {rungs[0].max():.0f} points "
@@ -190,34 +209,38 @@ def _body(scene):
 
 
 def _pilot(solver, scene):
-    """Points of the first grid that has an answer, and how finely that resolves the contact."""
-    for points in PILOTS:
-        try:
-            return points, resolution(scene, replace(solver, points=points).solve(scene).measures)
-        except Refused:
-            if solver.extent is None:
-                raise
-            left = "refused"
-        except SolveError as error:
-            left = error
+    """Points and tolerance of the first solve that has an answer, and how finely that resolves the contact."""
+    fixed = solver.extent is not None or isinstance(scene.indenter, Plane)
+    for tolerance in TOLERANCES if scene.motion.pressed_by == "gap" else TOLERANCES[:1]:
+        for points in PILOTS:
+            try:
+                answer = replace(solver, points=points, tolerance=tolerance).solve(scene)
+                return points, tolerance, resolution(scene, answer.measures)
+            except Refused as reason:
+                if not fixed:
+                    raise
+                left = reason
+            except SolveError as reason:
+                left = reason
     raise SolveError(f"no contact to choose settings for on up to {PILOTS[-1]} points: {left}")
 
 
-def _check(scene, wanted):
+def _check(solver, scene, wanted):
     """Raise ValueError for what the ladder does not know."""
     if isinstance(scene.motion, Program):
         raise ValueError("motion = Program: errors are promised at rest and in steady sliding")
     allowed = {"friction"} if scene.motion.speed > 0 and len(scene.elastomer.retardation()[2]) else set()
     if not isinstance(scene.indenter, Plane | Cylinder):
         allowed.add("depth" if scene.motion.depth is None else "load")
+    known = " or ".join(sorted(allowed)) or "nothing: it loses nothing, and depths are of single bodies"
     if not wanted:
-        raise ValueError(f"an error has to be wanted, of {' or '.join(sorted(allowed)) or 'what slides'}")
+        raise ValueError(f"an error has to be wanted, of {known}")
     for name, error in wanted.items():
         if name not in allowed:
-            known = ", ".join(sorted(allowed)) or "nothing"
-            raise ValueError(f"{name} = {error:g}: of this scene errors are promised of {known}")
-        if not 0 < error < 1:
-            raise ValueError(f"{name} = {error:g}: a relative error between 0 and 1")
-    rough = scene.roughness
-    if _body(scene) == "rough" and getattr(rough, "shortest", None) is None and not hasattr(rough, "wavelength"):
+            raise ValueError(f"{name} = {error!r}: of this scene errors are promised of {known}")
+        if isinstance(error, bool) or not isinstance(error, Real) or not 0 < error < 1:
+            raise ValueError(f"{name} = {error!r}: a relative error between 0 and 1")
+        if solver.precision == "single" and SHARE * error < LEAST_SINGLE:
+            raise ValueError(f"{name} = {error:g}: in single precision at least {LEAST_SINGLE / SHARE:g}")
+    if _body(scene) == "rough" and scene.roughness.shortest is None:
         raise ValueError("roughness.shortest = None: every grid has another surface, state the shortest wave")

@@ -1,5 +1,7 @@
 """What a solved contact measures of itself, on a grid and under a rough surface."""
 
+from math import pi, sin
+
 import numpy as np
 
 from scene import Plane
@@ -33,6 +35,12 @@ def measured(problem: Problem, grid: Grid, pressure: np.ndarray, gap: np.ndarray
     return measures
 
 
+def differenced(waves: float) -> float:
+    """Share of the curvature of a wave of so many points that differences of slopes show: 0 of two points."""
+    q = 2 * pi / waves
+    return (8 * sin(q) - sin(2 * q)) / (6 * q)
+
+
 def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray, slopes: np.ndarray) -> float:
     """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
 
@@ -40,7 +48,8 @@ def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray, sl
     slopes : dz/dx at the pixels' centres [1] (rows, points)
 
     Slopes are differenced in fourth order: what is left is the error of the pressure, of second order in the
-    pixel, and of first order around the tip of a cone, where pressure and d2z/dx2 are infinite.
+    pixel, of first order around the tip of a cone, where pressure and d2z/dx2 are infinite, and of waves of a few
+    points what `differenced` leaves of them.
     """
     two = (0, 0), (2, 2)
     if isinstance(problem.scene.indenter, Plane):

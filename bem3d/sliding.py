@@ -73,7 +73,8 @@ class Flow:
         """
         if self.at_rest:
             return 0.0
-        return 1 / (1 + min(4 * self.memory / grid.pixel, 1e4) ** 4)
+        # Of a fast contact the first order in the speed has no bound: nothing may be left of it.
+        return 1 / (1 + min(4 * self.memory / grid.pixel, 1e75) ** 4)
 
     def in_pixels(self, grid: Grid) -> np.ndarray:
         """Memory lengths (K,) [pixel]; the shortest are kept from vanishing."""

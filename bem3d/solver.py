@@ -15,11 +15,10 @@ from . import accuracy, window
 from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .history import marched
-from .measures import curvature_by_pressure, measured
+from .measures import curvature_by_pressure, differenced, measured
 from .problem import Problem
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
-LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 
 @dataclass(frozen=True, config=CLOSED)
@@ -76,9 +75,10 @@ class BEM:
 
     @model_validator(mode="after")
     def _within_precision(self):
-        if self.precision == "single" and self.tolerance < LEAST_SINGLE:
+        if self.precision == "single" and self.tolerance < accuracy.LEAST_SINGLE:
             raise ValueError(
-                f"tolerance = {self.tolerance:g} cannot be reached in single precision: at least {LEAST_SINGLE:g}"
+                f"tolerance = {self.tolerance:g} cannot be reached in single precision: "
+                f"at least {accuracy.LEAST_SINGLE:g}"
             )
         return self
 
@@ -101,6 +101,8 @@ class BEM:
         what cannot be promised: programs, roughness without a shortest wave, errors beyond those measured.
         """
         wanted = {"friction": friction, "depth": depth, "load": load}
+        for name in {"points", "tolerance"} & settings.keys():
+            raise ValueError(f"{name} = {settings[name]!r}: it is what is chosen")
         return accuracy.choose(
             cls(**settings), scene, {name: error for name, error in wanted.items() if error is not None}
         )
@@ -181,9 +183,7 @@ class BEM:
         loss, work = problem.lost(grid, pressure)
         curvature = curvature_by_pressure(problem, grid, pressure, slopes)
         slow = problem.flow.trail * curvature * normal_force
-        lag, slowness = problem.flow.lag(grid), problem.flow.slowness(grid)
-        if answer.pressure.all():  # no edge, and nothing is lost of the loss
-            slowness = 0.0
+        lag, slowness = problem.flow.lag(grid), self._slowness(problem, grid, pressure)
         frictions = {
             "friction_by_traction": traction,
             "friction_by_loss": loss,
@@ -211,6 +211,16 @@ class BEM:
             },
             fields={"x": grid.x, "y": grid.y, "pressure": pressure, "gap": answer.gap * grid.pixel},
         )
+
+    @staticmethod
+    def _slowness(problem, grid, pressure):
+        """How far friction is that by curvature: as that of the flow, and as far as the grid shows curvature."""
+        if pressure.all():  # no edge, and nothing is lost of the loss
+            return 0.0
+        slowness = problem.flow.slowness(grid)
+        if problem.surface(grid) is None:
+            return slowness
+        return slowness * max(0.0, differenced(2 * np.pi / problem.scene.roughness.q_max(grid.pixel) / grid.pixel))
 
     def settings(self, problem: Problem, grid: Grid) -> dict:
         """What it solved with, the derived settings included."""

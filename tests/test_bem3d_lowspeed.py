@@ -145,6 +145,25 @@ def test_a_faint_mode_of_long_memory_keeps_curvature_from_counting():
     )
 
 
+def test_fast_friction_on_a_glassy_solid_owes_nothing_to_the_first_order_in_the_speed():
+    scene = Scene(Sphere(radius=R), SOLID, Slide(speed=1.0, load=1.0))
+    solver = BEM(points=24, extent=4e-3)
+    products = []
+    for speed in (1e5, 1e7, 1e9, 1e12):
+        found = solver.solve(replace(scene, motion=Slide(speed=speed, load=1.0)))
+        assert found.friction_force == pytest.approx(found.measures["friction_by_loss"], rel=1e-3)
+        products.append(speed * found.friction_force)
+    np.testing.assert_allclose(products, products[-1], rtol=1e-3)  # mu falls as 1/v
+
+
+def test_waves_too_short_for_differences_of_slopes_are_left_to_the_energy_lost():
+    # Two pixels a wave, where the grid cuts the roughness off.
+    scene = replace(ROUGH_SCENES[0], roughness=replace(ROUGH, shortest=None), motion=Slide(speed=1e-6, load=1.0))
+    found = BEM(points=48).solve(scene)
+    assert found.friction_force == pytest.approx(found.measures["friction_by_loss"], rel=1e-3)
+    assert found.measures["friction_by_curvature"] < 0.95 * found.friction_force
+
+
 @pytest.mark.parametrize(
     ("wave", "waves"),
     [(Wave(amplitude=1e-6, wavelength=1e-3), 1), (CrossedWaves(amplitude=1e-6, wavelength=1e-3), 2)],

@@ -200,6 +200,24 @@ def test_studies_are_listed_and_mistakes_are_said_before_anything_is_solved(fold
     assert not (folder / "crosscheck-study").exists()
 
 
+def test_what_accuracy_costs_is_listed_and_mistakes_are_said_before_anything_is_solved(folder):
+    status, said, complained = finish(start(folder, "workprecision"))
+    assert (status, complained) == (0, "")
+    assert max(map(len, said.splitlines())) < 100
+    for name in ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "costs"):
+        assert re.search(rf"^{name} +[A-Z]", said, re.MULTILINE)
+    for arguments, message in (
+        (["workprecision", "model"], "NAME = model: allowed are models, "),
+        (["workprecision", "models", "--size", "large"], "--size = large: allowed are quick, full"),
+        (["stability", "--size", "full"], "--size = full: allowed are small, large"),
+    ):
+        status, said, complained = finish(start(folder, *arguments))
+        assert (status, said) == (2, "")
+        assert message in complained
+        assert "Traceback" not in complained
+    assert not list(folder.glob("crosscheck-*"))
+
+
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")

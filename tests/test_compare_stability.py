@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, contact
+from compare.outcome import Outcome, Row
 from compare.stability import report
 from compare.stability.collection import CASES
 from compare.stability.examination import Examination, checks
@@ -136,6 +137,18 @@ def test_a_case_that_raises_is_broken_and_says_why(monkeypatch):
     assert found.verdict == report.BROKEN
     assert "ArithmeticError: no digits left" in found.message
     assert "no digits left" in report.markdown([found])
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("/tmp/a1b2/scene.toml, line 1: speed", "scene.toml, line 1: speed"),
+        ("no such file: '/var/folders/x/scene.toml'", "no such file: 'scene.toml'"),
+        ("take less than v tau/a = 1 m/s", "take less than v tau/a = 1 m/s"),
+    ],
+)
+def test_a_message_names_files_without_the_folder_of_the_day(said, told):
+    assert report.record("no-shapes", Outcome((Row(reason=said),))).message == told
 
 
 def test_verdicts_tell_solved_from_refused():

@@ -138,14 +138,13 @@ def test_the_largest_point_is_held_out():
 
 
 def test_applications_of_a_smooth_solve_hardly_grow_with_the_grid():
-    # a count, alike on every machine: from 64 to 512 points it may not grow by a fifth with each doubling
+    # a count, alike on every machine: from 64 to 512 points it may not grow by a fifth with each doubling, where
+    # plain conjugate gradients take sqrt(2) times as many
     def counted(n):
         return BEM(points=n).solve(Scene(SPHERE, KELVIN, Indent(load=LOAD))).applications
 
     counts = [counted(n) for n in (64, 128, 256, 512)]
     assert all(after <= 1.2 * before for before, after in pairwise(counts)), counts
-    # plain conjugate gradients take sqrt(n) times as many, 1.41 with each doubling: that would be seen
-    assert 1.2 < 2**0.5
 
 
 def test_memory_of_a_solve_grows_with_the_points_of_its_grid():

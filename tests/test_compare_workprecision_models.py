@@ -8,7 +8,7 @@ import pytest
 
 from bem3d import BEM
 from compare import publish
-from compare.figures import workprecision_models, workprecision_surfaces
+from compare.figures import lettering, workprecision_models, workprecision_surfaces
 from compare.outcome import Outcome, Row
 from compare.workprecision import answers, diagram, models, surfaces
 from compare.workprecision.contest import FORCE, FRICTION, ClosedForm, Contest, Known, Ladder
@@ -119,16 +119,17 @@ def test_no_other_numbers_of_surfaces_give_a_smaller_error_in_the_same_time():
 
 @pytest.mark.parametrize("level", answers.LEVELS)
 def test_what_is_said_to_reach_an_error_reaches_it_with_no_surface_to_spare(level):
-    """With the largest bias of the interval, by the numbers of surfaces that are said."""
+    """With the largest bias of the interval, and corrections that scatter by the largest of theirs."""
     both = way(bias=0.001, reach=0.0005, scatters=(0.2, 0.02), seconds=(0.1, 0.7))
-    reached = both.reaching(level)
+    reached, most = both.reaching(level), both.draws[1].scatter.interval()[1]
+    assert most > 0.02
 
-    def error(first):
-        return sqrt(0.0015**2 + 0.2**2 / first + 0.02**2 / reached.counts[1])
+    def error(first, second):
+        return sqrt(0.0015**2 + 0.2**2 / first + most**2 / second)
 
-    assert error(reached.counts[0]) <= level
-    one_less = sqrt(0.0015**2 + 0.2**2 / (reached.counts[0] - 1) + 0.02**2 / max(reached.counts[1] - 1, 1e-9))
-    assert one_less > level
+    first, second = reached.counts
+    assert error(first, second) <= level
+    assert error(first - 1, max(second - 1, 1e-9)) > level
     assert reached.seconds == pytest.approx(reached.counts[0] * 0.1 + reached.counts[1] * 0.7)
 
 
@@ -235,12 +236,50 @@ def test_the_table_has_every_regime_quantity_and_level_and_says_what_is_not_reac
     found = [contest(own_error=0.02), made()]
     rows = answers.table(found)
     assert len(rows) == 2 * len(answers.LEVELS)
-    text = answers.markdown(found, ("friction",))
-    assert text.count("\n") == 1 + len(found)
-    assert "not reached; best known 2.2 %" in text
-    failed = answers.markdown([made(fails=lambda *_: True)], ("friction",))
-    assert "not known" in failed
-    assert "nan" not in failed
+    smooth, rough = answers.cells(found, ("friction",))
+    assert smooth["within 0.3 %"] == "not reached; best known 2.2 %"
+    assert (smooth["regime"], rough["regime"]) == ("smooth", "made, expected (rms)")
+    (failed,) = answers.cells([made(fails=lambda *_: True)], ("friction",))
+    assert set(failed.values()) == {"made, expected (rms)", "not known"}
+
+
+def test_one_dimension_keeps_no_error_that_its_grid_still_lowers():
+    """Of second order: on ten times the points a hundredth."""
+    exact, kept = contest(errors={"MDR": (1e-3, 1e-5), "BEM": (0.05, 0.01, 0.002)}), contest()
+    said = [answers.cells([found], ("friction",))[0]["error that 1D keeps"] for found in (exact, kept)]
+    assert said == ["none (it converges)", "20 %"]
+    assert "on its finest grid an error of 20 % (smooth); none (it converges) for smooth." in models.advice(
+        [exact, kept]
+    )
+    assert "keeps none (it converges) for smooth." in models.advice([exact])
+
+
+def test_a_mean_that_lacks_surfaces_is_no_truth():
+    """Of 40 surfaces one is more than 2 %, of 100 it is not."""
+    for surfaces_drawn, known in ((40, False), (100, True)):
+        asked = ensemble(surfaces=surfaces_drawn)
+        found = asked.judged(outcomes_of(asked, fails=lambda solver, k: solver.name == "BEM" and k == 20))
+        assert np.isfinite(found.standings["friction"].truth.error) == known
+        assert (answers.answer(found, "friction", 0.7) is not None) == known
+
+
+def test_a_time_of_which_one_surface_failed_is_none():
+    asked = replace(ensemble(), timed_surfaces=2)
+    outcomes = outcomes_of(asked)
+    failed = next(rung for rung in asked.timed if rung.solver.points == 64)
+    found = asked.judged({**outcomes, failed: Outcome((Row(reason="does not converge"),))})
+    costs = {sample.points: sample.costs["processor"] for sample in found.samples}
+    assert np.isnan(costs[64])
+    assert costs[128] == SECONDS[128]
+
+
+@pytest.mark.parametrize(
+    ("discretisation", "cause"), [(0.02, "the truth is known to 2 %"), (0.005, "only to 1.5 %")]
+)
+def test_what_hinders_is_told_from_what_does_not(discretisation, cause):
+    ways = (way(bias=0.01, reach=0.005), way(bias=discretisation, seconds=(nan,)))
+    standing = replace(made().standings["friction"], discretisation=discretisation, ways=ways)
+    assert cause in surfaces._hindrance(standing, 0.01)
 
 
 def test_restricted_leaves_out_quantities_and_what_has_none_of_them():
@@ -299,4 +338,4 @@ def test_without_data_there_is_no_figure():
 
 
 def test_panels_have_letters_beyond_the_alphabet():
-    assert [workprecision_models.letter(k) for k in (0, 25, 26, 52)] == ["a", "z", "aa", "ba"]
+    assert [lettering.letter(k) for k in (0, 25, 26, 52)] == ["a", "z", "aa", "ba"]

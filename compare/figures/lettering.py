@@ -1,8 +1,9 @@
-"""Short texts beside points of a drawn curve, where they cover nothing."""
+"""Letters of panels, and short texts beside points of a drawn curve, where they cover nothing."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from string import ascii_lowercase
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -37,6 +38,12 @@ class Letter:
     point: tuple[float, float]
     colour: str = "black"
     needed: bool = True
+
+
+def letter(k: int) -> str:
+    """Of a panel: a to z, then aa to zz."""
+    last = ascii_lowercase[k % 26]
+    return last if k < 26 else ascii_lowercase[k // 26 - 1] + last
 
 
 def write(axes: Axes, letters: Sequence[Letter], size: float) -> None:

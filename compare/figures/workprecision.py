@@ -15,7 +15,7 @@ from ..workprecision.contest import Climbed, Judged, Quantity
 from ..workprecision.listing import order_of, orders, rungs
 from ..workprecision.wording import digits, seconds, share
 from . import style
-from .lettering import Letter, write
+from .lettering import Letter, letter, write
 
 NAME = "workprecision"
 # Columns of panels, and their size [inch].
@@ -27,6 +27,7 @@ BESIDE = (
     {"color": "#009E73", "marker": "^", "linestyle": ":"},
     {"color": "#CC79A7", "marker": "v", "linestyle": "-."},
     {"color": "#56B4E9", "marker": "D", "linestyle": (0, (5, 1, 1, 1, 1, 1))},
+    {"color": "#E69F00", "marker": "P", "linestyle": (0, (3, 1))},
     {"color": "0.45", "marker": "x", "linestyle": (0, (1, 3))},
 )
 # Letters that fit across a legend, and what the line before a label takes of them.
@@ -82,7 +83,7 @@ def figure(found: Sequence[Judged]) -> Figure | None:
     looks, all_axes = _looks(found), []
     for k, panel in enumerate(drawn):
         axes = drawing.add_subplot(rows, columns, k + 1)
-        axes.set_title(f"({_letter(k)}) {panel.title}", fontsize=7)
+        axes.set_title(f"({letter(k)}) {panel.title}", fontsize=7)
         _panel(axes, panel, looks)
         axes.set_xlabel("processor time")
         if k % columns == 0:
@@ -107,7 +108,7 @@ def caption(found: Sequence[Judged]) -> str:
     for k, panel in enumerate(panels(found)):
         own = panel.reference_error
         doubt = f", known to {share(own)}" if own > 0 else "" if isfinite(own) else ", not solved"
-        sources.setdefault(f"against {panel.judged.contest.truth.source}{doubt}", []).append(f"({_letter(k)})")
+        sources.setdefault(f"against {panel.judged.contest.truth.source}{doubt}", []).append(f"({letter(k)})")
     said = "; ".join(f"{', '.join(letters)} {source}" for source, letters in sources.items())
     several = any(len(panel.estimates) > 1 for panel in panels(found))
     estimates = " Estimates beside the answer are those of the first ladder." if several else ""
@@ -265,7 +266,3 @@ def _legend(drawing, drawn, looks):
     longest = max(len(label) for label in entries)
     columns = max(1, min(len(entries), ACROSS // (longest + SAMPLE)))
     drawing.legend(handles=list(entries.values()), loc="outside lower center", ncols=columns)
-
-
-def _letter(k):
-    return "abcdefghijklmnopqrstuvwxyz"[k]

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite
-from string import ascii_lowercase
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,7 +18,7 @@ from ..workprecision.order import observed
 from ..workprecision.records import ways
 from ..workprecision.statistics import Way, envelope
 from . import style
-from .lettering import Letter, write
+from .lettering import Letter, letter, write
 
 NAME = "workprecision-models"
 # Size of a panel [inch], and of what surrounds them all.
@@ -293,9 +292,3 @@ def _places(drawn):
         places += range(start, start + count)
         start += ceil(count / columns) * columns
     return start // columns, columns, places
-
-
-def letter(k: int) -> str:
-    """Of a panel: a to z, then aa to zz."""
-    last = ascii_lowercase[k % 26]
-    return last if k < 26 else ascii_lowercase[k // 26 - 1] + last

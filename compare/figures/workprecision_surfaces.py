@@ -16,8 +16,8 @@ from ..workprecision.statistics import Reached, Way, cheapest
 from ..workprecision.surfaces import plain
 from ..workprecision.wording import seconds, share
 from . import style
-from .lettering import Letter, write
-from .workprecision_models import letter, way_look
+from .lettering import Letter, letter, write
+from .workprecision_models import way_look
 
 NAME = "workprecision-surfaces"
 COLUMNS, HEIGHT, AROUND = 3, 2.2, 0.55

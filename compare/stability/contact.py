@@ -144,7 +144,7 @@ def _wrong_start(size):
         "the highest point": (rough == rough.max()) * 1.0,
         "all points": np.ones((n, n)),
         "what will not touch": np.where(rough > 0.5, 1.0, 0.0),
-        "a pressure of 1e300": np.where(rough < 0, 1e150, 0.0),
+        "a pressure of 1e150": np.where(rough < 0, 1e150, 0.0),
         "a pressure of 1e-300": np.where(rough < 0, 1e-300, 0.0),
     }
     for memory in (0.0, 8.0):

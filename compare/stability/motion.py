@@ -73,6 +73,22 @@ def _fast(size):
     return _as_another(size, SOLID, Slide(speed=1e9 * PACE, depth=DEPTH), GLASS, 1e-6)
 
 
+def _glassy_friction(size):
+    """Speed times friction settles as the last of the solid relaxes in passing."""
+    paces = 1e5, 1e7, 1e9
+    for solver in (line(size), space(size)):
+        answers = [solver.solve(sliding(pace)) for pace in paces]
+        *lost, last = (pace * answer.friction_force for pace, answer in zip(paces, answers, strict=True))
+        for pace, found in zip(paces, lost, strict=False):
+            what = f"{solver.name}: friction times speed at v tau/a = {pace:g}"
+            yield deviation(what, found, last, 30 / pace + 10 * TOLERANCE)
+        for pace, answer in zip(paces, answers, strict=True):
+            by_loss = answer.measures.get("friction_by_loss")
+            if by_loss is not None:
+                what = f"{solver.name}: friction at v tau/a = {pace:g}, against the loss"
+                yield deviation(what, answer.friction_force, by_loss, 1e-6)
+
+
 def _fast_kelvin(size):
     for shape in (SPHERE, CONE):
         depth = shape.mdr_coefficient * RADIUS**shape.exponent
@@ -192,6 +208,13 @@ CASES = (
         "Force of the glassy elastic solid on the same grid within 1e-6: it relaxes by some a/(v tau) in passing, "
         "and contacts are solved to 1e-7.",
         _fast,
+    ),
+    case(
+        "glassy-friction",
+        "At v tau/a = 1e5, 1e7 and 1e9 a standard linear solid loses hardly anything, ever less as 1/v.",
+        "Friction times speed is that at 1e9, within 30 a/(v tau), what relaxes in passing, and ten tolerances of "
+        "contact; in 3D friction is the energy lost, to 1e-6.",
+        _glassy_friction,
     ),
     case(
         "kelvin-to-speed-1e9-1d",

@@ -1,5 +1,6 @@
 """The collection examined, and what came of it as records, a table and a page."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, nan
@@ -15,6 +16,8 @@ from .hardcase import Check, Refusal
 
 VERDICTS = HELD, REFUSED, BROKEN = "held", "refused as it should", "BROKEN"
 TABLE, PAGE = "stability.csv", "stability.md"
+# Where a file lay when a case was examined: all before its name, of a path from the root.
+FOLDERS = re.compile(r"(?<![\w.])/(?:[^\s/]+/)+")
 
 
 @dataclass(frozen=True)
@@ -69,11 +72,13 @@ def record(name: str, outcome: Outcome) -> Record:
     case, found, seconds = CASES[name], checks(outcome), outcome.rows[0].seconds
     asked = case.group, case.name, case.about, case.law
     if not found:
-        return Record(*asked, "the case itself", nan, nan, outcome.rows[0].reason or "", 1, 1, BROKEN, seconds)
+        return Record(
+            *asked, "the case itself", nan, nan, _named(outcome.rows[0].reason or ""), 1, 1, BROKEN, seconds
+        )
     broken = sum(not check.holds for check in found)
     verdict = BROKEN if broken else REFUSED if all(isinstance(check, Refusal) for check in found) else HELD
     nearest = max(found, key=_nearness)
-    told = nearest.what, nearest.found, nearest.allowed, nearest.message or ""
+    told = nearest.what, nearest.found, nearest.allowed, _named(nearest.message or "")
     return Record(*asked, *told, len(found), broken, verdict, seconds)
 
 
@@ -105,6 +110,11 @@ def _cells(record):
         numbers = f"{record.what}: {numbers[0]} {_short(record.message)}".strip(), numbers[1]
     cells = record.name, record.about, record.law, *numbers, record.verdict, f"{record.seconds:.2f}"
     return (cell.replace("|", "\\|") for cell in cells)
+
+
+def _named(message):
+    """Files by their names, whatever the folder."""
+    return FOLDERS.sub("", message)
 
 
 def _short(message, most=120):

@@ -13,6 +13,8 @@ from .wording import seconds, share
 
 LEVELS = (0.1, 0.03, 0.01, 0.003)
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+# Order in the points from which on an error falls.
+FALLS = 0.3
 
 Found = Judged | JudgedEnsemble
 
@@ -91,13 +93,21 @@ def best(found: Found, quantity: str, solver: str | None = None) -> float:
 
 
 def floor(found: Found, quantity: str) -> Bias:
-    """Of the 1D model on its finest grid: the error that no setting passes; NaN where it was not solved."""
+    """Of the 1D model on its finest grid: what no setting passes, unless it converges; NaN where not solved."""
     match found:
         case Judged():
             errors = [climbed.errors[quantity][-1] for climbed in _ladders(found, "MDR")]
             return Bias(float(errors[-1]), found.known[quantity].relative_error) if errors else Bias(nan, nan)
         case JudgedEnsemble():
             return found.standings[quantity].floor or Bias(nan, nan)
+
+
+def converges(found: Found, quantity: str) -> bool:
+    """Whether the error of the 1D model on a smooth body still falls from its last grid but one to its finest."""
+    if isinstance(found, JudgedEnsemble):
+        return False
+    falls = [_falls(climbed, quantity) for climbed in _ladders(found, "MDR")]
+    return bool(falls) and falls[-1]
 
 
 def failures(found: Found) -> list[str]:
@@ -125,26 +135,20 @@ def table(found: Sequence[Found], levels: Sequence[float] = LEVELS) -> list[Mapp
 
 
 def cells(found: Sequence[Found], of: Sequence[str], levels: Sequence[float] = LEVELS) -> list[dict[str, str]]:
-    """In words, of the quantities of some names: regimes as rows, wanted errors as columns."""
+    """In words, of the quantities of some names: regimes as rows, wanted errors as columns.
+
+    Of rough regimes the error is that expected of a mean over surfaces (rms), of smooth ones the error itself.
+    """
     return [
         {
-            "regime": title(each) if len(of) == 1 else f"{title(each)}: {quantity.label}",
+            "regime": _regime(each) if len(of) == 1 else f"{_regime(each)}: {quantity.label}",
             **{f"within {share(level)}": _cell(each, quantity.name, level) for level in levels},
-            "error that 1D keeps": interval(floor(each, quantity.name)),
+            "error that 1D keeps": _kept(each, quantity.name),
         }
         for each in found
         for quantity in quantities(each)
         if quantity.name in of
     ]
-
-
-def markdown(found: Sequence[Found], of: Sequence[str], levels: Sequence[float] = LEVELS) -> str:
-    """The same as a Markdown table; empty without any."""
-    rows = cells(found, of, levels)
-    if not rows:
-        return ""
-    lines = [list(rows[0]), ["---"] * len(rows[0]), *(list(row.values()) for row in rows)]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def interval(bias: Bias) -> str:
@@ -172,6 +176,14 @@ def _restricted(found, names):
             return replace(found, ensemble=replace(found.ensemble, quantities=kept))
 
 
+def _regime(found: Found) -> str:
+    return f"{title(found)}, expected (rms)" if isinstance(found, JudgedEnsemble) else title(found)
+
+
+def _kept(found: Found, quantity: str) -> str:
+    return "none (it converges)" if converges(found, quantity) else interval(floor(found, quantity))
+
+
 def _cell(found: Found, quantity: str, level) -> str:
     taken, known = answer(found, quantity, level), best(found, quantity)
     if taken is not None:
@@ -197,6 +209,7 @@ def _row(found: Found, quantity: Quantity, level) -> Mapping[str, object]:
         "floor_1d": own.size,
         "floor_1d_least": own.least,
         "floor_1d_most": own.most,
+        "converges_1d": converges(found, quantity.name),
     }
 
 
@@ -208,6 +221,14 @@ def _rungs(found: Judged, quantity, level, solver) -> Iterator[Answer]:
             ladder = climbed.ladder
             settings = f"{ladder.values[k]:g} {ladder.setting}"
             yield Answer(ladder.rungs[k].solver.name, settings, float(climbed.processor[k]))
+
+
+def _falls(climbed, quantity) -> bool:
+    """By the order between the last two rungs; one alone cannot tell."""
+    if len(climbed.ladder.values) < 2:
+        return False
+    (coarse, fine), (before, last) = climbed.ladder.values[-2:], climbed.errors[quantity][-2:]
+    return bool(before > last * (fine / coarse) ** FALLS)
 
 
 def _ladders(found: Judged, solver):

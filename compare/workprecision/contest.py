@@ -106,7 +106,7 @@ class Finer:
     def of(cls, scene: Scene, solver: Solver, source: str, scale: Mapping[str, float] | None = None, **coarser):
         """`coarser` : settings of the next, where half the points are not what is meant."""
         coarser = coarser or {"points": solver.points // 2}
-        tasks = (Solves(each, (scene,), work=_work(each)) for each in (solver, replace(solver, **coarser)))
+        tasks = (Solves(each, (scene,), work=work(each)) for each in (solver, replace(solver, **coarser)))
         return cls(source, *tasks, scale or {})
 
     @property
@@ -150,7 +150,7 @@ class Ladder:
         cls, label: str, scene: Scene, solvers: Sequence[Solver], setting: str, values: Sequence, **others
     ):
         """Rungs of any settings."""
-        rungs = tuple(Rung(solver, scene, work=_work(solver), **others) for solver in solvers)
+        rungs = tuple(Rung(solver, scene, work=work(solver), **others) for solver in solvers)
         return cls(label, setting, tuple(values), rungs)
 
 
@@ -202,7 +202,8 @@ class Climbed:
     def reaching(self, quantity: str, level: float) -> int | None:
         """The cheapest rung from which on the error stays at or below a level; None if none does.
 
-        A rung that is right by chance does not count: those of finer settings have to be so too.
+        A rung that is right by chance does not count: those of finer settings have to be so too. The finest has
+        none that could confirm it, and counts alone.
         """
         within = self.errors[quantity] <= level
         good = [k for k in range(len(within)) if within[k:].all()]
@@ -242,6 +243,6 @@ def _error(quantity, known, answer):
     return nan if row.reason is not None else known.error_of(quantity.of(row, answer.fields))
 
 
-def _work(solver):
-    """In passes over a point of a grid, roughly; see store."""
+def work(solver: Solver) -> float:
+    """Of one solve, in passes over a point of a grid, roughly; see store."""
     return solver.points * 15.0 if solver.name == "MDR" else solver.points**2.2 * 50.0

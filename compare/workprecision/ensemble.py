@@ -13,9 +13,12 @@ from scene import Scene
 from ..outcome import Outcome
 from ..store import Task
 from ..study import Task as Solves
-from .contest import Known, Quantity
+from .contest import Known, Quantity, work
 from .rung import COSTS, Rung
 from .statistics import Bias, Draw, Scatter, Way, half_width
+
+# Share of failed surfaces above which a mean over the others is not that over all.
+FAILED = 0.02
 
 
 @dataclass(frozen=True)
@@ -83,13 +86,13 @@ class Ensemble:
 
     def _timed_of(self, solver):
         count = self.timed_surfaces if isinstance(solver, BEM) else 1
-        return [Rung(solver, scene, work=_work(solver)) for scene in self.drawn(count)]
+        return [Rung(solver, scene, work=work(solver)) for scene in self.drawn(count)]
 
     def _tasks_of(self, solver):
         if isinstance(solver, MDR):
-            return [Solves(solver, self.drawn(self.profiles), work=_work(solver) * self.profiles)]
+            return [Solves(solver, self.drawn(self.profiles), work=work(solver) * self.profiles)]
         count = self.surfaces if solver.points == self.grids[0] else self.paired
-        return [Solves(solver, (scene,), work=_work(solver)) for scene in self.drawn(count)]
+        return [Solves(solver, (scene,), work=work(solver)) for scene in self.drawn(count)]
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,7 @@ class Sample:
 
     values : by the quantity's name, (surfaces,), NaN where a solve failed or nothing touched
     costs : of one surface, the mean of those measured: processor, wall [s], memory [bytes],
-        applications; NaN where all failed
+        applications; NaN where one failed
     reasons : why solves failed, one each
     """
 
@@ -120,7 +123,8 @@ class Standing:
 
     truth : mean over surfaces, with its whole error: half of the interval of 95 % and that of the grid
     statistical, discretisation : the two parts of that error, relative: the standard error, and what the finest
-        grid leaves if the error falls with the first power of its points: as much as halving them changes
+        grid leaves if the error falls with the first power of its points: as much as halving them changes; NaN,
+        and with it the error of the truth, where more than FAILED of the surfaces have no answer
     freedom : degrees of freedom of the first
     ways : to it; relative to the scale of the truth
     """
@@ -156,8 +160,8 @@ def _sample(solver, tasks, timed, outcomes, quantities):
     rows = [row for task in tasks for row in outcomes[task].rows]
     values = {each.name: np.array([float(each.of(row, {})) for row in rows]) for each in quantities}
     measured = [outcomes[rung].rows[0].measures for rung in timed]
-    costs = {name: _mean([found.get(name, nan) for found in measured]) for name in COSTS}
-    costs["applications"] = _mean([outcomes[rung].rows[0].applications for rung in timed])
+    costs = {name: float(np.mean([found.get(name, nan) for found in measured])) for name in COSTS}
+    costs["applications"] = float(np.mean([outcomes[rung].rows[0].applications for rung in timed]))
     reasons = tuple(row.reason for row in rows if row.reason is not None)
     return Sample(solver.name, solver.points, values, costs, reasons)
 
@@ -173,6 +177,8 @@ def _standing(quantity: Quantity, grids: Sequence[Sample], lines: Sequence[Sampl
     error, freedom = _combined(first, corrections, many, few)
     unit = (abs(value) or nan) if scale is None else scale
     discretisation = _left(grids[-1], grids[-2], name) / unit
+    if _failed(first, corrections) > FAILED:
+        discretisation = nan
     statistical = error / unit
     reach = half_width(statistical, freedom)
     ways = [
@@ -195,6 +201,13 @@ def _combined(first, corrections, many, few):
     whole = sum(parts)
     freedom = whole**2 / (parts[0] ** 2 / many.freedom + parts[1] ** 2 / few.freedom) if whole else inf
     return sqrt(max(whole + 2 * covariance, 0.0)), freedom
+
+
+def _failed(first, corrections):
+    """Share of the surfaces that lack an answer, or the correction that they were drawn for."""
+    known = np.isfinite(first)
+    known[: corrections.size] &= np.isfinite(corrections)
+    return 1 - known.mean()
 
 
 def _left(finest, less, name):
@@ -256,8 +269,3 @@ def _mean(values):
     known = np.asarray(values, float)
     known = known[np.isfinite(known)]
     return float(known.mean()) if known.size else nan
-
-
-def _work(solver):
-    """In passes over a point of a grid, roughly; see store."""
-    return solver.points * 15.0 if solver.name == "MDR" else solver.points**2.2 * 50.0

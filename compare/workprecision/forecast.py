@@ -9,20 +9,21 @@ import numpy as np
 from .bill import MEMORY_FROM, Bill
 from .costladders import AXES
 from .laws import REPEATABLE, Law, NoLaw, held_out
+from .wording import HOUR, seconds
 
 LARGEST = 16384  # points a side that the 3D solver takes at most
-GIBIBYTE, HOUR = 2.0**30, 3600.0
+GIBIBYTE = 2.0**30
 MEMORIES = (24, 64, 128)  # of machines [GiB]
 SURFACES = 10**5
-# Ladders that stand for an ensemble, with the points that it takes: some that were measured.
-ENSEMBLES = {"plane": (256, 512), "slide": (256, 512), "slide-rough": (256, 512), "mdr-rough": (5000, 10**5)}
+# Rough ladders that stand for an ensemble, with the points that it takes: some that were measured.
+ENSEMBLES = {"plane": (256, 512), "slide-rough": (256, 512), "mdr-rough": (5000, 10**5)}
 MATTERS = 2.0  # a cost that varies by less along a ladder hardly depends on it
 USELESS = 100.0  # an interval wider than this factor says nothing
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """One number that a law gives, with its interval of 95 % for one more measurement.
+    """One number that a law gives, with its interval of 95 % for one more measurement, NaN where not known.
 
     ladder : that the law was fitted to, for people; what : is forecast
     found : the same as measured, NaN where it was not
@@ -111,17 +112,15 @@ def _factor(each):
 
 
 def _ensembles(bill, points):
-    """As many times what one surface was measured to take, give or take what one more would differ by."""
+    """As many times what one surface was measured to take: how that scatters between surfaces is not known."""
     for n in points:
         grid = f"{n} points" if bill.dimension == "1D" else f"{n}² points"
-        what, law = f"{SURFACES} surfaces with {grid}", bill.laws["processor"]
+        what = f"{SURFACES} surfaces with {grid}"
         measured = bill.processor[bill.x == n]
         if not np.isfinite(measured).any():
             yield Forecast(name_of(bill), what, "core hours", reason="not measured")
             continue
-        value = float(measured[0]) * SURFACES / HOUR
-        low, high = (nan, nan) if isinstance(law, NoLaw) else np.array(law.interval(n)) / law.at(n) * value
-        yield Forecast(name_of(bill), what, "core hours", value, float(low), float(high))
+        yield Forecast(name_of(bill), what, "core hours", float(measured[0]) * SURFACES / HOUR)
     rows = bill.stored[[reason is None for reason in bill.reasons]]
     if len(rows):
         low, middle, high = (float(SURFACES * f(rows) / GIBIBYTE) for f in (np.min, np.median, np.max))
@@ -219,10 +218,11 @@ def _amount(each: Forecast) -> str:
 
 def _with_interval(each):
     """The value, and its ends where they say anything."""
-    scale, unit = (HOUR, "h") if each.unit == "s" and each.value > 2 * HOUR else (1.0, each.unit)
     told = each.high <= USELESS * each.low
-    interval = f" ({_short(each.low / scale)} to {_short(each.high / scale)})" if told else ""
-    return f"{_short(each.value / scale)} {unit}{interval}"
+    if each.unit == "s":
+        return seconds(each.value) + (f" ({seconds(each.low)} to {seconds(each.high)})" if told else "")
+    interval = f" ({_short(each.low)} to {_short(each.high)})" if told else ""
+    return f"{_short(each.value)} {each.unit}{interval}"
 
 
 def _short(value):
@@ -245,7 +245,10 @@ def _surfaces(found):
     if not parts:
         return ""
     disk = max((each.value for each in found if "on disk" in each.what), default=nan)
-    return f"{SURFACES} surfaces take {', '.join(parts)}, and {disk:.2g} GiB on disk at most for their rows."
+    return (
+        f"{SURFACES} surfaces take {', '.join(parts)}, each from the time of one surface, and {disk:.2g} GiB on "
+        "disk at most for their rows."
+    )
 
 
 def _dependence(bill):
@@ -260,9 +263,10 @@ def _dependence(bill):
     if time.max() < MATTERS * time.min():
         return f"{name}, {ends}: times differ by a factor of {time.max() / time.min():.1f} only."
     if isinstance(law, Law) and bill.ladder.setting in ("modes", "steps"):
-        fixed = f" beside {law.overhead:.2g} s that are always paid" if law.overhead else ""
+        fixed = f" beside {seconds(law.overhead)} that are always paid" if law.overhead else ""
         return f"{name}, {ends}: power {_exponent(law)}{fixed}."
-    return f"{name}, {ends}: {time.min():.2g} to {time.max():.2g} s, the dearest at {shown(x[np.argmax(time)])}."
+    times = f"{seconds(time.min())} to {seconds(time.max())}"
+    return f"{name}, {ends}: {times}, the dearest at {shown(x[np.argmax(time)])}."
 
 
 def _failed(bills):

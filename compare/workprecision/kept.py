@@ -1,13 +1,15 @@
 """Whether settings chosen by `BEM.for_accuracy` keep their promise, on scenes that its ladder does not know."""
 
+import hashlib
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isfinite, nan
 
 import numpy as np
 
 from bem3d import BEM
-from bem3d.accuracy import Unconfirmed, band
+from bem3d.accuracy import LADDER, Unconfirmed, apart, band
 from scene import (
     Cone,
     Fractional,
@@ -27,10 +29,12 @@ from scene.scales import elastic_contact
 from ..outcome import Outcome, Row, row
 from ..store import Task
 from ..study import SCENES
-from .promises import TIGHT, error_of
+from ..study import Task as Solves
+from .contest import work
+from .promises import TIGHT, missing
 
 WANTED = (0.1, 0.03, 0.01, 0.003)
-TRUTH, MOST = 2, 1024  # points of the truth over those chosen, and how many at most
+FINEST, TRUTH = 1024, 2  # points of the truth, and how many times those chosen they have to be
 # Elastomers of several times, of a glass a hundred times as stiff, and of a loss as a power of the frequency.
 SOLIDS = {
     "three modes": Prony(equilibrium_modulus=0.25, moduli=(0.25, 0.5, 1.0), relaxation_times=(10.0, 1.0, 0.1)),
@@ -47,10 +51,10 @@ SOLIDS = {
 
 @dataclass(frozen=True)
 class Promise:
-    """A task, as of store: the error of an answer chosen for a wanted one, against a finer grid.
+    """A task, as of store: an answer with settings chosen for a wanted error.
 
-    Its row is the answer's; measures has besides those: expected, change and error of the quantity, points,
-    promised_seconds, truth_points.
+    Its row is the answer's; measures has besides those: points, expected and promised_seconds of a promise that
+    was made, and the change of the quantity from half the points to all.
     """
 
     scene: Scene
@@ -69,31 +73,28 @@ class Promise:
     def question(self) -> Mapping:
         """The scene and what is wanted."""
         (scene,) = SCENES.dump_python((self.scene,), mode="json")
-        return {"promise": scene, "quantity": self.quantity, "wanted": self.wanted}
+        ladder = hashlib.sha256(LADDER.read_bytes()).hexdigest()
+        return {"promise": scene, "quantity": self.quantity, "wanted": self.wanted, "ladder": ladder}
 
     def solve(self) -> Outcome:
-        """What was promised, and what was kept."""
+        """What was promised, and what was kept; NaN with its reason where none was made."""
         try:
             choice = BEM.for_accuracy(self.scene, **{self.quantity: self.wanted})
+        except (SolveError, ValueError) as reason:
+            return Outcome((Row(reason=str(reason)),))
+        made = {
+            "points": float(choice.solver.points),
+            "expected": choice.expected[self.quantity],
+            "promised_seconds": choice.seconds,
+        }
+        try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", Unconfirmed)
                 answer = choice.solve()
-            points = min(MOST, TRUTH * choice.solver.points)
-            if points < TRUTH * choice.solver.points:
-                return Outcome((Row(reason=f"{choice.solver.points} points chosen, more than can be checked"),))
-            truth = row(BEM(points=points, tolerance=TIGHT).solve(self.scene))
-        except (SolveError, ValueError) as error:
-            return Outcome((Row(reason=str(error)),))
-        found = row(answer.result)
-        measures = {
-            "points": float(choice.solver.points),
-            "expected": choice.expected[self.quantity],
-            "change": answer.change[self.quantity],
-            "error": error_of(self.scene, self.quantity, found, truth),
-            "promised_seconds": choice.seconds,
-            "truth_points": float(points),
-        }
-        return Outcome((replace(found, measures={**found.measures, **measures}),))
+        except SolveError as reason:
+            return Outcome((Row(reason=str(reason), measures=made),))
+        found, change = row(answer.result), {"change": answer.change[self.quantity]}
+        return Outcome((replace(found, measures={**found.measures, **made, **change}),))
 
     def fits(self, outcome: Outcome) -> bool:
         """One row."""
@@ -110,31 +111,41 @@ def promises() -> list[Promise]:
     ]
 
 
+def truth(scene: Scene) -> Solves:
+    """What the answers to a scene are checked against."""
+    solver = BEM(points=FINEST, tolerance=TIGHT)
+    return Solves(solver, (scene,), work=work(solver))
+
+
 def rows(tasks: Sequence[Promise], outcomes: Mapping[Task, Outcome]) -> list[dict]:
-    """Each promise and what became of it."""
-    return [_entry(task, outcomes[task].rows[0]) for task in tasks]
+    """Each promise and what became of it; its error is NaN where the truth is not twice as fine, or failed."""
+    return [_entry(task, outcomes[task].rows[0], outcomes[truth(task.scene)].rows[0]) for task in tasks]
 
 
 def kept(rows: Sequence[Mapping]) -> list[dict]:
-    """By quantity and wanted error: how many answers kept it, were confirmed, and were confirmed and right."""
+    """By quantity and wanted error: how many promises were made, checked, kept, confirmed, and confirmed and kept.
+
+    One that was made and then had no answer counts as checked, and not as kept.
+    """
     found = []
     for quantity in dict.fromkeys(each["quantity"] for each in rows):
         for wanted in WANTED:
             asked = [each for each in rows if (each["quantity"], each["wanted"]) == (quantity, wanted)]
-            given = [each for each in asked if not each["reason"]]
-            right = [each for each in given if each["error"] <= wanted]
-            sure = [each for each in given if each["change"] <= wanted]
+            made = [each for each in asked if isfinite(each["points"])]
+            checked = [each for each in made if each["reason"] or isfinite(each["error"])]
+            sure = [each for each in checked if each["change"] <= wanted]
             found.append(
                 {
                     "quantity": quantity,
                     "wanted": wanted,
                     "asked": len(asked),
-                    "promised": len(given),
-                    "kept": len(right),
+                    "made": len(made),
+                    "checked": len(checked),
+                    "kept": sum(each["error"] <= wanted for each in checked),
                     "confirmed": len(sure),
-                    "confirmed_and_kept": len([each for each in sure if each["error"] <= wanted]),
-                    "worst_error": max((each["error"] for each in given), default=np.nan),
-                    "median_points": float(np.median([each["points"] for each in given])) if given else np.nan,
+                    "confirmed_and_kept": sum(each["error"] <= wanted for each in sure),
+                    "worst_error": max((each["error"] for each in checked), default=nan),
+                    "median_points": float(np.median([each["points"] for each in made])) if made else nan,
                 }
             )
     return found
@@ -143,7 +154,7 @@ def kept(rows: Sequence[Mapping]) -> list[dict]:
 def scenes() -> Iterator[Scene]:
     """Other shapes, solids, spectra, speeds and seeds than those of the ladder; drawn once, from one seed."""
     draw = np.random.default_rng(20141)
-    shapes = Sphere(radius=1.0), Cone(angle=0.1), PowerLaw(coefficient=1.0, exponent=3.0)
+    shapes = Sphere(radius=1.0), Cone(angle=0.2), PowerLaw(coefficient=1.0, exponent=3.0)
     for k, solid in enumerate(SOLIDS.values()):
         for shape in shapes:
             depth = shape.mdr_coefficient * 0.1**shape.exponent
@@ -179,8 +190,12 @@ def _quantities(scene):
     return "friction", "depth" if scene.motion.depth is None else "load"
 
 
-def _entry(task, answer: Row):
-    names = ("points", "expected", "error", "change", "promised_seconds", "truth_points", "friction_disagreement")
+def _entry(task, answer: Row, finest: Row):
+    names = ("points", "expected", "change", "promised_seconds", "friction_disagreement")
+    measures = {name: answer.measures.get(name, nan) for name in names}
+    error, points = nan, measures["points"]
+    if answer.reason is None and finest.reason is None and TRUTH * points <= FINEST:
+        error = apart(task.scene, task.quantity, answer, finest) * missing(points, FINEST)
     return {
         "shape": type(task.scene.indenter).__name__,
         "solid": next(name for name, solid in SOLIDS.items() if solid == task.scene.elastomer),
@@ -188,7 +203,8 @@ def _entry(task, answer: Row):
         "band": band(task.scene),
         "quantity": task.quantity,
         "wanted": task.wanted,
-        **{name: answer.measures.get(name, np.nan) for name in names},
+        **measures,
+        "error": error,
         "mu": answer.friction_coefficient,
         "seconds": answer.seconds,
         "reason": answer.reason or "",

@@ -4,8 +4,21 @@ from collections.abc import Sequence
 from math import isfinite
 
 from . import regimes
-from .answers import DIMENSIONS, Answer, Found, answer, best, failures, floor, interval, named, quantities
+from .answers import (
+    DIMENSIONS,
+    Answer,
+    Found,
+    answer,
+    best,
+    converges,
+    failures,
+    floor,
+    interval,
+    named,
+    quantities,
+)
 from .diagram import Diagram
+from .ensemble import JudgedEnsemble
 from .wording import seconds, share
 
 # What is asked for, and the quantities that answer it, one at most in a regime.
@@ -28,6 +41,8 @@ def advice(found: Sequence[Found]) -> str:
         chosen = cases(found, names)
         if chosen:
             said += [_floors(asked, chosen), *(_choices(chosen, level) for level in LEVELS)]
+    if any(isinstance(each, JudgedEnsemble) for each in found):
+        said.append("The errors of rough regimes are those expected (rms) of a mean over surfaces.")
     unsolved = [f"{named(each)}, {reason}" for each in found for reason in failures(each)]
     if unsolved:
         said.append(f"Not solved: {'; '.join(unsolved)}.")
@@ -35,15 +50,20 @@ def advice(found: Sequence[Found]) -> str:
 
 
 def _floors(asked, chosen):
-    known = [(floor(*case), named(case[0])) for case in chosen]
+    exact = [named(case[0]) for case in chosen if converges(*case)]
+    none = f"none (it converges) for {', '.join(exact)}" if exact else ""
+    known = [(floor(*case), named(case[0])) for case in chosen if not converges(*case)]
     known = sorted(((bias, name) for bias, name in known if isfinite(bias.size)), key=lambda pair: pair[0].size)
+    if not known and exact:
+        return f"Of errors in {asked} one dimension keeps {none}."
     if not known:
         return f"What error one dimension keeps in {asked} is not known."
     (least, first), (most, last) = known[0], known[-1]
-    opening = f"In {asked} one dimension keeps, whatever its settings, an error of {interval(least)}"
+    opening = f"In {asked} one dimension keeps on its finest grid an error of {interval(least)}"
+    closing = f"; {none}." if exact else "."
     if len(known) == 1:
-        return f"{opening} ({first})."
-    return f"{opening} at best ({first}) and of {interval(most)} at worst ({last})."
+        return f"{opening} ({first}){closing}"
+    return f"{opening} at best ({first}) and of {interval(most)} at worst ({last}){closing}"
 
 
 def _choices(chosen, level) -> str:

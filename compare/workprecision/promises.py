@@ -6,12 +6,14 @@ All in units of the contact: radius of curvature 1 m, contact radius about 0.1 m
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import isnan
 
 import numpy as np
 
 from bem3d import BEM
-from bem3d.accuracy import BANDS, LADDERS, band, resolution
+from bem3d.accuracy import BANDS, LADDERS, apart, band, resolution
+from bem3d.sliding import Flow
 from scene import (
     Cone,
     Cylinder,
@@ -50,6 +52,9 @@ SMOOTH_POINTS, ROUGH_POINTS = (16, 24, 32, 48, 64, 96, 128, 192, 512), (48, 64, 
 TIGHT = 1e-7  # tolerance, so that what is seen is the grid
 # Resolutions at which the ladder has a rung.
 RUNGS = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
+# Of friction: the answer, and what it joins.
+ESTIMATES = "joined", "traction", "loss", "curvature"
+MEMORIES = 0.0, 0.03, 0.1, 0.25, 1.0, 3.0, 10.0, np.inf  # over the pixel
 FEWEST = 3  # answers from which a rung is made
 
 
@@ -101,10 +106,39 @@ def rows(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[dict]
             errors.setdefault((*kind, LADDERS[name]), []).extend(_errors(probe, name, answers))
     ladder = []
     for key in sorted(errors, key=lambda key: (key[0], BANDS.index(key[1]), key[2])):
-        ladder += [_entry(key, *rung) for rung in _rungs(np.array(errors[key]).T)]
+        ladder += [_entry(key, *rung) for rung in _rungs(np.reshape(errors[key], (-1, 2)).T)]
     for key, by_points in seconds.items():
         ladder += [_entry(key, points, float(np.median(each)), len(each)) for points, each in by_points.items()]
     return ladder
+
+
+def estimates(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[dict]:
+    """Errors of the estimates of friction against the finest grid, by memory over pixel.
+
+    Medians, and the 90th percentile of the answer that joins them.
+    """
+    errors = []
+    for probe in (each for each in found if "friction" in each.quantities):
+        *coarser, truth = [outcomes[task].rows[0] for task in probe.tasks]
+        memory = Flow.of(probe.scene.elastomer, probe.scene.motion.speed).memory
+        errors += [
+            (memory / answer.measures["pixel"], *_of_estimates(answer, truth))
+            for answer in coarser
+            if answer.reason is None and truth.reason is None
+        ]
+    over_pixel, *by_estimate = np.array(errors).T
+    table = []
+    for low, high in pairwise(MEMORIES):
+        within = (over_pixel >= low) & (over_pixel < high)
+        medians = {name: float(np.median(each[within])) for name, each in zip(ESTIMATES, by_estimate, strict=True)}
+        rare = {"joined_90": float(np.quantile(by_estimate[0][within], 0.9))}
+        table.append({"from": low, "to": high, "answers": int(within.sum())} | medians | rare)
+    return table
+
+
+def _of_estimates(answer: Row, truth: Row) -> list[float]:
+    forces = (answer.friction_force, *(answer.measures[f"friction_by_{name}"] for name in ESTIMATES[1:]))
+    return [abs(force / answer.normal_force / truth.friction_coefficient - 1) for force in forces]
 
 
 def _entry(key, resolution, value, answers):
@@ -128,21 +162,16 @@ def _rungs(pairs) -> Iterator[tuple[float, float, int]]:
 
 def _errors(probe, name, answers: Sequence[Row]) -> Iterator[tuple[float, float]]:
     """Resolution and error of each answer but the last."""
-    *answers, truth = answers
-    for answer in answers:
-        if answer.reason is None and truth.reason is None:
-            yield resolution(probe.scene, answer.measures), error_of(probe.scene, name, answer, truth)
+    *coarser, truth = zip(probe.points, answers, strict=True)
+    for points, answer in coarser:
+        if answer.reason is None and truth[1].reason is None:
+            error = apart(probe.scene, name, answer, truth[1]) * missing(points, truth[0])
+            yield resolution(probe.scene, answer.measures), error
 
 
-def error_of(scene: Scene, name: str, answer: Row, truth: Row) -> float:
-    """As `bem3d.accuracy.apart`, of rows."""
-    match name:
-        case "friction":
-            return abs(answer.friction_coefficient / truth.friction_coefficient - 1)
-        case "load":
-            return abs(answer.normal_force / truth.normal_force - 1)
-        case _:
-            return abs(answer.depth - truth.depth) / elastic_contact(scene).depth
+def missing(points: int, finer: int) -> float:
+    """What a difference to a finer grid is multiplied with for the error, which falls with the points at least."""
+    return finer / (finer - points)
 
 
 def _smooth() -> Iterator[Scene]:

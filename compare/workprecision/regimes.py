@@ -24,7 +24,7 @@ ROUGH = {
     "quick": {"grids": (64, 128, 256), "surfaces": 40, "paired": 6, "lines": (1000,), "profiles": 1000},
     "full": {
         "grids": (64, 128, 256, 512),
-        "surfaces": 300,
+        "surfaces": 200,
         "paired": 12,
         "lines": (250, 5000),
         "profiles": 1500,

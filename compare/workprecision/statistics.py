@@ -118,11 +118,16 @@ class Way:
         return np.sqrt(self.bias.size**2 + self.draws[0].scatter.value ** 2 / counts)
 
     def reaching(self, level: float) -> "Reached | None":
-        """What it takes for a wanted error with the largest bias of its interval; None where that is too much."""
-        room = level**2 - self.bias.most**2
-        if not (room > 0 and isfinite(self._work)):
+        """What it takes for a wanted error (rms) with the largest bias of its interval; None where that is more.
+
+        Corrections are few, and scatter by as much as their interval allows.
+        """
+        scatters = [self.draws[0].scatter.value, *(draw.scatter.interval()[1] for draw in self.draws[1:])]
+        drawn = list(zip(scatters, self.draws, strict=True))
+        work, room = sum(scatter * sqrt(draw.seconds) for scatter, draw in drawn), level**2 - self.bias.most**2
+        if not (room > 0 and isfinite(work)):
             return None
-        shares = [draw.scatter.value * self._work / sqrt(draw.seconds) / room for draw in self.draws]
+        shares = [scatter * work / sqrt(draw.seconds) / room for scatter, draw in drawn]
         counts = tuple(max(1, ceil(share)) for share in shares)
         return Reached(
             self, counts, sum(count * draw.seconds for count, draw in zip(counts, self.draws, strict=True))

@@ -1,7 +1,7 @@
 """Statistical error beside that of the grid: on how many points, over how many surfaces, to average in 3D."""
 
 from collections.abc import Sequence
-from math import ceil, isfinite
+from math import ceil, inf, isfinite
 
 from . import regimes
 from .answers import LEVELS, answer, failures, named
@@ -61,7 +61,7 @@ def _recipe(found, standing):
         return f"No error of {', '.join(map(share, LEVELS))} is known to be reached in the {label}."
     least = min(reached)
     best = answer(found, name, least, "BEM")
-    said = f"For the {label} within {share(least)} take {best.settings}: {seconds(best.seconds)}"
+    said = f"For the {label} within {share(least)} (expected, rms) take {best.settings}: {seconds(best.seconds)}"
     alone = cheapest(plain(standing), least)
     if alone is None:
         said += "; no single grid is known to reach it"
@@ -69,10 +69,16 @@ def _recipe(found, standing):
         said += f", where the best single grid ({alone.way.label} points) takes {seconds(alone.seconds)}"
     if least != LEVELS[-1]:
         lacking = next(level for level in LEVELS if level < least)
-        said += (
-            f"; {share(lacking)} is not reached, as the truth is known to {share(standing.discretisation)} of grid"
-        )
+        said += f"; {share(lacking)} is not reached, as {_hindrance(standing, lacking)}"
     return f"{said}."
+
+
+def _hindrance(standing, level):
+    """The grid of the truth, or of all ways that could be taken the bias with its interval."""
+    if standing.discretisation >= level:
+        return f"the truth is known to {share(standing.discretisation)} of grid"
+    known = min(way.bias.most for way in standing.of("BEM") if way.reaching(inf) is not None)
+    return f"the bias is known only to {share(known)}"
 
 
 def _range(values):

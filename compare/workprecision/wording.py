@@ -11,6 +11,7 @@ from .order import observed
 
 # Errors alike: what is gained by less than this factor is not worth having.
 ALIKE = 1.5
+HOUR = 3600.0
 
 
 def seconds(value: float) -> str:
@@ -21,7 +22,9 @@ def seconds(value: float) -> str:
         return f"{1e6 * value:.2g} µs"
     if value < 0.0995:
         return f"{1e3 * value:.2g} ms"
-    return f"{value:.2g} s" if value < 99.5 else f"{value:.0f} s"
+    if value < 2 * HOUR:
+        return f"{value:.2g} s" if value < 99.5 else f"{value:.0f} s"
+    return f"{value / HOUR:.2g} h" if value < 99.5 * HOUR else f"{value / HOUR:.0f} h"
 
 
 def share(value: float) -> str:

@@ -19,9 +19,10 @@ from .scenes import CONE, KELVIN, SPHERE, powers, pressed, rough
 # So that what is seen of a ladder of points is discretisation alone.
 TIGHT = BEM(tolerance=1e-9)
 POINTS = {"quick": (32, 64, 128, 256), "full": powers(32, 1024)}
+REFINED_POINTS = {"quick": (32, 64, 128, 256), "full": powers(32, 512)}  # against a finer grid
 TOLERANCES = {"quick": (1e-2, 1e-4, 1e-6), "full": (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8)}
 AT = {"quick": 128, "full": 512}  # points of the ladders of tolerances
-REFERENCE = {"quick": 1024, "full": 2048}
+REFERENCE = {"quick": 1024, "full": 1024}
 PLANE = Scene(
     Plane(),
     KELVIN,
@@ -76,13 +77,13 @@ def _cone(size):
 def _refined(name, title, scene, quantities, size):
     solver = replace(TIGHT, points=REFERENCE[size], tolerance=1e-8)
     truth = Finer.of(scene, solver, f"{solver.points} points on the same surface")
-    return Contest(name, title, truth, quantities, _ladders(scene, size))
+    return Contest(name, title, truth, quantities, _ladders(scene, size, REFINED_POINTS))
 
 
-def _ladders(scene, size, **others):
+def _ladders(scene, size, points=POINTS, **others):
     at = AT[size]
     return (
-        Ladder.of("BEM, by points", scene, TIGHT, "points", POINTS[size], **others),
+        Ladder.of("BEM, by points", scene, TIGHT, "points", points[size], **others),
         Ladder.of(f"BEM, by tolerance at {at}²", scene, BEM(points=at), "tolerance", TOLERANCES[size], **others),
     )
 

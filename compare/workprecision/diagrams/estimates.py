@@ -20,15 +20,17 @@ def _indicated(row, _):
     return row.measures.get("friction_disagreement", nan) / row.friction_coefficient
 
 
-# What the answer joins of the other three; they are those of BEM, of which MDR has the first alone.
+# What the answer joins of traction, loss and curvature; work stands beside. They are those of BEM; of them MDR has
+# traction alone.
 JOINED = Quantity("friction", LABEL, FRICTION.of, "joined")
-TRACTION, LOSS, WORK = (
+TRACTION, LOSS, CURVATURE, WORK = (
     Quantity(f"friction_by_{by}", LABEL, partial(_over_load, name=f"friction_by_{by}"), f"by {by}")
-    for by in ("traction", "loss", "work")
+    for by in ("traction", "loss", "curvature", "work")
 )
 # What a solver says itself of the error of its friction, relative: no error, but drawn as one.
 INDICATOR = Quantity("friction_disagreement", LABEL, _indicated, "indicator")
-ALL = (JOINED, TRACTION, LOSS, WORK, INDICATOR)
+OTHERS = TRACTION, LOSS, CURVATURE, WORK
+ALL = (JOINED, *OTHERS, INDICATOR)
 
 
 @dataclass(frozen=True)
@@ -49,9 +51,8 @@ class OfFriction:
 
     def known(self, quantities: Sequence[Quantity], outcomes: Mapping[Task, Outcome]) -> Mapping[str, Known]:
         """As of Truth."""
-        others = (TRACTION, LOSS, WORK)
-        asked = [each for each in quantities if each not in (*others, INDICATOR)]
+        asked = [each for each in quantities if each not in (*OTHERS, INDICATOR)]
         found = dict(self.truth.known(asked, outcomes))
         if JOINED.name in found:
-            found |= {each.name: found[JOINED.name] for each in others}
+            found |= {each.name: found[JOINED.name] for each in OTHERS}
         return found | {INDICATOR.name: Known(0.0, scale=1.0)}
