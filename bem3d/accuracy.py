@@ -31,6 +31,7 @@ TOLERANCES = (1e-3, 1e-5, 1e-7)  # of the solve that finds the contact; a narrow
 LADDERS = {"friction": "friction", "depth": "pressing", "load": "pressing"}
 PILOTS = (64, 128, 256, 512, 1024)  # points a side of the solve that finds the contact
 LEAST, MOST = 32, 16384
+CARRIED = 2.5  # points a wave, with which the window may turn out wider than that of the coarse solve
 LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 
@@ -127,6 +128,8 @@ def choose(solver: Solver, scene: Scene, wanted: Mapping[str, float]) -> Choice:
     kind = _body(scene), band(scene)
     rungs = {name: ladder()[*kind, LADDERS[name]] for name in wanted}
     needed = max(_needed(name, rungs[name], error) for name, error in wanted.items())
+    if kind[0] == "rough":  # less would not carry the waves
+        needed = max(needed, CARRIED)
     # Even, so that half of them are half as many.
     points = max(LEAST, 2 * next_fast_len(int(np.ceil(pilot * needed / found / 2)), real=True))
     if points > MOST:

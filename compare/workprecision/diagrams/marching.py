@@ -126,7 +126,7 @@ def _price(steady, marched):
     if not ratios:
         return "What marching costs beside the steady solver cannot be told."
     return (
-        f"Marched to the steady state, a solve takes {min(ratios):.2g} to {max(ratios):.2g} times as long as the "
+        f"Marched to the steady state, a solve takes {min(ratios):.0f} to {max(ratios):.0f} times as long as the "
         "steady solver on the same points: march only for what happens on the way."
     )
 
