@@ -1,7 +1,5 @@
 """What a solved contact measures of itself, on a grid and under a rough surface."""
 
-from math import pi, sin
-
 import numpy as np
 
 from scene import Plane
@@ -24,7 +22,7 @@ def measured(problem: Problem, grid: Grid, pressure: np.ndarray, gap: np.ndarray
         measures |= {
             "rms_height": surface.rms_height,
             "rms_slope": surface.rms_slope,
-            "points_per_shortest_wave": float(2 * np.pi / problem.scene.roughness.q_max(grid.pixel) / grid.pixel),
+            "points_per_shortest_wave": problem.points_per_wave(grid),
         }
     if isinstance(problem.scene.indenter, Plane):
         measures |= {
@@ -33,29 +31,3 @@ def measured(problem: Problem, grid: Grid, pressure: np.ndarray, gap: np.ndarray
             "contact_fraction": float(contact_points / pressure.size),
         }
     return measures
-
-
-def differenced(waves: float) -> float:
-    """Share of the curvature of a wave of so many points that differences of slopes show: 0 of two points."""
-    q = 2 * pi / waves
-    return (8 * sin(q) - sin(2 * q)) / (6 * q)
-
-
-def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray, slopes: np.ndarray) -> float:
-    """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
-
-    pressure : not zero everywhere [Pa] (rows, points)
-    slopes : dz/dx at the pixels' centres [1] (rows, points)
-
-    Slopes are differenced in fourth order: what is left is the error of the pressure, of second order in the
-    pixel, of first order around the tip of a cone, where pressure and d2z/dx2 are infinite, and of waves of a few
-    points what `differenced` leaves of them.
-    """
-    two = (0, 0), (2, 2)
-    if isinstance(problem.scene.indenter, Plane):
-        slopes = np.pad(slopes, two, "wrap")
-    else:
-        slopes = np.pad(slopes, two, "reflect", reflect_type="odd")
-    next_to, next_but_one = slopes[:, 3:-1] - slopes[:, 1:-3], slopes[:, 4:] - slopes[:, :-4]
-    gained = np.sum(pressure * (8 * next_to - next_but_one)) / 12
-    return float(gained / pressure.sum() / grid.pixel)

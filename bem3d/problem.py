@@ -73,6 +73,10 @@ class Problem:
             self._cut_off, self._surface = q_max, RoughSurface.of(rough, q_max)
         return self._surface
 
+    def points_per_wave(self, grid: Grid) -> float:
+        """Of the shortest of the roughness."""
+        return float(2 * np.pi / self.scene.roughness.q_max(grid.pixel) / grid.pixel)
+
     def heights(self, grid: Grid, surface: RoughSurface | None, shift: float = 0.0) -> np.ndarray:
         """z [m] of indenter and roughness, `shift` [m] behind the pixels' centres."""
         x, y = grid.x + shift, grid.y

@@ -13,9 +13,10 @@ from scene.quantities import CLOSED, Positive, Whole
 
 from . import accuracy, window
 from .engine import Engine, Library, Unavailable
+from .friction import Friction
 from .grid import Grid
 from .history import marched
-from .measures import curvature_by_pressure, differenced, measured
+from .measures import measured
 from .problem import Problem
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
@@ -177,50 +178,25 @@ class BEM:
 
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus
-        normal_force = float(pressure.sum() * grid.patch)
-        slopes = problem.slopes(grid, problem.surface(grid))
-        traction = float(-np.sum(pressure * slopes) * grid.patch)
-        loss, work = problem.lost(grid, pressure)
-        curvature = curvature_by_pressure(problem, grid, pressure, slopes)
-        slow = problem.flow.trail * curvature * normal_force
-        lag, slowness = problem.flow.lag(grid), self._slowness(problem, grid, pressure)
-        frictions = {
-            "friction_by_traction": traction,
-            "friction_by_loss": loss,
-            "friction_by_work": work,
-            "friction_by_curvature": slow,
-        }
-        apart = (1 - slowness) * abs(work - loss), lag * abs(traction - loss), slowness * abs(slow - loss)
+        normal_force, friction = float(pressure.sum() * grid.patch), Friction.of(problem, grid, pressure)
         return Result(
             scene=problem.scene,
             solver=self.name,
             settings=self.settings(problem, grid),
             normal_force=normal_force,
             depth=answer.depth * grid.pixel,
-            friction_force=slowness * slow + (1 - slowness) * (lag * traction + (1 - lag) * loss),
+            friction_force=friction.force,
             residual=answer.violation,
             applications=problem.work / (grid.points * grid.rows),
             seconds=time.process_time() - started,
             measures={
                 **measured(problem, grid, pressure, answer.gap * grid.pixel),
-                "curvature_by_pressure": curvature,
-                **frictions,
-                "friction_disagreement": max(apart) / normal_force,
+                **friction.measures(normal_force),
                 "rounds": float(answer.rounds),
                 "transform_pairs": problem.transforms / (grid.points * grid.rows),
             },
             fields={"x": grid.x, "y": grid.y, "pressure": pressure, "gap": answer.gap * grid.pixel},
         )
-
-    @staticmethod
-    def _slowness(problem, grid, pressure):
-        """How far friction is that by curvature: as that of the flow, and as far as the grid shows curvature."""
-        if pressure.all():  # no edge, and nothing is lost of the loss
-            return 0.0
-        slowness = problem.flow.slowness(grid)
-        if problem.surface(grid) is None:
-            return slowness
-        return slowness * max(0.0, differenced(2 * np.pi / problem.scene.roughness.q_max(grid.pixel) / grid.pixel))
 
     def settings(self, problem: Problem, grid: Grid) -> dict:
         """What it solved with, the derived settings included."""

@@ -46,7 +46,7 @@ class Estimated:
 
     def interval(self, level: float = 0.95) -> tuple:
         """Ends between which the number is, as often as stated."""
-        half = self.error * _student(level, self.freedom)
+        half = self.error * student(level, self.freedom)
         return self.value - half, self.value + half
 
     def apart(self, other: Self) -> float:
@@ -92,7 +92,7 @@ class Size:
             return nan, nan
         if self.noise == 0:
             return self.value, self.value
-        reach = self.along * _student(level, self.freedom) ** 2
+        reach = self.along * student(level, self.freedom) ** 2
         second = (stats.f.ppf(level, self.modes, self.modes * self.freedom) - 1) * self.noise
         middle = self.square + 2 * reach
         above = self.square**2 - second**2
@@ -236,5 +236,6 @@ def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _student(level, freedom):
+def student(level: float, freedom: float) -> float:
+    """By how many standard errors either end of an interval lies off, as often inside as stated."""
     return stats.t.ppf((1 + level) / 2, freedom)

@@ -19,7 +19,7 @@ from compare.publish import machine, versions, write_csv, write_text
 from compare.run import INQUIRIES
 from compare.store import Store
 from compare.sweep import sweep
-from compare.workprecision import kept, promises
+from compare.workprecision import ladder, promises
 from compare.workprecision.report import Chapter, chapter
 
 FOLDER = Path(__file__).with_suffix("")
@@ -51,8 +51,8 @@ grid does is found by a coarse solve, which comes first. A tenth of the wanted e
 
 ```python
 choice = BEM.for_accuracy(scene, friction=0.01)
-choice.solver, choice.expected, choice.seconds   # the settings, the errors expected of them, and how long it takes
-answer = choice.solve()                          # answer.result; warns where half the points do not confirm it
+choice.solver, choice.expected, choice.seconds  # the settings, the errors expected of them, and how long it takes
+answer = choice.solve()  # answer.result; warns where half the points do not confirm it
 ```
 
 `Choice.solve` solves on half the points too: what changes from there to all is no less than the error of the
@@ -95,20 +95,20 @@ points, over all contacts of the ladder: by the length that the solid remembers 
 def main() -> None:
     """Measure everything and write the pages."""
     console, store = Console(highlight=False, soft_wrap=True), Store(FOLDER / "solved")
-    measured = promises.probes()
+    measured = ladder.probes()
     outcomes = _swept(console, store, [task for probe in measured for task in probe.tasks])
-    estimates = promises.estimates(measured, outcomes)
+    estimates = ladder.estimates(measured, outcomes)
     write_csv(FOLDER / "estimates.csv", estimates)
     if "ladder" in sys.argv[1:]:
-        write_csv(bem3d.accuracy.LADDER, promises.rows(measured, outcomes))
+        write_csv(bem3d.accuracy.LADDER, ladder.rows(measured, outcomes))
     outcomes = _swept(console, store, [task for each in INQUIRIES.values() for task in each.untimed(SIZE)])
     timed = [task for each in INQUIRIES.values() for task in each.timed(SIZE)]
     outcomes = {**outcomes, **_swept(console, store, timed, 1, tasks_each=1)}
     chapters = [chapter(FOLDER, each, each.judge(SIZE, outcomes)) for each in INQUIRIES.values()]
     write_text(Path(__file__).with_suffix(".md"), page(chapters))
-    asked = kept.promises()
-    truths = [kept.truth(scene) for scene in kept.scenes()]
-    made = kept.rows(asked, _swept(console, store, [*asked, *truths]))
+    asked = promises.asked()
+    truths = [promises.truth(scene) for scene in promises.scenes()]
+    made = promises.rows(asked, _swept(console, store, [*asked, *truths]))
     write_csv(FOLDER / "promises.csv", made)
     write_text(Path(__file__).with_name("promises.md"), promised(made, estimates))
 
@@ -123,18 +123,18 @@ def page(chapters: Sequence[Chapter]) -> str:
 
 
 def promised(made: Sequence[Mapping], estimates: Sequence[Mapping]) -> str:
-    """What the ladder is, and whether its promises are kept."""
-    totals = {name: sum(each[name] for each in kept.kept(made)) for name in COUNTS}
+    """What the ladder is, and whether its promises are promises."""
+    totals = {name: sum(each[name] for each in promises.kept(made)) for name in COUNTS}
     said = (
         "Of {asked} promises asked for {made} were made; {checked} of these could be checked, and {kept} were "
         "kept. {confirmed} were confirmed, of which {confirmed_and_kept} were kept."
     ).format(**totals)
     return PROMISES.format(
-        probes=len(promises.probes()),
-        tight=promises.TIGHT,
+        probes=len(ladder.probes()),
+        tight=ladder.TIGHT,
         ladder=_ladder(),
-        scenes=len(list(kept.scenes())),
-        finest=kept.FINEST,
+        scenes=len(list(promises.scenes())),
+        finest=promises.FINEST,
         kept=_kept(made),
         found=said,
         estimates=_estimates(estimates),
@@ -175,7 +175,7 @@ def _ladder() -> str:
 
 def _kept(made) -> str:
     def rows():
-        for each in kept.kept(made):
+        for each in promises.kept(made):
             counts = (str(each[name]) for name in COUNTS)
             worst, points = f"{each['worst_error']:.2%}", f"{each['median_points']:.0f}"
             yield each["quantity"], f"{each['wanted']:.1%}", *counts, worst, points
@@ -188,7 +188,7 @@ def _kept(made) -> str:
 def _estimates(found) -> str:
     def rows():
         for each in found:
-            errors = (f"{each[name]:.2%}" for name in (*promises.ESTIMATES, "joined_90"))
+            errors = (f"{each[name]:.2%}" for name in (*ladder.ESTIMATES, "joined_90"))
             yield f"{each['from']:g} to {each['to']:g}", str(each["answers"]), *errors
 
     return table(

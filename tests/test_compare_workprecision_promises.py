@@ -1,13 +1,14 @@
-"""The ladder behind settings for a wanted accuracy, and the count of promises kept."""
+"""The ladder behind settings for a wanted accuracy, and the count of promises promises."""
 
 from math import inf, nan
 
 import numpy as np
 import pytest
 
-from bem3d.accuracy import BANDS, band, ladder
+from bem3d import accuracy
+from bem3d.accuracy import BANDS, band
 from compare.outcome import Outcome, Row
-from compare.workprecision import kept, promises
+from compare.workprecision import ladder, promises
 from scene.protocol import refuse
 
 
@@ -18,21 +19,21 @@ def row(friction, contact=1e4, pixel=1e-3, **changed):
 
 
 def smooth_probe():
-    return next(each for each in promises.probes() if each.quantities == ("friction", "depth"))
+    return next(each for each in ladder.probes() if each.quantities == ("friction", "depth"))
 
 
 def test_every_probe_and_every_scene_asked_is_one_that_is_not_refused():
-    asked = [(task.solver, each.scene) for each in promises.probes() for task in each.tasks[-1:]]
-    asked += [(kept.truth(scene).solver, scene) for scene in kept.scenes()]
+    asked = [(task.solver, each.scene) for each in ladder.probes() for task in each.tasks[-1:]]
+    asked += [(promises.truth(scene).solver, scene) for scene in promises.scenes()]
     for solver, scene in asked:
         refuse(solver, scene)
-    bands = {(each.body, band(each.scene)) for each in promises.probes()}
+    bands = {(each.body, band(each.scene)) for each in ladder.probes()}
     assert bands == {(body, each) for body in ("smooth", "rough") for each in BANDS}
-    assert {kind[:2] for kind in ladder()} == bands
+    assert {kind[:2] for kind in accuracy.ladder()} == bands
 
 
 def test_no_scene_asked_is_one_of_the_ladder():
-    assert not {each.scene for each in promises.probes()} & set(kept.scenes())
+    assert not {each.scene for each in ladder.probes()} & set(promises.scenes())
 
 
 def test_the_ladder_keeps_the_largest_error_of_all_that_is_resolved_as_finely_or_more():
@@ -43,9 +44,9 @@ def test_the_ladder_keeps_the_largest_error_of_all_that_is_resolved_as_finely_or
     frictions[2], frictions[-1] = 1.5, 1.0
     rows = [row(mu, n * n) for n, mu in zip(counts, frictions, strict=True)]
     outcomes = {task: Outcome((each,)) for task, each in zip(probe.tasks, rows, strict=True)}
-    found = [each for each in promises.rows([probe] * 3, outcomes) if each["quantity"] == "friction"]
+    found = [each for each in ladder.rows([probe] * 3, outcomes) if each["quantity"] == "friction"]
     errors = {each["resolution"]: each["value"] for each in found}
-    missing = {n: promises.missing(n, probe.points[-1]) for n in probe.points[:-1]}
+    missing = {n: ladder.missing(n, probe.points[-1]) for n in probe.points[:-1]}
     worst = 0.5 * missing[probe.points[2]]
     for resolution, error in errors.items():
         finer = [n for n in probe.points[:-1] if 2 * n / np.sqrt(np.pi) >= resolution]
@@ -61,7 +62,7 @@ def test_a_failed_answer_is_no_rung_and_a_failed_truth_none_at_all():
     for place, left in ((0, len(rows) - 2), (-1, 0)):
         answers = [failed if k == place % len(rows) else each for k, each in enumerate(rows)]
         outcomes = {task: Outcome((each,)) for task, each in zip(probe.tasks, answers, strict=True)}
-        found = promises.rows([probe] * 3, outcomes)
+        found = ladder.rows([probe] * 3, outcomes)
         assert sum(each["quantity"] == "friction" for each in found) <= left
         assert all(np.isfinite(each["value"]) for each in found)
 
@@ -70,7 +71,7 @@ def test_what_is_missing_of_an_error_of_first_order_is_made_up():
     exact, slope = 2.0, 0.3
     value = {n: exact + slope / n for n in (64, 256, 512)}
     for n in (64, 256):
-        error = abs(value[n] - value[512]) * promises.missing(n, 512)
+        error = abs(value[n] - value[512]) * ladder.missing(n, 512)
         assert error == pytest.approx(abs(value[n] - exact))
 
 
@@ -88,7 +89,7 @@ def test_promises_are_counted_by_what_became_of_them():
         entry(error=nan),  # made, and too fine to be checked
         entry(points=nan, error=nan, change=nan, reason="less than was measured"),  # not made
     ]
-    (found,) = (each for each in kept.kept(entries) if each["wanted"] == 0.01)
+    (found,) = (each for each in promises.kept(entries) if each["wanted"] == 0.01)
     counts = {
         name: found[name] for name in ("asked", "made", "checked", "kept", "confirmed", "confirmed_and_kept")
     }
@@ -97,19 +98,19 @@ def test_promises_are_counted_by_what_became_of_them():
 
 
 def test_a_truth_less_than_twice_as_fine_checks_nothing():
-    task = kept.promises()[0]
+    task = promises.asked()[0]
     truth = Outcome((row(1.0),))
-    for points, checked in ((kept.FINEST / 2, True), (kept.FINEST / 2 + 2, False)):
+    for points, checked in ((promises.FINEST / 2, True), (promises.FINEST / 2 + 2, False)):
         answer = row(1.01)
         answer.measures.update(points=points, expected=0.02, change=0.01, promised_seconds=1.0)
-        (found,) = kept.rows([task], {task: Outcome((answer,)), kept.truth(task.scene): truth})
+        (found,) = promises.rows([task], {task: Outcome((answer,)), promises.truth(task.scene): truth})
         assert np.isfinite(found["error"]) == checked
 
 
 def test_a_promise_made_with_another_ladder_is_another_task(tmp_path, monkeypatch):
-    task = kept.promises()[0]
+    task = promises.asked()[0]
     before = task.question
     other = tmp_path / "ladder.csv"
     other.write_text("body,band,quantity,resolution,value,answers\n", encoding="utf-8")
-    monkeypatch.setattr(kept, "LADDER", other)
+    monkeypatch.setattr(promises, "LADDER", other)
     assert task.question != before

@@ -2,8 +2,34 @@
 
 from collections.abc import Mapping
 
-from . import contact, grids, histories, input, motion, rheology, roughness, shapes, units
+from . import (
+    contact,
+    extremes,
+    grids,
+    histories,
+    mistakes,
+    motion,
+    programs,
+    rheology,
+    roughness,
+    settling,
+    shapes,
+    units,
+)
 from .hardcase import HardCase
 
-GROUPS = (motion, roughness, contact, rheology, units, grids, shapes, histories, input)
+GROUPS = (
+    motion,
+    roughness,
+    contact,
+    settling,
+    rheology,
+    units,
+    grids,
+    shapes,
+    histories,
+    programs,
+    mistakes,
+    extremes,
+)
 CASES: Mapping[str, HardCase] = {case.name: case for group in GROUPS for case in group.CASES}

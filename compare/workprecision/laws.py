@@ -7,6 +7,8 @@ import numpy as np
 from scipy import stats
 from scipy.optimize import least_squares
 
+from ..resampling import student
+
 FEWEST = 3  # points that a power is fitted to
 WITH_OVERHEAD = 5  # points from which on a fixed cost can be told from a power
 # The least time of some repeats comes out again to so much, and so does a count of iterations: less is no misfit.
@@ -45,7 +47,7 @@ class Law:
     @property
     def exponent_interval(self) -> tuple[float, float]:
         """Of 95 %, by Student."""
-        half = stats.t.ppf((1 + LEVEL) / 2, self.freedom) * sqrt(self.covariance[1, 1])
+        half = student(LEVEL, self.freedom) * sqrt(self.covariance[1, 1])
         return float(self.exponent - half), float(self.exponent + half)
 
     def at(self, x):
@@ -68,7 +70,7 @@ class Law:
         parts = np.array([power, power * np.log(x / self.centre), np.full(len(x), self.overhead)])
         slopes = parts[: len(self.covariance)] / whole
         width = np.sqrt(self.scatter**2 + np.einsum("ik,ij,jk->k", slopes, self.covariance, slopes))
-        factor = np.exp(np.minimum(stats.t.ppf((1 + LEVEL) / 2, self.freedom) * width, 700.0))
+        factor = np.exp(np.minimum(student(LEVEL, self.freedom) * width, 700.0))
         return whole / factor, whole * factor
 
 

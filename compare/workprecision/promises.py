@@ -1,207 +1,211 @@
-"""How large errors of three dimensions are, by how finely a contact is resolved: the ladder behind
-`BEM.for_accuracy`, and whether it keeps its promises on other scenes.
+"""Whether settings chosen by `BEM.for_accuracy` keep their promise, on scenes that its ladder does not know."""
 
-All in units of the contact: radius of curvature 1 m, contact radius about 0.1 m, retardation in 1 s, E* = 1 Pa.
-"""
-
+import hashlib
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
-from math import isnan
+from dataclasses import dataclass, replace
+from math import isfinite, nan
 
 import numpy as np
 
 from bem3d import BEM
-from bem3d.accuracy import BANDS, LADDERS, apart, band, resolution
-from bem3d.sliding import Flow
+from bem3d.accuracy import LADDER, Unconfirmed, apart, band
 from scene import (
     Cone,
-    Cylinder,
+    Fractional,
     Indent,
-    Kelvin,
     Plane,
     PowerLaw,
+    Prony,
     Scene,
     SelfAffine,
     Slide,
+    SolveError,
     Sphere,
     StandardLinearSolid,
 )
 from scene.scales import elastic_contact
 
-from ..outcome import Outcome, Row
+from ..outcome import Outcome, Row, row
 from ..store import Task
+from ..study import SCENES
 from ..study import Task as Solves
+from .contest import work
+from .ladder import TIGHT, missing
 
-RADIUS = 0.1  # of the smooth contact at rest [m]
-KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
-STANDARD = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=2.5, relaxation_time=0.1)
-SHAPES = Sphere(radius=1.0), Cone(angle=0.05), PowerLaw(coefficient=2.0, exponent=4.0)
-# Speed times the time of the solid over the contact radius.
-SPEEDS = {KELVIN: (0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0), STANDARD: (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0)}
-# Hurst exponent, rms height over depth, contact radius over shortest wave, seed.
-ROUGHNESS = (
-    (0.2, 0.1, 3, 1),
-    (0.2, 0.3, 6, 1),
-    (0.8, 0.3, 6, 1),
-    (0.8, 1.0, 4, 2),
-    (0.5, 0.5, 12, 1),
-)
-# The last is what the others are measured against.
-SMOOTH_POINTS, ROUGH_POINTS = (16, 24, 32, 48, 64, 96, 128, 192, 512), (48, 64, 96, 128, 192, 256, 512)
-TIGHT = 1e-7  # tolerance, so that what is seen is the grid
-# Resolutions at which the ladder has a rung.
-RUNGS = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
-# Of friction: the answer, and what it joins.
-ESTIMATES = "joined", "traction", "loss", "curvature"
-MEMORIES = 0.0, 0.03, 0.1, 0.25, 1.0, 3.0, 10.0, np.inf  # over the pixel
-FEWEST = 3  # answers from which a rung is made
+WANTED = (0.1, 0.03, 0.01, 0.003)
+FINEST, TRUTH = 1024, 2  # points of the truth, and how many times those chosen they have to be
+# Elastomers of several times, of a glass a hundred times as stiff, and of a loss as a power of the frequency.
+SOLIDS = {
+    "three modes": Prony(equilibrium_modulus=0.25, moduli=(0.25, 0.5, 1.0), relaxation_times=(10.0, 1.0, 0.1)),
+    "standard linear, E_g/E_r = 100": StandardLinearSolid(0.25, 25.0, 0.01),
+    "fractional": Fractional(
+        modulus=0.25,
+        relaxation_time=1.0,
+        exponent=0.5,
+        lowest_frequency=1e-3,
+        highest_frequency=1e3,
+    ),
+}
 
 
 @dataclass(frozen=True)
-class Probe:
-    """A scene solved on several grids, the last of which is what the others are measured against."""
+class Promise:
+    """A task, as of store: an answer with settings chosen for a wanted error.
+
+    Its row is the answer's; measures has besides those: points, expected and promised_seconds of a promise that
+    was made, and the change of the quantity from half the points to all.
+    """
 
     scene: Scene
-    points: tuple[int, ...]
+    quantity: str
+    wanted: float
+    work: float = 1e8
+    keeps_fields = False
+    packages = ("scene", "bem3d", "compare.workprecision.ladder", __name__)
 
     @property
-    def body(self) -> str:
-        """smooth or rough."""
-        return "smooth" if self.scene.roughness is None else "rough"
+    def label(self) -> str:
+        """Short description for people."""
+        return f"{self.quantity} within {self.wanted:g}, {type(self.scene.indenter).__name__.lower()}"
 
     @property
-    def tasks(self) -> list[Task]:
-        """One a grid."""
-        solvers = (BEM(points=n, tolerance=TIGHT) for n in self.points)
-        return [Solves(each, (self.scene,), work=each.points**2.2 * 50.0) for each in solvers]
+    def question(self) -> Mapping:
+        """The scene and what is wanted."""
+        (scene,) = SCENES.dump_python((self.scene,), mode="json")
+        ladder = hashlib.sha256(LADDER.read_bytes()).hexdigest()
+        return {"promise": scene, "quantity": self.quantity, "wanted": self.wanted, "ladder": ladder}
 
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Whose error is asked."""
-        motion, elastomer = self.scene.motion, self.scene.elastomer
-        found = ("friction",) if motion.speed and len(elastomer.retardation()[2]) else ()
-        if isinstance(self.scene.indenter, Plane | Cylinder):
-            return found
-        return (*found, "depth" if motion.depth is None else "load")
+    def solve(self) -> Outcome:
+        """What was promised, and what was kept; NaN with its reason where none was made."""
+        try:
+            choice = BEM.for_accuracy(self.scene, **{self.quantity: self.wanted})
+        except (SolveError, ValueError) as reason:
+            return Outcome((Row(reason=str(reason)),))
+        made = {
+            "points": float(choice.solver.points),
+            "expected": choice.expected[self.quantity],
+            "promised_seconds": choice.seconds,
+        }
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", Unconfirmed)
+                answer = choice.solve()
+        except SolveError as reason:
+            return Outcome((Row(reason=str(reason), measures=made),))
+        found, change = row(answer.result), {"change": answer.change[self.quantity]}
+        return Outcome((replace(found, measures={**found.measures, **made, **change}),))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """One row."""
+        return len(outcome.rows) == 1
 
 
-def probes() -> list[Probe]:
-    """The scenes of which the ladder is made."""
-    return [Probe(scene, SMOOTH_POINTS) for scene in _smooth()] + [
-        Probe(scene, ROUGH_POINTS) for scene in _rough()
+def asked() -> list[Promise]:
+    """Every quantity of every scene within every error wanted."""
+    return [
+        Promise(scene, quantity, wanted)
+        for scene in scenes()
+        for quantity in _quantities(scene)
+        for wanted in WANTED
     ]
 
 
-def rows(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[dict]:
-    """The ladder: the largest error of all answers resolved as finely as a rung or more finely."""
-    errors, seconds = {}, {}
-    for probe in found:
-        answers = [outcomes[task].rows[0] for task in probe.tasks]
-        kind = probe.body, band(probe.scene)
-        for points, answer in zip(probe.points, answers, strict=True):
-            if not isnan(answer.seconds):
-                seconds.setdefault((*kind, "seconds"), {}).setdefault(points, []).append(answer.seconds)
-        for name in probe.quantities:
-            errors.setdefault((*kind, LADDERS[name]), []).extend(_errors(probe, name, answers))
-    ladder = []
-    for key in sorted(errors, key=lambda key: (key[0], BANDS.index(key[1]), key[2])):
-        ladder += [_entry(key, *rung) for rung in _rungs(np.reshape(errors[key], (-1, 2)).T)]
-    for key, by_points in seconds.items():
-        ladder += [_entry(key, points, float(np.median(each)), len(each)) for points, each in by_points.items()]
-    return ladder
+def truth(scene: Scene) -> Solves:
+    """What the answers to a scene are checked against."""
+    solver = BEM(points=FINEST, tolerance=TIGHT)
+    return Solves(solver, (scene,), work=work(solver))
 
 
-def estimates(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[dict]:
-    """Errors of the estimates of friction against the finest grid, by memory over pixel.
+def rows(tasks: Sequence[Promise], outcomes: Mapping[Task, Outcome]) -> list[dict]:
+    """Each promise and what became of it; its error is NaN where the truth is not twice as fine, or failed."""
+    return [_entry(task, outcomes[task].rows[0], outcomes[truth(task.scene)].rows[0]) for task in tasks]
 
-    Medians, and the 90th percentile of the answer that joins them.
+
+def kept(rows: Sequence[Mapping]) -> list[dict]:
+    """By quantity and wanted error: how many promises were made, checked, kept, confirmed, and confirmed and kept.
+
+    One that was made and then had no answer counts as checked, and not as kept.
     """
-    errors = []
-    for probe in (each for each in found if "friction" in each.quantities):
-        *coarser, truth = [outcomes[task].rows[0] for task in probe.tasks]
-        memory = Flow.of(probe.scene.elastomer, probe.scene.motion.speed).memory
-        errors += [
-            (memory / answer.measures["pixel"], *_of_estimates(answer, truth))
-            for answer in coarser
-            if answer.reason is None and truth.reason is None
-        ]
-    over_pixel, *by_estimate = np.array(errors).T
-    table = []
-    for low, high in pairwise(MEMORIES):
-        within = (over_pixel >= low) & (over_pixel < high)
-        medians = {name: float(np.median(each[within])) for name, each in zip(ESTIMATES, by_estimate, strict=True)}
-        rare = {"joined_90": float(np.quantile(by_estimate[0][within], 0.9))}
-        table.append({"from": low, "to": high, "answers": int(within.sum())} | medians | rare)
-    return table
-
-
-def _of_estimates(answer: Row, truth: Row) -> list[float]:
-    forces = (answer.friction_force, *(answer.measures[f"friction_by_{name}"] for name in ESTIMATES[1:]))
-    return [abs(force / answer.normal_force / truth.friction_coefficient - 1) for force in forces]
-
-
-def _entry(key, resolution, value, answers):
-    body, band, quantity = key
-    return {
-        "body": body,
-        "band": band,
-        "quantity": quantity,
-        "resolution": resolution,
-        "value": float(f"{value:.3g}"),
-        "answers": answers,
-    }
-
-
-def _rungs(pairs) -> Iterator[tuple[float, float, int]]:
-    resolved, error = pairs
-    for low, high in zip(RUNGS, (*RUNGS[1:], np.inf), strict=True):
-        if np.count_nonzero((resolved >= low) & (resolved < high)) >= FEWEST:
-            yield low, float(error[resolved >= low].max()), int(np.count_nonzero(resolved >= low))
-
-
-def _errors(probe, name, answers: Sequence[Row]) -> Iterator[tuple[float, float]]:
-    """Resolution and error of each answer but the last."""
-    *coarser, truth = zip(probe.points, answers, strict=True)
-    for points, answer in coarser:
-        if answer.reason is None and truth[1].reason is None:
-            error = apart(probe.scene, name, answer, truth[1]) * missing(points, truth[0])
-            yield resolution(probe.scene, answer.measures), error
-
-
-def missing(points: int, finer: int) -> float:
-    """What a difference to a finer grid is multiplied with for the error, which falls with the points at least."""
-    return finer / (finer - points)
-
-
-def _smooth() -> Iterator[Scene]:
-    for shape in SHAPES:
-        depth = shape.mdr_coefficient * RADIUS**shape.exponent
-        for elastomer, speeds in SPEEDS.items():
-            load = elastic_contact(Scene(shape, elastomer, Indent(depth=depth))).load
-            for speed in speeds:
-                yield Scene(shape, elastomer, Slide(speed=speed * RADIUS, load=load))
-                if shape is SHAPES[0]:
-                    yield Scene(shape, elastomer, Slide(speed=speed * RADIUS, depth=depth))
-    for speed in SPEEDS[KELVIN][1:]:
-        yield Scene(Cylinder(radius=1.0), KELVIN, Slide(speed=speed * RADIUS, line_load=np.pi * RADIUS**2 / 4))
-
-
-def _rough() -> Iterator[Scene]:
-    for shape in SHAPES[:2]:
-        depth = shape.mdr_coefficient * RADIUS**shape.exponent
-        for hurst, height, waves, seed in ROUGHNESS:
-            rough = SelfAffine(
-                hurst=hurst, rms_height=height * depth, longest=3 * RADIUS, shortest=RADIUS / waves, seed=seed
+    found = []
+    for quantity in dict.fromkeys(each["quantity"] for each in rows):
+        for wanted in WANTED:
+            asked = [each for each in rows if (each["quantity"], each["wanted"]) == (quantity, wanted)]
+            made = [each for each in asked if isfinite(each["points"])]
+            checked = [each for each in made if each["reason"] or isfinite(each["error"])]
+            sure = [each for each in checked if each["change"] <= wanted]
+            found.append(
+                {
+                    "quantity": quantity,
+                    "wanted": wanted,
+                    "asked": len(asked),
+                    "made": len(made),
+                    "checked": len(checked),
+                    "kept": sum(each["error"] <= wanted for each in checked),
+                    "confirmed": len(sure),
+                    "confirmed_and_kept": sum(each["error"] <= wanted for each in sure),
+                    "worst_error": max((each["error"] for each in checked), default=nan),
+                    "median_points": float(np.median([each["points"] for each in made])) if made else nan,
+                }
             )
-            for elastomer, speeds in SPEEDS.items():
-                load = elastic_contact(Scene(shape, elastomer, Indent(depth=depth))).load
-                for speed in speeds:
-                    yield Scene(shape, elastomer, Slide(speed=speed * RADIUS, load=load), rough)
-            yield Scene(shape, KELVIN, Slide(speed=RADIUS, depth=depth), rough)
-            yield Scene(shape, KELVIN, Indent(depth=depth), rough)
-    for hurst, waves, pressure in ((0.8, 8, 0.01), (0.3, 16, 0.02)):
-        rough = SelfAffine(hurst=hurst, rms_height=1e-2, longest=1.0, shortest=1 / waves, seed=1)
-        for elastomer, speeds in SPEEDS.items():
-            for speed in speeds[1:]:
-                yield Scene(Plane(), elastomer, Slide(speed=speed * RADIUS, pressure=pressure), rough)
+    return found
+
+
+def scenes() -> Iterator[Scene]:
+    """Other shapes, solids, spectra, speeds and seeds than those of the ladder; drawn once, from one seed."""
+    draw = np.random.default_rng(20141)
+    shapes = Sphere(radius=1.0), Cone(angle=0.2), PowerLaw(coefficient=1.0, exponent=3.0)
+    for k, solid in enumerate(SOLIDS.values()):
+        for shape in shapes:
+            depth = shape.mdr_coefficient * 0.1**shape.exponent
+            load = elastic_contact(Scene(shape, solid, Indent(depth=depth))).load
+            for rough in (False, True):
+                roughness = SelfAffine(
+                    hurst=float(draw.uniform(0, 1)),
+                    rms_height=float(depth * 10 ** draw.uniform(-1.5, 0)),
+                    longest=float(draw.uniform(0.15, 0.5)),
+                    shortest=float(draw.uniform(0.01, 0.04)),
+                    seed=int(draw.integers(1000)),
+                )
+                pressed = {"load": load} if k != 1 else {"depth": depth}
+                length = roughness.shortest if rough else 0.1
+                yield Scene(
+                    shape, solid, Slide(speed=_speed(draw, solid, length), **pressed), roughness if rough else None
+                )
+        waves = SelfAffine(hurst=float(draw.uniform(0, 1)), rms_height=1e-2, longest=1.0, shortest=0.1, seed=k)
+        pressure = float(10 ** draw.uniform(-2.5, -1))
+        yield Scene(Plane(), solid, Slide(speed=_speed(draw, solid, waves.shortest), pressure=pressure), waves)
+
+
+def _speed(draw, solid, length):
+    """At which the memory of the solid is a thousandth to a hundred times a length [m]."""
+    _, compliances, times = solid.retardation()
+    memory = float(compliances @ times**2 / (compliances @ times))
+    return float(10 ** draw.uniform(-3, 2)) * length / memory
+
+
+def _quantities(scene):
+    if isinstance(scene.indenter, Plane):
+        return ("friction",)
+    return "friction", "depth" if scene.motion.depth is None else "load"
+
+
+def _entry(task, answer: Row, finest: Row):
+    names = ("points", "expected", "change", "promised_seconds", "friction_disagreement")
+    measures = {name: answer.measures.get(name, nan) for name in names}
+    error, points = nan, measures["points"]
+    if answer.reason is None and finest.reason is None and TRUTH * points <= FINEST:
+        error = apart(task.scene, task.quantity, answer, finest) * missing(points, FINEST)
+    return {
+        "shape": type(task.scene.indenter).__name__,
+        "solid": next(name for name, solid in SOLIDS.items() if solid == task.scene.elastomer),
+        "body": "smooth" if task.scene.roughness is None else "rough",
+        "band": band(task.scene),
+        "quantity": task.quantity,
+        "wanted": task.wanted,
+        **measures,
+        "error": error,
+        "mu": answer.friction_coefficient,
+        "seconds": answer.seconds,
+        "reason": answer.reason or "",
+    }

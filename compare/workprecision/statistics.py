@@ -8,6 +8,8 @@ from typing import Self
 import numpy as np
 from scipy import stats
 
+from ..resampling import student
+
 LEVEL = 0.95
 
 
@@ -176,4 +178,4 @@ def envelope(ways: Sequence[Way], seconds: np.ndarray) -> np.ndarray:
 
 def half_width(error: float, freedom: float) -> float:
     """Half of the interval of 95 % of a mean with a standard error."""
-    return float(stats.t.ppf((1 + LEVEL) / 2, freedom)) * error if freedom > 0 else nan
+    return float(student(LEVEL, freedom)) * error if freedom > 0 else nan

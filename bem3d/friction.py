@@ -1,0 +1,107 @@
+"""Friction of a steady contact: estimates from one pressure, and the answer that joins their strengths."""
+
+from dataclasses import dataclass
+from math import pi, sin
+from typing import Self
+
+import numpy as np
+
+from scene import Plane
+
+from .grid import Grid
+from .problem import Problem
+
+
+@dataclass(frozen=True)
+class Friction:
+    """What the surface takes from the indenter, found in four ways.
+
+    by_traction, by_loss, by_work, by_curvature : [N]; see theory, Eqs. 2, 5d, 5e
+    mean_curvature : of d2z/dx2 weighted with the pressure [1/m]
+    lag, slowness : how far traction and curvature count, 0 to 1
+    """
+
+    by_traction: float
+    by_loss: float
+    by_work: float
+    by_curvature: float
+    mean_curvature: float
+    lag: float
+    slowness: float
+
+    @classmethod
+    def of(cls, problem: Problem, grid: Grid, pressure: np.ndarray) -> Self:
+        """From the pressure [Pa] (rows, points)."""
+        slopes = problem.slopes(grid, problem.surface(grid))
+        loss, work = problem.lost(grid, pressure)
+        curvature = curvature_by_pressure(problem, grid, pressure, slopes)
+        return cls(
+            by_traction=float(-np.sum(pressure * slopes) * grid.patch),
+            by_loss=loss,
+            by_work=work,
+            by_curvature=problem.flow.trail * curvature * float(pressure.sum() * grid.patch),
+            mean_curvature=curvature,
+            lag=problem.flow.lag(grid),
+            slowness=_slowness(problem, grid, pressure),
+        )
+
+    @property
+    def force(self) -> float:
+        """The answer [N]."""
+        fast = self.lag * self.by_traction + (1 - self.lag) * self.by_loss
+        return self.slowness * self.by_curvature + (1 - self.slowness) * fast
+
+    @property
+    def disagreement(self) -> float:
+        """The most that the loss differs from another, as far as that counts [N]."""
+        return max(
+            (1 - self.slowness) * abs(self.by_work - self.by_loss),
+            self.lag * abs(self.by_traction - self.by_loss),
+            self.slowness * abs(self.by_curvature - self.by_loss),
+        )
+
+    def measures(self, normal_force: float) -> dict[str, float]:
+        """As of a result."""
+        return {
+            "curvature_by_pressure": self.mean_curvature,
+            "friction_by_traction": self.by_traction,
+            "friction_by_loss": self.by_loss,
+            "friction_by_work": self.by_work,
+            "friction_by_curvature": self.by_curvature,
+            "friction_disagreement": self.disagreement / normal_force,
+        }
+
+
+def _slowness(problem, grid, pressure):
+    """As that of the flow, and as far as the grid shows the curvature of the roughness."""
+    if pressure.all():  # no edge, and nothing is lost of the loss
+        return 0.0
+    if problem.surface(grid) is None:
+        return problem.flow.slowness(grid)
+    return problem.flow.slowness(grid) * max(0.0, differenced(problem.points_per_wave(grid)))
+
+
+def differenced(points: float) -> float:
+    """Share of the curvature of a wave of so many points that differences of slopes show: 0 of two points."""
+    q = 2 * pi / points
+    return (8 * sin(q) - sin(2 * q)) / (6 * q)
+
+
+def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray, slopes: np.ndarray) -> float:
+    """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
+
+    pressure : not zero everywhere [Pa] (rows, points)
+    slopes : dz/dx at the pixels' centres [1] (rows, points)
+
+    Slopes are differenced in fourth order: what is left is the error of the pressure, of second order in the
+    pixel, of first order around the tip of a cone, where pressure and d2z/dx2 are infinite, and of waves of a few
+    points what `differenced` leaves of them.
+    """
+    two = (0, 0), (2, 2)
+    if isinstance(problem.scene.indenter, Plane):
+        slopes = np.pad(slopes, two, "wrap")
+    else:
+        slopes = np.pad(slopes, two, "reflect", reflect_type="odd")
+    next_to, next_but_one = slopes[:, 3:-1] - slopes[:, 1:-3], slopes[:, 4:] - slopes[:, :-4]
+    gained = np.sum(pressure * (8 * next_to - next_but_one)) / 12
+    return float(gained / pressure.sum() / grid.pixel)

@@ -1,0 +1,108 @@
+"""Programs whose stages do not fit together, ask for too much or for nothing."""
+
+from functools import partial
+
+from pydantic import ValidationError
+
+from scene import EmptyContact, Plane, Program, Refused, Scene, SolveError, Stage
+
+from .hardcase import HardCase, deviation, refusal
+from .ordinary import (
+    DEPTH,
+    PACE,
+    RADIUS,
+    ROUGH,
+    SOLID,
+    TIME,
+    line,
+    resting,
+    space,
+)
+
+REFUSED = (Refused, SolveError)
+
+
+def _program(*stages, elastomer=SOLID, **changed):
+    return resting(
+        elastomer=elastomer, motion=Program(stages=tuple(Stage(**stage) for stage in stages)), **changed
+    )
+
+
+def _stages_apart(size):
+    solvers = line(size), space(size, points=24, steps=20)
+    for solver in solvers:
+        answer = solver.solve(_program({"duration": 1e-15, "depth": DEPTH}, {"duration": 1e15}))
+        still = solver.solve(resting()).normal_force
+        yield deviation(f"{solver.name}: force after 1e15 s", answer.normal_force, still, 1e-4)
+    lost = _program({"duration": 1e15, "depth": DEPTH}, {"duration": 1e-15, "depth": 2 * DEPTH})
+    for solver in solvers:
+        ask = partial(solver.solve, lost)
+        yield refusal(
+            f"{solver.name}: 1e15 s and then 1e-15 s", SolveError, ("durations", "1e-15", "rounding"), ask
+        )
+
+
+def _too_many_steps(size):
+    scene = _program({"duration": TIME, "depth": DEPTH}, {"duration": 1.0, "speed": 1e6 * PACE})
+    for solver in (line(size), space(size)):
+        names = ("steps on pixels", "1000000", "shorter path")
+        yield refusal(f"{solver.name}: a path of 1000 km", REFUSED, names, partial(solver.solve, scene))
+
+
+def _never_touching(size):
+    scene = _program({"duration": TIME, "depth": 1e-9 * DEPTH})
+    names = ("nothing touches in the whole program", "press")
+    yield refusal("BEM", EmptyContact, names, partial(space(size).solve, scene))
+    names = ("pixels", "take more points")
+    yield refusal("MDR", SolveError, names, partial(line(size, extent=4 * RADIUS).solve, scene))
+
+
+def _no_programs(size):
+    asks = {
+        "no stage": ((), ("stages", "at least 1")),
+        "pressed nowhere": (({"duration": 1.0},), ("press nowhere",)),
+        "pressed by nothing": (({"duration": 1.0, "load": 0.0},), ("press nowhere", "above zero")),
+        "load, then depth": (
+            ({"duration": 1.0, "load": 1.0}, {"duration": 1.0, "depth": 1.0}),
+            ("load and depth", "one and the same"),
+        ),
+        "a duration of 0": (({"duration": 0.0, "load": 1.0},), ("duration", "greater than 0")),
+        "a speed backwards": (
+            ({"duration": 1.0, "speed": -1.0, "load": 1.0},),
+            ("speed", "-1", "greater than or equal to 0"),
+        ),
+        "a pull": (({"duration": 1.0, "load": -1.0},), ("load", "-1", "greater than or equal to 0")),
+    }
+    for what, (stages, names) in asks.items():
+        yield refusal(what, ValidationError, names, partial(_program, *stages))
+    gap = partial(Scene, Plane(), SOLID, Program(stages=(Stage(duration=1.0, load=1.0),)), ROUGH)
+    yield refusal("a plane under a load in time", ValidationError, ("load", "Plane", "pressure"), gap)
+
+
+case = partial(HardCase, "programs")
+CASES = (
+    case(
+        "stages-apart",
+        "Stages of 1e-15 and 1e15 s: after the long one steps of the short one are lost to rounding.",
+        "The short one first, force at rest within 1e-4, of the sums over pixels; last, refused by the durations.",
+        _stages_apart,
+    ),
+    case(
+        "too-many-steps",
+        "A path of a thousand kilometres over pixels of micrometres.",
+        "Refused at once: the error says how many steps, the most allowed and what to change.",
+        _too_many_steps,
+    ),
+    case(
+        "never-touching",
+        "A program that presses in by less than a pixel can see.",
+        "Refused: the error says so and what to do.",
+        _never_touching,
+    ),
+    case(
+        "no-programs",
+        "Programs without stages, without load, of two quantities, backwards in time or place.",
+        "Refused: each error names the field, the value and what is allowed.",
+        _no_programs,
+    ),
+)
