@@ -75,6 +75,13 @@ def test_the_most_demanding_of_several_errors_decides():
     assert both.points > BEM.for_accuracy(SMOOTH, depth=0.1).solver.points
 
 
+def test_loose_errors_still_get_a_grid_that_carries_the_waves():
+    fine = Scene(Sphere(radius=R), KELVIN, Indent(depth=1e-4), replace(ROUGH, rms_height=1e-6, shortest=1e-4))
+    # Two points a wave are the fewest that the grid takes, and leave no room for a wider window.
+    assert ladder()["rough", "rest", "pressing"][1].max() < 0.2
+    assert BEM.for_accuracy(fine, load=0.2).resolution >= 2.5
+
+
 def test_other_settings_are_kept():
     chosen = BEM.for_accuracy(SMOOTH, friction=0.01, threads=2, extent=4e-3).solver
     assert chosen.threads == 2

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from bem3d.friction import Friction
 from compare.exact import mean_lag, slow_friction_3d, slow_friction_by_curvature, slow_friction_by_slope
 from mdr1d import MDR
 from scene import (
@@ -176,6 +177,24 @@ def test_a_wave_in_full_contact_is_curved_as_its_pressure_says(wave, waves):
     expected = 2 * G * sqrt(waves) * q_x**3 * wave.rms_height**2 / mean_pressure
     # Of a pressure that is constant on each pixel: of second order.
     assert measures["curvature_by_pressure"] == pytest.approx(expected, rel=(q_x * 1e-3 / points) ** 2)
+
+
+def test_without_an_edge_slow_friction_is_the_energy_lost():
+    slid = Scene(Plane(), KELVIN, Slide(speed=1e-6, pressure=1e6), CrossedWaves(amplitude=1e-6, wavelength=1e-3))
+    answer = BEM(points=32).solve(slid)
+    assert answer.measures["contact_fraction"] == 1
+    # Differences of slopes on 32 points leave more than this between the two.
+    assert answer.measures["friction_by_curvature"] != pytest.approx(answer.measures["friction_by_loss"], rel=1e-5)
+    assert answer.friction_force == pytest.approx(answer.measures["friction_by_loss"], rel=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("lag", "slowness", "most"), [(0.0, 0.0, 0.5), (0.0, 0.5, 0.25), (1.0, 0.0, 2.0), (0.0, 1.0, 0.125)]
+)
+def test_estimates_disagree_as_far_as_they_count(lag, slowness, most):
+    # The loss, 1, beside traction of 3, work of 1.5 and curvature of 1.125.
+    estimates = {"by_traction": 3.0, "by_loss": 1.0, "by_work": 1.5, "by_curvature": 1.125, "mean_curvature": 0.0}
+    assert Friction(**estimates, lag=lag, slowness=slowness).disagreement == most
 
 
 def test_a_plane_in_partial_contact_follows_the_law_too():
