@@ -67,7 +67,7 @@ def figure(found: Sequence[Found]) -> Figure | None:
         (_rough if panel.rough else _smooth)(axes, panel)
         if place % columns == 0:
             axes.set_ylabel("relative error")
-        if place + columns not in places:
+        if place + columns not in places or (not panel.rough and drawn[places.index(place + columns)].rough):
             axes.set_xlabel("processor time [s]")
     for rough in (False, True):
         _share([axes for axes, panel in zip(drawing.axes, drawn, strict=True) if panel.rough == rough], rough)
