@@ -1,15 +1,18 @@
 """The numerical diagrams: orders as declared, failures as failures, advice that holds, figures that show it."""
 
 from dataclasses import replace
+from io import BytesIO
 from math import nan, pi
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from scipy.integrate import quad
 
 from bem3d import BEM
 from compare.figures import lettering, style, workprecision
 from compare.outcome import Outcome, Row, row
+from compare.publish import DOTS_PER_INCH
 from compare.references.waves import crossed_closure, crossed_contact_fraction_light
 from compare.workprecision import wording
 from compare.workprecision.contest import (
@@ -302,6 +305,19 @@ def test_what_is_written_covers_neither_points_nor_other_texts():
     assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
     marks = list(lettering._markers(axes))
     assert not any(box.overlaps(mark) for box in boxes for mark in marks)
+
+
+@pytest.mark.parametrize("diagram", NUMERICAL, ids=lambda diagram: diagram.name)
+def test_headings_have_room_beside_the_numbers_of_the_axis(diagram):
+    contests = diagram.contests("full")
+    with style.applied():
+        drawing = workprecision.figure(judged(contests, failing(contests)))
+        drawing.savefig(BytesIO(), dpi=DOTS_PER_INCH)
+        headings = drawing.findobj(lambda part: isinstance(part, Text) and part.get_weight() == "bold")
+        widths = [each.get_window_extent(dpi=DOTS_PER_INCH).width / DOTS_PER_INCH for each in headings]
+    columns = len({axes.get_subplotspec().colspan.start for axes in drawing.axes})
+    # Numbers and label of the vertical axis take up to 6 % of the page.
+    assert max(widths) < (1 / columns - 0.06) * drawing.get_figwidth()
 
 
 def test_tables_hold_every_rung_and_its_costs():

@@ -83,7 +83,7 @@ def figure(found: Sequence[Judged]) -> Figure | None:
     looks, all_axes = _looks(found), []
     for k, panel in enumerate(drawn):
         axes = drawing.add_subplot(rows, columns, k + 1)
-        axes.set_title(f"({letter(k)}) {panel.title}", fontsize=7)
+        axes.set_title(f"({letter(k)}) {panel.title}", fontsize=6.3)
         _panel(axes, panel, looks)
         axes.set_xlabel("processor time")
         if k % columns == 0:
