@@ -29,7 +29,7 @@ from compare.workprecision.diagram import judged, timed, untimed
 from compare.workprecision.diagrams import elastic, estimates, extent, marching, mdr, precision, sliding
 from compare.workprecision.diagrams.scenes import CONTACT, KELVIN, SPHERE, pressed
 from compare.workprecision.diagrams.slowlimit import SlowLimit
-from compare.workprecision.listing import order_of, orders, rungs
+from compare.workprecision.listing import orders, rungs
 from compare.workprecision.order import observed
 from scene import Indent
 
@@ -178,7 +178,7 @@ def test_one_dimension_converges_in_second_order_and_exactly_on_a_cone():
     contests = [each for each in mdr.contests("quick") if each.name != "rough-sphere"]
     found = {each.contest.name: each for each in judged(contests, solved(timed(contests)))}
     for name in ("rest-sphere", "sphere-kelvin"):
-        order = order_of(found[name], found[name].climbed[0], FORCE)
+        order = found[name].order(found[name].climbed[0], FORCE.name)
         assert order.order == pytest.approx(2.0, abs=SCATTER), name
     cone = found["cone-standard"].climbed[0].errors
     assert max(errors.max() for errors in cone.values()) < 1e-11  # rounding of sums over thousands of nodes
@@ -191,14 +191,14 @@ def test_a_withdrawal_in_one_dimension_converges_in_second_order():
     given = contest.ladders[0].rungs[0]
     ladder = Ladder.of("MDR", given.scene, given.solver, "points", [64 * 2**k for k in range(8)])
     found = judge(replace(contest, ladders=(ladder,)), solved(ladder.rungs))
-    assert order_of(found, found.climbed[0], FORCE).order == pytest.approx(2.0, abs=SCATTER)
+    assert found.order(found.climbed[0], FORCE.name).order == pytest.approx(2.0, abs=SCATTER)
 
 
 def test_at_rest_the_force_converges_in_second_order_and_the_pressure_in_first():
     (contest, *_) = elastic.contests("quick")
     contest = replace(contest, ladders=contest.ladders[:1])
     found = judge(contest, solved(contest.timed))
-    force, pressure = (order_of(found, found.climbed[0], each) for each in contest.quantities)
+    force, pressure = (found.order(found.climbed[0], each.name) for each in contest.quantities)
     assert force.order == pytest.approx(2.0, abs=SCATTER)
     assert pressure.order == pytest.approx(1.0, abs=SCATTER)  # an edge of infinite slope in whole pixels
 

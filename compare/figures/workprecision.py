@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from ..workprecision.contest import Climbed, Judged, Quantity
-from ..workprecision.listing import order_of, orders, rungs
+from ..workprecision.listing import orders, rungs
 from ..workprecision.wording import digits, seconds, share
 from . import style
 from .lettering import Letter, letter, write
@@ -211,7 +211,7 @@ def _guide(axes, panel, climbed):
 
 def _power(panel, climbed):
     """Times, errors by the power law fitted to a ladder of points, and its order; None where there is none."""
-    order = order_of(panel.judged, climbed, panel.estimates[0])
+    order = panel.judged.order(climbed, panel.estimates[0].name)
     if climbed.ladder.setting != "points" or not order.order > 0:
         return None
     solved = np.isfinite(climbed.processor)

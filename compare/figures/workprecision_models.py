@@ -14,7 +14,6 @@ from ..workprecision.answers import Found, quantities, table, title
 from ..workprecision.contest import Climbed, Judged, Quantity
 from ..workprecision.ensemble import JudgedEnsemble, Standing
 from ..workprecision.listing import rungs
-from ..workprecision.order import observed
 from ..workprecision.records import ways
 from ..workprecision.statistics import Way, envelope
 from . import style
@@ -141,7 +140,7 @@ def _smooth(axes: Axes, panel):
                 markerfacecolor="white" if hollow else colour,
                 zorder=3,
             )
-        _guide(axes, climbed, name, own)
+        _guide(axes, climbed, judged.order(climbed, name))
     if own > 0:
         axes.axhspan(LEAST / 10, own, color="0.9", zorder=0, linewidth=0)
     _say_failed(axes, [reason for climbed in judged.climbed for reason in climbed.reasons if reason is not None])
@@ -172,8 +171,7 @@ def _settings(climbed: Climbed, name):
     return [(values[k], x[k], y[k]) for k in order]
 
 
-def _guide(axes, climbed, name, own):
-    order = observed(climbed.ladder.values, climbed.errors[name], own)
+def _guide(axes, climbed, order):
     if not (isfinite(order.order) and order.order > 0.3):
         return
     solved = np.isfinite(climbed.processor)

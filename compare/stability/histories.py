@@ -7,7 +7,7 @@ import numpy as np
 
 from bem3d import BEM
 from compare.references import indentation
-from scene import Indent, Program, Stage
+from scene import Indent
 
 from .hardcase import Check, HardCase, deviation
 from .ordinary import (
@@ -24,16 +24,11 @@ from .ordinary import (
     TIME,
     dense,
     line,
+    program,
     resting,
     sliding,
     space,
 )
-
-
-def _program(*stages, elastomer=SOLID, **changed):
-    return resting(
-        elastomer=elastomer, motion=Program(stages=tuple(Stage(**stage) for stage in stages)), **changed
-    )
 
 
 def _balanced(what, answer):
@@ -47,7 +42,7 @@ def _no_drift(size):
     """The same window of elastomer after hundreds of its lengths: steady sliding."""
     solver = line(size, points=400, extent=2.4 * RADIUS, steps=size.steps)
     path = size.steps / 400 * 2.4 * RADIUS
-    scene = _program({"duration": TIME, "depth": DEPTH}, {"duration": path / PACE, "speed": PACE}, elastomer=SOLID)
+    scene = program({"duration": TIME, "depth": DEPTH}, {"duration": path / PACE, "speed": PACE}, elastomer=SOLID)
     answer = solver.solve(scene)
     yield Check("steps less those wanted, negative", size.steps - answer.measures["time_steps"], 0.0)
     half = len(answer.fields["time"]) // 2
@@ -64,7 +59,7 @@ def _no_drift_in_space(size):
     points, pace = 24, 0.1
     solver = BEM(points=points, extent=3.2 * RADIUS, steps=size.march)
     path = size.march / points * 3.2 * RADIUS
-    scene = _program(
+    scene = program(
         {"duration": TIME, "depth": DEPTH},
         {"duration": path / (pace * PACE), "speed": pace * PACE},
     )
@@ -82,7 +77,7 @@ def _held_for_ages(size):
         (line(size, points=400, steps=size.steps // 4), 1e-4),
         (space(size, points=24, steps=40), 0.02),
     ):
-        scene = _program({"duration": 1e-3 * TIME, "load": LOAD}, {"duration": 1e9 * TIME})
+        scene = program({"duration": 1e-3 * TIME, "load": LOAD}, {"duration": 1e9 * TIME})
         answer = solver.solve(scene)
         yield deviation(f"{solver.name}: depth at the end", answer.depth, DEPTH, allowed)
         sunk = -np.diff(answer.fields["depth"]).min() / DEPTH
@@ -92,9 +87,7 @@ def _held_for_ages(size):
 def _creep(size):
     """Lee and Radok at every step of a load that rises, holds and rises."""
     times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
-    scene = _program(
-        {"duration": TIME, "load": LOAD}, {"duration": 2 * TIME}, {"duration": TIME, "load": 2 * LOAD}
-    )
+    scene = program({"duration": TIME, "load": LOAD}, {"duration": 2 * TIME}, {"duration": TIME, "load": 2 * LOAD})
     answer = line(size, points=1000, steps=200).solve(scene)
     at = answer.fields["time"][20::20]
     known = indentation.loading_depth(SPHERE, SOLID, times, loads, at)
@@ -110,7 +103,7 @@ def _separation(size):
             (line(size, points=500, steps=100), 1e-3),
             (space(size, points=32, steps=60), 0.1),
         ):
-            scene = _program(
+            scene = program(
                 {"duration": 2 * TIME, "depth": DEPTH}, {"duration": 2 * TIME, "depth": 0.0}, indenter=shape
             )
             solver = replace(solver, extent=4 * RADIUS)
@@ -130,14 +123,14 @@ def _return(size):
     for solver in (line(size, points=400, steps=20), space(size, points=24, steps=20)):
         forces = []
         for rest in (1e3 * TIME, TIME):
-            scene = _program(
+            scene = program(
                 {"duration": TIME, "depth": DEPTH},
                 {"duration": TIME, "depth": 0.0},
                 {"duration": rest, "depth": 0.0},
                 {"duration": TIME, "depth": DEPTH},
             )
             forces.append(solver.solve(scene).normal_force)
-        once = solver.solve(_program({"duration": TIME, "depth": DEPTH})).normal_force
+        once = solver.solve(program({"duration": TIME, "depth": DEPTH})).normal_force
         yield deviation(f"{solver.name}: after a long rest", forces[0], once, 1e-3)
         yield Check(f"{solver.name}: after a short one, over the first", forces[1] / once, 1.0)
 
@@ -145,7 +138,7 @@ def _return(size):
 def _no_load(size):
     """A load that falls to zero: the indenter lifts off, and comes back."""
     for solver in (line(size, points=400, steps=100), space(size, points=24, steps=60)):
-        scene = _program(
+        scene = program(
             {"duration": TIME, "load": LOAD},
             {"duration": TIME, "load": 0.0},
             {"duration": TIME},
@@ -166,7 +159,7 @@ def _cycles(size):
             {"duration": TIME / 5, "depth": DEPTH / 5, "speed": PACE / 10},
             {"duration": TIME / 5, "depth": DEPTH},
         ]
-    answer = line(size, points=500, extent=4 * RADIUS, steps=40).solve(_program(*stages, roughness=ROUGH))
+    answer = line(size, points=500, extent=4 * RADIUS, steps=40).solve(program(*stages, roughness=ROUGH))
     yield _balanced("80 stages", answer)
     gained = -np.diff(answer.fields["dissipated"]).min() / answer.fields["dissipated"][-1]
     yield Check("greatest gain of lost energy", gained, 1e-12)
@@ -176,7 +169,7 @@ def _cycles(size):
 def _stop(size):
     """Sliding, then standing still for a thousand relaxation times: friction goes."""
     for solver in (line(size, points=400, steps=200), space(size, points=24, steps=60)):
-        scene = _program(
+        scene = program(
             {"duration": TIME, "depth": DEPTH},
             {"duration": 2 * TIME, "speed": PACE},
             {"duration": 1e3 * TIME},
@@ -188,7 +181,7 @@ def _stop(size):
 
 def _elastic_march(size):
     """Nothing is remembered and nothing lost."""
-    scene = _program(
+    scene = program(
         {"duration": TIME, "depth": DEPTH},
         {"duration": TIME, "speed": PACE},
         {"duration": TIME, "depth": DEPTH / 2},
@@ -209,7 +202,7 @@ def _elastic_march(size):
 
 def _kelvin_march(size):
     """A dashpot answers a change of rate with a jump of force."""
-    scene = _program(
+    scene = program(
         {"duration": TIME, "depth": DEPTH}, {"duration": 1e-6 * TIME}, {"duration": 50 * TIME}, elastomer=KELVIN
     )
     answer = line(size, points=1000, steps=200).solve(scene)

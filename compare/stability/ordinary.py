@@ -5,7 +5,19 @@ from math import radians
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Cone, Elastic, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import (
+    Cone,
+    Elastic,
+    Indent,
+    Kelvin,
+    Program,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
 from scene.scales import elastic_contact
 
 from .hardcase import Size
@@ -29,6 +41,12 @@ def resting(**changed) -> Scene:
 def sliding(speed: float, elastomer=SOLID, **changed) -> Scene:
     """The contact at its depth, sliding at a speed in units of PACE, with what is changed."""
     return resting(elastomer=elastomer, motion=Slide(speed=speed * PACE, depth=DEPTH), **changed)
+
+
+def program(*stages, elastomer=SOLID, **changed) -> Scene:
+    """The contact through stages, each given by the values of a Stage, with what is changed."""
+    motion = Program(stages=tuple(Stage(**stage) for stage in stages))
+    return resting(elastomer=elastomer, motion=motion, **changed)
 
 
 def moved(scene: Scene, **motion) -> Scene:

@@ -15,6 +15,7 @@ from .ordinary import (
     SOLID,
     TIME,
     line,
+    program,
     resting,
     space,
 )
@@ -22,19 +23,13 @@ from .ordinary import (
 REFUSED = (Refused, SolveError)
 
 
-def _program(*stages, elastomer=SOLID, **changed):
-    return resting(
-        elastomer=elastomer, motion=Program(stages=tuple(Stage(**stage) for stage in stages)), **changed
-    )
-
-
 def _stages_apart(size):
     solvers = line(size), space(size, points=24, steps=20)
     for solver in solvers:
-        answer = solver.solve(_program({"duration": 1e-15, "depth": DEPTH}, {"duration": 1e15}))
+        answer = solver.solve(program({"duration": 1e-15, "depth": DEPTH}, {"duration": 1e15}))
         still = solver.solve(resting()).normal_force
         yield deviation(f"{solver.name}: force after 1e15 s", answer.normal_force, still, 1e-4)
-    lost = _program({"duration": 1e15, "depth": DEPTH}, {"duration": 1e-15, "depth": 2 * DEPTH})
+    lost = program({"duration": 1e15, "depth": DEPTH}, {"duration": 1e-15, "depth": 2 * DEPTH})
     for solver in solvers:
         ask = partial(solver.solve, lost)
         yield refusal(
@@ -43,14 +38,14 @@ def _stages_apart(size):
 
 
 def _too_many_steps(size):
-    scene = _program({"duration": TIME, "depth": DEPTH}, {"duration": 1.0, "speed": 1e6 * PACE})
+    scene = program({"duration": TIME, "depth": DEPTH}, {"duration": 1.0, "speed": 1e6 * PACE})
     for solver in (line(size), space(size)):
         names = ("steps on pixels", "1000000", "shorter path")
         yield refusal(f"{solver.name}: a path of 1000 km", REFUSED, names, partial(solver.solve, scene))
 
 
 def _never_touching(size):
-    scene = _program({"duration": TIME, "depth": 1e-9 * DEPTH})
+    scene = program({"duration": TIME, "depth": 1e-9 * DEPTH})
     names = ("nothing touches in the whole program", "press")
     yield refusal("BEM", EmptyContact, names, partial(space(size).solve, scene))
     names = ("pixels", "take more points")
@@ -74,7 +69,7 @@ def _no_programs(size):
         "a pull": (({"duration": 1.0, "load": -1.0},), ("load", "-1", "greater than or equal to 0")),
     }
     for what, (stages, names) in asks.items():
-        yield refusal(what, ValidationError, names, partial(_program, *stages))
+        yield refusal(what, ValidationError, names, partial(program, *stages))
     gap = partial(Scene, Plane(), SOLID, Program(stages=(Stage(duration=1.0, load=1.0),)), ROUGH)
     yield refusal("a plane under a load in time", ValidationError, ("load", "Plane", "pressure"), gap)
 

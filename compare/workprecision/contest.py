@@ -12,6 +12,7 @@ from scene import Scene, Solver
 from ..outcome import Outcome, Row
 from ..store import Task
 from ..study import Task as Solves
+from .order import Order, observed
 from .rung import COSTS, Rung
 
 Value = float | np.ndarray
@@ -217,6 +218,10 @@ class Judged:
     contest: Contest
     known: Mapping[str, Known]
     climbed: tuple[Climbed, ...]
+
+    def order(self, climbed: Climbed, quantity: str) -> Order:
+        """At which the error of one of its ladders falls."""
+        return observed(climbed.ladder.values, climbed.errors[quantity], self.known[quantity].relative_error)
 
 
 def judge(contest: Contest, outcomes: Mapping[Task, Outcome]) -> Judged:

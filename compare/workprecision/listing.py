@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .contest import Climbed, Judged, Quantity
-from .order import Order, observed
 
 # Of a solver, where it has them.
 SETTINGS = ("points", "tolerance", "steps", "precision", "extent")
@@ -19,16 +18,10 @@ def orders(found: Sequence[Judged]) -> list[dict[str, Any]]:
     """A row for each ladder and quantity; NaN where too few rungs show an error of their own."""
     rows = []
     for judged, climbed, quantity in _curves(found):
-        order = order_of(judged, climbed, quantity)
+        order = judged.order(climbed, quantity.name)
         said = {"order": order.order, "standard_error": order.deviation, "rungs": order.count}
         rows.append({**_named(judged, climbed, quantity), "setting": climbed.ladder.setting, **said})
     return rows
-
-
-def order_of(judged: Judged, climbed: Climbed, quantity: Quantity) -> Order:
-    """At which the error of a ladder falls."""
-    known = judged.known[quantity.name]
-    return observed(climbed.ladder.values, climbed.errors[quantity.name], known.relative_error)
 
 
 def _curves(found) -> Iterator[tuple[Judged, Climbed, Quantity]]:

@@ -7,7 +7,6 @@ from math import isfinite
 import numpy as np
 
 from .contest import Climbed, Judged
-from .order import observed
 
 # Errors alike: what is gained by less than this factor is not worth having.
 ALIKE = 1.5
@@ -96,7 +95,7 @@ def enough(climbed: Climbed, quantity: str) -> str:
 
 def order(judged: Judged, climbed: Climbed, quantity: str) -> str:
     """How the error falls."""
-    found = observed(climbed.ladder.values, climbed.errors[quantity], judged.known[quantity].relative_error)
+    found = judged.order(climbed, quantity)
     if not isfinite(found.order):
         return "too few rungs show an error of their own to tell its order"
     if found.order <= 0:
