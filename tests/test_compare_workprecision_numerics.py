@@ -92,6 +92,11 @@ def test_an_order_rests_on_no_failed_rung_and_on_none_within_the_error_of_the_re
     assert np.isnan(observed(points[3:], errors[3:], 1e-4).order)
 
 
+def test_what_lies_near_the_error_of_the_reference_says_nothing_of_the_order_of_a_ladder():
+    found = drawn([4e-2, 1e-2, 2.5e-3, 2e-3], reference_error=7e-4)
+    assert found.order(found.climbed[0], found.contest.quantities[0].name).order == pytest.approx(2.0)
+
+
 @pytest.mark.parametrize("diagram", NUMERICAL, ids=lambda diagram: diagram.name)
 @pytest.mark.parametrize("size", ["quick", "full"])
 def test_no_rung_asks_for_what_its_solver_lacks(diagram, size):
