@@ -29,6 +29,7 @@ LEAVES = 3.0  # error over tolerance, at most
 SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
 TOLERANCES = (1e-3, 1e-5, 1e-7)  # of the solve that finds the contact; a narrow gap is lost at the first
 LADDERS = {"friction": "friction", "depth": "pressing", "load": "pressing"}
+COSTS = "seconds", "applications"  # of a solve, medians by points a side
 PILOTS = (64, 128, 256, 512, 1024)  # points a side of the solve that finds the contact
 LEAST, MOST = 32, 16384
 CARRIED = 2.5  # points a wave, with which the window may turn out wider than that of the coarse solve
@@ -160,7 +161,7 @@ def resolution(scene: Scene, measures: Mapping[str, float]) -> float:
 
 def band(scene: Scene) -> str:
     """How fast a scene slides: the length of its memory over the shortest length that its contact has to show."""
-    flow = Flow.of(scene.elastomer, scene.motion.speed)
+    flow = Flow.of(scene.solid, scene.motion.speed)
     if flow.at_rest:
         return "rest"
     shortest = scene.roughness.shortest if _body(scene) == "rough" else elastic_contact(scene).radius
@@ -172,8 +173,8 @@ def band(scene: Scene) -> str:
 def ladder() -> Mapping[tuple[str, str, str], np.ndarray]:
     """By body (smooth, rough), band and quantity: resolutions and largest errors (2, rungs), sorted.
 
-    Quantities: friction; pressing, of depth or load alike; and seconds, of which there are points a side and
-    processor seconds of a solve.
+    Quantities: friction; pressing, of depth or load alike; and `COSTS`, of which there are points a side and what
+    a solve takes: processor seconds, operator applications.
     """
     rungs = {}
     with LADDER.open(encoding="utf-8", newline="") as file:
@@ -232,7 +233,7 @@ def _check(solver, scene, wanted):
     """Raise ValueError for what the ladder does not know."""
     if isinstance(scene.motion, Program):
         raise ValueError("motion = Program: errors are promised at rest and in steady sliding")
-    allowed = {"friction"} if scene.motion.speed > 0 and len(scene.elastomer.retardation()[2]) else set()
+    allowed = {"friction"} if scene.motion.speed > 0 and len(scene.solid.retardation()[2]) else set()
     if not isinstance(scene.indenter, Plane | Cylinder):
         allowed.add("depth" if scene.motion.depth is None else "load")
     known = " or ".join(sorted(allowed)) or "nothing: it loses nothing, and depths are of single bodies"

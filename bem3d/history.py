@@ -15,7 +15,7 @@ from .problem import Problem
 def marched(solver, scene, started) -> Result:
     """The answer of a solver to a scene whose motion is a Program; `started` is its processor time [s]."""
     program = scene.motion
-    problem = Problem(replace(scene, motion=program.held), solver.engine)
+    problem = Problem(replace(scene, motion=program.held), solver.engine, solver.terms)
     grid = _grid(solver, problem, program)
     window.check_waves(scene, grid)
     history = march(problem, program, grid, solver.tolerance, solver.steps)
@@ -78,7 +78,7 @@ def _grid(solver, problem, program):
     boxes = [_held(window.fitted(problem, solver.points))]
     for speed in sorted({stage.speed for stage in program.stages} - {0.0}):
         sliding = Slide(speed=speed, **{program.pressed_by: program.greatest})
-        steady = Problem(replace(scene, motion=sliding), solver.engine)
+        steady = Problem(replace(scene, motion=sliding), solver.engine, solver.terms)
         boxes.append(_held(window.fitted(steady, solver.points)))
     all_of_them = boxes[0]
     for box in boxes[1:]:

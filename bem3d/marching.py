@@ -95,7 +95,7 @@ def march(problem: Problem, program: Program, grid: Grid, tolerance: float, step
 
 
 def _material(problem, program, grid):
-    creep = Creep.of(problem.scene.elastomer)
+    creep = Creep.of(problem.scene.solid)
     window = Sheet(grid, len(creep.times))
     if isinstance(problem.scene.indenter, Plane):
         return Material(creep, Repeating(window))

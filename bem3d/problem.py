@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from scene import CrossedWaves, Cylinder, EmptyContact, Plane, Scene, SolveError, Wave
+from scene import CrossedWaves, Cylinder, EmptyContact, Plane, Result, Scene, SolveError, Wave
 from scene.scales import elastic_contact
+from scene.terms import Table, terms_of
 
 from . import contact
 from .cell import Cell
@@ -15,6 +16,7 @@ from .halfspace import HalfSpace
 from .line import Line
 from .sliding import Flow
 from .surface import RoughSurface
+from .terms import TERMS
 
 LEAST_ON_A_ROW = 1e-7  # tolerance of sliding lines: next to nothing is felt of a fast contact's edges in the gap
 COARSEST = 32  # points a side from which a solve starts, or all there are below twice as many
@@ -49,12 +51,15 @@ def _medium(indenter, flow, engine):
 class Problem:
     """A scene on any grid. `work` counts operator applications times the points they acted on."""
 
-    def __init__(self, scene: Scene, engine: Engine):
+    def __init__(self, scene: Scene, engine: Engine, table: Table = TERMS):
         self.scene = scene
+        self._terms = terms_of(table, scene)
         # A single row costs nothing, and what it is solved to is beyond single precision.
         self.engine = engine if self.width is None else replace(engine, precision="double")
-        self.flow = Flow.of(scene.elastomer, scene.motion.speed)
+        self.flow = Flow.of(scene.solid, scene.motion.speed)
         self.medium = _medium(scene.indenter, self.flow, self.engine)
+        for term in self._terms:
+            self.medium = term.medium(self.medium)
         self.work, self.transforms = 0, 0
         self._cut_off, self._surface = None, None
 
@@ -62,6 +67,12 @@ class Problem:
     def width(self) -> float | None:
         """As of `row_width`."""
         return row_width(self.scene)
+
+    def completed(self, result: Result, grid: Grid) -> Result:
+        """An answer found on the grid, with what the terms of the scene add to it."""
+        for term in self._terms:
+            result = term.completed(result, self, grid)
+        return result
 
     def surface(self, grid: Grid) -> RoughSurface | None:
         """The rough surface as a grid cuts it off; None for a smooth indenter."""

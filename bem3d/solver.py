@@ -1,7 +1,7 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
 import time
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -10,6 +10,7 @@ from pydantic.dataclasses import dataclass
 from scene import Cylinder, Plane, Program, Result, Scene, SolveError
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
+from scene.terms import Table, surrounded, terms_of
 
 from . import accuracy, window
 from .engine import Engine, Library, Unavailable
@@ -18,6 +19,7 @@ from .grid import Grid
 from .history import marched
 from .measures import measured
 from .problem import Problem
+from .terms import TERMS
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
@@ -65,6 +67,8 @@ class BEM:
     leaves nothing in contact, as is its gap. Its measures are of the last step; of friction by_traction and
     by_work alone, the second NaN at rest; rounds of all steps; and time_steps; no curvature_by_pressure.
     """
+
+    terms: ClassVar[Table] = TERMS
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
     extent: Positive | None = None
@@ -119,7 +123,7 @@ class BEM:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Why the scene cannot be solved."""
-        reasons = []
+        reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if isinstance(scene.indenter, Cylinder) and scene.roughness is not None:
             reasons.append("a rough Cylinder is no line contact: leave roughness out, or take a Sphere or a Plane")
         if isinstance(scene.indenter, Plane):
@@ -137,18 +141,20 @@ class BEM:
     def solve(self, scene: Scene) -> Result:
         """Pressure, gap and forces. Raises Refused, or SolveError where the result could not be trusted."""
         refuse(self, scene)
-        started = time.process_time()
         with trusted():
-            solve = marched if isinstance(scene.motion, Program) else BEM._steady
-            result = solve(self, scene, started)
+            result = surrounded(self._solved, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
         return result
 
+    def _solved(self, scene):
+        solve = marched if isinstance(scene.motion, Program) else BEM._steady
+        return solve(self, scene, time.process_time())
+
     def _steady(self, scene, started):
-        problem = Problem(scene, self.engine)
+        problem = Problem(scene, self.engine, self.terms)
         grid, answer = self._answer(problem)
-        return self._result(problem, grid, answer, started)
+        return problem.completed(self._result(problem, grid, answer, started), grid)
 
     def _answer(self, problem):
         repeats = isinstance(problem.scene.indenter, Plane)

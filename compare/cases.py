@@ -1,5 +1,6 @@
 """A case: one scene, how it departs from the paper, what is varied around it, and the settings of both solvers."""
 
+from dataclasses import fields
 from importlib.resources import as_file, files
 from math import sqrt
 from pathlib import Path
@@ -10,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Program, Refused, Scene, Slide
+from scene import Coulomb, Heating, Indent, Layer, Refused, Scene, Slide
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.protocol import refuse
@@ -20,6 +21,7 @@ from scene.rheology import Elastomer
 from scene.roughness import Roughness
 from scene.scales import elastic_contact
 from scene.scene import fit_together
+from scene.temperature import Temperature
 
 Count = Annotated[Whole, Field(ge=1)]
 Factors = Annotated[tuple[Positive, ...], Field(min_length=1)]
@@ -79,7 +81,8 @@ class Case:
     """The content of a case file. A file that holds a scene and nothing else is a case.
 
     title, notes : for the report; each note says how the case departs from the paper
-    indenter, elastomer, motion, roughness : the scene
+    indenter, elastomer, motion and, where they are there, roughness, layer, temperature, heating, interface : the
+        scene
     study, bem, mdr : what is varied, and the settings of the two solvers
     """
 
@@ -89,6 +92,10 @@ class Case:
     elastomer: Elastomer
     motion: Motion
     roughness: Annotated[Roughness | None, AfterValidator(_rough)] = None
+    layer: Layer | None = None
+    temperature: Temperature | None = None
+    heating: Heating | None = None
+    interface: Coulomb | None = None
     study: Study = Study()
     bem: BEM = BEM(points=128)
     mdr: MDR = MDR(points=5000)
@@ -97,19 +104,19 @@ class Case:
 
     @property
     def scene(self) -> Scene:
-        return Scene(self.indenter, self.elastomer, self.motion, self.roughness)
+        return Scene(**{field.name: getattr(self, field.name) for field in fields(Scene)})
 
     @property
     def slides(self) -> bool:
         """Whether there is friction to speak of: sliding, on a solid that relaxes."""
-        return isinstance(self.motion, Slide) and len(self.elastomer.retardation()[2]) > 0
+        return isinstance(self.motion, Slide) and len(self.scene.solid.retardation()[2]) > 0
 
     def refuse(self) -> None:
         """Raise Refused, with the reasons, if a solver lacks what the scene asks for, or nothing compares it."""
-        if isinstance(self.motion, Program):
+        if not isinstance(self.motion, Indent | Slide):
             raise Refused(
-                "motion = Program is a history in time, and what is compared is pressed in or slides steadily: "
-                "use Indent or Slide, or solve it from Python with each solver"
+                f"motion = {type(self.motion).__name__}: what is compared is pressed in or slides steadily, use "
+                "Indent or Slide, or solve it from Python with each solver"
             )
         refuse(self.mdr, self.scene)
         refuse(self.bem, self.scene)
@@ -127,7 +134,7 @@ class Case:
         surfaces, profiles = (given.surfaces, given.profiles) if self.roughness else (1, 1)
         if not self.slides:
             return Plan((), (), (), depths, (), surfaces, profiles)
-        times = self.elastomer.retardation()[2]
+        times = self.scene.solid.retardation()[2]
         natural = contact.radius / float(max(times))
         own = self.motion.speed or natural / 10
         return Plan(

@@ -9,10 +9,13 @@ from math import pi
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Elastic, Program, Result, Scene
+from scene import WLF, Arrhenius, Elastic, Indent, Result, Scene, Slide
+from scene.indenter import Axisymmetric
 from scene.protocol import refuse
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
+from scene.terms import Term, terms_of
+from scene.viscoelastic import Linear
 
 
 def mean_lag(elastomer):
@@ -76,6 +79,9 @@ def edge_slope(indenter, radius):
     return indenter.coefficient * indenter.exponent * radius ** (indenter.exponent - 1)
 
 
+TERMS = dict.fromkeys((Axisymmetric, Linear, Indent, Slide, WLF, Arrhenius), Term)
+
+
 @dataclass(frozen=True, config=CLOSED)
 class Exact:
     """Galin-Sneddon: smooth bodies of revolution at rest, or sliding on an elastic solid, which is the same."""
@@ -86,14 +92,8 @@ class Exact:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Why there is no closed form for the scene, one sentence each."""
-        reasons = []
-        if not hasattr(scene.indenter, "exponent"):
-            reasons.append(f"{type(scene.indenter).__name__} is not a body of revolution")
-        if scene.roughness is not None:
-            reasons.append("roughness has no closed form")
-        if isinstance(scene.motion, Program):
-            reasons.append("motion = Program has no closed form here")
-        elif scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
+        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        if not reasons and scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
             reasons.append(
                 f"sliding at speed = {scene.motion.speed:g} m/s on a viscoelastic solid has no closed form"
             )
@@ -131,4 +131,4 @@ def _pressure(scene, radius, r):
     nodes, weights = np.polynomial.legendre.leggauss(40)
     top = np.arccosh(radius / r)[:, None]
     x = r[:, None] * np.cosh(top * (nodes + 1) / 2)
-    return scene.elastomer.indentation_modulus / pi * np.sum(weights * top / 2 * n * c * x ** (n - 1), axis=1)
+    return scene.solid.indentation_modulus / pi * np.sum(weights * top / 2 * n * c * x ** (n - 1), axis=1)

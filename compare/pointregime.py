@@ -54,12 +54,12 @@ class PointRegime:
                 f"scene = {scene!r}: these ratios are of a rough body of revolution, in Indent or Slide"
             )
         smooth, slope = elastic_contact(scene), measures["rms_slope"]
-        a, q_s, memory = smooth.radius, rough.q_max(measures["pixel"]), motion.speed * mean_lag(scene.elastomer)
+        a, q_s, memory = smooth.radius, rough.q_max(measures["pixel"]), motion.speed * mean_lag(scene.solid)
         profile = body.mdr_coefficient, body.exponent
         return cls(
             regime=Regime.of(profile, (a, smooth.depth), rough.rms_height, rough.period, slope),
             shortest_in_contact=a * q_s,
-            pressure_over_slope=smooth.load / (pi * a**2 * scene.elastomer.indentation_modulus * slope),
+            pressure_over_slope=smooth.load / (pi * a**2 * scene.solid.indentation_modulus * slope),
             memory_over_contact=memory / a,
             memory_over_shortest=memory * q_s,
             contact_fraction=_contact_fraction(measures, a),

@@ -150,7 +150,7 @@ def _smooth_limit(case, table):
 def smooth_speed(case: Case, record: Record) -> float:
     """v tau / a with the radius of the smooth relaxed contact; tau is the retardation time."""
     contact = elastic_contact(case.scene)
-    return record.speed * float(case.elastomer.retardation()[2][0]) / contact.radius
+    return record.speed * float(case.scene.solid.retardation()[2][0]) / contact.radius
 
 
 def _own_ratio(case, table):
@@ -250,7 +250,7 @@ def predicted_exponent(case: Case) -> float:
     if rough is None or len(speeds) < 2:
         return equations.force_shift_exponent(1.0, case.indenter.exponent)
     q_max = rough.q_max(rough.longest / case.mdr.points)
-    beta = exact.loss_exponent(case.elastomer, q_max, speeds)
+    beta = exact.loss_exponent(case.scene.solid, q_max, speeds)
     return equations.force_shift_exponent(beta, case.indenter.exponent)
 
 

@@ -161,7 +161,7 @@ def _table(rows: Sequence[Mapping[str, str]]) -> str:
 
 
 def _ladder() -> str:
-    known = {kind: rungs for kind, rungs in bem3d.accuracy.ladder().items() if kind[2] != "seconds"}
+    known = {kind: rungs for kind, rungs in bem3d.accuracy.ladder().items() if kind[2] not in bem3d.accuracy.COSTS}
     resolved = sorted({float(value) for rungs in known.values() for value in rungs[0]})
 
     def rows():

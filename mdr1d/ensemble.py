@@ -22,6 +22,8 @@ from .surface import MOST_NODES, Surface, nodes_needed, waves_of
 
 # Relative misfit of the load at which a search stops: friction needs no more.
 _AIM = 1e-11
+# Of a scene, no more and no less.
+_PARTS = {"indenter", "elastomer", "motion", "roughness"}
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,8 @@ class _Series:
 
 def _check(scene):
     fit = (
-        isinstance(scene.elastomer, Kelvin)
+        set(scene.parts) == _PARTS
+        and isinstance(scene.elastomer, Kelvin)
         and isinstance(scene.motion, Slide)
         and scene.motion.load is not None
         and isinstance(scene.roughness, SelfAffine)
@@ -142,7 +145,7 @@ def _check(scene):
     if not fit:
         raise ValueError(
             f"scene = {scene!r}: profiles are solved together for a body of revolution with self-affine roughness "
-            "that slides under a load on a Kelvin solid; take MDR for any other scene"
+            "that slides under a load on a Kelvin half-space, and nothing else; take MDR for any other scene"
         )
 
 

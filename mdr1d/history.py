@@ -19,7 +19,7 @@ def marched(solver, scene: Scene, reduced: Scene, started: float) -> Result:
     started : processor time [s]
     """
     layout, body, history, marches = _followed(solver, reduced)
-    program, modulus = scene.motion, scene.elastomer.indentation_modulus
+    program, modulus = scene.motion, scene.solid.indentation_modulus
     by_load = program.pressed_by == "load"
     force = program.prescribed(history.time) if by_load else modulus * history.force
     friction = modulus * history.friction
@@ -61,7 +61,7 @@ def at_greatest(scene: Scene) -> Scene:
 def _followed(solver, scene):
     """The march, on a grid drawn closer around the tip while viscosity keeps a smooth contact small."""
     held, extent, marches = at_greatest(scene), solver.extent, 0
-    modes, modulus = modes_of(scene.elastomer), scene.elastomer.indentation_modulus
+    modes, modulus = modes_of(scene.solid), scene.solid.indentation_modulus
     while True:
         layout = lay_out(held, solver.points, extent, solver.spectrum)
         body = map_profile(held, layout, solver.spectrum)
@@ -93,7 +93,7 @@ def _measures(scene, body, history: History):
     """Of the contact at the end; NaN where nothing touches."""
     touching = np.flatnonzero(history.touching)
     span = float(np.ptp(touching)) + 1 if len(touching) else np.nan
-    elastomer, length = scene.elastomer, float(history.length[-1])
+    elastomer, length = scene.solid, float(history.length[-1])
     firmness = 2 * elastomer.glassy_modulus / (1 - elastomer.poisson_ratio)
     return {
         "pixel": body.pixel,

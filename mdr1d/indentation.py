@@ -49,7 +49,7 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
     known to carry less and more than the load, and halves that bracket where a step leaves it. Raises SolveError
     if the contact leaves the grid or the load is not met to a relative 1e-10.
     """
-    load = scene.motion.load / scene.elastomer.indentation_modulus
+    load = scene.motion.load / scene.solid.indentation_modulus
     heights = body.heights - body.lowest
     most = body.rim - body.lowest
     if most <= 0:

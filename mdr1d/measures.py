@@ -17,7 +17,7 @@ def measures(scene: Scene, body: Profile, contact: Contact) -> dict[str, float]:
 
     scene : of the body whose mapped profile was pressed in
     """
-    modulus = scene.elastomer.indentation_modulus
+    modulus = scene.solid.indentation_modulus
     # Rounding of the two ends may leave nothing of a minute contact.
     span = max(contact.last - contact.first, contact.length)
     leading_length, leading_force = (np.diff(body.heights) < 0) @ contact.pushed

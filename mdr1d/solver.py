@@ -2,15 +2,16 @@
 
 from math import ceil, inf
 from time import process_time
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Plane, Program, Result, Scene, Wave
+from scene import Program, Result, Scene
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
+from scene.terms import Table, surrounded, terms_of
 
 from .foundation import sweep
 from .history import at_greatest, marched
@@ -20,6 +21,7 @@ from .measures import measures
 from .modes import modes_of
 from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, unmapped
 from .surface import MOST_NODES, Spectrum, nodes_needed
+from .terms import TERMS
 
 
 @dataclass(frozen=True, config=CLOSED)
@@ -60,6 +62,8 @@ class MDR:
     infinite with a dashpot; time_steps. Result.residual is the misfit of the load over the greatest one.
     """
 
+    terms: ClassVar[Table] = TERMS
+
     points: Annotated[Whole, Field(ge=8, le=2**25)] = 5000
     extent: Positive | None = None
     shape: Literal["mapped", "as-given"] = "mapped"
@@ -72,18 +76,8 @@ class MDR:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Why the scene cannot be solved, one sentence each; empty when it can."""
-        reasons = []
-        if isinstance(scene.indenter, Cylinder | Plane):
-            reasons.append(
-                f"a {type(scene.indenter).__name__} is no body of revolution, so it has no one-dimensional "
-                "profile: use a Sphere, Cone or PowerLaw, or a three-dimensional solver"
-            )
-        elif isinstance(scene.roughness, Wave):
-            reasons.append(
-                f"roughness = {type(scene.roughness).__name__} is not isotropic, so no one-dimensional spectrum "
-                "stands for it: use SelfAffine, or a three-dimensional solver"
-            )
-        elif scene.roughness is not None:
+        reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
+        if not reasons and scene.roughness is not None:
             reasons += _too_broad(scene) or _unresolved(scene, self._laid_out(scene), self.points)
         return reasons
 
@@ -93,37 +87,45 @@ class MDR:
         Raises Refused for what refusals names; EmptyContact if a prescribed depth does not reach the highest
         asperity; SolveError if the contact leaves the grid, or a smooth one spans too few of its pixels.
         """
-        start = process_time()
         with trusted():
             refuse(self, scene)
-            reduced = self._reduced(scene)
-            if isinstance(scene.motion, Program):
-                return marched(self, scene, reduced, start)
-            layout, body, approach, contact, sweeps = self._pressed(reduced)
-            modulus, load = scene.elastomer.indentation_modulus, scene.motion.load
-            seconds = process_time() - start
-            force = modulus * contact.force
-            if not 0 < force < inf:
-                raise ArithmeticError(f"a force of {force:g} N is beyond the range of numbers")
-            return Result(
-                scene=scene,
-                solver=self.name,
-                settings=self.settings(scene, layout),
-                normal_force=force,
-                depth=approach + body.lowest,
-                friction_force=modulus * contact.dissipation,
-                residual=0.0 if load is None else abs(force / load - 1),
-                applications=sweeps,
-                seconds=seconds,
-                measures=measures(reduced, body, contact),
-                fields={
-                    "x": body.x,
-                    "profile": body.heights,
-                    "displacement": contact.displacement,
-                    "contact": contact.touching,
-                    "line_force": modulus / body.pixel * np.append(contact.pushed[:, 1], 0.0),
-                },
-            )
+            return surrounded(self._solved, terms_of(self.terms, scene))(scene)
+
+    def _solved(self, scene: Scene) -> Result:
+        start, reduced = process_time(), self._reduced(scene)
+        if isinstance(scene.motion, Program):
+            return marched(self, scene, reduced, start)
+        result = self._steady(scene, reduced, start)
+        for term in terms_of(self.terms, scene):
+            result = term.completed(result)
+        return result
+
+    def _steady(self, scene: Scene, reduced: Scene, start: float) -> Result:
+        layout, body, approach, contact, sweeps = self._pressed(reduced)
+        modulus, load = scene.solid.indentation_modulus, scene.motion.load
+        seconds = process_time() - start
+        force = modulus * contact.force
+        if not 0 < force < inf:
+            raise ArithmeticError(f"a force of {force:g} N is beyond the range of numbers")
+        return Result(
+            scene=scene,
+            solver=self.name,
+            settings=self.settings(scene, layout),
+            normal_force=force,
+            depth=approach + body.lowest,
+            friction_force=modulus * contact.dissipation,
+            residual=0.0 if load is None else abs(force / load - 1),
+            applications=sweeps,
+            seconds=seconds,
+            measures=measures(reduced, body, contact),
+            fields={
+                "x": body.x,
+                "profile": body.heights,
+                "displacement": contact.displacement,
+                "contact": contact.touching,
+                "line_force": modulus / body.pixel * np.append(contact.pushed[:, 1], 0.0),
+            },
+        )
 
     def settings(self, scene: Scene, layout: Grid) -> dict:
         """What it solved with, the derived settings included."""
@@ -169,7 +171,7 @@ class MDR:
 
 def _flow(scene: Scene) -> Sweep:
     """The sweep for the elastomer at its speed: Kelvin's own where no Maxwell branch remembers anything."""
-    elastomer, speed = scene.elastomer, scene.motion.speed
+    elastomer, speed = scene.solid, scene.motion.speed
     equilibrium, moduli, _ = elastomer.relaxation()
     if speed > 0 and moduli.size:
         modes = modes_of(elastomer)

@@ -1,8 +1,11 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
 from .fractional import Fractional
+from .heating import Heating
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
-from .motion import Indent, Program, Slide, Stage
+from .interface import Coulomb
+from .layer import Layer
+from .motion import Indent, Program, Shear, Slide, Stage
 from .protocol import EmptyContact, Refused, SolveError, Solver
 from .regime import Regime
 from .result import Result
@@ -11,17 +14,23 @@ from .roughness import CrossedWaves, SelfAffine, Wave
 from .scene import Scene
 from .table import Table, read_table
 from .tabulated import Tabulated
+from .temperature import WLF, Arrhenius
 
 __all__ = [
+    "WLF",
+    "Arrhenius",
     "Cone",
+    "Coulomb",
     "CrossedWaves",
     "Cylinder",
     "Elastic",
     "EmptyContact",
     "Fractional",
+    "Heating",
     "Indent",
     "Kelvin",
     "KelvinChain",
+    "Layer",
     "Plane",
     "PowerLaw",
     "Program",
@@ -31,6 +40,7 @@ __all__ = [
     "Result",
     "Scene",
     "SelfAffine",
+    "Shear",
     "Slide",
     "SolveError",
     "Solver",

@@ -1,4 +1,4 @@
-"""How the indenter moves: pressed in to rest, sliding steadily or by a program, and what presses it."""
+"""How the indenter moves: to rest, sliding steadily, sheared or by a program, and what presses it."""
 
 from typing import Annotated, Literal
 
@@ -65,6 +65,35 @@ class Slide(_Pressed):
     pressure: Positive | None = None
     gap: Positive | None = None
     type: Literal["slide"] = Field(default="slide", repr=False)
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Shear(_Pressed):
+    """Pressed in and held as in `Indent`, then drawn slowly along the surface against friction in the interface.
+
+    displacement : of the indenter [m], from where it was pressed in, or
+    force : tangential [N], less than what makes it slide; per length of a cylinder [N/m], on one cell of a plane
+    """
+
+    displacement: NonNegative | None = None
+    force: NonNegative | None = None
+    load: Positive | None = None
+    depth: Positive | None = None
+    line_load: Positive | None = None
+    pressure: Positive | None = None
+    gap: Positive | None = None
+    type: Literal["shear"] = Field(default="shear", repr=False)
+
+    @model_validator(mode="after")
+    def _drawn_by_one(self):
+        if (self.displacement is None) == (self.force is None):
+            given = "none given" if self.force is None else "both given"
+            raise ValueError(f"displacement, force: {given}, give exactly one of displacement [m], force [N]")
+        return self
+
+    @property
+    def speed(self) -> float:
+        return 0.0
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -160,4 +189,4 @@ class Program:
         return np.cumsum([0.0, *(stage.speed * stage.duration for stage in self.stages)])
 
 
-Motion = Annotated[Indent | Slide | Program, Field(discriminator="type")]
+Motion = Annotated[Indent | Slide | Shear | Program, Field(discriminator="type")]

@@ -27,9 +27,9 @@ def elastic_contact(scene: Scene) -> ElasticContact:
     """
     shape, motion = scene.indenter, scene.motion
     if isinstance(shape, Cylinder):
-        return _line_contact(shape.radius, motion.line_load, scene.elastomer.indentation_modulus)
+        return _line_contact(shape.radius, motion.line_load, scene.solid.indentation_modulus)
     n, g = shape.exponent, shape.mdr_coefficient
-    stiffness = 2 * n / (n + 1) * scene.elastomer.indentation_modulus * g
+    stiffness = 2 * n / (n + 1) * scene.solid.indentation_modulus * g
     radius = (motion.depth / g) ** (1 / n) if motion.load is None else (motion.load / stiffness) ** (1 / (n + 1))
     depth = g * radius**n
     _check_finite(stiffness=stiffness, radius=radius, depth=depth)

@@ -1,17 +1,25 @@
 """The scene: everything that is asked, nothing of how it is solved."""
 
+from dataclasses import fields
+from typing import Any
+
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
+from .heating import Heating
 from .indenter import Indenter, Plane
-from .motion import UNITS, Motion
+from .interface import Coulomb
+from .layer import Layer
+from .motion import UNITS, Motion, Shear
 from .quantities import CLOSED
 from .rheology import Elastomer
 from .roughness import Roughness
+from .temperature import Shifted, Temperature
+from .viscoelastic import Linear
 
 
 def fit_together(parts):
-    """The same parts. Raises ValueError where motion or roughness does not suit the indenter."""
+    """The same parts. Raises ValueError where one does not suit the others."""
     kind, motion = type(parts.indenter).__name__, parts.motion
     allowed, given = parts.indenter.pressed_by, motion.pressed_by
     if given not in allowed:
@@ -19,6 +27,13 @@ def fit_together(parts):
         raise ValueError(f"motion.{given} = {motion.greatest:g} does not press a {kind}: give {units}")
     if isinstance(parts.indenter, Plane) and (parts.roughness is None or parts.roughness.rms_height == 0):
         raise ValueError("indenter = Plane without roughness touches everywhere: give roughness")
+    if isinstance(motion, Shear) and parts.interface is None:
+        raise ValueError("motion = Shear without friction in the interface slips at once: give interface")
+    if parts.heating is not None and parts.heating.feedback is not None and parts.temperature is None:
+        raise ValueError(
+            f"heating.feedback = {parts.heating.feedback!r} shifts the times of the elastomer: give temperature, "
+            "or leave feedback out"
+        )
     return parts
 
 
@@ -28,13 +43,34 @@ class Scene:
 
     indenter : Sphere, Cone, PowerLaw, Cylinder or Plane
     elastomer : Elastic, Kelvin, StandardLinearSolid, Prony, KelvinChain, Fractional or Tabulated
-    motion : Indent, Slide or Program
+    motion : Indent, Slide, Shear or Program
     roughness : SelfAffine, Wave or CrossedWaves; absent, the indenter is smooth
+    layer : Layer; absent, the elastomer is a half-space
+    temperature : WLF or Arrhenius; absent, the elastomer is stated as it is
+    heating : Heating; absent, friction heats nothing
+    interface : Coulomb; absent, the interface has no friction of its own
+
+    What is absent costs nothing: a solver looks at `parts` alone.
     """
 
     indenter: Indenter
     elastomer: Elastomer
     motion: Motion
     roughness: Roughness | None = None
+    layer: Layer | None = None
+    temperature: Temperature | None = None
+    heating: Heating | None = None
+    interface: Coulomb | None = None
 
     _fits = model_validator(mode="after")(fit_together)
+
+    @property
+    def parts(self) -> dict[str, Any]:
+        """What is there, by the name of its field."""
+        given = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: part for name, part in given.items() if part is not None}
+
+    @property
+    def solid(self) -> Linear:
+        """The elastomer at the temperature of the scene."""
+        return self.elastomer if self.temperature is None else Shifted(self.elastomer, self.temperature.shift)

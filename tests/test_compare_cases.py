@@ -72,7 +72,7 @@ def test_a_history_in_time_is_refused_though_both_solvers_take_it(case):
     moved = replace(case, motion=program)
     assert not moved.mdr.refusals(moved.scene)
     assert not moved.bem.refusals(moved.scene)
-    with pytest.raises(Refused, match="motion = Program is a history"):
+    with pytest.raises(Refused, match="motion = Program: what is compared"):
         moved.refuse()
 
 

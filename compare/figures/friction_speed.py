@@ -65,10 +65,10 @@ def caption(judgement: Judgement) -> str:
 def law(judgement: Judgement, load, speed, rms_slope):
     """mu of Eq. 19 at loads [N] and speeds [m/s]."""
     case = judgement.case
-    time = float(case.elastomer.retardation()[2].max())
+    time = float(case.scene.solid.retardation()[2].max())
     shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
     # Eqs. 18 and 19 are written for a Poisson ratio of 1/2.
-    modulus = case.elastomer.indentation_modulus / 4
+    modulus = case.scene.solid.indentation_modulus / 4
     xi = similarity_variable(load, modulus, time, speed, rms_slope, *shape)
     return plateau(rms_slope) * interpolation(xi)
 

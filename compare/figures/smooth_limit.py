@@ -64,10 +64,10 @@ def _limits(judgement):
     """mu per unit of v tau / a at low speed, 1D and 3D."""
     case, contact = judgement.case, elastic_contact(judgement.case.scene)
     shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
-    modulus = case.elastomer.indentation_modulus
+    modulus = case.scene.solid.indentation_modulus
     # The speed at which v tau = a.
-    speed = contact.radius / float(case.elastomer.retardation()[2][0])
+    speed = contact.radius / float(case.scene.solid.retardation()[2][0])
     return [
-        law(speed, contact.radius, exact.mean_lag(case.elastomer), modulus, *shape) / contact.load
+        law(speed, contact.radius, exact.mean_lag(case.scene.solid), modulus, *shape) / contact.load
         for law in (exact.slow_friction_1d, exact.slow_friction_3d)
     ]

@@ -37,7 +37,7 @@ def conditions(answer: Result, allowed: float, where: str = "3D") -> tuple[Check
 def flow(answer: Result) -> tuple[float, np.ndarray, np.ndarray]:
     """Of the elastomer: share of compliance that follows at once, shares (K,) and memories (K,) [pixel]."""
     scene, pixel = answer.scene, answer.measures["pixel"]
-    instantaneous, compliances, times = scene.elastomer.retardation()
+    instantaneous, compliances, times = scene.solid.retardation()
     relaxed = instantaneous + compliances.sum()
     lengths = scene.motion.speed * times / pixel
     if scene.motion.speed == 0 or not len(times):
@@ -60,7 +60,7 @@ def _gap(answer):
     heights = scene.indenter.height(x[None, :], y[:, None])
     if scene.roughness is not None:
         heights = heights + RoughSurface.of(scene.roughness, scene.roughness.q_max(pixel)).heights(x, y)
-    pressure = fields["pressure"] / scene.elastomer.indentation_modulus
+    pressure = fields["pressure"] / scene.solid.indentation_modulus
     displaced = _repeating if isinstance(scene.indenter, Plane) else _free
     return heights, displaced(pressure, *response, shift) * pixel + heights - answer.depth
 

@@ -100,13 +100,13 @@ def _xi(laws, side):
 
 def _is_slow(solved, laws):
     """Whether every mode of the solid is fast against the slowest speed, so that the limit can be seen."""
-    longest = solved.series.scene.elastomer.retardation()[2].max()
+    longest = solved.series.scene.solid.retardation()[2].max()
     return laws.wave_number * solved.series.speeds[0] * longest <= SLOW
 
 
 def _limit(solved, side):
     """mu of the exact limit at the slowest speed, (presses,), on the same surfaces."""
-    drag = slow_drag(solved.series.scene.elastomer, side.solver, side[REST])
+    drag = slow_drag(solved.series.scene.solid, side.solver, side[REST])
     return solved.series.speeds[0] * mean_ratio(drag, side[REST].normal_force[0]).value
 
 

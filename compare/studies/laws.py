@@ -74,7 +74,7 @@ def laws(solved: Solved, solver: str) -> Laws | None:
     if regime_of_points is None:
         return None
     scene, speeds = series.scene, np.array(series.speeds)
-    body, solid, rough = scene.indenter, scene.elastomer, scene.roughness
+    body, solid, rough = scene.indenter, scene.solid, scene.roughness
     c, n = body.mdr_coefficient, body.exponent
     slope = float(np.nanmean(answers.measures["rms_slope"]))
     highest = rough.q_max(float(np.nanmean(answers.measures["pixel"])))
@@ -112,7 +112,7 @@ def laws(solved: Solved, solver: str) -> Laws | None:
 def slow_friction(solved: Solved, solver: str, body: str) -> np.ndarray:
     """mu at low speed, (speeds, presses), from the contact at rest of the rough or the smooth body."""
     rest = solved(solver, body)
-    drag = slow_drag(solved.series.scene.elastomer, solver, rest)
+    drag = slow_drag(solved.series.scene.solid, solver, rest)
     return np.array(solved.series.speeds)[:, None] * mean_ratio(drag, rest.normal_force[0]).value
 
 

@@ -12,7 +12,7 @@ from math import isnan
 import numpy as np
 
 from bem3d import BEM
-from bem3d.accuracy import BANDS, LADDERS, apart, band, resolution
+from bem3d.accuracy import BANDS, COSTS, LADDERS, apart, band, resolution
 from bem3d.sliding import Flow
 from scene import (
     Cone,
@@ -79,7 +79,7 @@ class Probe:
     @property
     def quantities(self) -> tuple[str, ...]:
         """Whose error is asked."""
-        motion, elastomer = self.scene.motion, self.scene.elastomer
+        motion, elastomer = self.scene.motion, self.scene.solid
         found = ("friction",) if motion.speed and len(elastomer.retardation()[2]) else ()
         if isinstance(self.scene.indenter, Plane | Cylinder):
             return found
@@ -95,19 +95,20 @@ def probes() -> list[Probe]:
 
 def rows(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[dict]:
     """The ladder: the largest error of all answers resolved as finely as a rung or more finely."""
-    errors, seconds = {}, {}
+    errors, costs = {}, {}
     for probe in found:
         answers = [outcomes[task].rows[0] for task in probe.tasks]
         kind = probe.body, band(probe.scene)
         for points, answer in zip(probe.points, answers, strict=True):
-            if not isnan(answer.seconds):
-                seconds.setdefault((*kind, "seconds"), {}).setdefault(points, []).append(answer.seconds)
+            for cost in COSTS:
+                if not isnan(value := getattr(answer, cost)):
+                    costs.setdefault((*kind, cost), {}).setdefault(points, []).append(value)
         for name in probe.quantities:
             errors.setdefault((*kind, LADDERS[name]), []).extend(_errors(probe, name, answers))
     ladder = []
     for key in sorted(errors, key=lambda key: (key[0], BANDS.index(key[1]), key[2])):
         ladder += [_entry(key, *rung) for rung in _rungs(np.reshape(errors[key], (-1, 2)).T)]
-    for key, by_points in seconds.items():
+    for key, by_points in costs.items():
         ladder += [_entry(key, points, float(np.median(each)), len(each)) for points, each in by_points.items()]
     return ladder
 
@@ -120,7 +121,7 @@ def estimates(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[
     errors = []
     for probe in (each for each in found if "friction" in each.quantities):
         *coarser, truth = [outcomes[task].rows[0] for task in probe.tasks]
-        memory = Flow.of(probe.scene.elastomer, probe.scene.motion.speed).memory
+        memory = Flow.of(probe.scene.solid, probe.scene.motion.speed).memory
         errors += [
             (memory / answer.measures["pixel"], *_of_estimates(answer, truth))
             for answer in coarser

@@ -50,7 +50,7 @@ class SlowLimit:
 
     def _limit(self, row):
         curvature = row.measures.get("curvature_by_pressure", nan)
-        return slow_friction_by_curvature(self.scene.motion.speed, mean_lag(self.scene.elastomer), 1.0, curvature)
+        return slow_friction_by_curvature(self.scene.motion.speed, mean_lag(self.scene.solid), 1.0, curvature)
 
 
 def _moved(scene, factor, solver):

@@ -1,0 +1,19 @@
+"""What the two surfaces do to one another where they touch, besides pressing."""
+
+from typing import Literal
+
+from pydantic import Field
+from pydantic.dataclasses import dataclass
+
+from .quantities import CLOSED, NonNegative
+
+
+@dataclass(frozen=True, config=CLOSED)
+class Coulomb:
+    """Dry friction at every point of contact: it sticks under a traction of up to coefficient * pressure.
+
+    Absent, the interface has no friction of its own, and all friction is loss in the elastomer.
+    """
+
+    coefficient: NonNegative
+    type: Literal["coulomb"] = Field(default="coulomb", repr=False)

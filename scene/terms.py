@@ -1,0 +1,70 @@
+"""Tables of terms: what a solver has for each part that a scene may be made of.
+
+A table maps the types of parts to terms. A solver looks up the parts that a scene has, and no others: what is
+absent is not even asked about. A type stands for its subclasses, as far as they have no line of their own.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from .result import Result
+from .scene import Scene
+
+Solve = Callable[[Scene], Result]
+
+
+@dataclass(frozen=True)
+class Term:
+    """What a solver does about one part. Most parts say all of it themselves, and need no more than this.
+
+    field : of the scene, in which the part stands
+    """
+
+    field: str
+    part: Any
+
+    def refusals(self, scene: Scene) -> list[str]:
+        """Why the part cannot be solved in this scene, one sentence each; empty when it can."""
+        return []
+
+    def around(self, solve: Solve) -> Solve:
+        """A solve that asks another one, of the scene as changed by the part."""
+        return solve
+
+
+@dataclass(frozen=True)
+class Lacking(Term):
+    """A part for which the solver has nothing; `why`, and what can be done."""
+
+    why: str
+
+    def refusals(self, scene: Scene) -> list[str]:
+        return [f"{self.field} = {type(self.part).__name__}: {self.why}"]
+
+
+Table = Mapping[type, Callable[[str, Any], Term]]
+
+
+def lacking(why: str) -> Callable[[str, Any], Lacking]:
+    """A line for what a solver has not."""
+    return lambda field, part: Lacking(field, part, why)
+
+
+UNKNOWN = lacking("this solver has no term for it; leave it out, or take a solver that has one")
+
+
+def terms_of(table: Table, scene: Scene) -> list[Term]:
+    """The terms of the parts that are present, in the order of the scene's fields."""
+    return [_line(table, type(part))(field, part) for field, part in scene.parts.items()]
+
+
+def _line(table, kind):
+    return next((table[each] for each in kind.__mro__ if each in table), UNKNOWN)
+
+
+def surrounded(solve: Solve, terms: list[Term]) -> Solve:
+    """A solve with what the terms do around it, that of the first term inmost."""
+    for term in terms:
+        solve = term.around(solve)
+    return solve
