@@ -16,7 +16,7 @@ from typing import Protocol
 import numpy as np
 from scipy.fft import next_fast_len
 
-from scene import Cylinder, Plane, Program, Refused, Result, Scene, SolveError, Solver
+from scene import Cylinder, Measured, Plane, Program, Refused, Result, Scene, Shear, SolveError, Solver
 from scene.scales import elastic_contact
 
 from .problem import row_width
@@ -169,6 +169,12 @@ def band(scene: Scene) -> str:
     return "slow" if memory < SLOW else "middle" if memory < FAST else "fast"
 
 
+def typical(scene: Scene, points: int) -> dict[str, float]:
+    """What such a body at such a speed takes on a square of so many points a side, by the names of `COSTS`."""
+    kind = _body(scene), band(scene)
+    return {name: _between(ladder()[*kind, name], points) for name in COSTS}
+
+
 @cache
 def ladder() -> Mapping[tuple[str, str, str], np.ndarray]:
     """By body (smooth, rough), band and quantity: resolutions and largest errors (2, rungs), sorted.
@@ -209,7 +215,7 @@ def _between(rungs, points):
 
 
 def _body(scene):
-    return "smooth" if scene.roughness is None or scene.roughness.rms_height == 0 else "rough"
+    return "smooth" if scene.roughness is None or scene.roughness.flat else "rough"
 
 
 def _pilot(solver, scene):
@@ -233,10 +239,18 @@ def _check(solver, scene, wanted):
     """Raise ValueError for what the ladder does not know."""
     if isinstance(scene.motion, Program):
         raise ValueError("motion = Program: errors are promised at rest and in steady sliding")
+    if isinstance(scene.indenter, Measured):
+        raise ValueError("indenter = Measured: errors are promised of bodies of revolution, lines and planes")
+    if scene.layer is not None:
+        raise ValueError("layer = Layer: errors are promised on half-spaces, on which they were measured")
+    if scene.heating is not None and scene.heating.feedback is not None:
+        raise ValueError(f"heating.feedback = {scene.heating.feedback!r}: it adds to errors, promised without it")
     allowed = {"friction"} if scene.motion.speed > 0 and len(scene.solid.retardation()[2]) else set()
     if not isinstance(scene.indenter, Plane | Cylinder):
         allowed.add("depth" if scene.motion.depth is None else "load")
     known = " or ".join(sorted(allowed)) or "nothing: it loses nothing, and depths are of single bodies"
+    if isinstance(scene.motion, Shear):
+        known += "; motion = Shear: errors of tangential forces were not measured"
     if not wanted:
         raise ValueError(f"an error has to be wanted, of {known}")
     for name, error in wanted.items():

@@ -11,26 +11,39 @@ import numpy as np
 from .convolution import PeriodicFilter
 from .engine import Engine
 from .grid import Grid
+from .ground import HALF_SPACE, Ground
 from .sliding import Flow
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One period of the surface of a half-space, w(q) = 2 J(q_x v) p(q) / |q|."""
+    """One period of the surface: of a half-space, w(q) = 2 J(q_x v) p(q) / |q|, unless the ground is another."""
 
     flow: Flow
     engine: Engine
+    ground: Ground = HALF_SPACE
 
     def operator(self, grid: Grid) -> PeriodicFilter:
         """Pressure -> displacement, free of mean, at the points of collocation."""
-        return self._filter(grid, lambda q, response: 2 / q * response, mean=0.0)
+
+        def symbol(q_y, q_x):
+            values = self.ground.compliance(_lengths(q_y, q_x, 1.0), grid.pixel) * self._response(grid, q_x)
+            values[0, 0] = 0.0
+            return values
+
+        return PeriodicFilter(grid.shape, symbol, self.engine)
 
     def preconditioners(self, grid: Grid) -> list[PeriodicFilter]:
         """The inverse of the operator, in factors as `HalfSpace`; a mean pressure is taken for the lowest wave."""
-        elastic = self._filter(grid, lambda q, _: q / 2, mean=np.pi / grid.points)
-        if self.flow.at_rest:
-            return [elastic]
-        return [PeriodicFilter(grid.shape, lambda _, q_x: 1 / self._response(grid, q_x), self.engine), elastic]
+
+        def elastic(q_y, q_x):
+            return self.ground.stiffness(_lengths(q_y, q_x, 2 * np.pi / grid.points), grid.pixel)
+
+        def flow(_, q_x):
+            return 1 / self._response(grid, q_x)
+
+        symbols = [elastic] if self.flow.at_rest else [flow, elastic]
+        return [PeriodicFilter(grid.shape, symbol, self.engine) for symbol in symbols]
 
     def slope(self, grid: Grid) -> PeriodicFilter:
         """Pressure -> slope of the displacement along the flow, as far as it dissipates."""
@@ -42,19 +55,8 @@ class Cell:
 
     def _loss(self, grid, step):
         def symbol(q_y, q_x):
-            q = np.hypot(q_y, q_x)
-            q[0, 0] = 1.0
-            return -2 / q * step(q_x) * self.flow.compliance(q_x, grid.pixel).imag
-
-        return PeriodicFilter(grid.shape, symbol, self.engine)
-
-    def _filter(self, grid, of, mean):
-        def symbol(q_y, q_x):
-            q = np.hypot(q_y, q_x)
-            q[0, 0] = 1.0
-            values = of(q, self._response(grid, q_x))
-            values[0, 0] = mean
-            return values
+            compliance = self.ground.compliance(_lengths(q_y, q_x, 1.0), grid.pixel)
+            return -compliance * step(q_x) * self.flow.compliance(q_x, grid.pixel).imag
 
         return PeriodicFilter(grid.shape, symbol, self.engine)
 
@@ -64,3 +66,10 @@ class Cell:
             return 1.0
         shift = self.flow.collocation(grid) / grid.pixel
         return self.flow.compliance(q_x, grid.pixel) * np.exp(1j * q_x * shift)
+
+
+def _lengths(q_y, q_x, mean):
+    """|q| of all waves [rad/pixel], with something else where it is zero."""
+    q = np.hypot(q_y, q_x)
+    q[0, 0] = mean
+    return q

@@ -5,6 +5,7 @@ import numpy as np
 from .engine import Engine
 
 PLAIN = Engine()
+SHORTEST = np.pi * (1 - 1e-9)  # wave number [rad/pixel]; those of other waves are less
 
 
 class FreeConvolution:
@@ -15,10 +16,7 @@ class FreeConvolution:
         ny, nx = kernel.shape[0], kernel.shape[1] // 2
         padded = (1 if ny == 1 else engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1))
         downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
-        laid_out = np.zeros((ny, padded[1]))
-        laid_out[:, :nx] = downstream
-        laid_out[:, padded[1] - nx + 1 :] = upstream
-        symbol = engine.transformed(laid_out, padded)
+        symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
         if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
             symbol = symbol.real
         self.shape, self.applications, self.pairs = (ny, nx), 0, 1.0
@@ -30,6 +28,29 @@ class FreeConvolution:
         return self._product(pressure, out)
 
 
+class FreePair:
+    """Zero-padded convolution of two planes with a symmetric matrix of kernels, ny x nx points of a free surface.
+
+    `applications` counts two of a single plane each time.
+    """
+
+    def __init__(self, kernels, engine=PLAIN):
+        """kernels: xx, xy, yy (ny, nx), 0, 1, ... pixels aside and downstream; xy is odd in both, others even."""
+        ny, nx = kernels[0].shape
+        padded = engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1)
+        symbols = []
+        for kernel, parity in zip(kernels, (1, -1, 1), strict=True):
+            laid_out = _laid_out(kernel, parity * kernel[:, :0:-1], padded)
+            symbols.append(engine.transformed(laid_out, padded, parity).real)
+        self.shape, self.applications, self.pairs = (ny, nx), 0, 1.0
+        self._product = engine.pair(symbols, self.shape, padded)
+
+    def __call__(self, planes, out=None):
+        """Displacements (2, ny, nx) of tractions (2, ny, nx)."""
+        self.applications += 2
+        return self._product(planes, out)
+
+
 class PeriodicFilter:
     """Multiplication of every wave by its symbol, on ny x nx points that repeat. `applications` counts."""
 
@@ -39,9 +60,7 @@ class PeriodicFilter:
         One of q_x alone, an array of one row, needs no transform along y.
         """
         ny, nx = shape
-        q_y = 2 * np.pi * np.arange(ny // 2 + 1)[:, None] / ny
-        q_x = 2 * np.pi * np.arange(nx // 2 + 1)[None, :] / nx
-        values = symbol(q_y, q_x)
+        values = symbol(*_wave_numbers(shape))
         self.shape, self.applications = shape, 0
         self.pairs = 0.5 if len(values) == 1 and ny > 1 else 1.0  # of transforms, an application
         self._product = engine.product(values, shape, (1 if len(values) == 1 else ny, nx))
@@ -50,3 +69,41 @@ class PeriodicFilter:
         """The filtered values (ny, nx)."""
         self.applications += 1
         return self._product(values, out)
+
+
+class PeriodicPair:
+    """Multiplication of two planes, wave by wave, by a symmetric matrix of symbols, on ny x nx points that repeat.
+
+    `applications` counts two of a single plane each time.
+    """
+
+    def __init__(self, shape, symbols, engine=PLAIN):
+        """symbols: function of the wave numbers (q_y, q_x) in rad/pixel to xx, xy, yy; xy is odd in both.
+
+        At the shortest wave of the grid both signs of a wave number are the same one, and there is no xy.
+        """
+        q_y, q_x = _wave_numbers(shape)
+        xx, xy, yy = symbols(q_y, q_x)
+        xy = np.where((q_y > SHORTEST) | (q_x > SHORTEST), 0.0, xy)
+        self.shape, self.applications, self.pairs = shape, 0, 1.0
+        self._product = engine.pair((xx, xy, yy), shape, shape)
+
+    def __call__(self, planes, out=None):
+        """The filtered planes (2, ny, nx)."""
+        self.applications += 2
+        return self._product(planes, out)
+
+
+def _laid_out(downstream, upstream, padded):
+    """Columns of a kernel around the loaded one, as transforms take them: those upstream at the end."""
+    laid_out = np.zeros((len(downstream), padded[1]))
+    laid_out[:, : downstream.shape[1]] = downstream
+    laid_out[:, padded[1] - upstream.shape[1] :] = upstream
+    return laid_out
+
+
+def _wave_numbers(shape):
+    """q_y (ny//2+1, 1) and q_x (1, nx//2+1) [rad/pixel]."""
+    ny, nx = shape
+    q_y, q_x = 2 * np.pi * np.arange(ny // 2 + 1) / ny, 2 * np.pi * np.arange(nx // 2 + 1) / nx
+    return q_y[:, None], q_x[None, :]

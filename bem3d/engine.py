@@ -72,8 +72,21 @@ class Engine:
             return WholePlane(symbol, shape, padded, self.xp, self.complex)
         return Blocked(symbol, shape, padded, self)
 
-    def transformed(self, kernel, padded):
-        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), rows y = 0..ny-1 of what is even in y."""
+    def pair(self, symbols, shape, padded):
+        """The product of two planes with a symmetric matrix of symbols: callable, (2, ny, nx) -> (2, ny, nx).
+
+        symbols : xx, xy, yy (my//2+1, mx//2+1), real, unnormalized; xx and yy even in q_y, xy odd
+        shape, padded : as of `product`, my > 1
+        """
+        if self.on_gpu:
+            return WholePair(symbols, shape, padded, self.xp, self.complex)
+        return BlockedPair(symbols, shape, padded, self)
+
+    def transformed(self, kernel, padded, parity=1):
+        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), rows y = 0..ny-1.
+
+        parity : in y, 1 of what is even and -1 of what is odd
+        """
         (ny, mx), my = kernel.shape, padded[0]
         rows, columns = _DOUBLE.lines(ny, mx, real=True), _DOUBLE.lines(mx // 2 + 1, my, real=False)
         waves = np.empty((ny, mx // 2 + 1), complex)
@@ -81,10 +94,10 @@ class Engine:
             waves[block] = rows.forward(kernel[block])
         symbol = np.empty((my // 2 + 1, mx // 2 + 1), complex)
         for block in _blocks(mx // 2 + 1):
-            even = np.zeros((waves[:, block].shape[1], my), complex)
-            even[:, :ny] = waves[:, block].T
-            even[:, my - ny + 1 :] = even[:, ny - 1 : 0 : -1]
-            symbol[:, block] = columns.forward(even)[:, : my // 2 + 1].T
+            whole = np.zeros((waves[:, block].shape[1], my), complex)
+            whole[:, :ny] = waves[:, block].T
+            whole[:, my - ny + 1 :] = parity * whole[:, ny - 1 : 0 : -1]
+            symbol[:, block] = columns.forward(whole)[:, : my // 2 + 1].T
         return symbol
 
     def lines(self, count, length, real):
@@ -122,64 +135,146 @@ def _cupy():
     return cupy
 
 
-class WholePlane:
-    """The product in one transform of the padded plane each way; xp: numpy or cupy."""
+class _Whole:
+    """Planes through symbols in one transform of each padded plane each way; xp: numpy or cupy."""
 
-    def __init__(self, symbol, shape, padded, xp, kind=np.complex128):
+    def __init__(self, symbols, shape, padded, xp, kind):
+        """symbols: (symbol, parity in q_y) each."""
         self.shape, self._padded, self._xp = shape, padded, xp
         rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
-        self._symbol = xp.asarray(symbol[rows].astype(kind))
+        self._symbols = []
+        for symbol, parity in symbols:
+            mirrored = symbol[rows].astype(kind)
+            mirrored[padded[0] // 2 + 1 :] *= parity
+            self._symbols.append(xp.asarray(mirrored))
         self._real = np.float32 if kind == np.complex64 else np.float64
+        sizes = padded[-1:] if padded[0] == 1 else padded  # of rows alone, or of planes
+        self._axes = {"axes": tuple(range(-len(sizes), 0)), "s": sizes}
 
-    def __call__(self, plane, out=None):
-        """The product (ny, nx)."""
-        fft, (ny, nx) = self._xp.fft, self.shape
-        axes = (1,) if self._padded[0] == 1 else (0, 1)
-        sizes = self._padded[-len(axes) :]
-        waves = fft.rfftn(plane.astype(self._real), s=sizes, axes=axes)
-        image = fft.irfftn(waves * self._symbol, s=sizes, axes=axes)[:ny, :nx]
+    def _waves(self, planes):
+        return self._xp.fft.rfftn(planes.astype(self._real), **self._axes)
+
+    def _image(self, waves, out):
+        ny, nx = self.shape
+        image = self._xp.fft.irfftn(waves, **self._axes)[..., :ny, :nx]
         if out is None:
             return image.astype(float)
         out[:] = image
         return out
 
 
-class Blocked:
-    """The product row by row and column by column, each block of columns while it is in the cache."""
+class WholePlane(_Whole):
+    """The product with one symbol."""
 
-    def __init__(self, symbol, shape, padded, engine):
-        self.shape, self._padded = shape, padded
-        ny, (my, mx) = shape[0], padded
-        width = mx // 2 + 1
-        kind = engine.real if np.isrealobj(symbol) else engine.complex
-        self._symbol = np.ascontiguousarray((symbol / (my * mx)).T.astype(kind))
-        self._waves = _staggered(ny, width, engine.complex)
-        self._rows = engine.lines(ny, mx, real=True)
-        self._columns = engine.lines(width, my, real=False) if my > 1 else None
+    def __init__(self, symbol, shape, padded, xp, kind=np.complex128):
+        super().__init__([(symbol, 1)], shape, padded, xp, kind)
 
     def __call__(self, plane, out=None):
         """The product (ny, nx)."""
-        (ny, nx), waves = self.shape, self._waves
-        out = np.empty(self.shape) if out is None else out
-        for rows in _blocks(ny):
+        return self._image(self._waves(plane) * self._symbols[0], out)
+
+
+class WholePair(_Whole):
+    """The product of two planes with a symmetric matrix of symbols."""
+
+    def __init__(self, symbols, shape, padded, xp, kind=np.complex128):
+        super().__init__(zip(symbols, (1, -1, 1), strict=True), shape, padded, xp, kind)
+
+    def __call__(self, planes, out=None):
+        """The product (2, ny, nx)."""
+        (x, y), (xx, xy, yy) = self._waves(planes), self._symbols
+        return self._image(self._xp.stack([xx * x + xy * y, xy * x + yy * y]), out)
+
+
+class _ByBlocks:
+    """Planes through symbols row by row and column by column, each block of columns while it is in the cache.
+
+    planes : how many at a time
+    """
+
+    def __init__(self, symbols, planes, shape, padded, engine):
+        self.shape, self._padded = shape, padded
+        ny, (my, mx) = shape[0], padded
+        width = mx // 2 + 1
+        self._symbols = [self._laid_out(symbol, engine) for symbol in symbols]
+        self._waves = [_staggered(ny, width, engine.complex) for _ in range(planes)]
+        self._rows = engine.lines(ny, mx, real=True)
+        self._columns = [engine.lines(width, my, real=False) for _ in range(planes)] if my > 1 else []
+
+    def _laid_out(self, symbol, engine):
+        """Along columns, and with what transforms there and back multiply by."""
+        kind = engine.real if np.isrealobj(symbol) else engine.complex
+        return np.ascontiguousarray((symbol / np.prod(self._padded)).T.astype(kind))
+
+    def _along_rows(self, plane, waves):
+        for rows in _blocks(self.shape[0]):
             waves[rows] = self._rows.forward(plane[rows])
-        if self._columns is None:
-            waves *= self._symbol.T
-        else:
-            self._through_columns()
+
+    def _back_along_rows(self, waves, out):
+        ny, nx = self.shape
         for rows in _blocks(ny):
             out[rows] = self._rows.backward(waves[rows])[:, :nx]
+
+
+class Blocked(_ByBlocks):
+    """The product with one symbol."""
+
+    def __init__(self, symbol, shape, padded, engine):
+        super().__init__([symbol], 1, shape, padded, engine)
+
+    def __call__(self, plane, out=None):
+        """The product (ny, nx)."""
+        (waves,), out = self._waves, np.empty(self.shape) if out is None else out
+        self._along_rows(plane, waves)
+        if self._columns:
+            self._through_columns()
+        else:
+            waves *= self._symbols[0].T
+        self._back_along_rows(waves, out)
         return out
 
     def _through_columns(self):
         ny, half = self.shape[0], self._padded[0] // 2 + 1
         mirrored = self._padded[0] - half  # rows of q_y < 0
-        for columns in _blocks(self._waves.shape[1]):
-            symbol = self._symbol[columns]
-            block = self._columns.forward(self._waves[:, columns].T)
+        (waves,), (lines,) = self._waves, self._columns
+        for columns in _blocks(waves.shape[1]):
+            symbol = self._symbols[0][columns]
+            block = lines.forward(waves[:, columns].T)
             block[:, :half] *= symbol
             block[:, half:] *= symbol[:, mirrored:0:-1]
-            self._waves[:, columns] = self._columns.backward(block)[:, :ny].T
+            waves[:, columns] = lines.backward(block)[:, :ny].T
+
+
+class BlockedPair(_ByBlocks):
+    """The product of two planes with a matrix of symbols: four transforms of half a plane, and not eight."""
+
+    def __init__(self, symbols, shape, padded, engine):
+        super().__init__(symbols, 2, shape, padded, engine)
+
+    def __call__(self, planes, out=None):
+        """The product (2, ny, nx)."""
+        out = np.empty((2, *self.shape)) if out is None else out
+        for plane, waves in zip(planes, self._waves, strict=True):
+            self._along_rows(plane, waves)
+        self._through_columns()
+        for waves, image in zip(self._waves, out, strict=True):
+            self._back_along_rows(waves, image)
+        return out
+
+    def _through_columns(self):
+        ny, half = self.shape[0], self._padded[0] // 2 + 1
+        mirrored = slice(self._padded[0] - half, 0, -1)  # rows of q_y < 0
+        for columns in _blocks(self._waves[0].shape[1]):
+            blocks = [
+                lines.forward(waves[:, columns].T) for lines, waves in zip(self._columns, self._waves, strict=True)
+            ]
+            xx, xy, yy = (symbol[columns] for symbol in self._symbols)
+            for part, rows, sign in ((slice(half), slice(half), 1), (slice(half, None), mirrored, -1)):
+                x, y = (block[:, part] for block in blocks)
+                across = sign * xy[:, rows]
+                x[:], y[:] = xx[:, rows] * x + across * y, across * x + yy[:, rows] * y
+            for block, lines, waves in zip(blocks, self._columns, self._waves, strict=True):
+                waves[:, columns] = lines.backward(block)[:, :ny].T
 
 
 def _staggered(count, length, kind):

@@ -76,7 +76,7 @@ def _slowness(problem, grid, pressure):
     """As that of the flow, and as far as the grid shows the curvature of the roughness."""
     if pressure.all():  # no edge, and nothing is lost of the loss
         return 0.0
-    if problem.surface(grid) is None:
+    if problem.shortest(grid) is None:
         return problem.flow.slowness(grid)
     return problem.flow.slowness(grid) * max(0.0, differenced(problem.points_per_wave(grid)))
 

@@ -1,4 +1,4 @@
-"""A surface that ends nowhere: what a pressure does to a half-space.
+"""A surface that ends nowhere: what a pressure does to a half-space, or to what else lies below.
 
 Pressures are in units of the relaxed E* and displacements in pixels. The surface arrives undisturbed.
 """
@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import influence
 from .convolution import FreeConvolution, PeriodicFilter
 from .engine import Engine
 from .grid import Grid
+from .ground import HALF_SPACE, Ground
 from .sliding import Flow
 
 LEAST_DIFFERENCE = 1e-3  # memory [pixel] down to which losses are taken from differences of kernels
@@ -18,10 +18,11 @@ LEAST_DIFFERENCE = 1e-3  # memory [pixel] down to which losses are taken from di
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """The free surface of a half-space."""
+    """The free surface of a half-space, unless the ground is another."""
 
     flow: Flow
     engine: Engine
+    ground: Ground = HALF_SPACE
 
     def operator(self, grid: Grid) -> FreeConvolution:
         """Pressure -> displacement at the points of collocation."""
@@ -58,7 +59,7 @@ class HalfSpace:
         return self.flow.shares * lengths / seen, seen
 
     def preconditioners(self, grid: Grid) -> list[PeriodicFilter]:
-        """Approximate inverse of the operator: one over the discrete compliance of the modes, then |q|/2.
+        """Approximate inverse of the operator: one over the compliance of the modes on pixels, then the ground.
 
         Two factors, because a contact discards what the first gives outside: of a displacement known on the
         contact alone, a jump to nothing behind its trailing edge, as large as the memory is long.
@@ -67,7 +68,7 @@ class HalfSpace:
         def elastic(q_y, q_x):
             q = np.hypot(q_y, q_x)
             q[0, 0] = np.pi / grid.points  # half the lowest: a mean pressure on a free surface does push it in
-            return q / 2
+            return self.ground.stiffness(q, grid.pixel)
 
         def flow(_, q_x):
             return 1 / _discrete_compliance(self.flow, grid, q_x)
@@ -79,10 +80,10 @@ class HalfSpace:
         return FreeConvolution(kernel, self.engine)
 
     def _elastic(self, grid):
-        return influence.elastic(*grid.shape[::-1])
+        return self.ground.elastic(grid)
 
     def _flowing(self, grid, instantaneous, shares, lengths, shift):
-        return influence.flowing(*grid.shape[::-1], instantaneous, shares, lengths, shift)
+        return self.ground.flowing(grid, instantaneous, shares, lengths, shift)
 
 
 def _discrete_compliance(flow, grid, q_x):

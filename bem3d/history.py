@@ -77,13 +77,23 @@ def _grid(solver, problem, program):
         return Grid(solver.points, solver.extent, width=problem.width)
     boxes = [_held(window.fitted(problem, solver.points))]
     for speed in sorted({stage.speed for stage in program.stages} - {0.0}):
-        sliding = Slide(speed=speed, **{program.pressed_by: program.greatest})
-        steady = Problem(replace(scene, motion=sliding), solver.engine, solver.terms)
-        boxes.append(_held(window.fitted(steady, solver.points)))
+        sliding = Slide(speed=abs(speed), **{program.pressed_by: program.greatest})
+        seen = Problem if speed > 0 else _Mirrored
+        steady = seen(replace(scene, motion=sliding), solver.engine, solver.terms)
+        box = _held(window.fitted(steady, solver.points))
+        boxes.append(box if speed > 0 else replace(box, left=-box.right, right=-box.left))
     all_of_them = boxes[0]
     for box in boxes[1:]:
         all_of_them = all_of_them.union(box)
     return Grid.around(all_of_them, solver.points, 1.0, problem.width)
+
+
+class _Mirrored(Problem):
+    """A scene seen in a mirror across the flow, where what slides backwards slides forwards."""
+
+    def heights(self, grid, surface, shift=0.0):
+        x, y = grid.centre
+        return super().heights(replace(grid, centre=(-x, y)), surface, -shift)[:, ::-1]
 
 
 def _held(grid):

@@ -1,4 +1,6 @@
-"""Influence kernels of the free half-space, in pixels: displacement of the surface by one loaded pixel.
+"""Influence kernels of a free surface, in pixels: displacement of the surface by one loaded pixel.
+
+Of a half-space, and of whatever else says what a pixel displaces by a `Displacement`.
 
 Lengths are in pixels and pressure in units of the relaxed modulus E*, so a kernel is a pure number and depends on
 the scene only through the relaxation lengths (speed times retardation time) in pixels. Arrays are [y, x]: column
@@ -8,10 +10,14 @@ A mode with the relaxation length l remembers: w(x) = int_0^inf k(x - s) exp(-s/
 that is w + l dw/dx = k.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.special import exp1, expi
 
 from .memory import NEAR, chunks, march
+
+Displacement = Callable[..., np.ndarray]  # of (x, s, ny), see `by_pixel`
 
 TINY = np.finfo(float).tiny
 LINE_SHORT = 10.0  # memory [pixel] below which differences of primitives keep their digits
@@ -19,12 +25,27 @@ KINK_REACH, KINK_NODES, SMOOTH_NODES = 16, 24, 6  # to 1e-13
 LAG_TERMS = 40  # of the asymptotic series of `_lag`, for z beyond as many: to exp(-40)
 
 
-def elastic(nx, ny, shift=0.0):
+def by_pixel(x, s, ny):
+    """Displacement of a half-space by a loaded pixel at x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
+
+    def near(y):
+        y = np.append(y, y[-1] + 1) - 0.5
+        return np.diff(_corner((x + 0.5) - s, y) - _corner((x - 0.5) - s, y)) / np.pi
+
+    def far(y):
+        # Mean of 1/r over the pixel: its Laplacian in the plane is 1/r^3.
+        square = 1 / (np.square(x - s)[..., None] + y * y)
+        return np.sqrt(square) * (1 + square / 24) / np.pi
+
+    return _joined(near, far, x - s, ny)
+
+
+def elastic(nx, ny, shift=0.0, displacement: Displacement = by_pixel):
     """Elastic kernel, (ny, 2 nx): column nx + i is i + shift pixels downstream, row j is j pixels aside."""
     start = -nx if shift else 0
     kernel = np.empty((nx + 1 - start, ny))
     for i, _ in chunks(start, nx + 1):
-        kernel[i - start] = _displacement(i + shift, 0.0, ny)
+        kernel[i - start] = displacement(i + shift, 0.0, ny)
     if not shift:
         kernel = np.concatenate([kernel[:0:-1], kernel])  # even to the last digit
     return kernel[:-1].T
@@ -38,16 +59,18 @@ def retarded(nx, ny, length, shift):
     return flowing(nx, ny, 0.0, [1.0], [length], shift)
 
 
-def flowing(nx, ny, instantaneous, shares, lengths, shift):
+def flowing(nx, ny, instantaneous, shares, lengths, shift, displacement: Displacement = by_pixel):
     """Kernel of a solid in flow along +x, (ny, 2 nx) as `elastic`: its elastic share and those of its modes.
 
     shares, lengths : of the retardation modes (K,), lengths > 0 [pixel]
     shift : how far behind the pixel's centre it is sampled, 0 to 1/2 [pixel]
     """
     shares, lengths = np.asarray(shares, float), np.asarray(lengths, float)
-    kernel = np.zeros((2 * nx, ny)) if instantaneous == 0 else instantaneous * elastic(nx, ny, shift).T
+    kernel = (
+        np.zeros((2 * nx, ny)) if instantaneous == 0 else instantaneous * elastic(nx, ny, shift, displacement).T
+    )
     if len(lengths):
-        for i, after in march(_displacement, (-nx, nx), ny, lengths, shift):
+        for i, after in march(displacement, (-nx, nx), ny, lengths, shift):
             kernel[i + nx] += shares @ after
     return kernel.T
 
@@ -60,7 +83,7 @@ def line(nx, datum, shift=0.0):
     is the half-space's 2/|q|.
     """
     x = np.arange(-nx, nx) + shift
-    return (-2 / np.pi * (_mean_log(x) - np.log(datum)))[None, :]
+    return (-2 / np.pi * (mean_log(x) - np.log(datum)))[None, :]
 
 
 def line_flowing(nx, instantaneous, shares, lengths, shift, datum):
@@ -70,30 +93,15 @@ def line_flowing(nx, instantaneous, shares, lengths, shift, datum):
     the memory is short, a quadrature where it is long.
     """
     x = np.arange(-nx, nx) + shift
-    mean = instantaneous * (_mean_log(x) - np.log(datum))
+    mean = instantaneous * (mean_log(x) - np.log(datum))
     for share, length in zip(shares, lengths, strict=True):
         if length < LINE_SHORT:
             gain = _remembered_log(x + 0.5, length) - _remembered_log(x - 0.5, length)
-            remembered = _mean_log(x) - length * gain
+            remembered = mean_log(x) - length * gain
         else:
             remembered = _over_pixel(lambda u, length=length: _remembered_log(u, length), x - 0.5)
         mean += share * (remembered - np.log(datum))
     return (-2 / np.pi * mean)[None, :]
-
-
-def _displacement(x, s, ny):
-    """Elastic displacement at x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
-
-    def near(y):
-        y = np.append(y, y[-1] + 1) - 0.5
-        return np.diff(_corner((x + 0.5) - s, y) - _corner((x - 0.5) - s, y)) / np.pi
-
-    def far(y):
-        # Mean of 1/r over the pixel: its Laplacian in the plane is 1/r^3.
-        square = 1 / (np.square(x - s)[..., None] + y * y)
-        return np.sqrt(square) * (1 + square / 24) / np.pi
-
-    return _joined(near, far, x - s, ny)
 
 
 def _joined(near, far, x, ny):
@@ -116,7 +124,7 @@ def _corner(x, y):
     return np.sign(x)[..., None] * np.sign(y) * (along_x + along_y)
 
 
-def _mean_log(x):
+def mean_log(x):
     """Mean of ln|u| over |u - x| <= 1/2."""
     ax = np.abs(x)
     safe = np.maximum(ax, 0.75)

@@ -21,7 +21,8 @@ from .grid import Grid
 from .material import Creep, Material
 from .problem import Problem
 from .timeline import timeline
-from .upstream import Endless, Repeating, Sheet
+from .upstream import Endless, Repeating, Returning, Sheet
+from .window import check_on_map
 
 ROUNDING = 1e-12  # of the heights: an overlap of less is none
 FIRST = 1 / 64  # of the window that a load is guessed to touch first
@@ -33,10 +34,10 @@ PLACES = 8  # within a pixel, of which the heights are kept
 class History:
     """A contact over time, arrays (steps,) in SI units.
 
-    time, path, speed : in the middle of each step
+    time, path, speed : in the middle of each step; less than zero backwards
     depth : there; NaN where nothing touches at a load of zero
     normal_force, contact_area : of the step
-    friction_by_traction : pressure times the indenter's slope, > 0 opposes the motion
+    friction_by_traction : pressure times the indenter's slope, > 0 opposes a motion forwards, < 0 one backwards
     power : of the pressure on the delayed part of the displacement; in steady sliding friction times speed,
         otherwise what is stored and the motion in depth count as well
     residual, rounds : of each contact, see `contact`
@@ -60,8 +61,8 @@ class History:
 
     @property
     def friction_by_work(self) -> np.ndarray:
-        """power / speed [N], a second estimate of steady friction; NaN at rest."""
-        moving = self.speed > 0
+        """power / speed [N], a second estimate of steady friction, of the same sign; NaN at rest."""
+        moving = self.speed != 0
         return np.where(moving, self.power / np.where(moving, self.speed, 1.0), np.nan)
 
 
@@ -83,7 +84,7 @@ def march(problem: Problem, program: Program, grid: Grid, tolerance: float, step
         seen = material.creep.collocation(step)
         if seen > YIELDING * step and (start in turns or end in turns):
             seen = step  # the pressure jumps: seen earlier, the surface would be thrown off the indenter by then
-        guess = np.roll(touch.pressure, material.follow(program.path(middle)), axis=1)
+        guess = np.roll(touch.pressure, material.follow(program.path(middle), start), axis=1)
         heights = body.heights(material.offset(program.path(start + seen))) + material.remembered(seen)
         compliance = material.creep.compliance(seen)
         touch = press(heights, compliance, guess, tolerance, start + seen, middle)
@@ -104,7 +105,9 @@ def _material(problem, program, grid):
         operator, engine = problem.medium.operator(sheet), problem.engine
         return lambda pressure: engine.asnumpy(operator(engine.asarray(pressure))) * sheet.pixel
 
-    return Material(creep, Endless(window, program.length, half_space))
+    if program.reverses:
+        return Material(creep, Returning(window, program.span, half_space, creep.kept))
+    return Material(creep, Endless(window, program.span, half_space))
 
 
 class _Body:
@@ -215,6 +218,7 @@ class _Press:
 
     def _check_edge(self, pressure, time):
         grid = self._grid
+        check_on_map(self._problem.scene, grid, pressure > 0)
         if not isinstance(self._problem.scene.indenter, Plane) and grid.on_rim(pressure > 0):
             raise SolveError(
                 f"{time:g} s into the program the contact reaches the edge of extent = {grid.extent:g} m; "

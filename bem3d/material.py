@@ -76,13 +76,16 @@ class Material:
         self.creep, self._around, self._window = creep, around, around.window
 
     def offset(self, path: float) -> float:
-        """How far the points are downstream from where the grid has them, after a path [m]."""
+        """How far the points are downstream from where the grid has them, on a path [m]."""
         return path - self._window.shifts * self._window.grid.pixel
 
-    def follow(self, path: float) -> int:
-        """Shift the window until it is around the indenter, after a path [m]. Returns by how many pixels."""
+    def follow(self, path: float, time: float) -> int:
+        """Shift the window until it is around the indenter, on a path [m] at a time [s].
+
+        Returns by how many pixels, less than zero backwards.
+        """
         before = self._window.shifts
-        self._around.follow(path)
+        self._around.follow(path, time)
         return self._window.shifts - before
 
     def remembered(self, time: float) -> np.ndarray:

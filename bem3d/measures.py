@@ -24,6 +24,8 @@ def measured(problem: Problem, grid: Grid, pressure: np.ndarray, gap: np.ndarray
             "rms_slope": surface.rms_slope,
             "points_per_shortest_wave": problem.points_per_wave(grid),
         }
+    elif problem.shortest(grid) is not None:
+        measures["points_per_shortest_wave"] = problem.points_per_wave(grid)
     if isinstance(problem.scene.indenter, Plane):
         measures |= {
             "mean_pressure": float(pressure.mean()),

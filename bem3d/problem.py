@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from scene import CrossedWaves, Cylinder, EmptyContact, Plane, Result, Scene, SolveError, Wave
+from scene import CrossedWaves, Cylinder, EmptyContact, Measured, Plane, Result, Scene, SolveError, Wave
 from scene.scales import elastic_contact
 from scene.terms import Table, terms_of
 
@@ -12,6 +12,7 @@ from . import contact
 from .cell import Cell
 from .engine import Engine
 from .grid import Grid
+from .ground import Deep
 from .halfspace import HalfSpace
 from .line import Line
 from .sliding import Flow
@@ -20,6 +21,7 @@ from .terms import TERMS
 
 LEAST_ON_A_ROW = 1e-7  # tolerance of sliding lines: next to nothing is felt of a fast contact's edges in the gap
 COARSEST = 32  # points a side from which a solve starts, or all there are below twice as many
+GUESSED = 1 / 64  # of the pixels: in contact to begin with, where nothing is known of the body
 COARSE_TOLERANCE = 1e-5  # on all grids but the finest: a set of contact right to the pixel pays on the next
 
 
@@ -43,13 +45,16 @@ def _medium(indenter, flow, engine):
         case Plane():
             return Cell(flow, engine)
         case Cylinder(radius=radius):
-            return Line(flow, engine, datum=radius)
+            return Line(flow, engine, Deep(datum=radius))
         case _:
             return HalfSpace(flow, engine)
 
 
 class Problem:
-    """A scene on any grid. `work` counts operator applications times the points they acted on."""
+    """A scene on any grid. `work` counts operator applications times the points they acted on.
+
+    medium : the response of the elastomer; bare : the same without what the terms of the scene change of it
+    """
 
     def __init__(self, scene: Scene, engine: Engine, table: Table = TERMS):
         self.scene = scene
@@ -57,9 +62,9 @@ class Problem:
         # A single row costs nothing, and what it is solved to is beyond single precision.
         self.engine = engine if self.width is None else replace(engine, precision="double")
         self.flow = Flow.of(scene.solid, scene.motion.speed)
-        self.medium = _medium(scene.indenter, self.flow, self.engine)
+        self.medium = self.bare = _medium(scene.indenter, self.flow, self.engine)
         for term in self._terms:
-            self.medium = term.medium(self.medium)
+            self.medium = term.medium(self.medium, scene)
         self.work, self.transforms = 0, 0
         self._cut_off, self._surface = None, None
 
@@ -77,16 +82,22 @@ class Problem:
     def surface(self, grid: Grid) -> RoughSurface | None:
         """The rough surface as a grid cuts it off; None for a smooth indenter."""
         rough = self.scene.roughness
-        if rough is None or rough.rms_height == 0:
+        if rough is None or rough.flat:
             return None
         q_max = rough.q_max(grid.pixel)
         if q_max != self._cut_off:
             self._cut_off, self._surface = q_max, RoughSurface.of(rough, q_max)
         return self._surface
 
+    def shortest(self, grid: Grid) -> float | None:
+        """Wavelength [m] of the finest that a grid has to show, of roughness or a measured body; else None."""
+        if self.surface(grid) is not None:
+            return 2 * np.pi / self.scene.roughness.q_max(grid.pixel)
+        return self.scene.indenter.shortest if isinstance(self.scene.indenter, Measured) else None
+
     def points_per_wave(self, grid: Grid) -> float:
-        """Of the shortest of the roughness."""
-        return float(2 * np.pi / self.scene.roughness.q_max(grid.pixel) / grid.pixel)
+        """Of the shortest."""
+        return float(self.shortest(grid) / grid.pixel)
 
     def heights(self, grid: Grid, surface: RoughSurface | None, shift: float = 0.0) -> np.ndarray:
         """z [m] of indenter and roughness, `shift` [m] behind the pixels' centres."""
@@ -201,7 +212,12 @@ class Problem:
         return overlap / np.sqrt(np.count_nonzero(overlap))
 
     def _smooth_count(self, grid, load):
-        """Pixels in contact, roughly: half of them at a mean pressure of E* rms slope / 2, and so on (Persson)."""
+        """Pixels in contact, roughly: half of them at a mean pressure of E* rms slope / 2, and so on (Persson).
+
+        Of a measured body nothing is known beforehand.
+        """
+        if isinstance(self.scene.indenter, Measured):
+            return grid.points * grid.rows * GUESSED
         if not isinstance(self.scene.indenter, Plane):
             radius = elastic_contact(self.scene).radius / grid.pixel
             return min(2 * radius if grid.width else np.pi * radius**2, grid.points * grid.rows / 4)

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from scene import Cylinder, Plane, Program, Result, Scene, SolveError
+from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 from scene.terms import Table, surrounded, terms_of
@@ -18,6 +19,7 @@ from .friction import Friction
 from .grid import Grid
 from .history import marched
 from .measures import measured
+from .plan import plan_of
 from .problem import Problem
 from .terms import TERMS
 
@@ -26,7 +28,7 @@ LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
 @dataclass(frozen=True, config=CLOSED)
 class BEM:
-    """Boundary elements on a viscoelastic half-space under a rigid indenter: at rest, in steady sliding, in time.
+    """Boundary elements on a viscoelastic half-space or layer under a rigid indenter: at rest, sliding, in time.
 
     A body of revolution presses on a free surface, a Cylinder on a free line, a Plane on a cell that repeats.
 
@@ -64,8 +66,17 @@ class BEM:
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
     depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
-    leaves nothing in contact, as is its gap. Its measures are of the last step; of friction by_traction and
-    by_work alone, the second NaN at rest; rounds of all steps; and time_steps; no curvature_by_pressure.
+    leaves nothing in contact, as is its gap. Path, speed and the friction that opposes them are below zero
+    backwards. Its measures are of the last step; of friction by_traction and by_work alone, the second NaN at
+    rest; rounds of all steps; and time_steps; no curvature_by_pressure.
+
+    With Coulomb friction in the interface, in sliding: measures friction_in_elastomer, friction_in_interface [N],
+    which together are the friction. Under a Shear: friction_force is the tangential force; measures
+    friction_in_interface, tangential_displacement [m], stick_area, slip_area [m^2], tangential_residual (slip
+    where it sticks and slip across the traction where it slips, over the displacement; or the misfit of the force
+    if that is more), tangential_applications, also part of Result.applications, tangential_rounds; fields
+    traction_x, traction_y [Pa], on the indenter, and slip_x, slip_y [m], of the elastomer past it, zero outside
+    the contact; those along y only where a traction along x also displaces along y.
     """
 
     terms: ClassVar[Table] = TERMS
@@ -138,6 +149,12 @@ class BEM:
             reasons.append(str(missing))
         return reasons
 
+    def plan(self, scene: Scene) -> Plan:
+        """What would be simulated of a scene, and what it costs; nothing is solved. Raises as `solve` does."""
+        refuse(self, scene)
+        with trusted():
+            return plan_of(self, scene)
+
     def solve(self, scene: Scene) -> Result:
         """Pressure, gap and forces. Raises Refused, or SolveError where the result could not be trusted."""
         refuse(self, scene)
@@ -163,6 +180,7 @@ class BEM:
         extent = problem.scene.roughness.period if repeats else self.extent
         grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid)
+        window.check_on_map(problem.scene, grid, answer.pressure > 0)
         window.check(grid, answer, repeats)
         if repeats:
             _check_gap(problem.scene.motion.gap, grid, answer)

@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scene import CrossedWaves, SelfAffine, SolveError
+from scene import CrossedWaves, SelfAffine, SolveError, Topography
+from scene.waves import MOST_WAVES, Waves
 
-MOST_WAVES = 2560  # of the cut-off on the period, each way: 210 MB of amplitudes, 1.4 GB while they are drawn
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
 CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell
 # Spawn keys keep a surface apart from a line drawn with the same seed, and the moduli of waves from the phases.
@@ -15,26 +15,24 @@ PHASES, MODULI = (2,), (2, 0)
 
 @dataclass(frozen=True)
 class RoughSurface:
-    """Periodic sum of cosines with random phases.
+    """Periodic sum of cosines on grids: of random phases where a spectrum is drawn, of its own of a map."""
 
-    step : spacing of the lattice of wave vectors [rad/m], 2 pi / period
-    amplitudes : complex (2K+1, K+1), rows k_y = -K..K, columns k_x = 0..K; a half plane of wave vectors [m]
-    """
-
-    step: float
-    amplitudes: np.ndarray
+    waves: Waves
 
     @classmethod
     def of(cls, roughness, q_max: float) -> "RoughSurface":
         """The surface of a scene's roughness, with the cut-off q_max [rad/m] where it has a spectrum."""
         if isinstance(roughness, SelfAffine):
             return cls.draw(roughness, q_max)
+        if isinstance(roughness, Topography):
+            return cls(roughness.waves if roughness.seed == 0 else roughness.waves.moved(*roughness.shift))
         amplitudes = np.zeros((3, 2), complex)
         if isinstance(roughness, CrossedWaves):  # cos x cos y is half of cos(x + y) and cos(x - y)
             amplitudes[[0, 2], 1] = roughness.amplitude / 2
         else:
             amplitudes[1, 1] = roughness.amplitude
-        return cls(2 * np.pi / roughness.wavelength, amplitudes)
+        step = 2 * np.pi / roughness.wavelength
+        return cls(Waves(step, step, amplitudes))
 
     @classmethod
     def draw(cls, roughness: SelfAffine, q_max: float) -> "RoughSurface":
@@ -43,12 +41,12 @@ class RoughSurface:
         Each wave vector carries the power of its cell of the lattice, int C_2D d^2q, so that the rms height over a
         period is exactly that of the spectrum and its density is C_2D at every q; of Gaussian amplitudes both are
         means over many surfaces. Waves are drawn shell by shell: a higher cut-off adds detail to the same surface.
-        Raises SolveError when it would not fit in memory.
+        Raises SolveError when it would not fit in memory, seven times as much while it is drawn.
         """
         top = int(q_max / roughness.q_min * (1 + 1e-12))
         if top > MOST_WAVES:
             raise SolveError(
-                f"the surface has {top} waves of its cut-off on longest = {roughness.longest:g} m, "
+                f"the surface has {top:.15g} waves of its cut-off on longest = {roughness.longest:g} m, "
                 f"{MOST_WAVES} fit in memory; take a longer shortest or a shorter longest wave"
             )
         k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
@@ -63,12 +61,17 @@ class RoughSurface:
         if roughness.amplitudes == "gaussian":
             moduli[order] = np.sqrt(_stream(roughness.seed, MODULI).standard_exponential(k.size))
         waves = roughness.rms_height * np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape))
-        return cls(roughness.q_min, waves * moduli.reshape(k.shape))
+        return cls(Waves(roughness.q_min, roughness.q_min, waves * moduli.reshape(k.shape)))
 
     @property
-    def _wave_numbers(self):
-        top = self.amplitudes.shape[1] - 1
-        return self.step * np.arange(-top, top + 1), self.step * np.arange(top + 1)
+    def amplitudes(self) -> np.ndarray:
+        """As of its waves."""
+        return self.waves.amplitudes
+
+    @property
+    def _tops(self):
+        """Of the shortest wave along y and along x."""
+        return self.amplitudes.shape[0] // 2, self.amplitudes.shape[1] - 1
 
     def heights(self, x, y):
         """h [m], (ny, nx), on the grid of coordinates x (nx,) and y (ny,) [m]."""
@@ -76,27 +79,28 @@ class RoughSurface:
 
     def slopes(self, x, y):
         """dh/dx [1], (ny, nx)."""
-        return self._sum(1j * self._wave_numbers[1] * self.amplitudes, x, y)
+        return self._sum(1j * self.waves.along_x * self.amplitudes, x, y)
 
     def _sum(self, amplitudes, x, y):
         if self._spans_a_period(x, y):
             return self._on_a_period(amplitudes, x, y)
-        q_y, q_x = self._wave_numbers
+        q_y, q_x = self.waves.along_y, self.waves.along_x
         return (np.exp(1j * np.outer(y, q_y)) @ amplitudes @ np.exp(1j * np.outer(q_x, x))).real
 
     def _spans_a_period(self, x, y):
         """Whether the points divide a period evenly, and resolve every wave: then one transform does it."""
-        top = self.amplitudes.shape[1] - 1
-        pixels = 2 * np.pi / (self.step * np.array([len(x), len(y)]))
-        given = np.array([np.ptp(x) / max(len(x) - 1, 1), np.ptp(y) / max(len(y) - 1, 1)])
-        return min(len(x), len(y)) > 2 * top and np.allclose(given, pixels, rtol=1e-9, atol=0)
+        counts = np.array([len(y), len(x)])
+        pixels = 2 * np.pi / (np.array([self.waves.step_y, self.waves.step_x]) * counts)
+        given = np.array([np.ptp(y) / max(len(y) - 1, 1), np.ptp(x) / max(len(x) - 1, 1)])
+        resolved = np.all(counts > 2 * np.array(self._tops))
+        return bool(resolved) and np.allclose(given, pixels, rtol=1e-9, atol=0)
 
     def _on_a_period(self, amplitudes, x, y):
-        q_y, q_x = self._wave_numbers
-        top, (ny, nx) = len(q_x) - 1, (len(y), len(x))
+        q_y, q_x = self.waves.along_y, self.waves.along_x
+        (top_y, top_x), (ny, nx) = self._tops, (len(y), len(x))
         shifted = amplitudes / 2 * np.exp(1j * (q_y[:, None] * y[0] + q_x * x[0]))
         waves = np.zeros((ny, nx // 2 + 1), complex)
-        waves[np.arange(-top, top + 1), : top + 1] = shifted
+        waves[np.arange(-top_y, top_y + 1), : top_x + 1] = shifted
         # Along y alone, a wave and its mirror image are both in the first column.
         waves[:, 0] += np.conj(np.roll(waves[::-1, 0], 1))
         return np.fft.irfft2(waves, s=(ny, nx), norm="forward")
@@ -104,14 +108,12 @@ class RoughSurface:
     @property
     def rms_height(self) -> float:
         """Over a period [m]."""
-        return float(np.sqrt(np.sum(np.abs(self.amplitudes) ** 2) / 2))
+        return self.waves.rms_height
 
     @property
     def rms_slope(self) -> float:
         """Spectral rms of the full gradient over a period [1]."""
-        q_y, q_x = self._wave_numbers
-        square = q_y[:, None] ** 2 + q_x[None, :] ** 2
-        return float(np.sqrt(np.sum(square * np.abs(self.amplitudes) ** 2) / 2))
+        return self.waves.rms_slope
 
 
 def _stream(seed, key):

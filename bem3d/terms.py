@@ -3,48 +3,48 @@
 from scene import (
     WLF,
     Arrhenius,
+    Coulomb,
     Cylinder,
+    Heating,
     Indent,
+    Layer,
+    Measured,
     Plane,
     Program,
-    Result,
     SelfAffine,
+    Shear,
     Slide,
+    Topography,
     Wave,
-    terms,
 )
 from scene.indenter import Axisymmetric
 from scene.terms import Table
 from scene.viscoelastic import Linear
 
-from .grid import Grid
+from .heating import HeatedContact
+from .layer import LayerTerm
+from .tangential import Drawn, Interface
+from .term import Term
+from .topography import MeasuredRoughness
 
-
-class Term(terms.Term):
-    """A part of a scene as boundary elements take it up."""
-
-    def medium(self, medium):
-        """The response of the elastomer, as changed by the part: what `HalfSpace`, `Cell` and `Line` offer."""
-        return medium
-
-    def completed(self, result: Result, problem, grid: Grid) -> Result:
-        """The answer with what the part adds once the pressure is found.
-
-        problem : the `Problem` that was solved, on the grid
-        """
-        return result
-
+__all__ = ["TERMS", "Term"]
 
 TERMS: Table = {
     Axisymmetric: Term,
     Cylinder: Term,
     Plane: Term,
+    Measured: Term,
     Linear: Term,
     Indent: Term,
     Slide: Term,
+    Shear: Drawn,
     Program: Term,
     SelfAffine: Term,
     Wave: Term,
+    Layer: LayerTerm,
+    Topography: MeasuredRoughness,
     WLF: Term,
     Arrhenius: Term,
+    Heating: HeatedContact,
+    Coulomb: Interface,
 }

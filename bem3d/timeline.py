@@ -8,6 +8,7 @@ from scene import Program, SolveError
 
 MOST = 10**6
 RAMP = 20  # steps at least while what is prescribed changes: in one, the surface would be thrown off the indenter
+PERIOD = 40  # steps at least in a period of what oscillates: a cosine through them is right to 0.1 %
 GROWTH = 1.25  # of a step over the one before: what follows a ramp is as quick as the ramp was
 SLIVER = 1e-9  # of a step: less is rounding
 
@@ -15,16 +16,18 @@ SLIVER = 1e-9  # of a step: less is rounding
 def timeline(program: Program, pixel: float, steps: int) -> np.ndarray:
     """Times [s] at which steps begin and end (N + 1,).
 
-    `steps` are shared out by duration, one to a stage at least, RAMP to a stage that loads or unloads; after a
-    shorter step they grow by GROWTH. Where the indenter slides they are a pixel [m] of path at most, or a whole
-    fraction of it. The last two of a stage share what is left. Raises SolveError for too many, or too unlike ones.
+    `steps` are shared out by duration, one to a stage at least, RAMP to a stage that loads or unloads, PERIOD to
+    a period where it oscillates; after a shorter step they grow by GROWTH. Where the indenter slides, either way,
+    they are a pixel [m] of path at most, or a whole fraction of it. The last two of a stage share what is left.
+    Raises SolveError for too many, or too unlike ones.
     """
     longest = _longest(program, pixel, program.duration / steps)
     count = sum(stage.duration / step for stage, step in zip(program.stages, longest, strict=True))
     if count > MOST:
+        fewer = "oscillate for fewer periods, " if any(stage.oscillation for stage in program.stages) else ""
         raise SolveError(
             f"the program takes {count:.2g} steps on pixels of {pixel:g} m, more than {MOST}: "
-            f"slide a shorter path, take a larger extent or fewer points, or fewer steps than {steps}"
+            f"slide a shorter path, {fewer}take a larger extent or fewer points, or fewer steps than {steps}"
         )
     times, before = [0.0], np.inf
     for stage, step in zip(program.stages, longest, strict=True):
@@ -45,11 +48,13 @@ def _longest(program, pixel, share):
     for stage in program.stages:
         target = stage.given.get(program.pressed_by, prescribed)
         least = 1 if target == prescribed else RAMP
+        if stage.oscillation is not None:
+            least = max(RAMP, ceil(PERIOD * stage.oscillation.periods))
         step = stage.duration / max(least, round(stage.duration / share))
-        if stage.speed > 0:
-            crossing = pixel / stage.speed
+        if stage.speed != 0:
+            crossing = pixel / abs(stage.speed)
             step = crossing / np.ceil(crossing / step * (1 - SLIVER))
-        prescribed = target
+        prescribed = target if stage.oscillation is None else target + stage.oscillation.last
         steps.append(step)
     return steps
 

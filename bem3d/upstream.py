@@ -1,11 +1,16 @@
-"""What a contact has done to the elastomer ahead of it, before that comes into the window.
+"""What a contact has done to the elastomer around the window, before that comes in.
 
 The displacement by a contact falls only as 1/r: what lies upstream creeps long before it is touched, and carries
 that into the window. It is followed on sheets of material points around the window, each twice as wide as the one
 before: a pressure is handed on from each to the next, and what comes into a sheet is interpolated from there.
 Displacements are in m, pressures in units of the relaxed E*.
+
+An indenter that comes back meets its own wake, and finer features in it than the wider sheets have. What a column
+has beyond them when it leaves a sheet is kept, and fades as all that creeps: far from the contact, what is gained
+meanwhile is what the wider sheets gain.
 """
 
+from collections import deque
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +19,7 @@ from scipy.sparse import csr_array
 from .grid import Grid
 
 LEAST, MOST = 32, 128  # points along the first sheet, those of the window in between; of the next half, and so on
+FADED = 1e-17  # of what a column had as it left: less is not kept
 
 
 class Sheet:
@@ -32,30 +38,42 @@ class Sheet:
         """Of the columns along the flow [m] (nx,), in the frame of the material."""
         return self.grid.x - self.shifts * self.grid.pixel
 
-    def lags(self, path: float) -> bool:
-        """Whether the indenter, after a path [m], is more than half a pixel upstream of the middle."""
-        return path / self.grid.pixel - self.shifts > 0.5 + 1e-6  # half a pixel is usual, and stays
+    def way(self, path: float) -> int:
+        """To shift, 1 or -1, where the indenter on its path [m] is more than half a pixel off the middle; or 0."""
+        off = path / self.grid.pixel - self.shifts
+        return 0 if abs(off) <= 0.5 + 1e-6 else 1 if off > 0 else -1  # half a pixel is usual, and stays
 
-    def shift(self, entering):
-        """Drop the last column and take in another (K, ny) upstream."""
-        self.fields[:, :, 1:] = self.fields[:, :, :-1].copy()
-        self.fields[:, :, 0] = entering
-        self.shifts += 1
+    def shift(self, way: int, entering):
+        """Drop a column, the last one as the indenter goes forwards; take in another (K, ny) at the other end."""
+        if way > 0:
+            self.fields[:, :, 1:] = self.fields[:, :, :-1].copy()
+            self.fields[:, :, 0] = entering
+        else:
+            self.fields[:, :, :-1] = self.fields[:, :, 1:].copy()
+            self.fields[:, :, -1] = entering
+        self.shifts += way
+
+
+def wider_grids(grid: Grid, path: float) -> list[Grid]:
+    """Those of the sheets around a window: nothing from beyond the widest comes into it on a path [m]."""
+    if path == 0:
+        return []
+    count = int(np.ceil(np.log2(1 + 2 * path / grid.extent))) + 1
+    points = (max(LEAST, min(grid.points, MOST) >> k) for k in range(count))
+    return [Grid(each, grid.extent * 2.0 ** (k + 1), grid.centre, grid.width) for k, each in enumerate(points)]
 
 
 class Endless:
     """A half-space, undisturbed before it all began."""
 
     def __init__(self, window: Sheet, path: float, half_space):
-        """path : slid in all [m]; nothing from beyond the widest sheet comes into the window in it.
+        """path : between its ends [m]; nothing from beyond the widest sheet comes into the window on it.
         half_space : grid -> callable, pressure -> relaxed displacement [m]
         """
         self.window, self._sheets, self._displaced = window, [window], []
         modes, grid = len(window.fields), window.grid
-        if path > 0 and modes:
-            for k in range(int(np.ceil(np.log2(1 + 2 * path / grid.extent))) + 1):
-                points = max(LEAST, min(grid.points, MOST) >> k)
-                wider = Grid(points, grid.extent * 2.0 ** (k + 1), grid.centre, grid.width)
+        if modes:
+            for wider in wider_grids(grid, path):
                 self._sheets.append(Sheet(wider, modes))
                 self._displaced.append(half_space(wider))
 
@@ -66,11 +84,46 @@ class Endless:
             sheet.fields *= kept[:, None, None]
             sheet.fields += gained[:, None, None] * displaced(pressure)
 
-    def follow(self, path):
-        """Keep all sheets around an indenter that has slid so far [m]."""
-        for sheet, wider in zip(self._sheets, [*self._sheets[1:], None], strict=True):
-            while sheet.lags(path):
-                sheet.shift(0.0 if wider is None else _ahead(sheet, wider))
+    def follow(self, path, time):
+        """Keep all sheets around an indenter that has slid so far [m] at a time [s]."""
+        for sheet, wider in pairwise(self._sheets):
+            while way := sheet.way(path):
+                sheet.shift(way, self._entering(sheet, wider, way, time))
+        widest = self._sheets[-1]
+        while way := widest.way(path):
+            widest.shift(way, 0.0)
+
+    def _entering(self, sheet, wider, way, time):
+        """The column (K, ny) that comes into a sheet, and has not been there before."""
+        return _interpolated(sheet, wider, -1 if way > 0 else len(sheet.x))
+
+
+class Returning(Endless):
+    """The same under an indenter that comes back, and finds the wake that it left.
+
+    kept : of the displacement of each mode (K,) after a time [s]
+    """
+
+    def __init__(self, window: Sheet, path: float, half_space, kept):
+        super().__init__(window, path, half_space)
+        self._kept = kept
+        # Of each sheet, what has left it forwards and backwards: the last to leave is the first to come back.
+        self._behind: dict[Sheet, dict[int, deque]] = {
+            sheet: {1: deque(), -1: deque()} for sheet in self._sheets[:-1]
+        }
+
+    def _entering(self, sheet, wider, way, time):
+        leaving = len(sheet.x) - 1 if way > 0 else 0
+        finer = sheet.fields[:, :, leaving] - _interpolated(sheet, wider, leaving)
+        left, met = self._behind[sheet][way], self._behind[sheet][-way]
+        left.append((finer, time))
+        while self._kept(time - left[0][1]).max() < FADED:
+            left.popleft()
+        column = super()._entering(sheet, wider, way, time)
+        if met:
+            finer, since = met.pop()
+            column += self._kept(time - since)[:, None] * finer
+        return column
 
 
 class Repeating:
@@ -82,10 +135,10 @@ class Repeating:
     def creep(self, pressure, kept, gained):
         """There is nothing but the window."""
 
-    def follow(self, path):
+    def follow(self, path, time):
         """Keep the window around an indenter that has slid so far [m]."""
-        while self.window.lags(path):
-            self.window.shift(self.window.fields[:, :, -1].copy())
+        while way := self.window.way(path):
+            self.window.shift(way, self.window.fields[:, :, -1 if way > 0 else 0].copy())
 
 
 def _handed_on(pressure, finer, wider):
@@ -94,9 +147,9 @@ def _handed_on(pressure, finer, wider):
     return (along.T @ (across.T @ pressure).T).T * (finer.grid.patch / wider.grid.patch)
 
 
-def _ahead(sheet, wider):
-    """Displacement (K, ny) in the column upstream of a sheet, interpolated from a wider one."""
-    along = _cubic(sheet.x[:1] - sheet.grid.pixel, wider.x).toarray()[0]
+def _interpolated(sheet, wider, column):
+    """Displacement (K, ny) where a sheet has a column, or would have one beyond its ends, from a wider one."""
+    along = _cubic(sheet.x[:1] + column * sheet.grid.pixel, wider.x).toarray()[0]
     across = _across(sheet.grid, wider.grid)
     return np.array([across @ (field @ along) for field in wider.fields])
 

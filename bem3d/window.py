@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from scene import Cylinder, EmptyContact, SolveError
+from scene import Cylinder, EmptyContact, Measured, Plane, Scene, SolveError
 from scene.scales import elastic_contact
 
+from . import layer
 from .grid import Box, Grid
 from .problem import Problem, Unseen
 
@@ -25,16 +26,30 @@ def surroundings(problem: Problem) -> Box:
     """A square that no contact can leave.
 
     Everything below the undeformed surface at the depth of the smooth contact at rest, which at the same load a
-    viscous one does not exceed, with the highest peaks allowed for.
+    viscous one does not exceed, with the highest peaks allowed for; of a measured body all of its map.
     """
     scene = problem.scene
+    if isinstance(scene.indenter, Measured):
+        half = scene.indenter.side / 2
+        return Box(-half, half, -half, half)
     at_rest = elastic_contact(scene)
     if isinstance(scene.indenter, Cylinder):  # smooth, and its depth is no measure of its width
         reach = 2 * MARGIN * at_rest.radius
     else:
         peaks = 0.0 if scene.roughness is None else PEAKS * scene.roughness.rms_height
-        reach = MARGIN * scene.indenter.radius_at(at_rest.depth + 2 * peaks)
+        reach = MARGIN * scene.indenter.radius_at(_risen(scene) * at_rest.depth + 2 * peaks)
     return Box(-reach, reach, -reach, reach)
+
+
+def _risen(scene):
+    """Height of the indenter at the edge of a smooth contact over its depth, at most.
+
+    At a given load a contact on a layer is smaller than on a half-space. At a given depth it is larger: what is
+    squeezed out of a thin incompressible layer under a body c r^n rises around it, to d (n + 2)/2.
+    """
+    if scene.layer is None or scene.motion.depth is None:
+        return 1.0
+    return (scene.indenter.exponent + 2) / 2
 
 
 def fitted(problem: Problem, points: int) -> Grid:
@@ -49,6 +64,8 @@ def fitted(problem: Problem, points: int) -> Grid:
             break
         found, margin = grid.box(touched).padded(grid.pixel), MARGIN
         if grid.on_rim(touched):
+            if isinstance(problem.scene.indenter, Measured):  # nothing is known of what is beyond the map
+                return Grid.around(surroundings(problem), points, 1.0)
             box = box.padded(grid.extent / 4)
         elif margin * found.side < SETTLED * grid.extent:
             box = found
@@ -83,6 +100,7 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
     None when this one will do. Raises SolveError when only more points would help.
     """
     touched = answer.pressure > 0
+    check_on_map(problem.scene, grid, touched)
     box = grid.box(touched)
     if (missed := left_out(problem, grid, answer)) is not None:
         return Grid.around(box.union(missed), grid.points, MARGIN)
@@ -101,25 +119,25 @@ def left_out(problem: Problem, grid: Grid, answer) -> Box | None:
     The displacement out there is that of the pressure found. It is smooth away from the contact, so rings of
     growing width around the window are searched, each on a grid as coarse as its distance allows.
     """
-    surface = problem.surface(grid)
-    if surface is None:
+    surface, shortest = problem.surface(grid), problem.shortest(grid)
+    if shortest is None:
         return None
     around, missed = surroundings(problem), None
     farthest = 2 * (around.right + max(map(abs, grid.centre)))
     inner = grid.extent
     while inner < farthest:
         outer = min(RING * inner, farthest)
-        found = _penetrating(problem, grid, answer, surface, inner, outer)
+        found = _penetrating(problem, grid, answer, surface, shortest, inner, outer)
         missed = found if missed is None else missed if found is None else missed.union(found)
         inner = outer
     return missed
 
 
-def _penetrating(problem, grid, answer, surface, inner, outer):
+def _penetrating(problem, grid, answer, surface, shortest, inner, outer):
     """A box around what is penetrated between two squares of these sides [m] around the window's centre."""
     coarse = Grid(RING_POINTS, outer, grid.centre)
     # No finer than the roughness asks for, nor than the solution itself was.
-    step = max(grid.pixel, np.pi / problem.scene.roughness.q_max(grid.pixel) / 4)
+    step = max(grid.pixel, shortest / 8)
     fine = Grid(int(np.clip(outer / step, RING_POINTS, SAMPLES)), outer, grid.centre)
     pressure = problem.engine.asarray(_binned(grid, answer.pressure, coarse))
     displacement = problem.engine.asnumpy(problem.medium.operator(coarse)(pressure))
@@ -141,19 +159,35 @@ def _binned(grid, pressure, coarse):
     return force * (grid.pixel / coarse.pixel) ** 2
 
 
+def check_on_map(scene: Scene, grid: Grid, touched: np.ndarray) -> None:
+    """Raise SolveError where a contact reaches the outermost pixels of a measured body, and so the unknown."""
+    body = scene.indenter
+    if isinstance(body, Measured) and (touched & body.on_rim(grid.x[None, :], grid.y[:, None])).any():
+        size = " x ".join(f"{side:g}" for side in body.size)
+        raise SolveError(
+            f"the contact reaches the rim of the map, {size} m, beyond which nothing is known of the indenter; "
+            "press less, or measure more of it"
+        )
+
+
 def check_waves(scene, grid: Grid) -> None:
-    """Raise SolveError where the grid cannot carry the roughness."""
+    """Raise SolveError where the grid cannot carry the roughness or the layer."""
     if reasons := unresolved(scene, grid):
         raise SolveError("; ".join(reasons))
 
 
 def unresolved(scene, grid: Grid) -> list[str]:
-    """Why the grid cannot carry the roughness, if it cannot."""
-    rough = scene.roughness
+    """Why the grid cannot carry the roughness, the map of a measured body or the layer, if it cannot."""
+    on_layer = scene.layer is not None and not isinstance(scene.indenter, Plane)
+    reasons = layer.unresolved(scene, grid) if on_layer else []
+    field, rough = "roughness", scene.roughness
+    if rough is None and isinstance(scene.indenter, Measured):
+        field, rough = "indenter", scene.indenter
     if rough is None or rough.shortest is None or 2 * grid.pixel <= rough.shortest:
-        return []
+        return reasons
     least = int(np.ceil(2 * grid.extent / rough.shortest))
     return [
-        f"roughness.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
-        f"points = {least} would carry it, {4 * least} resolve it"
+        *reasons,
+        f"{field}.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
+        f"points = {least:.15g} would carry it, {4 * least:.15g} resolve it",
     ]

@@ -53,6 +53,20 @@ def run(
 
 
 @app.command()
+def plan(
+    scene: Annotated[Path, typer.Argument(help="Scene as TOML, with or without [mdr] and [bem].")],
+) -> None:
+    """Say what would be simulated of a scene, what that costs, and what is left out; status 2 if no solver can."""
+    from .planning import feasible, plans
+
+    with _mistakes_said(scene):
+        found = plans(scene)
+    typer.echo("\n\n".join(map(str, found.values())))
+    if not feasible(found):
+        raise typer.Exit(MISTAKE)
+
+
+@app.command()
 def paper(
     output: Annotated[Path, typer.Option(help="Folder of the page and of what has been solved.")] = Path(
         "crosscheck-paper"
@@ -80,6 +94,35 @@ def mastercurve(
 
     with _mistakes_said(output):
         shift_measured(table, output)
+
+
+@app.command()
+def topography(
+    file: Annotated[Path, typer.Argument(help="Map of heights: .npy, .npz, .csv, .txt, or as SurfaceTopography.")],
+    pixel: Annotated[
+        list[float] | None, typer.Option(help="Side of a pixel [m]; twice, along x and y. If the file has none.")
+    ] = None,
+    unit: Annotated[str | None, typer.Option(help="Of its heights: m, mm, um, nm. If the file has none.")] = None,
+    level: Annotated[
+        str | None,
+        typer.Option(help="Taken off first: mean, tilt or curvature. If absent, tilt; mean of what is periodic."),
+    ] = None,
+    repeat: Annotated[str, typer.Option(help="How the map goes on: mirror or periodic.")] = "mirror",
+    peaks: Annotated[str, typer.Option(help="Heights grow towards the elastomer, up, or away, down.")] = "up",
+    output: Annotated[Path, typer.Option(help="Folder of the figure and its tables.")] = Path("topography"),
+) -> None:
+    """Describe a measured map of heights: size, slopes, spectra, and the self-affine law in them."""
+    from .run import describe_topography
+
+    stated: dict[str, Any] = {"repeat": repeat, "peaks": peaks}
+    if level:
+        stated["level"] = level
+    if pixel:
+        stated["pixel"] = pixel[0] if len(pixel) == 1 else tuple(pixel)
+    if unit:
+        stated["unit"] = unit
+    with _mistakes_said(output):
+        describe_topography(file, stated, output)
 
 
 @app.command()

@@ -38,7 +38,7 @@ def _distinct(study):
 
 def _rough(roughness):
     """Roughness of no height is none."""
-    return roughness if roughness and roughness.rms_height else None
+    return None if roughness is None or roughness.flat else roughness
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -117,6 +117,12 @@ class Case:
             raise Refused(
                 f"motion = {type(self.motion).__name__}: what is compared is pressed in or slides steadily, use "
                 "Indent or Slide, or solve it from Python with each solver"
+            )
+        if self.interface is not None and isinstance(self.motion, Slide):
+            raise Refused(
+                "interface = Coulomb with motion = Slide: what is compared is the loss in the elastomer, and the "
+                "interface adds coefficient * F_N to it in both solvers; leave interface out, or solve it from "
+                "Python, where the measure friction_in_elastomer is the loss"
             )
         refuse(self.mdr, self.scene)
         refuse(self.bem, self.scene)

@@ -9,7 +9,7 @@ from math import pi
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import WLF, Arrhenius, Elastic, Indent, Result, Scene, Slide
+from scene import WLF, Arrhenius, Coulomb, Elastic, Heating, Indent, Result, Scene, Slide
 from scene.indenter import Axisymmetric
 from scene.protocol import refuse
 from scene.quantities import CLOSED
@@ -79,7 +79,20 @@ def edge_slope(indenter, radius):
     return indenter.coefficient * indenter.exponent * radius ** (indenter.exponent - 1)
 
 
-TERMS = dict.fromkeys((Axisymmetric, Linear, Indent, Slide, WLF, Arrhenius), Term)
+class Unmoved(Term):
+    """Friction in the interface of a contact that nothing pulls at."""
+
+    def refusals(self, scene: Scene) -> list[str]:
+        if isinstance(scene.motion, Slide):
+            return [
+                "interface = Coulomb: friction of the interface is not in the closed form; use Indent, or leave "
+                "interface out"
+            ]
+        return []
+
+
+# Nothing is warmed where nothing loses energy.
+TERMS = dict.fromkeys((Axisymmetric, Linear, Indent, Slide, WLF, Arrhenius, Heating), Term) | {Coulomb: Unmoved}
 
 
 @dataclass(frozen=True, config=CLOSED)

@@ -48,7 +48,7 @@ class PointRegime:
         """
         body, rough, motion = scene.indenter, scene.roughness, scene.motion
         if not (
-            isinstance(body, Axisymmetric) and rough and rough.rms_height and isinstance(motion, Indent | Slide)
+            isinstance(body, Axisymmetric) and rough and not rough.flat and isinstance(motion, Indent | Slide)
         ):
             raise ValueError(
                 f"scene = {scene!r}: these ratios are of a rough body of revolution, in Indent or Slide"

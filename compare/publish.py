@@ -15,6 +15,7 @@ from typing import Any
 
 import jinja2
 import numpy as np
+from matplotlib.figure import Figure
 
 from .figures import style
 from .store import finite, write
@@ -43,20 +44,26 @@ def draw(folder: Path, module: ModuleType, data: Any, suffix: str = "") -> Drawn
         drawing = module.figure(data)
         if drawing is None:
             return None
-        image = io.BytesIO()
-        drawing.savefig(image, format="png", dpi=DOTS_PER_INCH)
-        # Both files in one layout, which takes as long to find as to draw.
-        drawing.set_layout_engine("none")
-        write(folder / f"{name}.png", lambda file: file.write(image.getvalue()))
-        # Without the date the same numbers give the same file.
-        write(
-            folder / f"{name}.pdf",
-            lambda f: drawing.savefig(f, format="pdf", metadata={"CreationDate": None}, dpi=DOTS_PER_INCH),
-        )
+        image = save(folder, name, drawing)
     for sheet, content in module.sheets(data).items():
         write_csv(folder / f"{sheet}{suffix}.csv", content)
-    encoded = base64.b64encode(image.getvalue()).decode()
+    encoded = base64.b64encode(image).decode()
     return Drawn(name, module.caption(data), encoded, drawing.get_figwidth())
+
+
+def save(folder: Path, name: str, drawing: Figure) -> bytes:
+    """Write a figure as PDF and PNG, the style applied; returns the PNG."""
+    image = io.BytesIO()
+    drawing.savefig(image, format="png", dpi=DOTS_PER_INCH)
+    # Both files in one layout, which takes as long to find as to draw.
+    drawing.set_layout_engine("none")
+    write(folder / f"{name}.png", lambda file: file.write(image.getvalue()))
+    # Without the date the same numbers give the same file.
+    write(
+        folder / f"{name}.pdf",
+        lambda f: drawing.savefig(f, format="pdf", metadata={"CreationDate": None}, dpi=DOTS_PER_INCH),
+    )
+    return image.getvalue()
 
 
 def write_csv(path: Path, content: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:

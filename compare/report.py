@@ -19,23 +19,27 @@ from .verdict import Judgement
 FIGURES = (contact, force_depth, friction_speed, friction_load, collapse, smooth_limit)
 # Units of the fields of a scene, with prefixes and without; a power law's coefficient has one of its own.
 PREFIXED = (
-    dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest", "rolloff"), "m")
+    dict.fromkeys(("radius", "depth", "rms_height", "longest", "shortest", "rolloff", "pixel"), "m")
     | dict.fromkeys(("modulus", "rubbery_modulus", "glassy_modulus", "equilibrium_modulus", "moduli"), "Pa")
     | dict.fromkeys(("relaxation_time", "relaxation_times", "retardation_times"), "s")
-    | {"load": "N"}
+    | {"load": "N", "thickness": "m", "shortest_kept": "m"}
 )
 PLAIN = (
     dict.fromkeys(("instantaneous_compliance", "compliances"), "1/Pa")
     | dict.fromkeys(("lowest_frequency", "highest_frequency"), "rad/s")
-    | {"speed": "m/s"}
+    | dict.fromkeys(("temperature", "reference", "c2"), "K")
+    | {"speed": "m/s", "activation_energy": "J/mol", "conductivity": "W/(m K)"}
 )
 WORDS = {
     "hurst": "Hurst exponent",
     "longest": "longest wave",
     "rolloff": "roll-off",
     "shortest": "shortest wave",
+    "shortest_kept": "shortest wave kept",
     "poisson_ratio": "Poisson ratio",
+    "reference": "stated at",
 }
+KINDS = {"wlf": "WLF"}
 PAGE, MANIFEST = "report.html", "manifest.json"
 
 
@@ -74,7 +78,8 @@ def page(sections: Sequence[Section], swept: Swept) -> str:
 
 def described(part: object) -> str:
     """A part of a scene in words with units: Sphere, radius 10 mm; what is absent is not named."""
-    kind = part.type.replace("-", " ").capitalize()
+    name = getattr(part, "type", type(part).__name__)
+    kind = KINDS.get(name, name.replace("-", " ").capitalize())
     if isinstance(part, Indent | Slide):
         moved = f" at {_quantity('speed', part.speed)}" if isinstance(part, Slide) else ""
         held = "load" if part.depth is None else "depth"
@@ -91,6 +96,8 @@ def described(part: object) -> str:
 def _quantity(name, value):
     if isinstance(value, tuple):
         return " ".join(_quantity(name, entry) for entry in value)
+    if name == "heights":
+        return "of {} x {} pixels".format(*value["shape"])
     if isinstance(value, dict):
         return f"of {len(next(iter(value.values())))} rows"
     if name == "angle":

@@ -6,15 +6,16 @@ import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from math import nan
 from pathlib import Path
+from typing import Any
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 from rich.console import Console
 
-from scene import SolveError
-from scene.reading import InvalidInput
+from scene import SolveError, Topography
+from scene.reading import InvalidInput, mistakes
 
 from .cases import Case, read_case, shipped_cases
-from .figures import shifted_curves
+from .figures import shifted_curves, topography
 from .paper import reproduction
 from .paper.claims import claims
 from .paper.measured import read_measured
@@ -34,6 +35,7 @@ from .studies.tableau import columns
 from .studies.wording import line
 from .study import points, tasks
 from .sweep import sweep
+from .topography import describe, described
 from .verdict import judge
 from .wording import explain, explain_vertical, plus_minus
 from .workprecision.catalogue import INQUIRIES
@@ -134,6 +136,27 @@ def shift_measured(path: Path, folder: Path) -> None:
     console.print(f"  {explain_vertical(shifted.vertical)}", markup=False)
     if shifted.vertical:
         console.print(f"  vertical shifts alone leave a misfit of {shifted.vertical.alone.rms:.2%}")
+    console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
+
+
+def describe_topography(path: Path, stated: Mapping[str, Any], folder: Path) -> None:
+    """Describe a measured map, and write the figure of its spectra and its tables. Raises InvalidInput.
+
+    stated : the other fields of a scene's `Topography`
+    """
+    console = Console(highlight=False, soft_wrap=True)
+    content = {"file": str(path), **stated}
+    adapter = TypeAdapter(Topography)
+    try:
+        found = describe(adapter.validate_python(content))
+    except ValidationError as error:
+        raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+    except ValueError as error:
+        raise InvalidInput(f"{path}: {error}") from error
+    folder.mkdir(parents=True, exist_ok=True)
+    draw(folder, topography, found, suffix=f"-{slug(path.stem)}")
+    for sentence in described(found):
+        console.print(sentence, markup=False)
     console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
 
 

@@ -37,7 +37,8 @@ class Task:
         """Short description for people."""
         scene = self.scenes[0]
         motion, rough = scene.motion, scene.roughness
-        body = "smooth" if rough is None else f"surface {rough.seed}"
+        seed = getattr(rough, "seed", None)
+        body = "smooth" if rough is None else "waves" if seed is None else f"surface {seed}"
         if len(self.scenes) > 1:
             body = f"{len(self.scenes)} profiles"
         pressed, moved = _pressed(motion), _moving(motion)

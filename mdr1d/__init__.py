@@ -2,11 +2,12 @@
 
 from . import equations, estimates
 from .foundation import Contact, sweep
+from .lines import draw
 from .maxwell import sweep_modes
 from .modes import Modes, modes_of
 from .profile import Grid, Profile, lay_out, map_profile
 from .solver import MDR
-from .surface import Surface, amplitudes, draw
+from .surface import Surface, amplitudes
 
 __all__ = [
     "MDR",

@@ -7,7 +7,7 @@ period.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from math import nan
+from math import nan, sqrt
 
 import numpy as np
 
@@ -16,9 +16,9 @@ from scene.protocol import trusted
 from scene.scales import elastic_contact
 
 from .domain import whole
-from .foundation import press_many
+from .foundation import compiled, press_many
 from .indentation import ACCEPTED
-from .surface import MOST_NODES, Surface, nodes_needed, waves_of
+from .surface import MOST_NODES, Surface, family_of, nodes_needed
 
 # Relative misfit of the load at which a search stops: friction needs no more.
 _AIM = 1e-11
@@ -69,15 +69,15 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
         unit = replace(scene.roughness, rms_height=1.0, seed=0)
         members.setdefault((unit, count, scene.indenter.exponent), []).append(i)
     series = [
-        (indices, waves_of(unit, count), _Series([scenes[i] for i in indices], count))
+        (indices, family_of(unit, count), _Series([scenes[i] for i in indices], count))
         for (unit, count, _), indices in members.items()
     ]
     answers = Answers(*(np.full((len(scenes), len(seeds)), nan) for _ in fields(Answers)))
     # All spectra of one seed together: their phases are the same.
     for column, seed in enumerate(seeds):
         ratio = 1.0
-        for indices, waves, each in series:
-            found, ratio = each.solve(waves.drawn(seed), ratio)
+        for indices, family, each in series:
+            found, ratio = each.solve(family.drawn(seed), ratio)
             for field, values in zip(fields(Answers), found, strict=True):
                 getattr(answers, field.name)[indices, column] = values
     return answers
@@ -87,6 +87,7 @@ class _Series:
     """Scenes on one profile, as arrays (scenes,)."""
 
     def __init__(self, scenes, points):
+        self.powers = np.empty(0)
         self.pixel = scenes[0].roughness.longest / points
         self.exponent = scenes[0].indenter.exponent
         self.coefficient = np.array([scene.indenter.mdr_coefficient for scene in scenes])
@@ -102,9 +103,10 @@ class _Series:
 
         ratio : of the depth to the smooth one, from which the first search starts
         """
+        top, bottom, rms_slope = _extremes(surface.heights, self.pixel)
         # A chord between nodes lies above the shape, and nowhere above the shape a pixel farther out.
         enough = self.coefficient * (self.radius + self.pixel) ** self.exponent
-        rise = enough + np.ptp(surface.heights) * self.rms
+        rise = enough + (top - bottom) * self.rms
         half = np.ceil((rise / self.coefficient) ** (1 / self.exponent) / self.pixel) + 1
         if half.max() > MOST_NODES:
             raise SolveError(
@@ -114,7 +116,7 @@ class _Series:
         found = np.empty((self.rms.size, 6))
         ratio = press_many(
             surface.heights,
-            (np.arange(half.max() + 1) * self.pixel) ** self.exponent,
+            self._powers(int(half.max()) + 1),
             self.pixel,
             half.astype(int),
             self.coefficient,
@@ -129,8 +131,26 @@ class _Series:
             found,
         )
         misfit, friction, depth, length, span, sweeps = found.T
-        columns = (friction, depth, length, span, surface.rms_slope * self.rms, sweeps)
+        columns = (friction, depth, length, span, rms_slope * self.rms, sweeps)
         return [np.where(misfit <= ACCEPTED, column, nan) for column in columns], ratio
+
+    def _powers(self, nodes):
+        """|x|^n at so many nodes from the tip on, or more: kept, as all profiles reach about as far."""
+        if self.powers.size < nodes:
+            self.powers = (np.arange(1.1 * nodes) * self.pixel) ** self.exponent
+        return self.powers
+
+
+@compiled
+def _extremes(heights, pixel):
+    """Highest and lowest node of a period and its rms slope in one pass; Surface takes as long as a sweep."""
+    top = bottom = heights[0]
+    squares, before = 0.0, heights[-1]
+    for height in heights:
+        top, bottom = max(top, height), min(bottom, height)
+        squares += (height - before) ** 2
+        before = height
+    return top, bottom, sqrt(squares / heights.size) / pixel
 
 
 def _check(scene):

@@ -8,6 +8,8 @@ from typing import Literal
 
 import numpy as np
 
+from scene.heating import temperature_rise
+
 from .domain import between, not_negative, one_of, positive
 
 Base = Literal["half-space", "compressible layer", "incompressible layer"]
@@ -28,7 +30,7 @@ def average_heating(friction, modulus, depth, speed, conductivity):
     """
     not_negative(friction=friction, depth=depth, speed=speed)
     positive(modulus=modulus, conductivity=conductivity)
-    return 2 * friction * modulus * depth * speed / conductivity
+    return temperature_rise(friction, modulus, depth, speed, conductivity)
 
 
 def flash_heating(friction, glassy_modulus, rms_height, speed, conductivity):

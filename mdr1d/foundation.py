@@ -88,6 +88,30 @@ def _landing(here, there, slope, pixel, u, memory, decay):
 
 
 @compiled
+def _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed):
+    """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
+
+    Of force, traction and squared slopes, each over the pixel. Most of a sweep is this loop.
+    """
+    force = traction = squares = 0.0
+    while i < heights.size - 1:
+        here, there = depth - heights[i], depth - heights[i + 1]
+        slope = (heights[i + 1] - heights[i]) / pixel
+        if there <= memory * slope:
+            break
+        mean = 0.5 * (here + there) - memory * slope
+        if displacement is not None:
+            displacement[i], touching[i] = here, True
+        if pushed is not None:
+            pushed[i, 0], pushed[i, 1] = pixel, pixel * mean
+        force += mean
+        traction -= slope * mean
+        squares += slope * slope
+        i += 1
+    return i, force, traction, squares
+
+
+@compiled
 def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, pushed=None):
     decay = exp(-pixel / memory) if memory > 0.0 else 0.0
     force = traction = length = slope_square = lost = reach = 0.0
@@ -95,7 +119,17 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
     touches = False
     u = 0.0  # of the free surface at the node
     left = 0.0  # displacement at which the surface last left the profile
-    for i in range(heights.size - 1):
+    i, nodes = 0, heights.size
+    while i < nodes - 1:
+        if touches:
+            begun = i
+            i, push, pull, squares = _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed)
+            force += pixel * push
+            traction += pixel * pull
+            slope_square += pixel * squares
+            length += pixel * (i - begun)
+            if i == nodes - 1:
+                break
         here = depth - heights[i]
         there = depth - heights[i + 1]
         slope = (heights[i + 1] - heights[i]) / pixel
@@ -104,9 +138,12 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             touching[i] = touches
         begin, start = 0.0, here
         if not touches:
-            begin = _landing(here, there, slope, pixel, u, memory, decay)
+            begin = NOWHERE
+            if here > 0.0 or there > 0.0:
+                begin = _landing(here, there, slope, pixel, u, memory, decay)
             if begin == NOWHERE:
                 u *= decay
+                i += 1
                 continue
             if begin > 0.0:
                 # Where the free surface meets the flank, the flatter of the two knows the height.
@@ -139,6 +176,7 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             left = finish
             u = left * exp(-(pixel - end) / memory) if memory > 0.0 else 0.0
             last = i * pixel + end
+        i += 1
     i = heights.size - 1
     if displacement is not None:
         displacement[i] = depth - heights[i] if touches else u
@@ -185,14 +223,15 @@ def press_many(
     and at first the one given. The last is returned.
     """
     top = unit.max()
+    room = np.empty(2 * half.max() + 1)
     for s in range(load.size):
-        size = 2 * half[s] + 1
-        heights = np.empty(size)
+        heights = room[: 2 * half[s] + 1]
         k = (-half[s]) % unit.size
-        for i in range(size):
+        lowest = inf
+        for i in range(heights.size):
             heights[i] = coefficient[s] * powers[abs(i - half[s])] + rms[s] * unit[k]
+            lowest = min(lowest, heights[i])
             k = k + 1 if k + 1 < unit.size else 0
-        lowest = heights.min()
         heights -= lowest
         # Beside the heights of roughness a tiny depth may be lost to rounding.
         surely = max(enough[s] + rms[s] * top - lowest, enough[s])

@@ -85,7 +85,7 @@ def _check_touched(body, history: History):
     check_resolved(body, widest)
     # On the way a contact may have a few pixels, as on first touch, and its forces are a guess; the friction that
     # is left at the end is an answer.
-    if history.touching.any() and history.speed[-1] > 0:
+    if history.touching.any() and history.speed[-1] != 0:
         check_resolved(body, history.length[-1])
 
 

@@ -92,5 +92,5 @@ def _too_short(scene: Scene, body: Profile) -> SolveError:
     return SolveError(
         f"the contact leaves the grid, whose extent is {body.x[-1] - body.x[0]:g} m: "
         f"extent = {extent:.6g} holds it, with points = {ceil(extent / body.pixel)} on the same pixel"
-        + ("" if body.surface is None else f"; the period roughness.longest is {scene.roughness.longest:g} m")
+        + ("" if body.surface is None else f"; the roughness repeats after {body.surface.period:g} m")
     )

@@ -2,7 +2,9 @@
 
 In a step the depth changes linearly and the indenter stays between the same nodes of its profile, so that the
 height over each element changes linearly, and it is followed exactly. A prescribed depth is linear between the
-turns of its program: the history of each element is without error. A prescribed load is met once a step.
+turns of its program, unless it oscillates: the history of each element is then without error. An oscillation of
+the depth is followed by chords: what is done and lost in it is of second order in the step, and so is the force,
+but for that of a dashpot, which is half a step late. A prescribed load is met once a step.
 """
 
 from dataclasses import dataclass
@@ -28,10 +30,11 @@ class History:
 
     time, path, depth : at the end of each step (S,); the depth is that of the macroscopic tip
     force, length : of the contact then; length [m]
-    speed : of each step (S,)
-    friction : -int g' f dx (S,), > 0 opposes the motion; mean over the last whole pixel slid, at rest and before
-        there is one over the step
-    work, dissipated : done by the indenter and lost until then (S,); stored : then (S,)
+    speed : of each step (S,); less than zero backwards, as the path may be
+    friction : -int g' f dx (S,), > 0 opposes a motion forwards, < 0 one backwards; mean over the last whole pixel
+        slid, at rest and before there is one since the indenter last turned round over the step
+    work, dissipated : done by the indenter and lost until then (S,); stored : then (S,), of an indenter that never
+        turns back without the elements that it has left behind: what these hold counts as lost
     misfit : of the load, the greatest of all steps [m^2]
     reach : farthest from the axis that an element touched at the end of a step [m]
     x, heights, displacement, touching : of the elements at the end (N,), x from the axis of the indenter
@@ -63,7 +66,7 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
 
     Raises SolveError where there are too many steps, the contact leaves the grid, or rounding spoils the answer.
     """
-    line, row = timeline(program, body.pixel, steps), _Row(body, modes)
+    line, row = timeline(program, body.pixel, steps), (_Returning if program.reverses else _Row)(body, modes)
     by_depth = program.pressed_by == "depth"
     press = _Depth(program) if by_depth else _Load(program, modes, modulus * body.pixel)
     depth = 0.0 if by_depth else body.lowest
@@ -104,12 +107,20 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
 
 
 def _over_pixels(friction, line: Timeline):
-    """Friction of steps as that of the last whole pixel slid: within a pixel it has a ripple."""
+    """Friction of steps as that of the last whole pixel slid one way: within a pixel it has a ripple."""
     slid, place = line.end - line.begin, line.passed + line.end
-    places, work = np.append(0.0, place), np.append(0.0, np.cumsum(friction * slid))
-    whole = np.floor(place)
-    mean = np.interp(whole, places, work) - np.interp(whole - 1, places, work)
-    return np.where((slid > 0) & (whole >= 1), mean, friction)
+    moving = np.flatnonzero(slid)
+    turns = moving[1:][slid[moving[1:]] * slid[moving[:-1]] < 0]
+    means = []
+    for run in np.split(np.arange(len(slid)), turns):
+        way = -1.0 if (slid[run] < 0).any() else 1.0
+        start = way * (place[run[0]] - slid[run[0]])
+        places = np.append(start, way * place[run])
+        work = np.append(0.0, np.cumsum(friction[run] * way * slid[run]))
+        whole = np.floor(places[1:])
+        mean = np.interp(whole, places, work) - np.interp(whole - 1, places, work)
+        means.append(np.where((slid[run] != 0) & (whole - 1 >= start), mean, friction[run]))
+    return np.concatenate(means)
 
 
 class _Row:
@@ -160,13 +171,24 @@ class _Row:
         """Begin a step of a timeline. Returns the energy in the elements that leave with it [m^2]."""
         left = 0.0
         while self._passed < line.passed[k]:
-            left += float(self._solid.compliances @ self.state.forces[-1] ** 2) / 2
-            for values in self.state:
-                values[1:] = values[:-1]
-                values[0] = 0
-            self._passed += 1
+            left += float(self._solid.compliances @ self._shifted(1, 0.0) ** 2) / 2
         self._place, self._moved = line.begin[k], line.end[k] - line.begin[k]
         return left
+
+    def _shifted(self, way, entering):
+        """Move on by a pixel, forwards or backwards, and take in a free element.
+
+        entering : its smoothed forces (Q,), which are returned of the element that leaves
+        """
+        into, out = (0, -1) if way > 0 else (-1, 0)
+        leaving = self.state.forces[out].copy()
+        for values in self.state:
+            before, after = (values[:-1], values[1:]) if way > 0 else (values[1:], values[:-1])
+            after[:] = before
+            values[into] = 0
+        self.state.forces[into] = entering
+        self._passed += way
+        return leaving
 
     def rates(self, depth_rate, duration):
         """At which d - g rises over the elements (N,) [m/s]."""
@@ -184,6 +206,37 @@ class _Row:
         sums = advance(approaches, rates, slopes, duration, self.state, self._solid)
         self._place += self._moved
         return Sums(*sums)
+
+
+class _Returning(_Row):
+    """The same under an indenter that comes back: what it leaves behind recovers freely, and is met again."""
+
+    def __init__(self, body: Profile, modes: Modes):
+        super().__init__(body, modes)
+        # Forces of what left forwards and backwards, and when: the last to leave is the first to come back.
+        self._behind: dict[int, list] = {1: [], -1: []}
+        self._energies = np.zeros(len(modes.compliances))  # of all of them, in each mode
+
+    def follow(self, line: Timeline, k):
+        """As of `_Row`; nothing is lost with what leaves."""
+        solid, now = self._solid, line.times[k]
+        while self._passed != line.passed[k]:
+            way = 1 if self._passed < line.passed[k] else -1
+            entering = np.zeros(len(self._energies))
+            if self._behind[-way]:
+                forces, since = self._behind[-way].pop()
+                entering = forces * np.exp(-(now - since) / solid.retarded)
+            leaving = self._shifted(way, entering)
+            self._behind[way].append((leaving, now))
+            self._energies += solid.compliances * (leaving**2 - entering**2) / 2
+        return super().follow(line, k)
+
+    def advance(self, depth, depth_rate, duration) -> Sums:
+        """As of `_Row`, with what is behind."""
+        sums, before = super().advance(depth, depth_rate, duration), self._energies.sum()
+        self._energies *= np.exp(-2 * duration / self._solid.retarded)
+        stored = self._energies.sum()
+        return sums._replace(heat=sums.heat + before - stored, stored=sums.stored + stored)
 
 
 class _Depth:

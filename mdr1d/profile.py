@@ -8,7 +8,8 @@ import numpy as np
 from scene import PowerLaw, Scene, SolveError
 from scene.scales import elastic_contact
 
-from .surface import Spectrum, Surface, draw
+from .lines import draw
+from .surface import Spectrum, Surface, band_of
 
 # Room beyond the farthest point that contact can reach.
 _MARGIN = 1.05
@@ -104,8 +105,9 @@ def lay_out(scene: Scene, points: int, extent: float | None, spectrum: Spectrum 
     if rough is None:
         half = ceil(points / 2)
         return Grid(extent / (2 * half), half)
-    period = ceil(rough.longest * points / extent * (1 - _ROUNDING))
-    pixel = rough.longest / period
+    length = band_of(rough, spectrum).period
+    period = ceil(length * points / extent * (1 - _ROUNDING))
+    pixel = length / period
     return Grid(pixel, ceil(extent / (2 * pixel) * (1 - _ROUNDING)), period)
 
 
@@ -158,4 +160,5 @@ def _extremes(surface: Surface | None):
 
 def _well_resolved(rough, spectrum) -> Surface:
     """The surface on 16 nodes a shortest wave: its extremes are those of any grid, to within the margin."""
-    return draw(rough, ceil(16 * rough.longest / rough.shortest), spectrum)
+    band = band_of(rough, spectrum)
+    return draw(rough, ceil(16 * band.period / band.shortest), spectrum)

@@ -9,6 +9,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from scene import Program, Result, Scene
+from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Positive, Whole
 from scene.terms import Table, surrounded, terms_of
@@ -19,8 +20,9 @@ from .indentation import Sweep, at_depth, under_load
 from .maxwell import sweep_modes
 from .measures import measures
 from .modes import modes_of
+from .plan import plan_of
 from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, unmapped
-from .surface import MOST_NODES, Spectrum, nodes_needed
+from .surface import MOST_NODES, Band, Spectrum, band_of
 from .terms import TERMS
 
 
@@ -52,10 +54,16 @@ class MDR:
     Result.fields: x, profile, displacement [m] and contact (bool) at the nodes, and line_force [N/m], the mean
     force per length from each node to the next.
 
-    In a Program the elements lie a pixel apart and each is followed in time, exactly at a prescribed depth; a load
-    is met once a step. Result.fields: time [s], path [m], depth [m], normal_force [N], contact_length [m], work of
-    the indenter, dissipated and stored energy [J] at the end of each step (steps,), its speed [m/s], and the mean
-    friction_force [N], by traction, over the last whole pixel slid, at rest over the step; x, profile,
+    With Coulomb friction in the interface, in sliding: measures friction_in_elastomer, friction_in_interface [N],
+    which together are the friction. Under a Shear: friction_force is the tangential force; measures
+    friction_in_interface, tangential_displacement, stick_length, slip_length [m]; fields slip [m] at the nodes, of
+    the elastomer past the indenter, and tangential_line_force [N/m] as line_force.
+
+    In a Program the elements lie a pixel apart and each is followed in time, exactly at a prescribed depth that
+    does not oscillate; a load is met once a step. Result.fields: time [s], path [m], depth [m], normal_force [N],
+    contact_length [m], work of the indenter, dissipated and stored energy [J] at the end of each step (steps,),
+    its speed [m/s], and the mean friction_force [N], by traction, over the last whole pixel slid one way, else
+    over the step; path, speed and the friction that opposes them are below zero backwards; x, profile,
     displacement, contact of the elements at the end. The result's own forces and depth are the last of those.
     Without load the depth is that at which the indenter just touches. Result.measures: of the above pixel,
     contact_length, contact_fraction, points_across_contact; stiffness, dF_N over d(depth) of a sudden step,
@@ -78,8 +86,15 @@ class MDR:
         """Why the scene cannot be solved, one sentence each; empty when it can."""
         reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if not reasons and scene.roughness is not None:
-            reasons += _too_broad(scene) or _unresolved(scene, self._laid_out(scene), self.points)
+            band = band_of(scene.roughness, self.spectrum)
+            reasons += _too_broad(band) or _unresolved(band, self._laid_out(scene), self.points)
         return reasons
+
+    def plan(self, scene: Scene) -> Plan:
+        """What would be simulated of a scene, and what it costs; nothing is solved. Raises as `solve` does."""
+        with trusted():
+            refuse(self, scene)
+            return plan_of(self, scene, self._laid_out(scene))
 
     def solve(self, scene: Scene) -> Result:
         """Solve the scene.
@@ -89,7 +104,10 @@ class MDR:
         """
         with trusted():
             refuse(self, scene)
-            return surrounded(self._solved, terms_of(self.terms, scene))(scene)
+            result = surrounded(self._solved, terms_of(self.terms, scene))(scene)
+            if not np.isfinite([result.normal_force, result.friction_force]).all():
+                raise ArithmeticError("forces beyond the range of numbers")
+            return result
 
     def _solved(self, scene: Scene) -> Result:
         start, reduced = process_time(), self._reduced(scene)
@@ -180,34 +198,31 @@ def _flow(scene: Scene) -> Sweep:
     return lambda heights, pixel, depth: sweep(heights, pixel, memory, depth)
 
 
-def _too_broad(scene: Scene) -> list[str]:
+def _too_broad(band: Band) -> list[str]:
     """Whether the spectrum alone asks for too much."""
-    rough = scene.roughness
-    if rough.shortest is None or rough.longest / rough.shortest <= MOST_NODES / 16:
+    if band.shortest is None or band.period / band.shortest <= MOST_NODES / 16:
         return []
     return [
-        f"roughness from longest = {rough.longest:g} to shortest = {rough.shortest:g} spans a ratio of "
-        f"{rough.longest / rough.shortest:g}, more than {MOST_NODES // 16}: raise shortest"
+        f"roughness from longest = {band.period:g} to shortest = {band.shortest:g} spans a ratio of "
+        f"{band.period / band.shortest:g}, more than {MOST_NODES // 16}: raise shortest"
     ]
 
 
-def _unresolved(scene: Scene, layout: Grid, points: int) -> list[str]:
+def _unresolved(band: Band, layout: Grid, points: int) -> list[str]:
     """What is wrong with the grid for the roughness."""
-    rough = scene.roughness
-    needed = nodes_needed(rough)
-    if layout.period < needed:
-        shortest = "" if rough.shortest is None else f", shortest = {rough.shortest:g},"
-        enough = ceil(needed * layout.extent / rough.longest)
+    if layout.period < band.nodes:
+        shortest = "" if band.shortest is None else f", shortest = {band.shortest:g},"
+        enough = ceil(band.nodes * layout.extent / band.period)
         return [
             f"points = {points} over an extent of {layout.extent:g} m make a pixel of {layout.pixel:g} m, on "
-            f"which roughness with longest = {rough.longest:g}{shortest} is not resolved: "
-            f"it takes at least points = {enough}"
+            f"which roughness with longest = {band.period:g}{shortest} is not resolved: "
+            f"it takes at least points = {enough:.15g}"
         ]
     if layout.period > MOST_NODES:
         return [
             f"points = {points} over an extent of {layout.extent:g} m divide the period roughness.longest = "
-            f"{rough.longest:g} into {layout.period} pixels, more than {MOST_NODES}: take fewer points, a larger "
-            "extent or a shorter period"
+            f"{band.period:g} into {layout.period:.15g} pixels, more than {MOST_NODES}: take fewer points, a "
+            "larger extent or a shorter period"
         ]
     return []
 

@@ -1,12 +1,14 @@
-"""A rough line drawn from the one-dimensional spectrum of a scene's roughness."""
+"""A rough line drawn from the one-dimensional spectrum of a scene's roughness, and how fine lines are."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import ceil, floor, pi, sqrt
+from math import ceil, floor, hypot, pi, sqrt
 from typing import Literal
 
 import numpy as np
+from scipy.fft import irfft
 
+from scene import Topography
 from scene.roughness import SelfAffine
 
 # Of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
@@ -22,11 +24,41 @@ _MOST_KEPT = 2**17
 MOST_NODES, _LEAST_NODES = 2**25, 4
 
 
-def nodes_needed(roughness: SelfAffine) -> int:
-    """Nodes in a period that the shortest wave asks for, two of them to a wave."""
-    if roughness.shortest is None:
-        return _LEAST_NODES
-    return ceil(2 * roughness.longest / roughness.shortest * (1 - 1e-12))
+@dataclass(frozen=True)
+class Band:
+    """Of the waves of a line: its period and shortest wavelength [m], None where the nodes are the cut-off."""
+
+    period: float
+    shortest: float | None
+
+    @property
+    def nodes(self) -> int:
+        """In a period that the shortest wave asks for, two of them to a wave."""
+        if self.shortest is None:
+            return _LEAST_NODES
+        return ceil(2 * self.period / self.shortest * (1 - 1e-12))
+
+
+def band_of(roughness: SelfAffine | Topography, spectrum: Spectrum = "mapped") -> Band:
+    """Of a line that stands for a scene's roughness.
+
+    A measured map has waves in all directions, the shortest of them across its pixels' corners; its rows have
+    those along x.
+    """
+    if not isinstance(roughness, Topography):
+        return Band(roughness.longest, roughness.shortest)
+    (side_x, side_y), (top_x, top_y) = roughness.sides, roughness.tops
+    if spectrum == "line-scan":
+        return Band(side_x, side_x / top_x)
+    period, highest = roughness.period, hypot(top_x / side_x, top_y / side_y)
+    if roughness.shortest_kept is not None:
+        highest = min(highest, (1 + 1e-12) / roughness.shortest_kept)
+    return Band(period, period / int(period * highest + 0.5))
+
+
+def nodes_needed(roughness: SelfAffine | Topography, spectrum: Spectrum = "mapped") -> int:
+    """Nodes in a period that the shortest wave asks for."""
+    return band_of(roughness, spectrum).nodes
 
 
 @dataclass(frozen=True)
@@ -88,7 +120,7 @@ def amplitudes(roughness: SelfAffine, bandwidth: float, spectrum: Spectrum = "ma
 
 
 @dataclass(frozen=True, eq=False)
-class Waves:
+class LineFamily:
     """What lines of one spectrum have in common on one grid, before a seed.
 
     amplitudes : of the waves k = 1, 2, ... (K,) [m], fixed or, if gaussian, the root of their mean squares
@@ -117,22 +149,22 @@ class Waves:
         if 2 * waves.size == self.nodes:
             real = spread[-1].real
             spread[-1] = 2 * real if self.gaussian else np.copysign(waves[-1] / sqrt(2), real)
-        heights = np.fft.irfft(spread, n=self.nodes, norm="forward")
+        heights = irfft(spread, n=self.nodes, norm="forward")
         return Surface(heights, self.pixel, waves, self.shortest)
 
 
-def waves_of(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> Waves:
-    """The waves of a spectrum on so many nodes a period; the seed does not matter.
+def family_of(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> LineFamily:
+    """The lines of a spectrum on so many nodes a period; the seed does not matter.
 
-    They do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the Nyquist
-    wave number of this grid, as in the paper.
+    Their waves do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the
+    Nyquist wave number of this grid, as in the paper.
     """
     return _unseeded(replace(roughness, seed=0), nodes, spectrum)
 
 
 def draw(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
     """Draw one period of the rough line on so many nodes, from its seed."""
-    return waves_of(roughness, nodes, spectrum).drawn(roughness.seed)
+    return family_of(roughness, nodes, spectrum).drawn(roughness.seed)
 
 
 @lru_cache(maxsize=16)
@@ -142,7 +174,7 @@ def _unseeded(roughness, nodes, spectrum):
     q_max = roughness.q_max(pixel)
     waves = amplitudes(roughness, q_max / roughness.q_min, spectrum)
     waves.setflags(write=False)
-    return Waves(waves, roughness.amplitudes == "gaussian", nodes, pixel, 2 * pi / q_max)
+    return LineFamily(waves, roughness.amplitudes == "gaussian", nodes, pixel, 2 * pi / q_max)
 
 
 def _phasors(seed, count):

@@ -3,29 +3,30 @@
 from scene import (
     WLF,
     Arrhenius,
+    Coulomb,
     Cylinder,
+    Heating,
     Indent,
     Layer,
+    Measured,
     Plane,
     Program,
-    Result,
     SelfAffine,
+    Shear,
     Slide,
+    Topography,
     Wave,
-    terms,
 )
 from scene.indenter import Axisymmetric
 from scene.terms import Table, lacking
 from scene.viscoelastic import Linear
 
+from .heating import HeatedContact
+from .tangential import Drawn, Interface
+from .term import Term
+from .topography import MeasuredRoughness
 
-class Term(terms.Term):
-    """A part of a scene as the one-dimensional foundation takes it up."""
-
-    def completed(self, result: Result) -> Result:
-        """The answer with what the part adds once the normal contact is found."""
-        return result
-
+__all__ = ["TERMS", "Term"]
 
 NO_BODY = lacking(
     "it is no body of revolution, so it has no one-dimensional profile: use a Sphere, Cone or PowerLaw, or a "
@@ -44,13 +45,18 @@ TERMS: Table = {
     Axisymmetric: Term,
     Cylinder: NO_BODY,
     Plane: NO_BODY,
+    Measured: NO_BODY,
     Linear: Term,
     Indent: Term,
     Slide: Term,
+    Shear: Drawn,
     Program: Term,
     SelfAffine: Term,
     Wave: NOT_ISOTROPIC,
+    Topography: MeasuredRoughness,
     Layer: NO_LAYER,
     WLF: Term,
     Arrhenius: Term,
+    Heating: HeatedContact,
+    Coulomb: Interface,
 }

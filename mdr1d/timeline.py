@@ -1,6 +1,7 @@
 """A program cut into steps: short ones after each turn, and while the indenter slides, none beyond a pixel."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -8,6 +9,9 @@ from scene import Program, SolveError
 
 MOST = 10**6
 LEAST = 20  # steps of a stage
+# Steps at least in a period of what oscillates, where they are longest. A dashpot feels the mean rate of a step
+# at its end: half a step late, 0.016 rad.
+PERIOD = 200
 ROUNDING = 1e-9  # of a pixel, or of a step
 
 
@@ -16,8 +20,8 @@ class Timeline:
     """Steps in time; during each the indenter stays between the same nodes of its profile.
 
     times : at which steps begin and end (N + 1,) [s]
-    passed : whole pixels slid before each step (N,)
-    begin, end : of a pixel slid beyond those at both ends of each step (N,), 0 to 1
+    passed : whole pixels forwards of where it began, in each step (N,)
+    begin, end : of a pixel beyond those at both ends of each step (N,), 0 to 1; falling where it goes backwards
     """
 
     times: np.ndarray
@@ -30,20 +34,22 @@ def timeline(program: Program, pixel: float, steps: int) -> Timeline:
     """Cut a program into about so many steps, shared out by duration, LEAST to a stage at least.
 
     In a stage they lengthen from its start in proportion, t_k = duration (k/n)^2: what follows a turn is quick at
-    first. Where the indenter slides, steps end as it passes whole pixels [m] too. Raises SolveError for too many.
+    first. Where it oscillates, the last and longest are PERIOD to a period. Where the indenter slides, steps end
+    as it passes whole pixels [m] too. Raises SolveError for too many.
     """
-    count = steps + LEAST * len(program.stages) + program.length / pixel
+    swings = [2 * PERIOD * stage.oscillation.periods if stage.oscillation else 0 for stage in program.stages]
+    count = steps + LEAST * len(program.stages) + program.length / pixel + sum(swings)
     if not count <= MOST:
+        fewer = "oscillate for fewer periods, " if any(swings) else ""
         raise SolveError(
             f"the program takes {count:.2g} steps on pixels of {pixel:g} m, more than {MOST}: "
-            f"slide a shorter path, take a larger extent or fewer points, or fewer steps than {steps}"
+            f"slide a shorter path, {fewer}take a larger extent or fewer points, or fewer steps than {steps}"
         )
     times, places = [np.zeros(1)], [np.zeros(1)]
-    for stage in program.stages:
+    for stage, swing in zip(program.stages, swings, strict=True):
         slid, length = places[-1][-1], stage.speed * stage.duration / pixel
-        nodes = np.arange(np.floor(slid) + 1, np.ceil(slid + length))
-        nodes = nodes[(nodes > slid + ROUNDING) & (nodes < slid + length - ROUNDING)]
-        number = max(LEAST, round(steps * stage.duration / program.duration))
+        nodes = _between(slid, slid + length)
+        number = max(LEAST, round(steps * stage.duration / program.duration), ceil(swing))
         bounds = number * np.sqrt([0.0, *(nodes - slid) / (length or 1.0), 1.0])
         parts = np.ceil(np.diff(bounds) - ROUNDING)
         ends = np.interp(np.arange(1, parts.sum() + 1), np.append(0, np.cumsum(parts)), bounds)
@@ -58,5 +64,13 @@ def timeline(program: Program, pixel: float, steps: int) -> Timeline:
             f"{program.duration:g} s in all, differ by more than rounding allows: steps of the shortest are lost"
         )
     place = np.concatenate(places)
-    passed = np.floor(place[:-1])
+    passed = np.floor(np.minimum(place[:-1], place[1:]))
     return Timeline(np.concatenate(times), passed.astype(int), place[:-1] - passed, place[1:] - passed)
+
+
+def _between(start, end):
+    """Whole pixels that are passed on the way from one place to another, in their order."""
+    if end < start:
+        return -_between(-start, -end)
+    nodes = np.arange(np.floor(start) + 1, np.ceil(end))
+    return nodes[(nodes > start + ROUNDING) & (nodes < end - ROUNDING)]

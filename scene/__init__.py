@@ -5,7 +5,9 @@ from .heating import Heating
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
 from .interface import Coulomb
 from .layer import Layer
+from .measured import Measured
 from .motion import Indent, Program, Shear, Slide, Stage
+from .plan import Plan
 from .protocol import EmptyContact, Refused, SolveError, Solver
 from .regime import Regime
 from .result import Result
@@ -15,6 +17,7 @@ from .scene import Scene
 from .table import Table, read_table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius
+from .topography import Topography
 
 __all__ = [
     "WLF",
@@ -31,6 +34,8 @@ __all__ = [
     "Kelvin",
     "KelvinChain",
     "Layer",
+    "Measured",
+    "Plan",
     "Plane",
     "PowerLaw",
     "Program",
@@ -49,6 +54,7 @@ __all__ = [
     "StandardLinearSolid",
     "Table",
     "Tabulated",
+    "Topography",
     "Wave",
     "read_table",
 ]

@@ -7,6 +7,7 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
+from .measured import Measured
 from .quantities import CLOSED, Finite, Positive
 
 
@@ -128,4 +129,4 @@ class Plane:
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
 
 
-Indenter = Annotated[Sphere | Cone | PowerLaw | Cylinder | Plane, Field(discriminator="type")]
+Indenter = Annotated[Sphere | Cone | PowerLaw | Cylinder | Plane | Measured, Field(discriminator="type")]

@@ -6,7 +6,8 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, NonNegative, Positive
+from .oscillation import ROUNDING, Oscillation
+from .quantities import CLOSED, Finite, NonNegative, Positive
 
 UNITS = {"load": "N", "depth": "m", "line_load": "N/m", "pressure": "Pa", "gap": "m"}
 
@@ -56,7 +57,11 @@ class Indent(_Pressed):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Slide(_Pressed):
-    """Steady sliding at a speed [m/s] >= 0, pressed in as in `Indent`."""
+    """Steady sliding at a speed [m/s] >= 0, pressed in as in `Indent`.
+
+    A speed of zero is the limit of slower and slower sliding: the elastomer loses nothing and nothing is heated,
+    and an interface with friction slips.
+    """
 
     speed: NonNegative
     load: Positive | None = None
@@ -72,7 +77,7 @@ class Shear(_Pressed):
     """Pressed in and held as in `Indent`, then drawn slowly along the surface against friction in the interface.
 
     displacement : of the indenter [m], from where it was pressed in, or
-    force : tangential [N], less than what makes it slide; per length of a cylinder [N/m], on one cell of a plane
+    force : tangential [N], less than coefficient * F_N; per length of a cylinder [N/m], on one cell of a plane
     """
 
     displacement: NonNegative | None = None
@@ -98,18 +103,34 @@ class Shear(_Pressed):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Stage:
-    """One stage of a program: a duration [s] at a constant speed [m/s].
+    """One stage of a program: a duration [s] at a constant speed [m/s], backwards where that is below zero.
 
     load [N], depth [m], line_load [N/m] or pressure [Pa] at the end of the stage, ramped linearly from that at its
     start; absent, it is held.
+    amplitude, in the same unit, and frequency [Hz], both or none: amplitude * sin(2 pi frequency t) is added from
+    the start of the stage on, for any number of periods; the next one starts from what is reached.
     """
 
     duration: Positive
-    speed: NonNegative = 0.0
+    speed: Finite = 0.0
     load: NonNegative | None = None
     depth: NonNegative | None = None
     line_load: NonNegative | None = None
     pressure: NonNegative | None = None
+    amplitude: NonNegative | None = None
+    frequency: Positive | None = None
+
+    @model_validator(mode="after")
+    def _swings_at_a_frequency(self):
+        if (self.amplitude is None) != (self.frequency is None):
+            given = "amplitude" if self.frequency is None else f"frequency = {self.frequency:g} Hz"
+            raise ValueError(f"{given} alone: an oscillation has an amplitude and a frequency [Hz], give both")
+        if self.frequency is not None and not np.isfinite(self.frequency * self.duration):
+            raise ValueError(
+                f"frequency = {self.frequency:g} Hz over duration = {self.duration:g} s: more periods than can be "
+                "counted, give less of either"
+            )
+        return self
 
     @property
     def given(self) -> dict[str, float]:
@@ -117,13 +138,19 @@ class Stage:
         values = {name: getattr(self, name, None) for name in UNITS}
         return {name: value for name, value in values.items() if value is not None}
 
+    @property
+    def oscillation(self) -> Oscillation | None:
+        """What is added to the ramp; None without an amplitude."""
+        return Oscillation(self.amplitude, self.frequency, self.duration) if self.amplitude else None
+
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Program:
     """A history in time: stages one after the other, from zero load or depth on an undisturbed elastomer.
 
-    One quantity is prescribed throughout. Surfaces separate at zero load, and where the indenter is lifted faster
-    than the elastomer recovers. A mean gap has no zero to start from: a Plane is pressed by its pressure.
+    One quantity is prescribed throughout, never below zero. Surfaces separate at zero load, and where the indenter
+    is lifted faster than the elastomer recovers. A mean gap has no zero to start from: a Plane is pressed by its
+    pressure.
     """
 
     stages: Annotated[tuple[Stage, ...], Field(min_length=1)]
@@ -139,6 +166,18 @@ class Program:
             raise ValueError(f"stages press nowhere: give one of {units}, above zero in one stage at least")
         return self
 
+    @model_validator(mode="after")
+    def _never_below_zero(self):
+        unit = UNITS[self.pressed_by]
+        for k, lowest, _ in self._swings:
+            amplitude = self.stages[k].amplitude
+            if lowest < -ROUNDING * amplitude:
+                raise ValueError(
+                    f"stages[{k}].amplitude = {amplitude:g} {unit} takes the {self.pressed_by} down to "
+                    f"{lowest:g} {unit}: give less of it, or a greater {self.pressed_by} to oscillate about"
+                )
+        return self
+
     @property
     def pressed_by(self) -> str:
         """Name of what is prescribed, one of `UNITS`."""
@@ -146,8 +185,9 @@ class Program:
 
     @property
     def greatest(self) -> float:
-        """The greatest value prescribed, in its unit."""
-        return max(value for stage in self.stages for value in stage.given.values())
+        """The greatest value prescribed, crests of oscillations among them, in its unit."""
+        crests = [highest for _, _, highest in self._swings]
+        return max(crests + [value for stage in self.stages for value in stage.given.values()])
 
     @property
     def held(self) -> Indent:
@@ -161,18 +201,30 @@ class Program:
 
     @property
     def length(self) -> float:
-        """Slid in all stages [m]."""
-        return float(self._paths[-1])
+        """Slid in all stages, forwards and backwards [m]."""
+        return float(np.cumsum([abs(stage.speed) * stage.duration for stage in self.stages])[-1])
+
+    @property
+    def span(self) -> float:
+        """Between the farthest places forwards and backwards that the path comes to [m]."""
+        return float(np.max(self._paths) - np.min(self._paths))
+
+    @property
+    def reverses(self) -> bool:
+        """Whether the indenter ever moves backwards."""
+        return any(stage.speed < 0 for stage in self.stages)
 
     def prescribed(self, time):
         """Load, depth or pressure at a time [s], any shape, in its unit."""
-        values = [0.0]
-        for stage in self.stages:
-            values.append(stage.given.get(self.pressed_by, values[-1]))
-        return np.interp(time, self._times, values)
+        times = self._times
+        values = np.interp(time, times, self._levels)
+        for stage, begin in zip(self.stages, times, strict=False):
+            if stage.oscillation is not None:
+                values = np.maximum(values + stage.oscillation.beyond_chord(np.subtract(time, begin)), 0.0)
+        return values
 
     def path(self, time):
-        """Length slid [m] until a time [s], any shape."""
+        """How far forwards the indenter is from where it began [m] at a time [s], any shape."""
         return np.interp(time, self._times, self._paths)
 
     @property
@@ -187,6 +239,25 @@ class Program:
     @property
     def _paths(self):
         return np.cumsum([0.0, *(stage.speed * stage.duration for stage in self.stages)])
+
+    @property
+    def _levels(self):
+        """What is prescribed at `_times`."""
+        levels = [0.0]
+        for stage in self.stages:
+            end = stage.given.get(self.pressed_by, levels[-1])
+            levels.append(end if stage.oscillation is None else max(end + stage.oscillation.last, 0.0))
+        return levels
+
+    @property
+    def _swings(self):
+        """Of each stage that oscillates, its place and the lowest and highest value."""
+        starts = self._levels[:-1]
+        return [
+            (k, *stage.oscillation.about(start, stage.given.get(self.pressed_by, start)))
+            for k, (stage, start) in enumerate(zip(self.stages, starts, strict=True))
+            if stage.oscillation is not None
+        ]
 
 
 Motion = Annotated[Indent | Slide | Shear | Program, Field(discriminator="type")]

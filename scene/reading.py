@@ -2,6 +2,7 @@
 
 import tomllib
 from copy import deepcopy
+from datetime import date, time
 from functools import reduce
 from operator import getitem
 from pathlib import Path
@@ -11,6 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 
 # Stands for what is missing; nothing allows it.
 MISSING = "\0"
+LONGEST = 4096  # bits of a whole number that is shown
 
 
 class InvalidInput(ValueError):
@@ -27,7 +29,7 @@ def read(path: str | Path, what: Any):
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InvalidInput(f"{path}: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except ValueError as error:  # also of characters that are none, and of numbers too long to be read
         raise InvalidInput(f"{path} is not valid TOML: {error}") from error
     adapter = TypeAdapter(what)
     try:
@@ -53,13 +55,21 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
         elif kind == "int_type" and isinstance(value, float):
             allowed += ", written without a decimal point"
         allowed = allowed.replace("valid tuple", "list")
-        said = f" = {value!r}: "
-        if value == MISSING:
+        said = f" = {value!r}: " if _brief(value) else ": "
+        if isinstance(value, str) and value == MISSING:
             said, allowed = ": missing, ", allowed.removeprefix("Input should be ")
-        # A whole table says nothing that its own message does not.
-        said = ": " if isinstance(value, dict) else said
-        lines.append((".".join(map(str, where)) or "the file") + said + allowed)
+        # What is wrong with the parts of the whole names them itself.
+        lines.append(".".join(map(str, where)) + said + allowed if where else allowed)
     return lines
+
+
+def _brief(value):
+    """Whether a message is clearer by it: a table, or rows of numbers, say nothing that their own does not."""
+    if isinstance(value, list | tuple):
+        return not any(isinstance(each, list | tuple | dict) for each in value) and all(map(_brief, value))
+    if isinstance(value, int):
+        return value.bit_length() <= LONGEST
+    return isinstance(value, str | float | date | time)
 
 
 def _with_what_is_missing(error, content, adapter):
@@ -71,7 +81,10 @@ def _with_what_is_missing(error, content, adapter):
             where = (*where, "type")
         elif mistake["type"] != "missing":
             continue
-        reduce(getitem, where[:-1], filled)[where[-1]] = MISSING
+        try:
+            reduce(getitem, where[:-1], filled)[where[-1]] = MISSING
+        except (LookupError, TypeError):
+            continue  # beyond the end of a list, or of what was read from another file
     try:
         adapter.validate_python(filled)
     except ValidationError as fuller:
@@ -86,6 +99,8 @@ def _place(location, content):
         if isinstance(content, dict) and part not in content and part == content.get("type"):
             continue
         where = (*where, part)
-        inside = (isinstance(content, dict) and part in content) or isinstance(content, list)
-        content = content[part] if inside else None
+        try:
+            content = content[part]
+        except (LookupError, TypeError):
+            content = None
     return where

@@ -1,4 +1,4 @@
-"""Roughness: a self-affine spectrum, from which each solver draws its own surface, or plain waves."""
+"""Roughness: a self-affine spectrum, from which each solver draws its own surface, plain waves, or a map."""
 
 from itertools import pairwise
 from math import pi, sqrt
@@ -9,6 +9,7 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .quantities import CLOSED, Finite, NonNegative, Positive, Whole
+from .topography import Topography
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
 _SHORTEST = 1e-300
@@ -70,6 +71,11 @@ class SelfAffine:
             least = "" if self.shortest is None else f"more than shortest = {self.shortest:g} and "
             raise ValueError(f"rolloff = {self.rolloff:g} must be {least}at most longest = {self.longest:g}")
         return self
+
+    @property
+    def flat(self) -> bool:
+        """Whether it has no heights, so that it is none."""
+        return self.rms_height == 0
 
     @property
     def period(self) -> float:
@@ -157,6 +163,11 @@ class Wave:
     type: Literal["wave"] = Field(default="wave", repr=False)
 
     @property
+    def flat(self) -> bool:
+        """Whether it has no heights, so that it is none."""
+        return self.rms_height == 0
+
+    @property
     def period(self) -> float:
         """Side of the square that repeats [m]."""
         return self.wavelength
@@ -188,4 +199,4 @@ class CrossedWaves(Wave):
         return self.amplitude / 2
 
 
-Roughness = Annotated[SelfAffine | Wave | CrossedWaves, Field(discriminator="type")]
+Roughness = Annotated[SelfAffine | Wave | CrossedWaves | Topography, Field(discriminator="type")]

@@ -10,6 +10,7 @@ from .heating import Heating
 from .indenter import Indenter, Plane
 from .interface import Coulomb
 from .layer import Layer
+from .measured import Measured
 from .motion import UNITS, Motion, Shear
 from .quantities import CLOSED
 from .rheology import Elastomer
@@ -25,8 +26,10 @@ def fit_together(parts):
     if given not in allowed:
         units = " or ".join(f"{name} [{UNITS[name]}]" for name in allowed)
         raise ValueError(f"motion.{given} = {motion.greatest:g} does not press a {kind}: give {units}")
-    if isinstance(parts.indenter, Plane) and (parts.roughness is None or parts.roughness.rms_height == 0):
+    if isinstance(parts.indenter, Plane) and (parts.roughness is None or parts.roughness.flat):
         raise ValueError("indenter = Plane without roughness touches everywhere: give roughness")
+    if isinstance(parts.indenter, Measured) and parts.roughness is not None:
+        raise ValueError("roughness on an indenter = Measured, whose map has its own: leave roughness out")
     if isinstance(motion, Shear) and parts.interface is None:
         raise ValueError("motion = Shear without friction in the interface slips at once: give interface")
     if parts.heating is not None and parts.heating.feedback is not None and parts.temperature is None:
@@ -41,14 +44,14 @@ def fit_together(parts):
 class Scene:
     """A rigid indenter on a viscoelastic half-space that flows past it along +x. SI units throughout.
 
-    indenter : Sphere, Cone, PowerLaw, Cylinder or Plane
+    indenter : Sphere, Cone, PowerLaw, Cylinder, Plane or Measured
     elastomer : Elastic, Kelvin, StandardLinearSolid, Prony, KelvinChain, Fractional or Tabulated
     motion : Indent, Slide, Shear or Program
-    roughness : SelfAffine, Wave or CrossedWaves; absent, the indenter is smooth
+    roughness : SelfAffine, Wave, CrossedWaves or Topography; absent, the indenter is smooth
     layer : Layer; absent, the elastomer is a half-space
     temperature : WLF or Arrhenius; absent, the elastomer is stated as it is
-    heating : Heating; absent, friction heats nothing
     interface : Coulomb; absent, the interface has no friction of its own
+    heating : Heating; absent, friction heats nothing
 
     What is absent costs nothing: a solver looks at `parts` alone.
     """
@@ -59,8 +62,8 @@ class Scene:
     roughness: Roughness | None = None
     layer: Layer | None = None
     temperature: Temperature | None = None
-    heating: Heating | None = None
     interface: Coulomb | None = None
+    heating: Heating | None = None  # last: all friction heats
 
     _fits = model_validator(mode="after")(fit_together)
 

@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
-from scipy.optimize import nnls
 
 from .modes import Relaxation
 from .quantities import CLOSED, Finite, Positive
@@ -114,6 +113,9 @@ def _fit(solid: Tabulated) -> Relaxation:
 
 def _nonnegative(omega, measured, times, equilibrium):
     """The series of given times, moduli >= 0, and given or fitted equilibrium, with the least relative misfit."""
+    # Only tables need it.
+    from scipy.optimize import nnls
+
     phase = 1j * omega[:, None] * times
     parts = np.hstack([np.ones((len(omega), 1)), phase / (1 + phase)])
     matrix = np.vstack([parts.real / measured.real[:, None], parts.imag / measured.imag[:, None]])

@@ -1,9 +1,11 @@
 """Temperature of the elastomer: one factor on all its times (thermorheologically simple solids)."""
 
 from dataclasses import dataclass as plain
+from dataclasses import replace
 from math import exp, log
 from typing import Annotated, Literal
 
+import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
@@ -12,14 +14,42 @@ from .quantities import CLOSED, Positive
 from .viscoelastic import Linear
 
 GAS_CONSTANT = 8.314462618  # [J/(mol K)], CODATA 2018
+# c1 [1] and c2 [K] at the glass transition as reference, means over many polymers (Williams, Landel and Ferry).
+UNIVERSAL = {"c1": 17.44, "c2": 51.6}
+
+_MOST = 700.0  # of |ln a_T|: beyond it the factor leaves the range of numbers
+
+
+def _within_range(law):
+    """The same law. Raises ValueError where its shift is no number."""
+    if not abs(law.log_shift) < _MOST:
+        raise ValueError(
+            f"temperature = {law.temperature:g} K: times would be longer by exp({law.log_shift:.3g}), beyond the "
+            f"range of numbers; give one closer to reference = {law.reference:g} K"
+        )
+    return law
+
+
+class _Law:
+    """A law of the shift."""
+
+    @property
+    def log_shift(self) -> float:
+        """ln a_T."""
+        raise NotImplementedError
+
+    @property
+    def shift(self) -> float:
+        """a_T, by which all times are longer than at the reference; 1 there."""
+        return exp(self.log_shift)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class WLF:
+class WLF(_Law):
     """Williams, Landel and Ferry: log10 a_T = -c1 (T - T_r) / (c2 + T - T_r); J. Am. Chem. Soc. 77, 3701 (1955).
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
-    c1, c2 : constants at T_r [1], [K]; T and T_r lie above T_r - c2, where times are infinite
+    c1, c2 : constants at T_r [1], [K]; T lies above T_r - c2, where times are infinite
     """
 
     temperature: Positive
@@ -35,17 +65,17 @@ class WLF:
                 f"temperature = {self.temperature:g} K: the law ends at reference - c2 = "
                 f"{self.reference - self.c2:g} K, it must be above"
             )
-        return self
+        return _within_range(self)
 
     @property
-    def shift(self) -> float:
-        """a_T, by which all times are longer than at the reference."""
+    def log_shift(self) -> float:
+        """ln a_T."""
         above = self.temperature - self.reference
-        return exp(-log(10) * self.c1 * above / (self.c2 + above))
+        return -log(10) * self.c1 * above / (self.c2 + above)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class Arrhenius:
+class Arrhenius(_Law):
     """ln a_T = (activation_energy / R) (1/T - 1/T_r).
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
@@ -57,10 +87,12 @@ class Arrhenius:
     activation_energy: Positive
     type: Literal["arrhenius"] = Field(default="arrhenius", repr=False)
 
+    _in_range = model_validator(mode="after")(_within_range)
+
     @property
-    def shift(self) -> float:
-        """a_T, by which all times are longer than at the reference."""
-        return exp(self.activation_energy / GAS_CONSTANT * (1 / self.temperature - 1 / self.reference))
+    def log_shift(self) -> float:
+        """ln a_T."""
+        return self.activation_energy / GAS_CONSTANT * (1 / self.temperature - 1 / self.reference)
 
 
 Temperature = Annotated[WLF | Arrhenius, Field(discriminator="type")]
@@ -68,7 +100,7 @@ Temperature = Annotated[WLF | Arrhenius, Field(discriminator="type")]
 
 @plain(frozen=True)
 class Shifted(Linear):
-    """A solid all of whose times are longer by one factor."""
+    """A solid all of whose times are longer by one factor; its moduli stay as they are."""
 
     solid: Linear
     factor: float
@@ -83,10 +115,14 @@ class Shifted(Linear):
         return self.solid.glassy_modulus
 
     def modes(self) -> Relaxation | Retardation:
-        """Those of the solid, in the form in which it states them."""
+        """Those of the solid, in the form in which it states them. Raises OverflowError for times out of range."""
         stated = self.solid.modes()
-        times = stated.times * self.factor
-        times.setflags(write=False)
-        if isinstance(stated, Relaxation):
-            return Relaxation(stated.equilibrium, stated.moduli, times, stated.viscosity * self.factor)
-        return Retardation(stated.instantaneous, stated.compliances, times)
+        with np.errstate(over="ignore"):
+            times = stated.times * self.factor
+        if not ((times > 0) & (times < np.inf)).all():
+            raise OverflowError(f"times longer by {self.factor:g} leave the range of numbers")
+        # Two times may become one by rounding.
+        if isinstance(stated, Retardation):
+            return Retardation.of(stated.instantaneous, stated.compliances, times)
+        shifted = Relaxation.of(stated.equilibrium, stated.moduli, times)
+        return replace(shifted, viscosity=stated.viscosity * self.factor)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from .plan import Plan, said
 from .result import Result
 from .scene import Scene
 
@@ -31,6 +32,15 @@ class Term:
     def around(self, solve: Solve) -> Solve:
         """A solve that asks another one, of the scene as changed by the part."""
         return solve
+
+    @property
+    def says(self) -> str:
+        """What is simulated for the part, in a line for people."""
+        return said(self.part)
+
+    def planned(self, plan: Plan, scene: Scene) -> Plan:
+        """A plan with what the part builds besides; most parts build nothing of their own."""
+        return plan
 
 
 @dataclass(frozen=True)

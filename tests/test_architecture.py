@@ -20,6 +20,7 @@ DOORS = {
     "cupy": {"bem3d/engine.py"},
     "numba": {"bem3d/kernels.py", "mdr1d/foundation.py"},  # one a package: neither solver imports the other
     "tomllib": {"scene/reading.py"},
+    "SurfaceTopography": {"scene/heightfile.py"},
 }
 FILES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 

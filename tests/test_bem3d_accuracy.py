@@ -9,6 +9,7 @@ import pytest
 from bem3d import BEM
 from bem3d.accuracy import BANDS, SLOW, Assured, Choice, Unconfirmed, apart, band, ladder, resolution
 from scene import (
+    Coulomb,
     CrossedWaves,
     Cylinder,
     Elastic,
@@ -18,6 +19,7 @@ from scene import (
     Program,
     Scene,
     SelfAffine,
+    Shear,
     Slide,
     Sphere,
     Stage,
@@ -184,6 +186,11 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
             "friction = 0.0001: in single precision at least 0.0003",
         ),
         (SMOOTH, {"friction": 1e-9}, "friction = 1e-09 is less than was measured"),
+        (
+            replace(SMOOTH, motion=Shear(load=1.0, force=0.1), interface=Coulomb(0.3)),
+            {"friction": 0.01},
+            "promised of depth; motion = Shear: errors of tangential forces were not measured",
+        ),
         (replace(SMOOTH, motion=Indent(load=1.0)), {"friction": 0.01}, "errors are promised of depth"),
         (replace(SMOOTH, elastomer=Elastic(1e6)), {"friction": 0.01}, "errors are promised of depth"),
         (

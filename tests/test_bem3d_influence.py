@@ -117,8 +117,8 @@ def test_a_solid_is_the_sum_of_its_modes():
 
 def test_exact_and_distant_forms_meet():
     distant, origin = np.array([101.0, -150.0]), np.zeros((1, 1))
-    far = influence._displacement(distant, origin, 60)[0]
-    near = influence._displacement(np.append(distant, 0.0), origin, 60)[0, :2]  # one column near: all exact
+    far = influence.by_pixel(distant, origin, 60)[0]
+    near = influence.by_pixel(np.append(distant, 0.0), origin, 60)[0, :2]  # one column near: all exact
     assert np.any(near != far)
     np.testing.assert_allclose(near, far, rtol=1e-8)
 

@@ -230,7 +230,7 @@ def test_what_comes_into_the_window_is_what_the_contact_did_there():
     pressure = np.zeros((32, 32))
     pressure[8:26, 4:28] = 1 + np.arange(24)
     around.creep(pressure, np.zeros(1), np.ones(1))
-    around.follow(12.0)
+    around.follow(12.0, 0.0)
     wide = np.zeros((64, 64))
     wide[16:48, 32:] = pressure  # the window is the right half: 12 columns more to the left come in
     expected = problem.medium.operator(Grid(64, 64.0))(wide)[16:48, 20:32]

@@ -120,3 +120,19 @@ def test_heights_over_many_gaussian_surfaces_are_gaussian():
 def test_heights_whose_square_is_no_number_are_drawn_in_proportion(height):
     tiny, ordinary = draw(rough(rms_height=height)), draw(rough(rms_height=1.0))
     np.testing.assert_allclose(tiny.amplitudes / height, ordinary.amplitudes, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
+def test_heights_and_slopes_are_to_the_digit_what_their_squares_say(amplitudes):
+    surface = draw(rough(amplitudes=amplitudes))
+    power = np.abs(surface.amplitudes) ** 2 / 2
+    q_y, q_x = surface.waves.along_y[:, None], surface.waves.along_x[None, :]
+    assert surface.rms_height == float(np.sqrt(np.sum(power)))
+    assert surface.rms_slope == float(np.sqrt(np.sum((q_y**2 + q_x**2) * power)))
+
+
+@pytest.mark.parametrize("height", [1e-180, 1e180])
+def test_heights_whose_squares_are_no_numbers_have_a_mean_square(height):
+    surface, one = draw(rough(rms_height=height)), draw(rough(rms_height=1.0))
+    assert surface.rms_height == pytest.approx(height, rel=1e-12)
+    assert surface.rms_slope == pytest.approx(height * one.rms_slope, rel=1e-12)

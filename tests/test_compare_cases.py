@@ -9,7 +9,8 @@ from typer.testing import CliRunner
 from compare.__main__ import app
 from compare.cases import read_case, shipped_cases
 from compare.run import named_cases
-from scene import Cone, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
+from compare.study import points
+from scene import Cone, Coulomb, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
@@ -76,6 +77,25 @@ def test_a_history_in_time_is_refused_though_both_solvers_take_it(case):
         moved.refuse()
 
 
+@pytest.mark.parametrize(
+    "change", [{}, {"elastomer": Elastic(modulus=1e6)}, {"motion": Slide(speed=0.0, load=1.0)}]
+)
+def test_friction_of_the_interface_is_refused_in_sliding_though_both_solvers_take_it(case, change):
+    rubbing = replace(case, interface=Coulomb(0.3), **change)
+    assert not rubbing.mdr.refusals(rubbing.scene)
+    assert not rubbing.bem.refusals(rubbing.scene)
+    with pytest.raises(Refused, match=r"interface = Coulomb with motion = Slide: .*; leave interface out"):
+        rubbing.refuse()
+    with pytest.raises(Refused, match="interface = Coulomb"):
+        points(rubbing)
+
+
+def test_friction_of_the_interface_of_what_is_pressed_in_adds_nothing_and_is_compared_with_the_closed_form(case):
+    rubbing = replace(case, interface=Coulomb(0.3), motion=Indent(load=1.0))
+    solvers = {point.solver for point in points(rubbing) if point.kind == "force-depth"}
+    assert solvers == {"MDR", "BEM", "exact"}
+
+
 def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):
     contact = elastic_contact(case.scene)
     deep = replace(case, motion=Slide(speed=0.1, depth=contact.depth))
@@ -112,6 +132,10 @@ MISTAKES = {
     "a missing table": (SCENE.replace("[motion]", "[study]\n[movement]"), "motion"),
     "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N], depth [m]"),
     "no TOML": ("radius 3", "TOML"),
+    "friction in the interface of what slides": (
+        SCENE + "[interface]\ncoefficient = 0.3\n",
+        "leave interface out",
+    ),
     "a shape that has no third dimension": (SCENE.replace('"sphere"', '"cylinder"'), "does not press a Cylinder"),
 }
 

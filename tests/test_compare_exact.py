@@ -1,5 +1,6 @@
 """Closed forms against integrals and derivatives that are written out here."""
 
+from dataclasses import replace
 from math import pi, sqrt, tan
 
 import numpy as np
@@ -10,6 +11,7 @@ from compare import exact
 from compare.exact import Exact
 from scene import (
     Cone,
+    Coulomb,
     Cylinder,
     Elastic,
     Fractional,
@@ -115,6 +117,16 @@ def test_what_has_no_closed_form_is_refused_by_name():
         with pytest.raises(Refused, match=word):
             Exact().solve(scene)
     assert not Exact().refusals(Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Slide(speed=0.1, load=1.0)))
+
+
+def test_friction_in_the_interface_adds_nothing_at_rest_and_is_refused_in_sliding():
+    plain = Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Indent(load=1.0))
+    rubbing = replace(plain, interface=Coulomb(0.3))
+    answer = Exact().solve(rubbing)
+    assert (answer.depth, answer.friction_force) == (Exact().solve(plain).depth, 0.0)
+    for speed in (0.0, 0.1):
+        with pytest.raises(Refused, match="interface = Coulomb: friction of the interface is not in the closed"):
+            Exact().solve(replace(rubbing, motion=Slide(speed=speed, load=1.0)))
 
 
 def test_the_loss_exponent_of_a_power_law_is_its_power_and_that_of_a_kelvin_body_one():

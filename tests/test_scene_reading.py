@@ -1,6 +1,6 @@
 """A scene in Python and in TOML: the same fields, the same mistakes, each named with what is allowed."""
 
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import FrozenInstanceError, dataclass, replace
 
 import numpy as np
 import pytest
@@ -164,7 +164,8 @@ def test_a_program_of_stages_can_be_read(tmp_path):
     [
         ("duration = 2.0", "duration = 0", r"motion.stages.1.duration = 0.*greater than 0"),
         ("duration = 2.0", "", r"motion.stages.1.duration: missing, a valid number"),
-        ("speed = 0.1", "speed = -1", r"motion.stages.1.speed = -1.*greater than or equal to 0"),
+        ("speed = 0.1", "speed = inf", r"motion.stages.1.speed = inf.*finite number"),
+        ("speed = 0.1", "amplitude = 1e-5", r"motion.stages.1: amplitude alone.*give both"),
         ("speed = 0.1", "sped = 0.1", r"motion.stages.1.sped = 0.1: Unexpected keyword"),
         ("speed = 0.1", "gap = 0.1", r"motion.stages.1.gap = 0.1: Unexpected keyword"),
         ("speed = 0.1", "load = 1", r"motion: stages prescribe depth and load: give one and the same throughout"),
@@ -263,3 +264,42 @@ def test_a_mistake_in_the_only_stage_is_one_mistake(tmp_path):
     with pytest.raises(InvalidInput) as raised:
         scene_from(tmp_path, INDENTER + ELASTOMER + motion)
     assert str(raised.value).count("\n") == 0
+
+
+def test_rows_of_numbers_are_not_repeated_to_whoever_wrote_them(tmp_path):
+    heights = "[" + ", ".join(["[1.0, 2.0, 3.0]"] * 50) + "]"
+    text = f"[roughness]\ntype = 'topography'\npixel = 1.0\nheights = {heights}\n"
+    with pytest.raises(InvalidInput) as raised:
+        scene_from(tmp_path, SCENE + text)
+    assert str(raised.value).endswith(
+        "roughness.heights: an array of shape (50, 3): a map has at least 4 rows and columns"
+    )
+
+
+def test_a_list_that_is_too_short_is_named_with_what_it_lacks(tmp_path):
+    @dataclass(frozen=True)
+    class Ends:
+        pair: tuple[float, float]
+
+    path = tmp_path / "ends.toml"
+    path.write_text("pair = [1.0]\n")
+    with pytest.raises(InvalidInput, match=r"ends.toml: pair.1 = \[1.0\]: Field required"):
+        read(path, Ends)
+
+
+@pytest.mark.parametrize("digits", [301, 4000])
+def test_numbers_of_any_length_are_named(tmp_path, digits):
+    hexadecimal = "0x" + "f" * digits
+    with pytest.raises(InvalidInput, match=r"indenter.radius.*within the range"):
+        scene_from(tmp_path, SCENE.replace("1e-2", hexadecimal))
+    with pytest.raises(InvalidInput, match=r"radius|valid TOML"):
+        scene_from(tmp_path, SCENE.replace("1e-2", "1" + "0" * 2 * digits))
+
+
+def test_what_does_not_fit_together_is_named_by_its_fields_alone(tmp_path):
+    text = SCENE.replace('"sphere"\nradius = 1e-2', '"plane"').replace("load", "pressure")
+    with pytest.raises(InvalidInput) as raised:
+        scene_from(tmp_path, text)
+    assert str(raised.value).endswith(
+        "scene.toml: indenter = Plane without roughness touches everywhere: give roughness"
+    )

@@ -1,6 +1,7 @@
 """The contact of a rough cone and a rough sphere in one dimension, whole and close up (paper, Fig. 1)."""
 
 from collections.abc import Mapping
+from dataclasses import fields
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from scene import Cone
+from scene import Cone, Regime
 from scene.regime import SMALL_SLOPE
 
 from ..paper.contacts import Configuration
@@ -20,6 +21,8 @@ SHOWN, CLOSE = 1.9, 2e-4
 # Height of a panel over its width, and over that of what touches; how many times heights may be exaggerated.
 TALL, ROOM = 0.5, 1.3
 EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 4), (1, 2, 3, 4, 5, 6, 8)).ravel()
+# Lengths of a scale [m], and the part of the panel that either leg takes at most.
+SCALES, LEG = np.outer(10.0 ** np.arange(-9, 0), (1, 2, 5)).ravel(), 0.22
 
 
 def figure(contacts: Mapping[str, Configuration]) -> Figure | None:
@@ -33,12 +36,13 @@ def figure(contacts: Mapping[str, Configuration]) -> Figure | None:
         heights = _heights(at)
         whole, close = SHOWN * at.relaxed.radius * np.array([-1, 1]), _close_up(at)
         for axes, limits, name, width in (
-            (above, whole, f"({letter}) rough {shape}", 1.4),
-            (below, close, "close-up", 2.4),
+            (above, whole, f"({letter}) rough {shape}", 0.9),
+            (below, close, "close-up", 1.4),
         ):
-            times = _frame(axes, limits, *heights)
+            _frame(axes, limits, *heights)
             _bodies(axes, *heights, width)
-            axes.set_title(f"{name}, heights × {times:g}")
+            _scale(axes)
+            axes.set_title(name)
         above.axhline(0, color="0.3", linewidth=0.7, linestyle=(0, (5, 3)), zorder=1)
         (left, right), (bottom, top) = below.get_xlim(), below.get_ylim()
         above.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, linewidth=0.9, zorder=5))
@@ -66,10 +70,11 @@ def caption(contacts: Mapping[str, Configuration]) -> str:
     )
     return (
         "Rigid rough profile and surface of the elastomer at its nodes in steady sliding, in one dimension. "
-        "Heights are those above the undeformed surface (dashed), stretched by the factor in each title. In the "
-        "frame of the indenter the elastomer flows to the right; real contact is in bold. Below, "
-        f"{CLOSE * 1e3:g} mm (boxed above) in which the elastomer leaves the indenter most often: behind each "
-        f"asperity it is free and returns exponentially. {parameters}{outside}"
+        "Heights are those above the undeformed surface (dashed). Both legs of a scale are of the length beside "
+        "it: where the upright one is longer, heights are stretched. In the frame of the indenter the elastomer "
+        f"flows to the right; real contact is in bold. Below, {CLOSE * 1e3:g} mm (boxed above) in which the "
+        "elastomer leaves the indenter most often: behind each asperity it is free and returns exponentially. "
+        f"{parameters}{outside}"
     )
 
 
@@ -92,8 +97,15 @@ def _parameters(at):
         f"{given}; found: depth of the macroscopic tip {row.depth * 1e6:.3g} µm, real contact "
         f"{row.measures['contact_length'] * 1e3:.3g} mm, rms slope {row.measures['rms_slope']:.3g}, friction "
         f"coefficient {row.friction_coefficient:.3g}. Smooth and at rest the half-width is "
-        f"{at.relaxed.radius * 1e3:.3g} mm and the depth {at.relaxed.depth * 1e6:.3g} µm."
+        f"{at.relaxed.radius * 1e3:.3g} mm and the depth {at.relaxed.depth * 1e6:.3g} µm. {_broken(row)}"
     )
+
+
+def _broken(row):
+    """Conditions of the laws that break."""
+    regime = Regime(*(row.measures[field.name] for field in fields(Regime)))
+    broken = [name for name, holds in regime.flags.items() if not holds]
+    return f"Of the conditions of the laws it breaks {', '.join(broken) or 'none'}."
 
 
 def _heights(at):
@@ -111,8 +123,8 @@ def _close_up(at):
     return np.array([x[first], x[first] + CLOSE])
 
 
-def _frame(axes: Axes, limits, x, body, surface, contact) -> float:
-    """Limits around what touches, and how many times heights are exaggerated there, a round number."""
+def _frame(axes: Axes, limits, x, body, surface, contact) -> None:
+    """Limits around what touches, with heights exaggerated a round number of times."""
     seen = (limits[0] <= x) & (x <= limits[1])
     low, high = min(surface[seen].min(), body[seen].min()), max(surface[seen].max(), body[seen & contact].max())
     width = np.ptp(limits)
@@ -122,7 +134,19 @@ def _frame(axes: Axes, limits, x, body, surface, contact) -> float:
     axes.set(xlim=limits * 1e3, ylim=(bottom * 1e6, (bottom + height) * 1e6), aspect=times * 1e-3)
     axes.set(xlabel="x [mm]", ylabel="height [µm]")
     axes.xaxis.set_major_locator(MaxNLocator(5))
-    return times
+
+
+def _scale(axes):
+    """Two legs of one length, along and upright, in the corner below on the right."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    most = LEG * min((right - left) * 1e-3, (top - bottom) * 1e-6)
+    length = SCALES[most >= SCALES].max()
+    corner = right - 0.04 * (right - left), bottom + 0.07 * (top - bottom)
+    x = [corner[0] - length * 1e3, corner[0], corner[0]]
+    y = [corner[1], corner[1], corner[1] + length * 1e6]
+    axes.plot(x, y, color="black", linewidth=1.1, zorder=5, gid="scale", solid_capstyle="butt")
+    said = f"{length * 1e6:g} µm"
+    axes.text(x[0] - 0.012 * (right - left), corner[1], said, ha="right", va="center", fontsize=7, zorder=5)
 
 
 def _bodies(axes, x, body, surface, contact, width):

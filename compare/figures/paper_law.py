@@ -9,30 +9,34 @@ from mdr1d.equations import interpolation
 from scene.regime import SMALL_SLOPE
 
 from ..paper.law import Law
+from ..wording import plus_minus
 from . import style
 
 NAME = "paper-law"
-# Colour, marker and line of the shapes, in the order in which they come.
-LOOKS = (("#0072B2", "o", "--"), ("#D55E00", "s", "-."))
+# Colour, tint, marker, its size and line of the shapes, in the order in which they come: the first, small and
+# dark, is drawn over the second.
+LOOKS = (("#0072B2", "#0072B2", "o", 2.6, "--"), ("#D55E00", "#F6C9A4", "s", 4.6, "-."))
 
 
 def figure(laws: Sequence[Law]) -> Figure | None:
     """Above: mu-tilde with Eq. 19. Below: its deviation from Eq. 19 with alpha = 1.5. None without any."""
     if not laws:
         return None
-    drawing = style.canvas(style.SINGLE, 4.4)
-    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.3))
+    drawing = style.canvas(style.SINGLE, 5.0)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
     xi = np.geomspace(min(law.xi.min() for law in laws), max(law.xi.max() for law in laws), 201)
     above.plot(xi, interpolation(xi), color="0.3", linewidth=0.9, label="Eq. 19, α = 1.5", zorder=1)
-    below.axhline(0, color="0.3", linewidth=0.9, zorder=1)
-    for law, (colour, marker, line) in zip(laws, LOOKS, strict=False):
+    below.axhline(0, color="0.6", linewidth=0.5, zorder=0)
+    for law, (colour, tint, marker, size, line) in zip(laws, LOOKS, strict=False):
         known, unit = np.isfinite(law.friction), interpolation(law.xi)
-        points = {"color": colour, "marker": marker, "linestyle": "none", "markersize": 3.5, "elinewidth": 0.8}
-        points |= {"markerfacecolor": "white", "markeredgewidth": 0.8}
-        above.errorbar(law.xi[known], law.friction[known], yerr=law.error[known], label=_best(law), **points)
-        below.errorbar(law.xi[known], 100 * law.deviation[known], yerr=100 * (law.error / unit)[known], **points)
-        best = 100 * (interpolation(xi, law.alpha) / interpolation(xi) - 1)
-        below.plot(xi, best, line, color=colour, linewidth=0.9, zorder=1, label=f"{law.shape}, best α")
+        inside = tint if law.conditions.holds.all() else "white"
+        look = {"color": colour, "marker": marker, "linestyle": "none", "markersize": size, "elinewidth": 0.8}
+        look |= {"markerfacecolor": inside, "markeredgewidth": 0.8, "zorder": 3 - size / 10}
+        above.errorbar(law.xi[known], law.friction[known], yerr=law.error[known], label=_best(law), **look)
+        below.errorbar(law.xi[known], 100 * law.deviation[known], yerr=100 * (law.error / unit)[known], **look)
+        best, planes = interpolation(xi, law.alpha) / interpolation(xi) - 1, law.planes / unit - 1
+        below.plot(xi, 100 * best, line, color=colour, linewidth=0.9, zorder=1, label=f"{law.shape}, best α")
+        below.plot(law.xi, 100 * planes, ":", color=colour, linewidth=1.1, zorder=1, label=f"{law.shape}, planes")
     style.span(above, xi)
     above.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}$ [1]")
     above.legend(loc="lower right")
@@ -47,23 +51,27 @@ def figure(laws: Sequence[Law]) -> Figure | None:
 
 def sheets(laws: Sequence[Law]) -> dict[str, list[dict]]:
     """Every point of the figure, and the fitted exponents."""
-    points = [
-        {
-            "shape": law.shape,
-            "xi": xi,
-            "normalised_friction": friction,
-            "normalised_friction_error": error,
-            "deviation_from_eq_19": deviation,
+    points: list[dict] = []
+    for law in laws:
+        columns = {
+            "xi": law.xi,
+            "normalised_friction": law.friction,
+            "normalised_friction_error": law.error,
+            "deviation_from_eq_19": law.deviation,
+            "normalised_friction_of_planes": law.planes,
+            **law.conditions.columns,
         }
-        for law in laws
-        for xi, friction, error, deviation in zip(law.xi, law.friction, law.error, law.deviation, strict=True)
-    ]
+        rows = zip(*columns.values(), strict=True)
+        points.extend({"shape": law.shape, **dict(zip(columns, row, strict=True))} for row in rows)
     fits = [
         {
             "shape": law.shape,
             "alpha": law.alpha,
             "alpha_low": law.alpha_interval[0],
             "alpha_high": law.alpha_interval[1],
+            **{f"alpha by {name}": alpha for name, alpha in law.by_criterion.items()},
+            "chi_square": law.chi_square,
+            "alpha_of_planes": law.planes_alpha,
             "plateau": law.plateau,
             "plateau_error": law.plateau_error,
         }
@@ -85,29 +93,34 @@ def caption(laws: Sequence[Law]) -> str:
         "Friction over that of the plateau, μ̃ = μ/(√2 s) with the rms slope s of the roughness by finite "
         "differences, against ξ, which is μ̃ in the limit of low speed (Eqs. 17 and 18): means over profiles with "
         "their standard errors, and Eq. 19 with α = 1.5. Below: by how much the points, and Eq. 19 with the best "
-        f"α of each shape (broken lines), differ from it. {' '.join(map(_said, laws))}{outside}"
+        "α of each shape (broken lines), differ from it. Dotted: every "
+        "place of the contact taken for a rough plane pressed as deep as it is there, without the slope of the "
+        f"shape; the places of a cone differ more in depth. {' '.join(map(_said, laws))}{outside}"
     )
 
 
 def _slopes(laws):
-    return sorted({float(law.regime.rms_slope) for law in laws})
+    return sorted({float(law.conditions.ratios["rms_slope"][0]) for law in laws})
 
 
 def _best(law):
     low, high = law.alpha_interval
-    return f"{law.shape}: best α = {law.alpha:.3g} ({low:.3g} to {high:.3g})"
+    return f"{law.shape}: best α = {law.alpha:.2f} ({low:.2f} to {high:.2f})"
 
 
 def _said(law):
     low, high = law.alpha_interval
     worst = np.nanargmax(np.abs(law.deviation))
-    regime = law.regime
+    ratios = {name: ratio[0] for name, ratio in law.conditions.ratios.items()}
+    criteria = law.by_criterion.values()
     failed = f" {law.failed} solves failed; the profiles with a failed solve are left out." if law.failed else ""
     return (
-        f"Rough {law.shape}, {law.samples.shape[1]} profiles: best α {law.alpha:.3g}, 95 % between {low:.3g} and "
-        f"{high:.3g}; off Eq. 19 by {law.deviation[worst]:+.1%} at most (ξ = {law.xi[worst]:.3g}); plateau "
-        f"{law.plateau:.3g} ± {law.plateau_error:.2g} of that of Eq. 19 at the greatest ξ; rms height over depth "
-        f"{regime.height_over_depth:.2g}, width of the contact over the longest wave "
-        f"{regime.contact_over_period:.2g}, macroscopic slope over that of the roughness "
-        f"{regime.macro_over_rough:.2g}, rms slope {regime.rms_slope:.3g}.{failed}"
+        f"Rough {law.shape}, {law.samples.shape[1]} profiles: best α {law.alpha:.2f}, 95 % of the sampling "
+        f"between {low:.2f} and {high:.2f}; {min(criteria):.2f} to {max(criteria):.2f} by what is made least "
+        f"(logarithms, differences, chi square, the worst point), {law.left}; of planes {law.planes_alpha:.2f}; "
+        f"off Eq. 19 by {law.deviation[worst]:+.1%} at most (ξ = {law.xi[worst]:.3g}); plateau "
+        f"{plus_minus(law.plateau, law.plateau_error)} of that of Eq. 19 at the greatest ξ; rms height over depth "
+        f"{ratios['height_over_depth']:.2g}, width of the contact over the longest wave "
+        f"{ratios['contact_over_period']:.2g}, macroscopic slope over that of the roughness "
+        f"{ratios['macro_over_rough']:.2g}, rms slope {ratios['rms_slope']:.3g}. {law.conditions.words}{failed}"
     )

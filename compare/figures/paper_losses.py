@@ -7,67 +7,78 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..paper.parameters import FORCES, SPEEDS
+from ..paper.predicted import EVERY, SHORTEST, STIFFNESS, WITH_SMOOTH
 from ..paper.shifts import Lossy
 from . import style
 
 NAME = "paper-losses"
 SHOWN = (0, len(SPEEDS) // 2, len(SPEEDS) - 1)
 # Name, colour and marker of each form of Eq. 22.
-FORMS = (
-    ("shortest wave", "#D55E00", "s"),
-    ("every wave", "#0072B2", "o"),
-    ("every wave and smooth body", "#009E73", "^"),
-)
+FORMS = ((SHORTEST, "#D55E00", "s"), (EVERY, "#0072B2", "o"), (WITH_SMOOTH, "#009E73", "^"))
 LINES = ("-", "--", ":")
 
 
 def figure(found: Sequence[Lossy]) -> Figure | None:
-    """A panel for each exponent of the loss: each form over the simulation, at three speeds. None without any."""
+    """A panel for each rubber: each form over the simulation, at three speeds. None without any."""
     if not found:
         return None
-    drawing = style.canvas(style.DOUBLE, 3.1)
-    panels = drawing.subplots(1, len(found), sharey=True, squeeze=False)[0]
-    for axes, lossy in zip(panels, found, strict=True):
-        deviations = _deviations(lossy)
+    rows = -(-len(found) // 2)
+    drawing = style.canvas(style.DOUBLE, 0.7 + 2.3 * rows)
+    panels = drawing.subplots(rows, 2, sharex=True, sharey="row", squeeze=False)
+    for axes, lossy in zip(panels.flat, found, strict=False):
+        holds = lossy.predicted.conditions.holds
         for name, colour, marker in FORMS:
+            off = 100 * _deviations(lossy)[name]
             for speed, line in zip(SHOWN, LINES, strict=True):
-                axes.plot(
-                    FORCES,
-                    100 * deviations[name][speed],
-                    line,
-                    color=colour,
-                    marker=marker,
-                    markersize=3,
-                    markerfacecolor="white",
-                    linewidth=0.9,
-                )
+                axes.plot(FORCES, off[speed], line, color=colour, linewidth=0.9)
+                for at, inside in ((holds[speed], colour), (~holds[speed], "white")):
+                    look = {"facecolors": inside, "edgecolors": colour, "linewidths": 0.8, "zorder": 2.5}
+                    axes.scatter(np.array(FORCES)[at], off[speed][at], s=10, marker=marker, **look)
         axes.axhline(0, color="0.3", linewidth=0.7, zorder=0)
-        axes.set(xscale="log", xlabel="normal force [N]", title=rf"$\beta$ = {lossy.exponent:g}")
+        axes.set(xscale="log", title=lossy.loss.symbols)
         style.span(axes, FORCES)
         style.decades(axes)
-    panels[0].set_ylabel("Eq. 22 / simulation - 1 [%]")
+    for axes in panels.flat[len(found) :]:
+        axes.set_axis_off()
+    for axes in panels[:, 0]:
+        axes.set_ylabel("Eq. 22 / simulation - 1 [%]")
+    for axes in panels[-1]:
+        axes.set_xlabel("normal force [N]")
     _legend(drawing)
     return drawing
 
 
 def sheets(found: Sequence[Lossy]) -> dict[str, list[dict]]:
-    """Friction at every speed and load: simulated, of the smooth body, and of each form."""
-    rows = []
+    """Friction at every speed and load: simulated, of the smooth body, of each form; and exponents of the "
+    "shifts."""
+    points, shifts = [], []
     for lossy in found:
-        simulated, forms = simulation(lossy), _forms(lossy)
-        rows.extend(
+        simulated, forms, conditions = simulation(lossy), lossy.forms, lossy.predicted.conditions.columns
+        rubber = {"loss_exponent": lossy.loss.exponent, "relaxation_time": lossy.loss.relaxation_time}
+        points.extend(
             {
-                "loss_exponent": lossy.exponent,
+                **rubber,
                 "speed": speed,
                 "normal_force": load,
                 "simulated": simulated[i, j],
                 "smooth": lossy.smooth[i, j],
                 **{name.replace(" ", "_"): form[i, j] for name, form in forms.items()},
+                **{name: column[i, j] for name, column in conditions.items()},
             }
             for i, speed in enumerate(SPEEDS)
             for j, load in enumerate(FORCES)
         )
-    return {NAME: rows} if rows else {}
+        shifts.append(rubber | exponents(lossy))
+    return {NAME: points, f"{NAME}-shifts": shifts} if points else {}
+
+
+def exponents(lossy: Lossy) -> dict[str, float]:
+    """Of the shift as a power of the speed: expected, of each form, and simulated with its interval."""
+    row = {"expected": lossy.whole.expected, **lossy.rough.laws, **lossy.whole.laws}
+    for name, each in (("simulated", lossy.whole), ("simulated less smooth body", lossy.rough)):
+        row[name] = each.collapse.exponent if each.collapse.overlaps else np.nan
+        row[f"{name}, low"], row[f"{name}, high"] = each.exponent_interval
+    return row
 
 
 def caption(found: Sequence[Lossy]) -> str:
@@ -77,22 +88,26 @@ def caption(found: Sequence[Lossy]) -> str:
         "How far Eq. 22, with its number corrected, is off the simulated friction of a rough sphere, at the "
         f"speeds of {speeds} m/s (full, broken, dotted), where the loss modulus grows as the power β of the "
         "frequency. Three forms: with the loss at the frequency of the shortest wave for all waves, as "
-        "published; with the loss of every wave at its own frequency; and the latter with the simulated "
-        "friction of the smooth sphere added, since Eq. 22 leaves the macroscopic slope out. "
-        f"{' '.join(map(_said, found))} {_regime(found[0].regime)}"
+        "published; with the loss of every wave at its own frequency, of the line that is solved, straight "
+        "between nodes; and the latter with the simulated friction of the smooth sphere added, since Eq. 22 "
+        "leaves the macroscopic slope out. Hollow: the macroscopic modulus |G(v/a)| exceeds G₀ by more than a "
+        "tenth. The stiffer contact is smaller than the laws have it, and follows the roughness less: with the "
+        "shorter τ, of which the modulus is constant, that part of the deviation is gone. "
+        f"{' '.join(map(_said, found))} {_regime(found)}"
     )
 
 
-def _regime(regime):
+def _regime(found):
     """Where the loads stand; the same for every loss, as the relaxed contact and the roughness are."""
-    broken = [name for name, holds in regime.flags.items() if not np.all(holds)]
-    height, width = np.max(regime.height_over_depth), np.max(regime.contact_over_period)
-    macro, slope = np.max(regime.macro_over_rough), np.max(regime.rms_slope)
+    ratios = found[0].predicted.conditions.ratios
+    height, width, macro, slope = (
+        ratios[name].max()
+        for name in ("height_over_depth", "contact_over_period", "macro_over_rough", "rms_slope")
+    )
     return (
         f"At all loads the rms height is at most {height:.2g} of the depth, the width of the contact at most "
         f"{width:.2g} of the longest wave, and the macroscopic slope at most {macro:.2g} of that of the "
-        f"roughness, {slope:.2g}. Conditions of the laws that do not hold everywhere: "
-        f"{', '.join(broken) or 'none'}."
+        f"roughness, {slope:.2g}."
     )
 
 
@@ -105,30 +120,29 @@ def simulation(lossy: Lossy) -> np.ndarray:
     return friction
 
 
-def _forms(lossy):
-    forms = lossy.one_frequency, lossy.spectral, lossy.spectral + lossy.smooth
-    return {name: form for (name, *_), form in zip(FORMS, forms, strict=True)}
-
-
 def _deviations(lossy):
     simulated = simulation(lossy)
-    return {name: form / simulated - 1 for name, form in _forms(lossy).items()}
+    return {name: form / simulated - 1 for name, form in lossy.forms.items()}
 
 
 def _said(lossy):
     deviations = _deviations(lossy)
-    ranges = "; ".join(f"{name} {np.nanmin(of):+.0%} to {np.nanmax(of):+.0%}" for name, of in deviations.items())
+    ranges = "; ".join(f"{name} {np.nanmin(of):+.1%} to {np.nanmax(of):+.1%}" for name, of in deviations.items())
     missing = int(np.isnan(simulation(lossy)).sum())
     failed = (
         f" {lossy.failed} solves failed; {missing} points without any answer are left out." if lossy.failed else ""
     )
-    return f"β = {lossy.exponent:g}, over all {len(SPEEDS)} speeds and {len(FORCES)} loads: {ranges}.{failed}"
+    conditions = lossy.predicted.conditions
+    ratio = conditions.ratios[STIFFNESS]
+    return (
+        f"{lossy.loss.symbols}, over all {len(SPEEDS)} speeds and {len(FORCES)} loads: {ranges}; |G(v/a)|/G₀ "
+        f"{ratio.min():.2f} to {ratio.max():.2f}. {conditions.words}{failed}"
+    )
 
 
 def _legend(drawing):
     forms = [
-        Line2D([], [], color=colour, marker=marker, markersize=3, markerfacecolor="white", label=name)
-        for name, colour, marker in FORMS
+        Line2D([], [], color=colour, marker=marker, markersize=3, label=name) for name, colour, marker in FORMS
     ]
     speeds = [
         Line2D([], [], color="0.2", linestyle=line, label=f"{SPEEDS[speed]:.2g} m/s")

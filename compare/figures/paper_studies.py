@@ -22,12 +22,13 @@ NAME = "paper-studies"
 SHADES = LinearSegmentedColormap.from_list("hurst", colormaps["viridis"](np.linspace(0, 0.88, 256)))
 BETWEEN = Normalize(0, 1)
 MARKERS = ("o", "s", "^", "D", "v", "P")
-# What may still break in the last panel: name, colour, marker.
+# What may break in the last panel, where the macroscopic slope is divided out: name, colour, marker, filled.
 BROKEN = (
-    ("neither", "#0072B2", "o"),
-    ("2a > L", "#D55E00", "^"),
-    (f"ξ > {SLOW:g}", "#009E73", "s"),
-    ("both", "#000000", "x"),
+    ("none", "#0072B2", "o", True),
+    ("h₀ > d/10 alone", "#0072B2", "o", False),
+    ("2a > L", "#D55E00", "^", False),
+    (f"ξ > {SLOW:g}", "#009E73", "s", False),
+    ("both", "#000000", "D", False),
 )
 
 
@@ -53,7 +54,6 @@ def figure(collapse: Collapse) -> Figure | None:
 
 def sheets(collapse: Collapse) -> dict:
     """Every point with its regime and what holds there, and the fitted lines."""
-    regime = collapse.regime
     points = {
         "study": [STUDIES[study].name for study in collapse.study],
         "value": collapse.value,
@@ -61,12 +61,8 @@ def sheets(collapse: Collapse) -> dict:
         "xi": collapse.xi,
         "normalised_friction": collapse.friction,
         "normalised_friction_error": collapse.error,
-        "height_over_depth": regime.height_over_depth,
-        "contact_over_period": regime.contact_over_period,
-        "macro_over_rough": regime.macro_over_rough,
-        "rms_slope": regime.rms_slope,
+        **collapse.conditions.columns,
     }
-    points |= {f"holds: {name}": flag.astype(int) for name, flag in collapse.flags.items()}
     lines = [
         {
             "points": name,
@@ -88,7 +84,6 @@ def caption(collapse: Collapse) -> str:
     """What the figure shows."""
     known = np.isfinite(collapse.friction)
     scatter = np.nanmedian(collapse.error[known] / collapse.friction[known])
-    broken = ", ".join(f"{name} in {int(np.sum(~flag))}" for name, flag in collapse.flags.items())
     fits = " ".join(f"{name[0].upper()}{name[1:]}: {_said(fit)}." for name, fit in _lines(collapse).items())
     failed = (
         f" {collapse.failed} solves failed; means are over the others, and {int(np.sum(~known))} points without "
@@ -103,11 +98,12 @@ def caption(collapse: Collapse) -> str:
         "Eq. 18; lines: Eq. 17, μ̃ = ξ, and Eq. 19 with α = 1.5. Filled where the conditions of Eq. 17 hold, "
         "hollow where one breaks. (b) μ̃/ξ against the rms slope of the macroscopic profile over that of the "
         "roughness, r. Eq. 17 leaves the macroscopic slope out; with it, Eq. 10 gives 1 + r² (line). (c) What "
-        "is left once divided by it, against the rms height over the depth of the smooth contact; by whether "
-        f"the width 2a of that contact exceeds the longest wave L, or ξ exceeds {SLOW:g}; right of the dotted "
-        f"line the rms height is not much less than the depth. Conditions break, of {collapse.xi.size} points: "
-        f"{broken}; large slopes leave a point filled, since the model asks for small ones and the equations do "
-        f"not. {fits}{failed}"
+        "is left once divided by it, against the rms height over the depth of the smooth contact; by which of the "
+        f"other conditions break: the width 2a of that contact exceeds the longest wave L, ξ exceeds {SLOW:g}, "
+        "both do, or neither does and the rms height alone is not much less than the depth (right of the dotted "
+        f"line). {collapse.conditions.words} Large slopes leave a point filled: with heights, the slope of the "
+        "cone and the load times any number, friction is times that number exactly, so that the same points "
+        f"collapse at any slope. {fits}{failed}"
     )
 
 
@@ -142,11 +138,11 @@ def _points(axes: Axes, collapse, x, y):
             axes.scatter(
                 x[at],
                 y[at],
-                s=11,
+                s=9,
                 marker=marker,
                 facecolors=inside,
                 edgecolors=colours,
-                linewidths=0.6,
+                linewidths=0.35,
                 rasterized=True,
                 zorder=3 if filled else 2,
             )
@@ -155,8 +151,8 @@ def _points(axes: Axes, collapse, x, y):
 def _law(axes, collapse):
     _points(axes, collapse, collapse.xi, collapse.friction)
     xi = np.geomspace(collapse.xi.min(), collapse.xi.max(), 101)
-    axes.plot(xi, xi, color="black", linewidth=0.8, zorder=4, label=r"Eq. 17, $\tilde{\mu} = \xi$")
-    axes.plot(xi, interpolation(xi), "--", color="0.35", linewidth=0.9, zorder=4, label="Eq. 19, α = 1.5")
+    axes.plot(xi, xi, color="black", linewidth=0.6, zorder=1, label=r"Eq. 17, $\tilde{\mu} = \xi$")
+    axes.plot(xi, interpolation(xi), "--", color="0.35", linewidth=0.6, zorder=1, label="Eq. 19, α = 1.5")
     axes.set(xscale="log", yscale="log", xlabel=r"$\xi$ [1]", ylabel=r"$\tilde{\mu}$ [1]", title="(a)")
     style.span(axes, collapse.xi)
     axes.legend(loc="upper left", bbox_to_anchor=(0, 0.99))
@@ -180,18 +176,19 @@ def _slope(axes, collapse):
 
 def _rest(axes, collapse):
     rest = collapse.friction / (collapse.xi * collapse.with_macro_slope)
-    ratio, flags = collapse.regime.height_over_depth, collapse.flags
-    kind = ~flags["2a < L"] + 2 * ~flags["xi << 1"]
-    for number, (name, colour, marker) in enumerate(BROKEN):
+    ratio, flags = collapse.regime.height_over_depth, collapse.conditions.flags
+    kind = np.where(flags["h0 << d"], 0, 1)
+    for broken, number in (
+        (~flags["2a < L"], 2),
+        (~flags["xi << 1"], 3),
+        (~(flags["2a < L"] | flags["xi << 1"]), 4),
+    ):
+        kind[broken] = number
+    for number, (name, colour, marker, filled) in enumerate(BROKEN):
         at = (kind == number) & np.isfinite(rest)
-        if not at.any():
-            continue
-        look = (
-            {"facecolors": colour if number == 0 else "none", "edgecolors": colour}
-            if marker != "x"
-            else {"color": colour}
-        )
-        axes.scatter(ratio[at], rest[at], s=9, marker=marker, linewidths=0.6, label=name, rasterized=True, **look)
+        if at.any():
+            look = {"facecolors": colour if filled else "none", "edgecolors": colour, "linewidths": 0.5}
+            axes.scatter(ratio[at], rest[at], s=9, marker=marker, label=name, rasterized=True, **look)
     axes.axhline(1, color="black", linewidth=0.8, zorder=0)
     axes.axvline(MUCH_LESS_HEIGHT, color="0.4", linewidth=0.8, linestyle=":", zorder=0)
     axes.set(

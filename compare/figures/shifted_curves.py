@@ -1,40 +1,50 @@
 """Friction against load at many speeds, its master curve, and the shifts that make it (paper, Figs. 5 to 7)."""
 
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..mastercurve import shifted
+from ..paper.conditions import gathered
+from ..paper.predicted import STIFFNESS
 from ..paper.shifts import Shifted
 from ..wording import explain, explain_vertical, plus_minus
 from . import shades, style
 
 NAME = "shifted-curves"
 LOG10 = np.log(10)
+# Letters in a line of a title.
+TITLE = 34
+# Lines of what forms of Eq. 22 have for a shift, in the order in which they come.
+LAWS = (("#009E73", ":"), ("#0072B2", "-."))
 
 
 def figure(found: Sequence[Shifted]) -> Figure | None:
     """A row for each set of curves: as they are, shifted, and the shifts. None without any."""
     if not found:
         return None
-    drawing = style.canvas(style.DOUBLE, 0.55 + 2.0 * len(found))
+    drawing = style.canvas(style.DOUBLE, 0.55 + 2.1 * len(found))
     panels = drawing.subplots(len(found), 3, squeeze=False)
     every = np.concatenate([each.collapse.speeds for each in found])
     between = shades.between(every)
     for row, each in zip(panels, found, strict=True):
         result = each.collapse
         colours = shades.SPEED(between(result.speeds))
-        _curves(row[0], result, [curve.log_load for curve in result.curves], colours)
-        _curves(row[1], result, shifted(result), colours)
+        _curves(row[0], each, [curve.log_load for curve in result.curves], colours)
+        _curves(row[1], each, _abscissae(each), colours)
         _shifts(row[2], each, colours)
-        row[0].set(title=each.title, xlabel="normal force [N]", ylabel="friction coefficient [1]")
+        row[0].set_title(fill(each.title, TITLE))
+        row[1].set_title(fill(_verdict(each), TITLE), loc="right", fontsize=7, fontweight="normal")
+        row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]", ylim=row[0].get_ylim())
         row[2].set(xlabel="speed [m/s]", ylabel=r"log$_{10}$ of the shift [1]")
-        row[1].set_title(f"misfit {result.after.rms:.2%}", loc="right", fontsize=7, fontweight="normal")
         for axes in row:
             style.decades(axes)
+        for axis in (row[0].yaxis, row[1].yaxis, row[1].xaxis):
+            axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / len(found)}
     shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
     return drawing
@@ -45,7 +55,8 @@ def sheets(found: Sequence[Shifted]) -> dict[str, list[dict]]:
     points, shifts = [], []
     for each in found:
         result = each.collapse
-        for index, (curve, moved) in enumerate(zip(result.curves, shifted(result), strict=True)):
+        conditions = [at.columns for at in each.conditions] or [{}] * len(result.curves)
+        for index, (curve, moved) in enumerate(zip(result.curves, _abscissae(each), strict=True)):
             shifts.append(
                 {
                     "curves": each.title,
@@ -63,9 +74,10 @@ def sheets(found: Sequence[Shifted]) -> dict[str, list[dict]]:
                     "shifted_force": force,
                     "friction_coefficient": mu,
                     "friction_coefficient_error": error,
+                    **{name: column[point] for name, column in conditions[index].items()},
                 }
-                for load, force, mu, error in zip(
-                    np.exp(curve.log_load), np.exp(moved), friction, friction * curve.error, strict=True
+                for point, (load, force, mu, error) in enumerate(
+                    zip(np.exp(curve.log_load), np.exp(moved), friction, friction * curve.error, strict=True)
                 )
             )
     return {NAME: points, f"{NAME}-shifts": shifts} if points else {}
@@ -73,13 +85,38 @@ def sheets(found: Sequence[Shifted]) -> dict[str, list[dict]]:
 
 def caption(found: Sequence[Shifted]) -> str:
     """What the figure shows."""
+    parted = (
+        "curves as expected and no shift where only that demand stops them"
+        if any(each.expected is not None for each in found)
+        else "hollow and without errors where only that demand stops it"
+    )
     return (
         "Friction against normal force, a curve for each speed, by colour; the curves shifted along the force "
         "so as to come closest to one curve while neighbours overlap (Eq. 23); and the common logarithm of the "
-        "shift, p(v) over that of the reference speed, with standard errors, hollow and without errors where "
-        "only the demand for overlap stops it. Misfits are rms of ln μ, the scatter is the rms standard error "
-        "of ln μ. " + " ".join(map(_said, found))
+        f"shift, p(v) over that of the reference speed, with standard errors, {parted}. Misfits are rms of ln μ, "
+        f"the scatter is the rms standard error of ln μ. {' '.join(map(_said, found))}"
     )
+
+
+def _abscissae(each):
+    """ln F of each curve, shifted: as expected where the fit only pulls the curves apart."""
+    if not _parted(each):
+        return shifted(each.collapse)
+    by = each.expected * np.log(each.collapse.speeds / each.collapse.speeds[each.collapse.reference])
+    return [curve.log_load + shift for curve, shift in zip(each.collapse.curves, by, strict=True)]
+
+
+def _parted(each):
+    """Whether the fit says nothing of shifts of which something is expected."""
+    return each.expected is not None and not each.collapse.overlaps
+
+
+def _verdict(each):
+    result = each.collapse
+    if not _parted(each):
+        return f"{result.verdict}: misfit {result.after.rms:.2%}"
+    misfit = f", misfit {each.predicted.rms:.2%}" if np.isfinite(each.predicted.rms) else ""
+    return f"undecided: shifted as expected{misfit}"
 
 
 def _said(each):
@@ -94,43 +131,53 @@ def _said(each):
     fitted = plus_minus(result.exponent, each.exponent_error) if result.overlaps else "undecided"
     # Of a user's own table; simulated points share their profiles, and an expectation says what they are.
     vertical = f" {explain_vertical(each.vertical)}" if each.expected is None else ""
+    laws = "".join(f"; of Eq. 22, {name}, {_power(power)}" for name, power in each.laws.items())
     return (
         f"{each.title} ({len(result.curves)} speeds, {_points(result)} points, reference {reference}): "
         f"{result.verdict}; misfit {result.before.rms:.2%} as they are, {result.after.rms:.2%} shifted, scatter "
-        f"{scatter}; exponent of the speed {fitted}{expected}; {explain(result)}{vertical}"
+        f"{scatter}; exponent of the speed {fitted}{laws}{expected}; {explain(result)}{vertical}{_broken(each)}"
     )
+
+
+def _power(value):
+    return f"{value:.4f}" if np.isfinite(value) else "undecided"
+
+
+def _broken(each):
+    """Which conditions of the laws break."""
+    if not each.conditions:
+        return ""
+    together = gathered(each.conditions)
+    low, high = together.ratios[STIFFNESS].min(), together.ratios[STIFFNESS].max()
+    hollow = "" if together.holds.all() else " Points are hollow where one other than small slopes does."
+    return f" |G(v/a)|/G₀ is {low:.2f} to {high:.2f}. {together.words}{hollow}"
 
 
 def _points(result):
     return sum(curve.log_load.size for curve in result.curves)
 
 
-def _curves(axes: Axes, result, abscissae, colours):
-    for curve, x, colour in zip(result.curves, abscissae, colours, strict=True):
+def _curves(axes: Axes, each, abscissae, colours):
+    """Lines with error bars; points filled where the conditions of the laws hold, or none are known."""
+    for index, (curve, x, colour) in enumerate(zip(each.collapse.curves, abscissae, colours, strict=True)):
         mu = np.exp(curve.log_friction)
         error = np.nan_to_num(mu * curve.error)
-        axes.errorbar(
-            np.exp(x),
-            mu,
-            yerr=error,
-            color=colour,
-            marker=".",
-            markersize=2.5,
-            linewidth=0.6,
-            elinewidth=0.6,
-            capsize=0,
-        )
+        axes.errorbar(np.exp(x), mu, yerr=error, color=colour, linewidth=0.5, elinewidth=0.5, capsize=0)
+        holds = each.conditions[index].holds if each.conditions else np.ones(mu.size, bool)
+        for at, inside in ((holds, colour), (~holds, "white")):
+            axes.scatter(np.exp(x)[at], mu[at], s=4, c=[inside], edgecolors=[colour], linewidths=0.4, zorder=2.5)
     axes.set(xscale="log", yscale="log")
 
 
 def _shifts(axes, each, colours):
-    """Filled where the fit decides, hollow where it leaves no overlap."""
+    """Filled where the fit decides, hollow where it leaves no overlap; none where something else is expected."""
     result = each.collapse
     shifts, errors = result.shifts / LOG10, result.shift_errors / LOG10
     if result.overlaps:
         axes.errorbar(result.speeds, shifts, yerr=np.nan_to_num(errors), fmt="none", ecolor=colours, capsize=0)
-    inside = colours if result.overlaps else "white"
-    axes.scatter(result.speeds, shifts, s=10, facecolors=inside, edgecolors=colours, linewidths=0.9, zorder=2)
+    if not _parted(each):
+        inside = colours if result.overlaps else "white"
+        axes.scatter(result.speeds, shifts, s=10, facecolors=inside, edgecolors=colours, linewidths=0.9, zorder=2)
     decades = np.log10(result.speeds / result.speeds[result.reference])
     if result.overlaps:
         fitted = plus_minus(result.exponent, each.exponent_error)
@@ -153,8 +200,14 @@ def _shifts(axes, each, colours):
             zorder=3,
             label=f"expected {each.expected:.3g}",
         )
+    for (name, power), (colour, line) in zip(each.laws.items(), LAWS, strict=False):
+        if np.isfinite(power):
+            label = f"{name} {power:.4f}"
+            axes.plot(result.speeds, power * decades, line, color=colour, linewidth=0.9, zorder=4, label=label)
     axes.set(xscale="log")
     if axes.get_legend_handles_labels()[0]:
         low, high = axes.get_ylim()
-        axes.set_ylim(low, high + 0.35 * (high - low))
-        axes.legend(loc="upper right", fontsize=6.5)
+        axes.set_ylim(low, high + 0.5 * (high - low))
+        axes.legend(loc="upper right", fontsize=6, borderaxespad=0.1, handlelength=1.5)
+    if _parted(each):
+        axes.text(0.03, 0.05, "undecided", transform=axes.transAxes, fontsize=7)

@@ -9,7 +9,10 @@ import numpy as np
 from ..finding import verdict
 from ..resampling import interval, standard_error
 from .campaign import line
+from .conditions import gathered
 from .law import Law
+from .parameters import Loss
+from .predicted import CONSTANT, STIFFNESS
 from .reproduction import Reproduction
 from .shifts import Shifted
 
@@ -61,15 +64,16 @@ def claims(found: Reproduction) -> list[Claim]:
 def _slope_one(found) -> Iterator[Claim]:
     """Eq. 17: on all points, where its conditions hold, and with the macroscopic slope kept."""
     collapse = found.collapse
-    flags = collapse.flags
+    flags = collapse.conditions.flags
     slow = flags["xi << 1"] & flags["2a < L"] & flags["h0 << d"]
+    steepness = collapse.regime.rms_slope[collapse.holds]
     cases = (
         (
             "where its conditions hold",
             collapse.holds,
             1.0,
             "points with xi at most 0.05, h_0 at most d/10, 2a below L, and a macroscopic slope of at most a "
-            "fifth of that of the roughness",
+            f"fifth of that of the roughness. Small slopes are not among the conditions: {_slopes(steepness)}",
         ),
         (
             "whatever the macroscopic slope",
@@ -95,7 +99,7 @@ def _slope_one(found) -> Iterator[Claim]:
             value=fit.slope,
             low=fit.slope_interval[0],
             high=fit.slope_interval[1],
-            text=f"Exponent of a power law through {fit.points} {text}. Its factor is {fit.factor:.3f}, and the "
+            text=f"Exponent of a power law through {fit.points} {text}. The factor is {fit.factor:.3f}, and the "
             f"farthest point is off xi by {fit.worst:.2g} of it.",
         )
 
@@ -103,6 +107,7 @@ def _slope_one(found) -> Iterator[Claim]:
 def _alphas(found) -> Iterator[Claim]:
     for law in found.laws:
         worst = law.deviation[np.argmax(np.abs(law.deviation))]
+        criteria = ", ".join(f"{alpha:.3f} ({name})" for name, alpha in law.by_criterion.items())
         yield Claim(
             name=f"Eq. 19, best alpha, {law.shape}",
             figure="paper-law",
@@ -112,7 +117,8 @@ def _alphas(found) -> Iterator[Claim]:
             low=law.alpha_interval[0],
             high=law.alpha_interval[1],
             text=f"Least squares of ln mu over {law.xi.size} values of xi from {law.xi[0]:g} to {law.xi[-1]:g}. "
-            f"With alpha = 1.5 the law is at most {abs(worst):.1%} off.",
+            f"The interval is of the sampling of profiles alone; {law.left}. By what is made least alpha is "
+            f"{criteria}. With alpha = 1.5 the law is at most {abs(worst):.1%} off.",
         )
     one, other = found.laws
     count = min(one.alphas.size, other.alphas.size)
@@ -127,7 +133,9 @@ def _alphas(found) -> Iterator[Claim]:
         value=difference,
         low=low,
         high=high,
-        text="Difference of the two, on the same profiles.",
+        text="Difference of the two, on the same profiles. With every place of the contact taken for a rough "
+        f"plane pressed as deep as it is there, alpha is {one.planes_alpha:.2f} and {other.planes_alpha:.2f}: "
+        "places of a cone differ more in depth, and lose contact over a wider range of speeds.",
     )
 
 
@@ -146,23 +154,43 @@ def _plateaus(laws: tuple[Law, ...]) -> Iterator[Claim]:
         )
 
 
+def _slopes(steepness) -> str:
+    if not steepness.size:
+        return "no point is left"
+    return (
+        f"slopes are {steepness.min():.2g} to {steepness.max():.2g} here. With heights, the slope of the cone and "
+        "the load times any number, friction is times that number exactly: the same collapse holds at any slope"
+    )
+
+
 def _shifts(found) -> Iterator[Claim]:
-    for loss in found.losses:
-        for name, shifted in (("friction", loss.whole), ("friction less that of the smooth body", loss.rough)):
-            yield _exponent(loss.exponent, name, shifted)
+    for lossy in found.losses:
+        for name, shifted in (("friction", lossy.whole), ("friction less that of the smooth body", lossy.rough)):
+            yield _exponent(lossy.loss, name, shifted)
 
 
-def _exponent(exponent, name, shifted: Shifted) -> Claim:
+def _exponent(loss: Loss, name: str, shifted: Shifted) -> Claim:
     collapse = shifted.collapse
     low, high = shifted.exponent_interval
     return Claim(
-        name=f"Fig. 7, shift of {name} as a power of the speed, loss ~ frequency^{exponent:g}",
-        figure=f"shifted-curves-{exponent:g}",
+        name=f"Fig. 7, shift of {name} as a power of the speed, loss ~ frequency^{loss.exponent:g}, "
+        f"tau = {loss.relaxation_time:g} s",
+        figure=f"shifted-curves{loss.suffix}",
         expected=shifted.expected,
         tolerance=0.05 * abs(shifted.expected),
         value=collapse.exponent if collapse.overlaps else nan,
         low=low,
         high=high,
         text=f"Eq. 23: horizontal shifts that collapse the curves: {collapse.verdict}. They miss one another by "
-        f"{collapse.after.rms:.1%} with the scatter of the points at {collapse.scatter:.1%}.",
+        f"{collapse.after.rms:.1%} with the scatter of the points at {collapse.scatter:.1%}. {_modulus(shifted)}",
+    )
+
+
+def _modulus(shifted: Shifted) -> str:
+    """Whether the assumption of a constant macroscopic modulus is kept."""
+    ratio = gathered(shifted.conditions).ratios[STIFFNESS]
+    kept = "is constant within a tenth, as" if ratio.max() <= CONSTANT else "is not constant, which"
+    return (
+        f"On the scale of the contact the modulus, G(v/a) in magnitude, is {ratio.min():.2f} to {ratio.max():.2f} "
+        f"times G_0: it {kept} the paper presupposes."
     )

@@ -21,19 +21,47 @@ SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SHAPES = {"cone": Cone(angle=radians(10)), "sphere": Sphere(radius=1e-2)}
 HURST = tuple(k / 10 for k in range(11))
 
-# Fig. 1: load and speed, and the Hurst exponent of each contact.
+# Fig. 1: load and speed, and of each contact the Hurst exponent and the profile.
 CONTACT = Slide(speed=0.1, load=1.0)
 CONTACT_HURST = {"cone": 0.1, "sphere": 0.2}
+CONTACT_SEED = {"cone": 1, "sphere": 2}
 # Fig. 3 and Fig. 4: the load; slow enough that a viscous layer of a few pixels is remembered.
 LOAD, LOW_SPEED = 10.0, 1e-3
 
-# Figs. 5 to 7: as many speeds as in the experiment, in its range, on the sphere and the rubber of Fig. 4 with a
+# Figs. 5 to 7: as many speeds as in the experiment, in its range, on the sphere and the modulus of Fig. 4 with a
 # loss that is a power of frequency; rougher at short waves: every force lies in the regime of the laws.
 FORCES = tuple(float(f) for f in np.geomspace(2, 50, 10))
 SPEEDS = tuple(float(v) for v in np.geomspace(5e-4, 0.58, 28))
 LOSS_ROUGH = SelfAffine(hurst=0.2, rms_height=2e-5, longest=LENGTH)
-LOSS_EXPONENTS = (0.1, 0.5)
 LOSS_PROFILES = 24
+
+
+@dataclass(frozen=True)
+class Loss:
+    """A rubber of Figs. 5 to 7, G = G_0 (1 + (i omega tau)^beta): the exponent beta and the time tau [s]."""
+
+    exponent: float
+    relaxation_time: float
+
+    @property
+    def symbols(self) -> str:
+        """With Greek letters."""
+        return f"β = {self.exponent:g}, τ = {self.relaxation_time:g} s"
+
+    @property
+    def suffix(self) -> str:
+        """Of the names of files."""
+        return f"-{self.exponent:g}-{self.relaxation_time:g}"
+
+
+# With the time of Fig. 4 the modulus, which the paper takes for constant, grows with the speed on the scale of the
+# contact too; with the shorter one it grows by less than a tenth there.
+LOSSES = (
+    Loss(0.1, SOLID.relaxation_time),
+    Loss(0.1, 1e-14),
+    Loss(0.5, SOLID.relaxation_time),
+    Loss(0.5, 1e-5),
+)
 
 
 @dataclass(frozen=True)
@@ -93,17 +121,17 @@ def varied(study: Study, value: float, hurst: float) -> tuple[Scene, int]:
 
 def contact(shape: str) -> Scene:
     """A contact of Fig. 1."""
-    rough = replace(ROUGH, hurst=CONTACT_HURST[shape], seed=1)
+    rough = replace(ROUGH, hurst=CONTACT_HURST[shape], seed=CONTACT_SEED[shape])
     return Scene(SHAPES[shape], SOLID, CONTACT, rough)
 
 
-def lossy(exponent: float, load: float, speed: float) -> Scene:
-    """A point of Figs. 5 to 7: loss G'' ~ omega^exponent, Eq. 24, over all frequencies that the profile has."""
+def lossy(loss: Loss, load: float, speed: float) -> Scene:
+    """A point of Figs. 5 to 7: loss G'' ~ omega^beta, Eq. 24, over all frequencies that the profile has."""
     lowest, highest = SPEEDS[0] / LENGTH, SPEEDS[-1] * np.pi * POINTS / LENGTH
     solid = Fractional(
         modulus=SOLID.modulus,
-        relaxation_time=SOLID.relaxation_time,
-        exponent=exponent,
+        relaxation_time=loss.relaxation_time,
+        exponent=loss.exponent,
         lowest_frequency=lowest,
         highest_frequency=float(highest),
         tolerance=1e-2,

@@ -50,8 +50,8 @@ def figures(folder: Path, found: Reproduction) -> list[Drawn]:
         draw(folder, paper_studies, found.collapse),
         draw(folder, paper_law, found.laws),
         *(
-            draw(folder, shifted_curves, [loss.whole, loss.rough], suffix=f"-{loss.exponent:g}")
-            for loss in found.losses
+            draw(folder, shifted_curves, [lossy.whole, lossy.rough], suffix=lossy.loss.suffix)
+            for lossy in found.losses
         ),
         draw(folder, paper_losses, found.losses),
     ]

@@ -16,7 +16,7 @@ class Reproduction:
     contacts : of Fig. 1, by shape
     collapse : of Fig. 3
     laws : of Fig. 4, one a shape
-    losses : of Figs. 5 to 7, one an exponent of the loss
+    losses : of Figs. 5 to 7, one a rubber
     """
 
     contacts: Mapping[str, contacts.Configuration]
@@ -56,7 +56,7 @@ def tasks(size: Size) -> list[Task]:
         *(contacts.task(shape) for shape in parameters.SHAPES),
         *campaign.blocks(size.studies),
         *(task for shape in parameters.SHAPES for task in law.tasks(shape, size.profiles)),
-        *(task for exponent in parameters.LOSS_EXPONENTS for task in shifts.tasks(exponent, size.lossy)),
+        *(task for loss in parameters.LOSSES for task in shifts.tasks(loss, size.lossy)),
     ]
 
 
@@ -66,8 +66,5 @@ def collect(size: Size, outcomes: Mapping[Task, Outcome]) -> Reproduction:
         contacts={shape: contacts.collect(shape, outcomes) for shape in parameters.SHAPES},
         collapse=campaign.collect(size.studies, outcomes),
         laws=tuple(law.collect(shape, law.tasks(shape, size.profiles), outcomes) for shape in parameters.SHAPES),
-        losses=tuple(
-            shifts.collect(exponent, shifts.tasks(exponent, size.lossy), outcomes)
-            for exponent in parameters.LOSS_EXPONENTS
-        ),
+        losses=tuple(shifts.collect(loss, shifts.tasks(loss, size.lossy), outcomes) for loss in parameters.LOSSES),
     )

@@ -5,14 +5,13 @@ frequency, Eq. 24, or comes from a user's own table of friction, load and speed:
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import nan
 
 import numpy as np
 
-from mdr1d import MDR, amplitudes, draw, equations
-from scene import Regime, Scene
-from scene.scales import elastic_contact
+from mdr1d import MDR, equations
+from scene import Scene
 
 from .. import mastercurve
 from ..commoncurve import Curve, Misfit
@@ -22,6 +21,9 @@ from ..store import Task as AnyTask
 from ..study import Task
 from ..vertical import Vertical, vertical_shifts
 from . import parameters
+from .conditions import Conditions
+from .parameters import Loss
+from .predicted import EVERY, SHORTEST, WITH_SMOOTH, Predicted, predict
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,8 @@ class Shifted:
     predicted : misfit of the curves once shifted by it
     vertical : what vertical shifts achieve beside the horizontal ones; None where points are too few for both, or
         not independent, as simulated ones on the same profiles
+    conditions : of the points of each curve; empty where they are not known
+    laws : exponents that the forms of Eq. 22 for such friction have of their own, by name
     """
 
     title: str
@@ -46,6 +50,8 @@ class Shifted:
     expected: float | None = None
     predicted: Misfit | None = None
     vertical: Vertical | None = None
+    conditions: tuple[Conditions, ...] = ()
+    laws: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def measured(cls, title: str, curves: Sequence[Curve]) -> "Shifted":
@@ -60,8 +66,13 @@ class Shifted:
         return cls(title, collapse, error, within, vertical=vertical)
 
     @classmethod
-    def simulated(cls, title: str, friction: np.ndarray, expected: float) -> "Shifted":
-        """Shift curves of friction (speeds, loads, profiles) at the speeds and forces of parameters."""
+    def simulated(
+        cls, title: str, friction: np.ndarray, expected: float, conditions: Conditions, laws: Mapping[str, float]
+    ) -> "Shifted":
+        """Shift curves of friction (speeds, loads, profiles) at the speeds and forces of parameters.
+
+        conditions : of arrays (speeds, loads)
+        """
         collapse = mastercurve.collapse(_curves(friction))
         error = nan
         if np.isfinite(collapse.exponent_error) and friction.shape[2] > 2:
@@ -69,41 +80,51 @@ class Shifted:
             without = [mastercurve.collapse(_curves(np.delete(friction, k, axis=2))).exponent for k in left_out]
             error = float(standard_error(np.array(without)))
         within = interval(collapse.exponent, error, friction.shape[2] - 1)
-        return cls(title, collapse, error, within, expected, mastercurve.misfit_at(collapse, expected))
+        return cls(
+            title,
+            collapse,
+            error,
+            within,
+            expected,
+            mastercurve.misfit_at(collapse, expected),
+            conditions=tuple(conditions.at((i, row > 0)) for i, row in enumerate(friction.mean(axis=2))),
+            laws=laws,
+        )
 
 
 @dataclass(frozen=True)
 class Lossy:
-    """One exponent of the loss; arrays (speeds, loads) unless stated.
+    """One rubber; arrays (speeds, loads) unless stated.
 
-    exponent : beta of Eq. 24
+    loss : its exponent and time
     whole, rough : friction, and what of it is left without that of the smooth body at the same load and speed
     smooth : mu of the smooth body
-    one_frequency, spectral : mu of Eq. 22 with the loss at the shortest wave, and with that of every wave at its
-        own frequency; both leave out the macroscopic slope
-    regime : of each load, arrays (loads,)
+    predicted : what the laws say
     failed : solves without an answer; their profiles are left out everywhere
     """
 
-    exponent: float
+    loss: Loss
     whole: Shifted
     rough: Shifted
     smooth: np.ndarray
-    one_frequency: np.ndarray
-    spectral: np.ndarray
-    regime: Regime
+    predicted: Predicted
     failed: int
 
+    @property
+    def forms(self) -> dict[str, np.ndarray]:
+        """mu of each form of Eq. 22, by name; the last adds the simulated friction of the smooth body."""
+        return self.predicted.forms(self.smooth)
 
-def tasks(exponent: float, profiles: int = parameters.LOSS_PROFILES) -> list[Task]:
-    """The tasks for one exponent: of the rough profiles at each speed and load, then of the smooth body."""
-    scenes = [parameters.lossy(exponent, load, speed) for speed in parameters.SPEEDS for load in parameters.FORCES]
+
+def tasks(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> list[Task]:
+    """The tasks for one rubber: of the rough profiles at each speed and load, then of the smooth body."""
+    scenes = [parameters.lossy(loss, load, speed) for speed in parameters.SPEEDS for load in parameters.FORCES]
     solver = MDR(points=parameters.POINTS)
     modes = scenes[0].elastomer.relaxation()[2].size
-    rough = [
-        Task(solver, _drawn(scene, profiles), work=profiles * parameters.POINTS * 15.0 * modes) for scene in scenes
-    ]
-    smooth = [Task(solver, (replace(scene, roughness=None),), work=parameters.POINTS * 15.0) for scene in scenes]
+    # As measured: a mode costs a tenth of all else.
+    work = parameters.POINTS * 15.0 * (1 + modes / 10)
+    rough = [Task(solver, _drawn(scene, profiles), work=profiles * work) for scene in scenes]
+    smooth = [Task(solver, (replace(scene, roughness=None),), work=work) for scene in scenes]
     return rough + smooth
 
 
@@ -112,60 +133,43 @@ def _drawn(scene: Scene, profiles: int) -> tuple[Scene, ...]:
     return tuple(replace(scene, roughness=replace(rough, seed=seed)) for seed in range(profiles))
 
 
-def collect(exponent: float, found: Sequence[Task], outcomes: Mapping[AnyTask, Outcome]) -> Lossy:
-    """Put the tasks of one exponent together."""
+def collect(loss: Loss, found: Sequence[Task], outcomes: Mapping[AnyTask, Outcome]) -> Lossy:
+    """Put the tasks of one rubber together."""
     rows = [[row.friction_coefficient for row in outcomes[task].rows] for task in found]
     shape = len(parameters.SPEEDS), len(parameters.FORCES), -1
     friction = np.array(rows[: len(rows) // 2]).reshape(shape)
     smooth = np.array(rows[len(rows) // 2 :]).reshape(shape)
     known = friction[:, :, np.isfinite(friction).all(axis=(0, 1))]
-    expected = equations.force_shift_exponent(exponent, parameters.lossy(exponent, 1.0, 1.0).indenter.exponent)
-    one_frequency, spectral, regime = _predicted(exponent)
+    expected = equations.force_shift_exponent(loss.exponent, parameters.lossy(loss, 1.0, 1.0).indenter.exponent)
+    predicted = predict(loss)
+    laws = {name: _own_exponent(form) for name, form in predicted.forms(smooth[:, :, 0]).items()}
+
+    def shift(title, of, *comparable):
+        own = {name: laws[name] for name in comparable}
+        return Shifted.simulated(f"{loss.symbols}, {title}", of, expected, predicted.conditions, own)
+
     return Lossy(
-        exponent=exponent,
-        whole=Shifted.simulated(f"β = {exponent:g}, whole friction", known, expected),
-        rough=Shifted.simulated(f"β = {exponent:g}, less that of the smooth body", known - smooth, expected),
+        loss=loss,
+        whole=shift("whole friction", known, WITH_SMOOTH),
+        rough=shift("less that of the smooth body", known - smooth, SHORTEST, EVERY),
         smooth=smooth[:, :, 0],
-        one_frequency=one_frequency,
-        spectral=spectral,
-        regime=regime,
+        predicted=predicted,
         failed=sum(row.reason is not None for task in found for row in outcomes[task].rows),
     )
 
 
+def _own_exponent(friction):
+    """Of the shifts that bring curves of a law (speeds, loads) closest to one; NaN where they part."""
+    found = mastercurve.collapse(_curves(friction[:, :, None]))
+    return found.exponent if found.overlaps else nan
+
+
 def _curves(friction):
-    """Means over the profiles, of points that have friction left."""
-    mean = friction.mean(axis=2)
-    error = friction.std(axis=2, ddof=1) / np.sqrt(friction.shape[2])
+    """Means over the profiles, of points that have friction left; one alone has no scatter."""
+    mean, count = friction.mean(axis=2), friction.shape[2]
+    error = friction.std(axis=2, ddof=1) / np.sqrt(count) if count > 1 else np.full(mean.shape, nan)
     logs = np.log(parameters.FORCES)
     return [
         Curve(speed, logs[mu > 0], np.log(mu[mu > 0]), (deviation / mu)[mu > 0])
         for speed, mu, deviation in zip(parameters.SPEEDS, mean, error, strict=True)
     ]
-
-
-def _predicted(exponent):
-    """mu of Eq. 22 in both forms, and the regime of each load."""
-    speeds, loads = np.array(parameters.SPEEDS)[:, None], np.array(parameters.FORCES)
-    scene = parameters.lossy(exponent, 1.0, 1.0)
-    solid, body, rough = scene.elastomer, scene.indenter, scene.roughness
-    c, n = body.mdr_coefficient, body.exponent
-    surface = draw(rough, parameters.POINTS)
-    slope, highest = surface.rms_slope, np.pi / surface.pixel
-    contacts = [
-        elastic_contact(replace(scene, motion=replace(scene.motion, load=load))) for load in loads.tolist()
-    ]
-    radius, depth = (np.array([getattr(at, name) for at in contacts]) for name in ("radius", "depth"))
-
-    def loss(omega):
-        return solid.complex_modulus(omega).imag
-
-    one = equations.general_friction(loads, solid.modulus, loss, highest, speeds, slope, c, n)
-    waves = amplitudes(rough, highest / rough.q_min)
-    q = rough.q_min * np.arange(1, waves.size + 1)
-    # A profile that is linear between nodes has of each wave the slope that finite differences see.
-    seen = waves * np.sinc(q * surface.pixel / (2 * np.pi))
-    slow = equations.wave_force(loss, q, seen, speeds, 2 * radius) / loads
-    plateau = equations.plateau(slope)
-    spectral = plateau * equations.interpolation(slow / plateau)
-    return one, spectral, Regime.of((c, n), (radius, depth), rough.rms_height, rough.longest, slope)

@@ -62,9 +62,9 @@ def _no_programs(size):
             ("load and depth", "one and the same"),
         ),
         "a duration of 0": (({"duration": 0.0, "load": 1.0},), ("duration", "greater than 0")),
-        "a speed backwards": (
-            ({"duration": 1.0, "speed": -1.0, "load": 1.0},),
-            ("speed", "-1", "greater than or equal to 0"),
+        "an oscillation into the air": (
+            ({"duration": 1.0, "load": 1.0, "amplitude": 2.0, "frequency": 3.0},),
+            ("amplitude", "2 N", "give less of it"),
         ),
         "a pull": (({"duration": 1.0, "load": -1.0},), ("load", "-1", "greater than or equal to 0")),
     }
@@ -96,7 +96,7 @@ CASES = (
     ),
     case(
         "no-programs",
-        "Programs without stages, without load, of two quantities, backwards in time or place.",
+        "Programs without stages, without load, of two quantities, backwards in time, below zero.",
         "Refused: each error names the field, the value and what is allowed.",
         _no_programs,
     ),

@@ -78,10 +78,11 @@ def laws(solved: Solved, solver: str) -> Laws | None:
     c, n = body.mdr_coefficient, body.exponent
     slope = float(np.nanmean(answers.measures["rms_slope"]))
     highest = rough.q_max(float(np.nanmean(answers.measures["pixel"])))
+    # The paper's laws are written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
     modulus = solid.indentation_modulus / 4
 
     def loss(omega):
-        return solid.complex_modulus(omega).imag
+        return modulus / solid.static_modulus * solid.complex_modulus(omega).imag
 
     load = mean_ratio(answers.normal_force).value
     if series.pressed_by == "load":

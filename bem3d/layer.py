@@ -1,0 +1,193 @@
+"""The elastomer is a layer on a rigid base: kernels and waves of its surface, and the term of a scene.
+
+Lengths are in pixels and pressures in units of the relaxed E*, as in `influence`. A kernel is that of a half-space
+less what the base takes off, smooth on the scale of the thickness; beyond REACH thicknesses it is zero.
+
+A grid does not show how the pressure varies within a layer thinner than a pixel. To it such a layer is a bed of
+springs, coupled by the next order in q h: its kernel is that of a layer a pixel thick, scaled, and springs that
+make up for what this is short of.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from scene import Layer, Plan, Plane, Scene
+from scene.plan import Array, Kernel
+
+from . import influence
+from .grid import Grid
+from .layerwaves import PIECES, REACH, Base, Bonded, Frictionless, taking
+from .term import Term
+
+MEAN = 1e13  # over the thickness: one over the error of the mean over a pixel of what the base takes off
+WAVE = 16  # pixels, of the wave by which a grid is judged
+FALSIFIED = 1e-2  # of the displacement by that wave: what pixels may add
+ALIKE = 100  # waves of a pixel and less, of either sign, that look like it
+ENOUGH = 1.6  # pixels to the thickness with which every layer is shown
+
+
+@dataclass(frozen=True)
+class Layered:
+    """The elastomer is a layer: thickness [m], base. Far from a load the surface stays: lines need no datum."""
+
+    thickness: float
+    base: Base
+
+    @classmethod
+    def of(cls, layer: Layer, poisson_ratio: float) -> "Layered":
+        """As a scene states it."""
+        return cls(layer.thickness, Bonded(poisson_ratio) if layer.base == "bonded" else Frictionless())
+
+    def elastic(self, grid):
+        return influence.elastic(*grid.shape[::-1], displacement=self.by_pixel(grid.pixel))
+
+    def flowing(self, grid, instantaneous, shares, lengths, shift):
+        kernel = self.by_pixel(grid.pixel)
+        return influence.flowing(*grid.shape[::-1], instantaneous, shares, lengths, shift, kernel)
+
+    def line(self, grid):
+        return influence.elastic(grid.points, 1, displacement=self.by_strip(grid.pixel))
+
+    def line_flowing(self, grid, instantaneous, shares, lengths, shift):
+        kernel = self.by_strip(grid.pixel)
+        return influence.flowing(grid.points, 1, instantaneous, shares, lengths, shift, kernel)
+
+    def compliance(self, q, pixel):
+        return 2 / q * self.base.yields(q * (self.thickness / pixel))
+
+    def stiffness(self, q, pixel):
+        return q / 2 / self.base.yields(q * (self.thickness / pixel))
+
+    def by_pixel(self, pixel: float) -> influence.Displacement:
+        """Displacement by a loaded pixel [m], as `influence.by_pixel`."""
+        return _shown(ByPixel, self.base, self.thickness / pixel)
+
+    def by_strip(self, pixel: float) -> influence.Displacement:
+        """Displacement by a loaded strip as wide as a pixel [m], in the first and only row."""
+        return _shown(ByStrip, self.base, self.thickness / pixel)
+
+    def falsified(self, pixel: float) -> float:
+        """What pixels [m] of a free surface add to the displacement by a wave of WAVE of them, relative to it.
+
+        A pressure that is constant on pixels has waves of a pixel and less, which at the pixels' centres look like
+        the wave itself. The long waves of an incompressible bonded layer hardly displace it, but those do.
+        """
+        q, thickness = 2 * np.pi / WAVE, self.thickness / pixel
+        order = np.delete(np.arange(-ALIKE, ALIKE + 1), ALIKE)
+        alike = q + 2 * np.pi * order
+        added = (-1.0) ** order * q / alike / np.abs(alike) * self.base.yields(np.abs(alike) * max(thickness, 1.0))
+        return float(abs(min(thickness, 1.0) ** 3 * added.sum() * q / self.base.yields(q * thickness)))
+
+
+def unresolved(scene: Scene, grid: Grid) -> list[str]:
+    """Why a grid on the free surface of a layer falsifies it, if it does."""
+    if Layered.of(scene.layer, scene.solid.poisson_ratio).falsified(grid.pixel) <= FALSIFIED:
+        return []
+    return [
+        f"layer.thickness = {scene.layer.thickness:g} m of nu = {scene.solid.poisson_ratio:g} is too thin for "
+        f"pixels of {grid.pixel:g} m: a layer that hardly yields to an even pressure has to be resolved; points = "
+        f"{int(np.ceil(ENOUGH * grid.extent / scene.layer.thickness))} would do"
+    ]
+
+
+def _shown(kind, base, thickness):
+    if thickness >= 1:
+        return kind(base, thickness)
+    return Thin(kind(base, 1.0), thickness)
+
+
+@dataclass(frozen=True)
+class ByPixel:
+    """Displacement by a loaded pixel, of a layer no thinner than it; thickness [pixel]."""
+
+    base: Base
+    thickness: float
+
+    def __call__(self, x, s, ny):
+        """At x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
+        reach, (x, s) = _reach(self.thickness), np.broadcast_arrays(x, s)
+        out, seen = np.zeros((*x.shape, ny)), np.abs(x - s) < reach
+        rows = int(min(ny, reach + 1))
+        if seen.any():
+            x, s, y = x[seen], s[seen], np.arange(rows)
+            values = influence.by_pixel(x, s, rows) - self._taken((x - s)[:, None], y) / np.pi / self.thickness
+            out[seen, :rows] = np.where(np.hypot((x - s)[:, None], y) < reach, values, 0.0)
+        return out
+
+    def _taken(self, x, y):
+        """Mean over the pixel, in thicknesses."""
+        nodes, table = list(zip(*_over_pixel(self.thickness), strict=True)), taking(self.base).from_point
+        squares = [((y + v) / self.thickness) ** 2 for v, _ in nodes]
+        total = np.zeros((len(x), len(y)))
+        for u, along in nodes:
+            square = ((x + u) / self.thickness) ** 2
+            for aside, (_, across) in zip(squares, nodes, strict=True):
+                distance = square + aside
+                total += along * across * table(np.sqrt(distance, out=distance))
+        return total
+
+
+@dataclass(frozen=True)
+class ByStrip:
+    """Displacement by a loaded strip, of a layer no thinner than it is wide; thickness [pixel]."""
+
+    base: Base
+    thickness: float
+
+    def __call__(self, x, s, ny):
+        """At x - s: its shape, then (1,)."""
+        x = x - s
+        return np.where(np.abs(x) < _reach(self.thickness), 2 / np.pi * self._left(x), 0.0)[..., None]
+
+    def _left(self, x):
+        table = taking(self.base).from_line
+        nodes = zip(*_over_pixel(self.thickness), strict=True)
+        taken = sum(w * table(np.minimum(np.abs(x + u) / self.thickness, REACH)) for u, w in nodes)
+        return np.log(self.thickness) - influence.mean_log(x) - taken
+
+
+@dataclass(frozen=True)
+class Thin:
+    """A layer thinner than a pixel: thickness [pixel] below one. shown : displacement on one a pixel thick.
+
+    Waves much longer than a pixel displace it as they should, to the order of (q h)^3.
+    """
+
+    shown: ByPixel | ByStrip
+    thickness: float
+
+    def __call__(self, x, s, ny):
+        """As that of a thicker one."""
+        out = self.thickness**3 * self.shown(x, s, ny)
+        springs = 2 * self.shown.base.springs * (self.thickness - self.thickness**3)
+        out[..., 0] += springs * (np.sign(0.5 - np.abs(x - s)) + 1) / 2
+        return out
+
+
+def _reach(thickness):
+    """Of a pixel all parts of which are within REACH [pixel]."""
+    return REACH * thickness - 1
+
+
+def _over_pixel(thickness):
+    """Gauss nodes (n,) on a pixel and weights: what the base takes off is singular two thicknesses aside."""
+    count = int(np.ceil(np.log(max(MEAN / thickness, 1.0)) / (2 * np.arcsinh(4 * thickness))))
+    x, w = np.polynomial.legendre.leggauss(max(count, 1))
+    return x / 2, w / 2
+
+
+class LayerTerm(Term):
+    """The thickness enters the response, and nothing else."""
+
+    def medium(self, medium, scene: Scene):
+        """The same surface, of a layer."""
+        return replace(medium, ground=Layered.of(self.part, scene.solid.poisson_ratio))
+
+    def planned(self, plan: Plan, scene: Scene) -> Plan:
+        """With the table of what the base takes off; on a surface that repeats each wave has a factor."""
+        if isinstance(scene.indenter, Plane):
+            return plan
+        table = Array("what the base takes off", PIECES)
+        kernel = Kernel(table.name, "table", table.shape)
+        return replace(plan, kernels=(*plan.kernels, kernel), arrays=(*plan.arrays, table))

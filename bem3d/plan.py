@@ -1,0 +1,192 @@
+"""What this solver would do about a scene: grids and kernels as `Problem` builds them, costs by the ladder."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from scene import Indent, Measured, Plane, Program, Scene, SelfAffine, Slide
+from scene.costs import expected, not_known
+from scene.heightmap import Scanned
+from scene.indenter import Axisymmetric
+from scene.plan import Array, Kernel, Modes, Plan, absent, by
+from scene.scales import elastic_contact
+from scene.terms import terms_of
+from scene.viscoelastic import Linear
+
+from . import window
+from .accuracy import typical
+from .arrays import as_drawn, engine_of, in_contact, laying_out, of_roughness, padded, product
+from .grid import Grid
+from .marching import PLACES
+from .problem import COARSEST, row_width
+from .sliding import Flow
+from .timeline import timeline
+from .upstream import wider_grids
+
+EFFECTS = Path(__file__).with_name("effects.csv")
+# What the ladder is made of. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
+IN_THE_LADDER = (Axisymmetric, Plane, Linear, Indent, Slide, SelfAffine)
+LADDER = "medians of solves to 1e-7 on the machine where the ladder was measured"
+ABSENT = {
+    "roughness": "no spectrum, and nothing is drawn on top of the indenter",
+    "layer": "the kernel is that of a half-space: no table and no thickness",
+    "temperature": "times are as stated: none is shifted",
+    "heating": "nothing gets warmer: no temperature is sought",
+    "interface": "no tangential kernels and no tractions: all friction is loss in the elastomer",
+}
+NO_MARCH = "no steps, and nothing is remembered from one to the next"
+NO_FLOW = "real kernels, conjugate gradients instead of GMRES, no kernels of loss"
+NO_MAP = "no map of heights is read, levelled or turned into waves"
+NO_MODES = "the solid is elastic: it has none"
+
+
+def plan_of(solver, scene: Scene) -> Plan:
+    """What a BEM would simulate. Nothing is solved: where a window has to be found, its size is an estimate."""
+    terms, shape = terms_of(solver.terms, scene), _shape(solver, scene)
+    flow = Flow.of(scene.solid, 0.0 if isinstance(scene.motion, Program) else scene.motion.speed)
+    march = _March(solver, scene) if isinstance(scene.motion, Program) else None
+    times = scene.solid.retardation()[2]
+    moving = march is not None or not flow.at_rest
+    found = Plan(
+        solver=solver.name,
+        settings=f"{solver.points} points a side, tolerance {solver.tolerance:g}, {solver.precision} precision, "
+        f"{solver.transforms}",
+        terms={term.field: term.says for term in terms},
+        method=_method(scene, flow, march),
+        shape=shape,
+        grids=(*_grids(solver, scene, march),),
+        kernels=(*_kernels(scene, flow, shape), *(march.kernels if march else ())),
+        modes=Modes.of(times if moving else ()),
+        arrays=_held(solver, scene, flow, shape, march),
+        steps=march.steps if march else 0,
+        **_expected(scene, shape, march),
+        left_out=_left_out(scene, flow, march),
+    )
+    for term in terms:
+        found = term.planned(found, scene)
+    return found
+
+
+def _shape(solver, scene):
+    return (1 if row_width(scene) else solver.points), solver.points
+
+
+class _March:
+    """What a program adds to a contact: steps, and sheets that follow the material around the window."""
+
+    def __init__(self, solver, scene):
+        program, extent = scene.motion, _extent(solver, scene)
+        self.grid = Grid(solver.points, extent, width=row_width(scene))
+        self.steps = len(timeline(program, self.grid.pixel, solver.steps)) - 1
+        self.modes = len(scene.solid.retardation()[2])
+        self.moves = any(stage.speed for stage in program.stages)
+        repeats = isinstance(scene.indenter, Plane)
+        self.sheets = [] if repeats or not self.modes else wider_grids(self.grid, program.span)
+        self.kernels = [
+            Kernel(f"response, sheet {k}", "kernel", (sheet.rows, 2 * sheet.points))
+            for k, sheet in enumerate(self.sheets, 1)
+        ]
+
+    def arrays(self, engine):
+        """What it holds beside the contact of a step."""
+        places = PLACES if self.moves else 1
+        yield Array("modes in the window", (self.modes, *self.grid.shape))
+        yield Array("heights and slopes at places within a pixel", (2 * places, *self.grid.shape))
+        for k, sheet in enumerate(self.sheets, 1):
+            yield Array(f"modes on sheet {k}", (self.modes, *sheet.shape))
+            yield from product(engine, f"response, sheet {k}", sheet.shape, padded(engine, sheet.shape), real=True)
+
+
+def _extent(solver, scene):
+    """Of the window [m]: the period, as stated, all of a map, or about that of the smooth relaxed contact."""
+    if isinstance(scene.indenter, Plane):
+        return scene.roughness.period
+    if solver.extent is not None:
+        return solver.extent
+    if isinstance(scene.indenter, Measured):
+        return scene.indenter.side
+    held = replace(scene, motion=scene.motion.held) if isinstance(scene.motion, Program) else scene
+    return 2 * window.MARGIN * elastic_contact(held).radius
+
+
+def _method(scene, flow, march):
+    if march:
+        return "marching: a contact a step, by conjugate gradients on sets of contact"
+    if flow.at_rest:
+        return "one contact at rest: conjugate gradients on sets of contact"
+    inner = "elimination" if row_width(scene) else "GMRES"
+    return f"one contact in steady flow: {inner} on sets of contact"
+
+
+def _grids(solver, scene, march):
+    """In words: where the window is sought, the way from coarse to fine, and what is followed beside it."""
+    fixed = isinstance(scene.indenter, Plane) or solver.extent is not None
+    if not fixed:
+        coarse = min(solver.points, window.COARSE)
+        yield f"{coarse} points a side, to find a window, of about {_extent(solver, scene):.2g} m"
+    if march is None:
+        coarser = [solver.points]
+        while coarser[-1] >= 2 * COARSEST:
+            coarser.append((coarser[-1] + 1) // 2)
+        if coarser[1:]:
+            yield f"{', '.join(map(str, coarser[:0:-1]))} points a side, each the start of the next"
+    yield by(_shape(solver, scene)) + (f" of {_extent(solver, scene):.3g} m" if fixed else " in the window")
+    if march is None and not fixed and (scene.roughness is not None or isinstance(scene.indenter, Measured)):
+        yield f"{window.RING_POINTS} points a side in rings around the window, for peaks outside it"
+    if march:
+        yield from (f"{by(sheet.shape)} of {sheet.extent:.2g} m around it" for sheet in march.sheets)
+
+
+def _kernels(scene, flow, shape):
+    """Those of the elastomer on the finest grid, with what terms make of it left out."""
+    rows, points = shape
+    repeats = isinstance(scene.indenter, Plane)
+    form, values = ("symbol", shape) if repeats else ("kernel", (rows, 2 * points))
+    yield Kernel("response", form, values)
+    yield Kernel("approximate inverse", "symbol", shape)
+    if not flow.at_rest:
+        yield Kernel("approximate inverse of the flow", "symbol", shape)
+        yield Kernel("loss, by the slope", form, values)
+        yield Kernel("loss, from pixel to pixel", form, values)
+
+
+def _held(solver, scene, flow, shape, march):
+    """The arrays of the stage that holds most."""
+    engine = engine_of(solver.engine, scene)
+    waves = list(of_roughness(scene, _extent(solver, scene) / solver.points, solver.points))
+    steps = march.arrays(engine) if march else ()
+    stages = (
+        (*waves, *in_contact(engine, scene, flow, shape), *steps),
+        (*waves, *laying_out(engine, scene, flow, shape)),
+        tuple(as_drawn(waves)),
+    )
+    return max(stages, key=lambda stage: sum(array.bytes for array in stage))
+
+
+def _expected(scene, shape, march):
+    """Of a steady contact by the ladder, times what parts that the ladder has not were measured to make of it."""
+    if shape[0] == 1:
+        return not_known("the ladder has squares; a row takes next to nothing")
+    rough = scene.roughness
+    if rough is not None and not rough.flat and getattr(rough, "shortest", None) is None:
+        return not_known("the ladder has no roughness without a shortest wave")
+    others = [part for part in scene.parts.values() if not isinstance(part, IN_THE_LADDER)]
+    steady, times = (replace(scene, motion=scene.motion.held), march.steps) if march else (scene, 1)
+
+    def by_the_ladder():
+        return {name: times * value for name, value in typical(steady, shape[1]).items()}
+
+    return expected(by_the_ladder, LADDER, others, EFFECTS)
+
+
+def _left_out(scene, flow, march):
+    """What the scene does not ask for, and what follows from that."""
+    left = absent(scene, ABSENT)
+    if not any(isinstance(part, Scanned) for part in scene.parts.values()):
+        left["measured surface"] = NO_MAP
+    if not len(scene.solid.retardation()[2]):
+        left["modes"] = NO_MODES
+    if march is None:
+        left["time"] = NO_MARCH
+        if flow.at_rest:
+            left["flow"] = NO_FLOW
+    return left

@@ -1,0 +1,20 @@
+"""What boundary elements do about one part of a scene."""
+
+from scene import Result, terms
+
+from .grid import Grid
+
+
+class Term(terms.Term):
+    """A part of a scene as boundary elements take it up."""
+
+    def medium(self, medium, scene):
+        """The response of the elastomer, as changed by the part: what `HalfSpace`, `Cell` and `Line` offer."""
+        return medium
+
+    def completed(self, result: Result, problem, grid: Grid) -> Result:
+        """The answer with what the part adds once the pressure is found.
+
+        problem : the `Problem` that was solved, on the grid
+        """
+        return result

@@ -1,0 +1,66 @@
+"""A sphere on layers: stiffness against load, its local exponent, and friction of the smooth sphere in sliding."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import style
+
+NAME = "effect-layer"
+# Neither the colour of one dimension nor that of three: all is three-dimensional here.
+LOOKS = {
+    "half-space": {"color": "0.35", "marker": "o", "linestyle": "-"},
+    "bonded, ν = 0.5": {"color": "black", "marker": "s", "linestyle": "-"},
+    "bonded, ν = 0.45": {"color": "#CC79A7", "marker": "D", "linestyle": "--"},
+    "bonded, ν = 0.3": {"color": "#009E73", "marker": "^", "linestyle": "-."},
+    "frictionless, ν = 0.5": {"color": "#E69F00", "marker": "v", "linestyle": ":"},
+}
+LIMITS = {"1/3": 1 / 3, "1/2": 1 / 2, "2/3": 2 / 3}
+
+
+def figure(data) -> Figure:
+    """Above, lines: integral equation; points: three dimensions. Below: friction, and over that of the half-space.
+
+    data : rows of quantity ("stiffness", "exponent", "friction M" with memories M), rubber, x, found, known
+    """
+    drawing = style.canvas(style.DOUBLE, 5.0)
+    (a, b), (c, d) = drawing.subplots(2, 2)
+    for axes, quantity in ((a, "stiffness"), (b, "exponent")):
+        for rubber, rows in _curves(data, quantity):
+            look = LOOKS[rubber]
+            x, found, known = (np.array([row[name] for row in rows]) for name in ("x", "found", "known"))
+            axes.plot(x, known, color=look["color"], linestyle=look["linestyle"])
+            axes.plot(x, found, color=look["color"], marker=look["marker"], linestyle="none", label=rubber)
+    a.set(xscale="log", yscale="log", ylabel="$k$ / $E^*D$ [1]", title="(a)")
+    b.set(xscale="log", ylabel="d ln $k$ / d ln $F$ [1]", title="(b)", ylim=(0.25, 0.75))
+    for name, value in LIMITS.items():
+        b.axhline(value, color="0.6", linewidth=0.5)
+        place = {"xycoords": b.get_yaxis_transform(), "textcoords": "offset points", "fontsize": 7}
+        b.annotate(name, (1, value), xytext=(3, -2), **place)
+    for quantity in sorted({row["quantity"] for row in data if row["quantity"].startswith("friction")}):
+        memory, curves = quantity.split()[1], dict(_curves(data, quantity))
+        for rubber, rows in curves.items():
+            x, friction = (np.array([row[name] for row in rows]) for name in ("x", "found"))
+            plain = np.array([row["found"] for row in curves["half-space"]])
+            c.plot(x, friction, **LOOKS[rubber])
+            if rubber != "half-space":
+                d.plot(x, friction / plain, **LOOKS[rubber])
+        c.annotate(rf"$v\tau_c$ = {memory} $D$", (x[0], friction[0]), xytext=(12, -11), textcoords="offset points",
+                   fontsize=7)  # fmt: skip
+        d.annotate(f"{memory} $D$", (x[-1], friction[-1] / plain[-1]), xytext=(4, -2), textcoords="offset points",
+                   fontsize=7)  # fmt: skip
+    c.set(xscale="log", yscale="log", ylabel=r"$\mu R/v\bar\tau$ [1]", title="(c)")
+    d.set(xscale="log", ylabel=r"$\mu$ / $\mu$ of the half-space [1]", title="(d)")
+    a.legend()
+    for axes in (a, b, c, d):
+        axes.axvline(1, color="0.8", linewidth=0.6, zorder=0)
+        axes.set_xlabel("$F/F^*$ [1]")
+        style.decades(axes)
+    return drawing
+
+
+def _curves(data, quantity):
+    """Rows of each rubber that there is, in the order of LOOKS."""
+    for rubber in LOOKS:
+        rows = [row for row in data if row["quantity"] == quantity and row["rubber"] == rubber]
+        if rows:
+            yield rubber, rows

@@ -1,0 +1,64 @@
+"""Friction of a sphere that starts, changes its speed, swings, comes down at an angle and turns back."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import style
+
+NAME = "effect-motions"
+SOLVERS = {"1D": "MDR", "3D": "BEM"}
+PANELS = {
+    "start": ("start from rest", "path / a [1]"),
+    "steps": ("steps of the speed", "path / a [1]"),
+    "oscillation": ("oscillating load", "path / a = periods [1]"),
+    "oblique": ("oblique approach", "path / a [1]"),
+    "reversal": ("reversal, twice", "path / a [1]"),
+    "mean": ("mean friction", "amplitude over load [1]"),
+}
+
+
+def figure(data) -> Figure:
+    """Five motions, and by how much an oscillation lowers the mean friction.
+
+    data : rows of panel, dimension ("1D", "3D"), x, y; the panel "steady" has the friction of speeds x
+    """
+    drawing = style.canvas(style.DOUBLE, 4.4)
+    for letter, axes, (panel, (title, label)) in zip(
+        "abcdef", drawing.subplots(2, 3).flat, PANELS.items(), strict=True
+    ):
+        axes.set(title=f"({letter}) {title}", xlabel=label, ylabel="$F_x$ / $F$ [1]")
+        for dimension, solver in SOLVERS.items():
+            x, y = _values(data, panel, dimension)
+            look = {"color": style.COLOUR[solver], "label": style.LABEL[solver]}
+            if panel == "mean":
+                axes.plot(x, y, marker=style.MARKER[solver], linestyle="none", **look)
+            else:
+                axes.plot(x, y, style.LINE[solver], **look)
+                _steady(axes, data, panel, dimension)
+        if panel == "mean":
+            _second_order(axes, data)
+    drawing.axes[0].legend()
+    return drawing
+
+
+def _values(data, panel, dimension):
+    rows = [row for row in data if (row["panel"], row["dimension"]) == (panel, dimension)]
+    return np.array([row["x"] for row in rows], float), np.array([row["y"] for row in rows], float)
+
+
+def _steady(axes, data, panel, dimension):
+    """Thin lines at the steady friction, of both directions where it turns back."""
+    for speed, friction in zip(*_values(data, "steady", dimension), strict=True):
+        if speed > 1 and panel != "steps":
+            continue
+        for sign in (1, -1) if panel == "reversal" else (1,):
+            axes.axhline(sign * friction, color=style.COLOUR[SOLVERS[dimension]], linewidth=0.5, alpha=0.6)
+
+
+def _second_order(axes, data):
+    """In logarithms, with a line of slope two through the second amplitude of one dimension."""
+    x, y = _values(data, "mean", "1D")
+    axes.set(xscale="log", yscale="log", ylabel="share missing [1]")
+    axes.plot(x, y[1] * (x / x[1]) ** 2, color="0.45", linewidth=0.8, label="square")
+    axes.legend()
+    style.decades(axes)

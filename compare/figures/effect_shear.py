@@ -1,0 +1,50 @@
+"""Tangential force of a smooth and a rough sphere against its displacement, in both dimensionalities."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import style
+
+NAME = "effect-shear"
+HOLLOW = {"linestyle": "none", "markerfacecolor": "white"}
+LOOKS = {
+    "smooth, 1D": {"color": style.COLOUR["MDR"], "marker": style.MARKER["MDR"], **HOLLOW},
+    "smooth, 3D": {"color": style.COLOUR["BEM"], "marker": style.MARKER["BEM"], **HOLLOW},
+    "rough, 1D": {"color": style.COLOUR["MDR"], "marker": "", "linestyle": style.LINE["MDR"]},
+    "rough, 3D": {"color": style.COLOUR["BEM"], "marker": "", "linestyle": style.LINE["BEM"]},
+}
+EVERY, FIRST = 4, {"smooth, 1D": 1, "smooth, 3D": 3}  # of the points of smooth bodies those that are drawn
+
+
+def figure(data) -> Figure:
+    """Left: over the displacement at which the smooth sphere slips. Right: each over its own.
+
+    data : rows of way, share (of that of the smooth sphere), force, deviation, full_slip (a share), closed_form,
+        and superposed, the force by two normal contacts of the body itself
+    """
+    drawing = style.canvas(style.DOUBLE, 2.9)
+    left, right = drawing.subplots(1, 2, sharey=True)
+    for way, look in LOOKS.items():
+        rows = [row for row in data if row["way"] == way]
+        share, force, deviation, full = (
+            np.array([row[name] for row in rows], float) for name in ("share", "force", "deviation", "full_slip")
+        )
+        step = slice(FIRST.get(way, 0), None, EVERY if look["marker"] else 1)
+        for axes, x in ((left, share), (right, share / full)):
+            axes.plot(x[step], force[step], label=way, **look)
+            if np.isfinite(deviation).any():
+                axes.fill_between(
+                    x, force - deviation, force + deviation, color=look["color"], alpha=0.13, linewidth=0
+                )
+        if way.startswith("rough"):
+            superposed = np.array([row["superposed"] for row in rows], float)
+            label = "by two normal contacts" if way == "rough, 3D" else None
+            left.plot(share, superposed, linestyle="none", marker="x", color=look["color"], label=label)
+    closed = sorted({(row["share"], row["closed_form"]) for row in data})
+    for axes, label in ((left, r"$u\,/\,(3/2)\,\mu d$ [1]"), (right, r"$u\,/\,u_{\max}$, each its own [1]")):
+        axes.plot(*np.transpose([(0.0, 0.0), *closed]), color="black", linewidth=0.8, label="Cattaneo and Mindlin")
+        axes.set(xlabel=label, xlim=(0, None), ylim=(0, 1.03))
+    left.set(ylabel=r"$F_x\,/\,\mu F_N$ [1]", title="(a)")
+    right.set(title="(b)", xlim=(0, 1.25))
+    left.legend(loc="lower right")
+    return drawing

@@ -1,0 +1,83 @@
+"""What Eq. 22 says of the friction of Figs. 5 to 7, with the loss at one frequency and with that of every wave."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mdr1d import amplitudes, draw, equations
+from scene import Regime
+from scene.scales import elastic_contact
+
+from . import parameters
+from .conditions import Conditions
+from .parameters import Loss
+
+# |G(v/a)| / G_0, at the frequency of the contact as a whole, and up to where that counts as constant.
+STIFFNESS, CONSTANT = "macroscopic_modulus", 1.1
+# Of each wave on either side: those beyond would add 2e-3 to the friction at most.
+IMAGES = 10
+# Forms of Eq. 22, by what of the loss they know.
+SHORTEST, EVERY, WITH_SMOOTH = "shortest wave", "every wave", "every wave and smooth body"
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """What the laws say of one rubber, arrays (speeds, loads).
+
+    one_frequency, spectral : mu of Eq. 22 with the loss at the shortest wave, and with that of every wave at its
+        own frequency; both leave out the macroscopic slope
+    conditions : of each point. Beside those of the regime the macroscopic modulus has to be constant: the ratio
+        is STIFFNESS
+    """
+
+    one_frequency: np.ndarray
+    spectral: np.ndarray
+    conditions: Conditions
+
+    def forms(self, smooth: np.ndarray) -> dict[str, np.ndarray]:
+        """mu of each form of Eq. 22, by name; the last adds the friction of the smooth body."""
+        one, every = self.one_frequency, self.spectral
+        return {SHORTEST: one, EVERY: every, WITH_SMOOTH: every + smooth}
+
+
+def predict(loss: Loss) -> Predicted:
+    """What the laws say of a rubber."""
+    speeds, loads = np.array(parameters.SPEEDS)[:, None], np.array(parameters.FORCES)
+    scene = parameters.lossy(loss, 1.0, 1.0)
+    solid, body, rough = scene.elastomer, scene.indenter, scene.roughness
+    c, n = body.mdr_coefficient, body.exponent
+    surface = draw(rough, parameters.POINTS)
+    slope, highest = surface.rms_slope, np.pi / surface.pixel
+    contacts = [
+        elastic_contact(replace(scene, motion=replace(scene.motion, load=load))) for load in loads.tolist()
+    ]
+    radius, depth = (np.array([getattr(at, name) for at in contacts]) for name in ("radius", "depth"))
+
+    def loss_modulus(omega):
+        return solid.complex_modulus(omega).imag
+
+    one = equations.general_friction(loads, solid.modulus, loss_modulus, highest, speeds, slope, c, n)
+    q, waves = _linear_between_nodes(rough, surface.pixel)
+    slow = [equations.wave_force(loss_modulus, q, waves, speed, 2 * radius) / loads for speed in parameters.SPEEDS]
+    plateau = equations.plateau(slope)
+    stiffness = np.abs(solid.complex_modulus(speeds / radius)) / solid.modulus
+    regime = Regime.of((c, n), (radius, depth), rough.rms_height, rough.longest, slope)
+    return Predicted(
+        one_frequency=one,
+        spectral=plateau * equations.interpolation(np.array(slow) / plateau),
+        conditions=Conditions.of(regime, stiffness.shape).joined(
+            STIFFNESS, stiffness, "constant macroscopic modulus", stiffness <= CONSTANT
+        ),
+    )
+
+
+def _linear_between_nodes(rough, pixel):
+    """Wave numbers [rad/m] and amplitudes [m] of what is solved: lines between the nodes have images of each wave.
+
+    The image at q + 2 pi m / pixel has sinc^2 of the amplitude there; together they have the slope of the steps.
+    """
+    waves = amplitudes(rough, np.pi / pixel / rough.q_min)
+    images = 2 * np.pi / pixel * np.arange(-IMAGES, IMAGES + 1)
+    q = np.add.outer(images, rough.q_min * np.arange(1, waves.size + 1))
+    seen = waves * np.square(np.sinc(q * pixel / (2 * np.pi)))
+    return np.abs(q).ravel(), seen.ravel()

@@ -1,0 +1,205 @@
+"""What a measured map says of itself: size, heights, slopes, spectrum and the self-affine law in it.
+
+Spectra are two-sided, as on the page of conventions: <h^2> = 2 pi int q C_2D dq = 2 int C_1D dq.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import hypot, log10, pi
+
+import numpy as np
+
+from scene import Topography
+
+from .powerlaw import LEAST, SelfAffineLaw, fit
+
+PER_DECADE = 10  # rings
+DECADE = 1.0  # of a band of wavelengths, below which an exponent says little
+LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
+WHOLE = 1.05  # highest wave number of a map over that of its last wave with power, where there is no cut-off
+NOTHING = 1e-24  # of the greatest mean square of a wave: rounding
+
+
+@dataclass(frozen=True)
+class Rings:
+    """Spectrum averaged over directions, ring by ring; rings without power are left out.
+
+    edges : between the rings (N + 1,) [rad/m]
+    q : mean wave numbers (N,) [rad/m]
+    density : C_2D (N,) [m^4]
+    waves : of the map in each (N,), a wave and its opposite counted as one
+    freedoms : independent real numbers in each (N,)
+    whole : whether the last ring ends where the map does, and not where its power does
+    """
+
+    edges: np.ndarray
+    q: np.ndarray
+    density: np.ndarray
+    waves: np.ndarray
+    freedoms: np.ndarray
+    whole: bool
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Spectrum of the rows, averaged over them: wave numbers along x [rad/m] and C_1D [m^3], both (K,)."""
+
+    q: np.ndarray
+    density: np.ndarray
+
+
+@dataclass(frozen=True)
+class Description:
+    """Of one map, levelled as it states.
+
+    rms_height : of the pixels [m]
+    slopes : rms of the differences between neighbours over a pixel, along x and along y [1]
+    spectral_slopes : rms of the derivatives of its waves, along x and along y [1]
+    law : None where there are too few rings
+    """
+
+    topography: Topography
+    rms_height: float
+    slopes: tuple[float, float]
+    spectral_slopes: tuple[float, float]
+    rings: Rings
+    rows: Profile
+    law: SelfAffineLaw | None
+
+    @property
+    def rms_slope(self) -> float:
+        """Of the full gradient, by differences [1]."""
+        return hypot(*self.slopes)
+
+    @property
+    def rms_slope_spectral(self) -> float:
+        """Of the full gradient, by its waves [1]."""
+        return hypot(*self.spectral_slopes)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What stands against taking the numbers at their word."""
+        return [*_of_law(self.law), *_of_directions(self.spectral_slopes)]
+
+
+def describe(topography: Topography) -> Description:
+    """Everything. Raises ValueError for a map without heights, or without waves to average over directions."""
+    relief, waves = topography.relief, topography.waves
+    if not relief.any():
+        raise ValueError(f"heights are none once level = {topography.level!r} is taken off")
+    rings = rings_of(topography)
+    enough = len(rings.q) >= LEAST
+    return Description(
+        topography=topography,
+        rms_height=_rms(relief),
+        slopes=tuple(_rms(np.diff(relief, axis=1 - k)) / topography.pixel[k] for k in (0, 1)),
+        spectral_slopes=(waves.rms_slope_x, waves.rms_slope_y),
+        rings=rings,
+        rows=rows_of(topography),
+        law=fit(rings.q, rings.density, rings.freedoms, rings.edges) if enough else None,
+    )
+
+
+def rings_of(topography: Topography) -> Rings:
+    """The spectrum of a map on rings of wave numbers, up to the highest that it has in every direction.
+
+    Raises ValueError for a map without waves there.
+    """
+    waves = topography.waves
+    steps, tops = (waves.step_x, waves.step_y), topography.tops
+    highest = min(step * top for step, top in zip(steps, tops, strict=True))
+    lowest = max(steps) / 2
+    q, power = waves.q.ravel(), waves.power.ravel()
+    there = (np.arange(-tops[1], tops[1] + 1)[:, None] > 0) | (np.arange(tops[0] + 1) > 0)
+    there = there.ravel() & (q >= lowest) & (q < highest * (1 - 1e-9)) & (power > NOTHING * power.max())
+    if not there.any():
+        raise ValueError(
+            f"no wave of the map is shorter than {2 * pi / lowest:g} m and longer than {2 * pi / highest:g} m, of "
+            "which it can have all directions: a spectrum takes more pixels, or a map that is more nearly a square"
+        )
+    count = max(1, round(PER_DECADE * log10(highest / lowest)))
+    edges = lowest * (highest / lowest) ** (np.arange(count + 1) / count)
+    freedoms = _freedoms(topography, waves.amplitudes.shape).ravel()
+    last = q[there].max()
+    number, _ = np.histogram(q[there], edges)
+    sums = [np.histogram(q[there], edges, weights=each[there])[0] for each in (power, q, freedoms)]
+    kept = number > 0
+    power, q, freedoms = (each[kept] for each in sums)
+    number = number[kept]
+    density = waves.unit**2 * power / number / (2 * steps[0] * steps[1])
+    borders = np.append(edges[:-1][kept], last)
+    return Rings(borders, q / number, density, number, freedoms, bool(last * WHOLE > highest))
+
+
+def _freedoms(topography, shape):
+    """Of each wave: modulus and phase; of a mirrored map one number for the waves that are mirror images."""
+    if topography.repeat == "periodic":
+        return np.full(shape, 2.0)
+    freedoms = np.full(shape, 0.5)
+    freedoms[shape[0] // 2] = freedoms[:, 0] = 1.0
+    return freedoms
+
+
+def rows_of(topography: Topography) -> Profile:
+    """C_1D of the line scans along x, the mean over all rows of what repeats."""
+    waves = topography.waves
+    return Profile(waves.along_x[1:], waves.unit**2 * waves.power.sum(axis=0)[1:] / (2 * waves.step_x))
+
+
+def _rms(values):
+    most = float(np.abs(values).max())
+    return most * float(np.sqrt(np.mean((values / (most or 1.0)) ** 2)))
+
+
+def _of_law(law) -> Iterator[str]:
+    if law is None:
+        yield "there are too few rings of waves to look for a power law"
+        return
+    if law.decades < DECADE:
+        yield (
+            f"the power law spans {law.decades:.2g} decades of wavelengths: an exponent of less than one says "
+            "little of another"
+        )
+    if not law.follows:
+        yield (
+            f"the spectrum scatters more about the power law than its waves do (chi square {law.misfit:.2g} per "
+            "degree of freedom): it may be none"
+        )
+    if not 0 <= law.hurst <= 1:
+        yield f"a Hurst exponent of {law.hurst:.2g} is none of a self-affine surface, which has 0 to 1"
+
+
+def _of_directions(slopes) -> Iterator[str]:
+    low, high = sorted(slopes)
+    if high > LOPSIDED * low:
+        yield (
+            f"the rms slopes along x and y, {slopes[0]:.3g} and {slopes[1]:.3g}, are not those of an isotropic "
+            "surface: a line drawn by C_1D = pi q C_2D stands for neither direction"
+        )
+
+
+def mapped(rings: Rings) -> np.ndarray:
+    """C_1D = pi q C_2D [m^3] of the rule of the MDR (N,)."""
+    return pi * rings.q * rings.density
+
+
+def described(found: Description) -> list[str]:
+    """Lines for people."""
+    topography, law = found.topography, found.law
+    (columns, rows), (x, y) = topography.heights.shape[::-1], topography.size
+    (px, py), (sx, sy), (fx, fy) = topography.pixel, found.spectral_slopes, found.slopes
+    lines = [
+        f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
+        f'level: "{topography.level}" taken off; repeat: "{topography.repeat}"; peaks: "{topography.peaks}"',
+        f"rms height: {found.rms_height:.4g} m",
+        f"rms slope, full gradient: {found.rms_slope_spectral:.4g} spectral, {found.rms_slope:.4g} by differences",
+        f"rms slope along x, y: {sx:.4g}, {sy:.4g} spectral, {fx:.4g}, {fy:.4g} by differences",
+    ]
+    if law is not None:
+        lines += [
+            f"Hurst exponent: {law.hurst:.3f} ({law.low:.3f} to {law.high:.3f}, 95 %)",
+            f"its band: {law.longest:.3g} to {law.shortest:.3g} m, {law.decades:.2f} decades, "
+            f"{'below a roll-off' if law.rolloff else 'from the longest wave'} "
+            f"{'to a cut-off' if law.cutoff or not found.rings.whole else 'to the shortest'}",
+        ]
+    return lines + [f"warning: {each}" for each in found.warnings]

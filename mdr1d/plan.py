@@ -1,0 +1,121 @@
+"""What this solver would do about a scene: a foundation needs no kernels, and its costs go by node and sweep."""
+
+from pathlib import Path
+
+from scene import Indent, Program, Scene, SelfAffine, Slide
+from scene.costs import expected
+from scene.heightmap import Scanned
+from scene.indenter import Axisymmetric
+from scene.plan import Array, Modes, Plan, absent
+from scene.terms import terms_of
+from scene.viscoelastic import Linear
+
+from .modes import modes_of
+from .surface import nodes_needed
+from .timeline import timeline
+
+EFFECTS = Path(__file__).with_name("effects.csv")
+# Parts whose costs are counted below; of all others `effects.csv` has what they multiply costs with.
+COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, SelfAffine)
+# Processor seconds of one thread on the machine of the ladder of the three-dimensional solver: of a solve, and for
+# each node of a sweep of an elastic or Kelvin foundation, of Maxwell branches and each of them, of a step in time
+# and each of its modes, and of drawing a rough line.
+START, KELVIN, MAXWELL, BRANCH, STEP, MODE, DRAWN = 1e-4, 4e-9, 14e-9, 2.5e-9, 110e-9, 7e-9, 100e-9
+SWEEPS = 5  # under a load; 2 to 7 are usual
+MEASURED = "by node and sweep, as measured on spheres"
+ABSENT = {
+    "roughness": "the profile is smooth: no line is drawn",
+    "layer": "the foundation is that of a half-space",
+    "temperature": "times are as stated: none is shifted",
+    "heating": "nothing gets warmer: no temperature is sought",
+    "interface": "no tangential springs: all friction is loss in the elastomer",
+}
+NO_MARCH = "no steps: elements have no state, one sweep along the profile finds them all"
+NO_FLOW = "springs alone: no memory from node to node"
+NO_MAP = "no map of heights is read, levelled or turned into waves"
+NO_MODES = "the solid is elastic: it has none"
+
+
+def plan_of(solver, scene: Scene, layout) -> Plan:
+    """What an MDR would simulate. Nothing is solved; a smooth grid may be drawn closer around the contact.
+
+    layout : the `Grid` to begin with
+    """
+    terms, elastomer, motion = terms_of(solver.terms, scene), scene.solid, scene.motion
+    if isinstance(motion, Program):
+        steps, moves = len(timeline(motion, layout.pixel, solver.steps).times) - 1, True
+    else:
+        steps, moves = 0, motion.speed > 0
+    nodes, modes = 2 * layout.half + 1, len(elastomer.retardation()[2]) if moves else 0
+    found = Plan(
+        solver=solver.name,
+        settings=f'{solver.points} points, shape "{solver.shape}", spectrum "{solver.spectrum}"',
+        terms={term.field: term.says for term in terms},
+        method=_method(scene, modes, steps),
+        shape=(nodes,),
+        grids=(f"{nodes} nodes on {layout.extent:.3g} m, drawn closer where a smooth contact is small",)
+        if scene.roughness is None and solver.extent is None
+        else (f"{nodes} nodes on {layout.extent:.3g} m",),
+        kernels=(),
+        modes=Modes.of(elastomer.retardation()[2] if moves else ()),
+        arrays=tuple(_arrays(solver, scene, layout, steps)),
+        steps=steps,
+        **_expected(scene, nodes, steps),
+        left_out=_left_out(scene, modes, steps),
+    )
+    for term in terms:
+        found = term.planned(found, scene)
+    return found
+
+
+def _method(scene, modes, steps):
+    if steps:
+        met = "" if scene.motion.pressed_by == "depth" else ", the load met once in each"
+        return f"marching: every element followed exactly from step to step{met}"
+    flow = "in steady flow" if modes else "on springs alone"
+    if scene.motion.load is None:
+        return f"one sweep along the profile {flow}, exact between nodes"
+    return f"sweeps along the profile {flow}, exact between nodes, and Newton's steps to the load"
+
+
+def _arrays(solver, scene, layout, steps):
+    nodes = 2 * layout.half + 1
+    if steps:
+        modes = modes_of(scene.solid)
+        states = len(modes.moduli) + len(modes.compliances)
+        yield Array("states of the elements", (nodes - 1, states))
+        yield Array("profile, its slopes, and rates", (12, nodes))
+        yield Array("history", (3 * 14, steps))
+    else:
+        yield Array("profile, displacement, forces, and their copies", (9, nodes))
+    if layout.period is not None:
+        least = 0 if scene.roughness.shortest is None or solver.extent else 8 * nodes_needed(scene.roughness)
+        yield Array("rough line as it is drawn", (7, max(layout.period, least)))
+
+
+def _expected(scene, nodes, steps):
+    """Counted, times what parts that are not counted were measured to make of it."""
+    moduli = scene.solid.relaxation()[1]
+    if steps:
+        sweeps, each = steps, STEP + MODE * len(modes_of(scene.solid).compliances)
+    else:
+        sweeps = 1 if scene.motion.load is None else SWEEPS
+        each = MAXWELL + BRANCH * len(moduli) if scene.motion.speed and len(moduli) else KELVIN
+    drawn = DRAWN if scene.roughness is not None else 0.0
+    others = [part for part in scene.parts.values() if not isinstance(part, COUNTED)]
+    plain = {"applications": float(sweeps), "seconds": START + nodes * (sweeps * each + drawn)}
+    return expected(lambda: plain, MEASURED, others, EFFECTS)
+
+
+def _left_out(scene, modes, steps):
+    """What the scene does not ask for, and what follows from that."""
+    left = absent(scene, ABSENT)
+    if not any(isinstance(part, Scanned) for part in scene.parts.values()):
+        left["measured surface"] = NO_MAP
+    if not len(scene.solid.retardation()[2]):
+        left["modes"] = NO_MODES
+    if not steps:
+        left["time"] = NO_MARCH
+        if not modes:
+            left["flow"] = NO_FLOW
+    return left

@@ -1,0 +1,64 @@
+"""Rough lines of a measured map: drawn from its spectrum by the rule of the MDR, or one of its rows."""
+
+from dataclasses import replace
+from functools import lru_cache
+from math import pi, sqrt
+
+import numpy as np
+
+from scene import Scene, Topography
+
+from .surface import Band, LineFamily, Surface, band_of
+from .term import Term
+
+
+class MeasuredRoughness(Term):
+    """The map repeats as it states; lines are drawn from its waves."""
+
+    def refusals(self, scene: Scene) -> list[str]:
+        """Of maps with more waves than fit in memory."""
+        return [] if self.part.crowded is None else [f"roughness = Topography has {self.part.crowded}"]
+
+
+def amplitudes(topography: Topography) -> np.ndarray:
+    """Of the waves k = 1, 2, ... of a mapped line (K,) [m]: C_1D = pi q C_2D as a sum over the waves of the map.
+
+    Wave k has the mean square of all waves of the map whose wave number, in any direction, lies within half a step
+    of its own. Their sum is the mean square of the map.
+    """
+    band = band_of(topography, "mapped")
+    count = round(band.period / band.shortest)
+    edges = np.append(0.0, np.arange(1, count + 1) + 0.5) * 2 * pi / band.period
+    edges[-1] = np.inf
+    return sqrt(2) * topography.waves.binned(edges)
+
+
+def draw(topography: Topography, nodes: int, spectrum: str) -> Surface:
+    """One period of a line on so many nodes, from the seed of the topography: of its phases, or of the row."""
+    band = band_of(topography, spectrum)
+    if spectrum == "line-scan":
+        return _row(topography, nodes, band)
+    return _mapped(replace(topography, seed=0), nodes).drawn(topography.seed)
+
+
+@lru_cache(maxsize=16)
+def _mapped(topography, nodes):
+    """Once for all seeds."""
+    band, waves = band_of(topography, "mapped"), amplitudes(topography)
+    waves.setflags(write=False)
+    return LineFamily(waves, False, nodes, band.period / nodes, band.shortest)
+
+
+def _row(topography: Topography, nodes: int, band: Band) -> Surface:
+    """The map along the row through the place of its seed, which lies at the tip; the mean of the row left out."""
+    waves, (columns, rows) = topography.waves, topography.place
+    count = topography.heights.shape[0]
+    # The middle of an even number of rows lies between two: it is the upper one.
+    y = (count // 2 + rows - (count - 1) / 2) * topography.pixel[1]
+    found = waves.row(y) * np.exp(1j * waves.along_x[1:] * columns * topography.pixel[0])
+    spread = np.zeros(nodes // 2 + 1, complex)
+    spread[1 : found.size + 1] = found / 2
+    if 2 * found.size == nodes:
+        spread[-1] = found[-1].real
+    heights = np.fft.irfft(spread, n=nodes, norm="forward")
+    return Surface(heights, band.period / nodes, np.abs(found), band.shortest)

@@ -1,0 +1,171 @@
+"""Heights measured on a lattice of pixels: compared, stored and named by a digest, never by the whole array."""
+
+import hashlib
+from dataclasses import dataclass as plain
+from dataclasses import field
+from numbers import Real
+from sys import float_info
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator, InstanceOf, PlainSerializer, model_validator
+from pydantic.dataclasses import dataclass
+from pydantic_core import ArgsKwargs
+
+from .heightfile import read_heights
+from .quantities import CLOSED, Positive
+
+LEAST = 4  # pixels a side: what a cubic between pixels takes
+# Of the largest height: what is left of a plane once the plane is taken off.
+ROUNDING = 1e-13
+
+
+@plain(frozen=True, init=False)
+class HeightMap:
+    """Rows and columns of heights [m], which cannot be changed. What it is made of stands beside its fields.
+
+    shape : (rows, columns), rows along y and columns along x, both ascending
+    digest : of shape and heights, as hexadecimal digits: maps of equal digests have equal heights
+    heights : the array, read-only; no field
+
+    Raises ValueError for what is no map of finite numbers, or has less than four pixels a side.
+    """
+
+    shape: tuple[int, int]
+    digest: str = field(repr=False)
+
+    def __init__(self, heights):
+        if np.ma.is_masked(heights):
+            raise ValueError(f"{np.ma.count_masked(heights)} pixels have no height: fill them in, or crop the map")
+        try:
+            values = np.asarray(heights)
+        except ValueError:
+            raise ValueError("rows of unequal lengths: a map has as many heights in each row") from None
+        if values.ndim != 2 or min(values.shape) < LEAST:
+            raise ValueError(f"an array of shape {values.shape}: a map has at least {LEAST} rows and columns")
+        if values.dtype.kind not in "fiu":
+            raise ValueError(f"an array of type {values.dtype}: heights are real numbers [m]")
+        with np.errstate(over="ignore"):  # beyond the range of numbers is not finite
+            # A copy of our own, with one zero.
+            values = np.asarray(values, float) + 0.0
+        if not np.isfinite(values).all():
+            row, column = np.argwhere(~np.isfinite(values))[0]
+            raise ValueError(
+                f"heights[{row}][{column}] = {values[row, column]:g}: every pixel needs a finite height, fill in "
+                "what was not measured, or crop the map"
+            )
+        content = values.tobytes()
+        # Bytes cannot be changed, nor be made so that they can.
+        values = np.frombuffer(content).reshape(values.shape)
+        digest = hashlib.sha256(f"{values.shape}".encode() + content).hexdigest()
+        for name, value in {"shape": values.shape, "digest": digest, "heights": values}.items():
+            object.__setattr__(self, name, value)
+
+    def __reduce__(self):
+        return HeightMap, (self.heights,)
+
+
+def _as_map(value):
+    if isinstance(value, HeightMap):
+        return value
+    if isinstance(value, str):
+        raise ValueError("Input should be rows of heights [m], or give file instead")
+    return HeightMap(value)
+
+
+def _both_ways(pixel):
+    if isinstance(pixel, np.ndarray):
+        pixel = pixel.tolist()
+    if isinstance(pixel, list | tuple) and len(pixel) == 2:
+        return pixel
+    if isinstance(pixel, bool) or not isinstance(pixel, Real) or not 0 < pixel <= float_info.max:
+        raise ValueError("Input should be the side of a pixel, greater than 0 [m], or two of them, along x and y")
+    return pixel, pixel
+
+
+def _alike(pixel):
+    """Sides that differ by a factor beyond reason are a mistake of units."""
+    if not 1e-3 <= pixel[0] / pixel[1] <= 1e3:
+        raise ValueError(
+            f"sides of {pixel[0]:g} m along x and {pixel[1]:g} m along y differ beyond a factor of 1000"
+        )
+    return pixel
+
+
+def by_name(given: Any) -> dict[str, Any] | None:
+    """What is stated for the fields of a dataclass, in Python or in a table; None of anything else."""
+    if isinstance(given, ArgsKwargs):
+        return None if given.args else given.kwargs or {}
+    return given if isinstance(given, dict) else None
+
+
+Heights = Annotated[
+    InstanceOf[HeightMap],
+    BeforeValidator(_as_map),
+    PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest}),
+]
+Pixel = Annotated[tuple[Positive, Positive], BeforeValidator(_both_ways), AfterValidator(_alike)]
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Scanned:
+    """What was measured.
+
+    heights : rows along y of heights along x [m], both ascending
+    pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
+    peaks : "up", heights grow towards the elastomer, as instruments give them, and the highest point touches
+        first; "down", they are those of an indenter above the elastomer, and the lowest touches first
+
+    In place of heights `file` is the path of a file, read once and kept as numbers; a relative path starts at the
+    working directory. `pixel`, and `unit` of the heights ("m", "mm", "um", "nm"; "m" if absent), are those of
+    the file where it states them, see `read_heights`.
+    """
+
+    heights: Heights
+    pixel: Pixel
+    peaks: Literal["up", "down"] = "up"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_file(cls, given: Any) -> Any:
+        stated = by_name(given)
+        if stated is None or "file" not in stated:
+            return given
+        stated = dict(stated)
+        if "heights" in stated:
+            raise ValueError(f"file = {stated['file']!r} beside heights: give one of them")
+        path, unit = stated.pop("file"), stated.pop("unit", None)
+        heights, pixel = read_heights(path, stated.pop("pixel", None), unit)
+        try:
+            return stated | {"heights": HeightMap(heights), "pixel": pixel}
+        except ValueError as error:
+            raise ValueError(f"file = {str(path)!r}: {error}") from None
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Of the map, along x and along y [m]."""
+        rows, columns = self.heights.shape
+        return columns * self.pixel[0], rows * self.pixel[1]
+
+    def _turned(self) -> np.ndarray:
+        """Heights above the elastomer, from whatever level (rows, columns) [m]."""
+        return -self.heights.heights if self.peaks == "up" else self.heights.heights
+
+
+def levelled(heights: np.ndarray, level: str) -> np.ndarray:
+    """Heights less their mean, or the plane ("tilt") or paraboloid ("curvature") that fits them best.
+
+    What is left of no more than rounding is zero.
+    """
+    rows, columns = heights.shape
+    y, x = np.linspace(-1, 1, rows)[:, None], np.linspace(-1, 1, columns)[None, :]
+    terms = {"mean": [], "tilt": [x, y], "curvature": [x, y, x * y, x * x, y * y]}[level]
+    most = np.abs(heights).max() or 1.0
+    left = heights / most
+    left = left - left.mean()
+    # Less their means, these are orthogonal to one another on any lattice of rows and columns.
+    for term in (term - term.mean() for term in terms):
+        left = left - (np.mean(term * left) / np.mean(term * term)) * term
+    if np.abs(left).max() <= ROUNDING:
+        return np.zeros(heights.shape)
+    return most * left

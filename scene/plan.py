@@ -1,0 +1,159 @@
+"""What a solver would do about a scene, before it does: what is built, what that costs, and what is left out."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
+from math import prod
+from typing import Any
+
+from .costs import Expected
+from .scene import Scene
+
+WIDTH = 36  # of the first column of a plan
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """What is built once and multiplied with over and over.
+
+    name : what of
+    form : "kernel", values on the grid, rows along y, or "symbol", a factor on each wave of such a grid
+    shape : of those values, or of the grid
+    """
+
+    name: str
+    form: str
+    shape: tuple[int, ...]
+
+    def __str__(self) -> str:
+        return f"{self.form}, {by(self.shape)}"
+
+
+@dataclass(frozen=True)
+class Array:
+    """What is held while a stage of the solve is at its largest. itemsize : bytes of a value."""
+
+    name: str
+    shape: tuple[int, ...]
+    itemsize: int = 8
+
+    @property
+    def bytes(self) -> int:
+        """All of it."""
+        return prod(self.shape) * self.itemsize
+
+    def __str__(self) -> str:
+        return f"{by(self.shape)}, {size(self.bytes)}"
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Of the elastomer, as far as they are simulated. times : the shortest and the longest [s]; none of none."""
+
+    count: int
+    times: tuple[float, float] | None = None
+
+    @classmethod
+    def of(cls, times: Sequence[float]) -> "Modes":
+        """By their times [s]."""
+        return cls(len(times), (float(min(times)), float(max(times))) if len(times) else None)
+
+    def __str__(self) -> str:
+        if self.times is None:
+            return "none"
+        shortest, longest = self.times
+        return f"{self.count}, {shortest:.3g} s" + ("" if shortest == longest else f" to {longest:.3g} s")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a solver would simulate of one scene, and nothing else. Printed, it is a page.
+
+    solver, settings : name, and the settings that matter here, in words
+    terms : by the field of the scene, what is simulated for the part that stands there
+    method : how the contact is found
+    shape : points of the finest grid, (rows, points)
+    grids : in words, all of them
+    kernels : built for the finest grid; coarser ones have the same, smaller
+    modes : that are followed
+    arrays : those held when most is held; `memory` is their sum
+    steps : in time; 0 of what is steady
+    applications, seconds : of the operator, in equivalents of the finest grid, and of processor
+    left_out : what the scene does not ask for, and what therefore is not done
+    """
+
+    solver: str
+    settings: str
+    terms: Mapping[str, str]
+    method: str
+    shape: tuple[int, ...]
+    grids: tuple[str, ...]
+    kernels: tuple[Kernel, ...]
+    modes: Modes
+    arrays: tuple[Array, ...]
+    steps: int
+    applications: Expected
+    seconds: Expected
+    left_out: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def memory(self) -> int:
+        """Most that is held at once [bytes], what the process holds without it excluded."""
+        return sum(array.bytes for array in self.arrays)
+
+    def __str__(self) -> str:
+        return "\n".join([f"{self.solver}, {self.settings}", *self._lines()])
+
+    def _lines(self) -> Iterator[str]:
+        yield from _table("simulated", self.terms)
+        yield from _list("method", [self.method])
+        yield from _list("grids", self.grids)
+        yield from _table("kernels", {kernel.name: kernel for kernel in self.kernels})
+        yield from _list("modes", [self.modes])
+        yield from _list("steps in time", [self.steps or "none"])
+        yield from _table(f"memory, {size(self.memory)}", {array.name: array for array in self.arrays})
+        yield from _table("expected", {"applications": self.applications, "seconds": self.seconds})
+        yield from _table("left out", self.left_out)
+
+
+def said(part: Any) -> str:
+    """A part of a scene in a line: its type, and of its fields those that say something."""
+    if isinstance(part, tuple):
+        return f"({', '.join(map(said, part))})"
+    if not is_dataclass(part):
+        return f"{part:g}" if isinstance(part, float) else repr(part)
+    stated = (each for each in fields(part) if each.repr and not _usual(each, getattr(part, each.name)))
+    return f"{type(part).__name__}({', '.join(f'{e.name}={said(getattr(part, e.name))}' for e in stated)})"
+
+
+def _usual(declared: Field, value: Any) -> bool:
+    default = declared.default
+    return default is not MISSING and type(value) is type(default) and value == default
+
+
+def absent(scene: Scene, meanings: Mapping[str, str]) -> dict[str, str]:
+    """The fields of a scene in which nothing stands, and what that means."""
+    empty = (each.name for each in fields(scene) if each.name not in scene.parts)
+    return {name: meanings.get(name, "nothing is built for it") for name in empty}
+
+
+def by(shape: Sequence[int]) -> str:
+    """A shape in words."""
+    return " x ".join(map(str, shape))
+
+
+def size(count: float) -> str:
+    """A number of bytes in words."""
+    for unit in ("B", "kB", "MB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:.3g} GB"
+
+
+def _table(title, rows):
+    return _list(title, [f"{name:<{WIDTH}s} {value}" for name, value in rows.items()] or ["none"])
+
+
+def _list(title, lines):
+    yield f"  {title}"
+    yield from (f"    {line}" for line in lines)

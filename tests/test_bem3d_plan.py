@@ -1,0 +1,298 @@
+"""What a plan says is what a solve builds: kernels counted as they are made, memory as it is held."""
+
+import tracemalloc
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
+from bem3d.layerwaves import PIECES, Taken, taking
+from bem3d.plan import EFFECTS
+from bem3d.surface import RoughSurface
+from scene import (
+    WLF,
+    Coulomb,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    Layer,
+    Measured,
+    Plane,
+    Program,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Topography,
+    Wave,
+)
+from scene.costs import multiples
+from scene.plan import Plan
+
+KELVIN = Kelvin(1e6, 1e-3)
+STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
+PRONY = Prony(1e6, (1e6, 2e6, 3e6), (1e-4, 1e-3, 1e-2))
+SPHERE, LOAD, EXTENT = Sphere(radius=10e-3), 0.5, 3e-3
+ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)
+CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
+STAGES = Program(stages=(Stage(duration=1e-3, load=LOAD), Stage(duration=1e-3, speed=0.2)))
+BACK = Program(stages=(Stage(duration=1e-3, load=LOAD, speed=1.0), Stage(duration=1e-3, speed=-1.0)))
+SWINGS = Program(stages=(Stage(duration=1e-3, load=LOAD, amplitude=0.1, frequency=1e3),))
+PRESSED = Program(stages=(Stage(duration=1e-3, load=LOAD),))
+SCENES = {
+    "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),
+    "elastic": Scene(SPHERE, Elastic(1e6), Slide(speed=1.0, load=LOAD)),
+    "slide": Scene(SPHERE, KELVIN, Slide(speed=1.0, load=LOAD)),
+    "modes": Scene(SPHERE, PRONY, Slide(speed=1.0, load=LOAD)),
+    "rough": Scene(SPHERE, STANDARD, Slide(speed=0.1, load=LOAD), ROUGH),
+    "rough-rest": Scene(SPHERE, KELVIN, Indent(load=LOAD), ROUGH),
+    "plane": Scene(Plane(), KELVIN, Indent(pressure=1e4), CELL),
+    "plane-slide": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=1e4), CELL),
+    "waves": Scene(Plane(), KELVIN, Slide(speed=0.1, pressure=1e3), CrossedWaves(amplitude=1e-6, wavelength=1e-3)),
+    "wave": Scene(Plane(), KELVIN, Slide(speed=0.1, pressure=1e4), Wave(amplitude=1e-6, wavelength=1e-3)),
+    "line": Scene(Cylinder(10e-3), KELVIN, Indent(line_load=500.0)),
+    "line-slide": Scene(Cylinder(10e-3), KELVIN, Slide(speed=0.1, line_load=500.0)),
+    "program": Scene(SPHERE, STANDARD, STAGES),
+    "pressed": Scene(SPHERE, STANDARD, PRESSED),
+    "elastic-program": Scene(SPHERE, Elastic(1e6), STAGES),
+    "plane-program": Scene(
+        Plane(), STANDARD, Program(stages=(Stage(duration=1e-3, pressure=1e4, speed=0.1),)), CELL
+    ),
+}
+HEIGHTS = RoughSurface.of(ROUGH, ROUGH.q_max(1.0)).heights(*np.tile(np.arange(16) * ROUGH.longest / 16, (2, 1)))
+BOWL = np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)
+DRAWN, LAYER, STICKS = Shear(load=LOAD, displacement=1e-5), Layer(thickness=1e-3), Coulomb(0.3)
+SCENES |= {
+    "layer": replace(SCENES["slide"], layer=LAYER),
+    "layer-rest": replace(SCENES["rest"], layer=LAYER),
+    "layer-plane": replace(SCENES["plane"], layer=LAYER),
+    "layer-line": replace(SCENES["line-slide"], layer=LAYER),
+    "layer-program": replace(SCENES["pressed"], layer=LAYER),
+    "temperature": replace(SCENES["slide"], temperature=WLF(temperature=301, reference=300, c1=10, c2=100)),
+    "interface": replace(SCENES["slide"], interface=STICKS),
+    "interface-rest": replace(SCENES["rest"], interface=STICKS),
+    "shear": replace(SCENES["rest"], motion=DRAWN, interface=STICKS),
+    "shear-uncoupled": Scene(SPHERE, Elastic(1e6, poisson_ratio=0.0), DRAWN, interface=STICKS),
+    "shear-plane": replace(SCENES["plane"], motion=Shear(pressure=1e5, displacement=1e-7), interface=STICKS),
+    "shear-not": replace(SCENES["rest"], motion=replace(DRAWN, displacement=0.0), interface=STICKS),
+    "reversal": Scene(SPHERE, STANDARD, BACK),
+    "oscillation": Scene(SPHERE, STANDARD, SWINGS),
+    "measured": replace(SCENES["slide"], indenter=Measured(heights=BOWL, pixel=1e-4, peaks="down")),
+    "topography": replace(
+        SCENES["slide"], roughness=Topography(heights=HEIGHTS, pixel=ROUGH.longest / 16, repeat="periodic")
+    ),
+}
+# The arrays that a plan counts are those of its formulas; contacts, and thereby vectors, are of any size.
+FACTOR = 1.5
+
+
+def solver(scene, points=64, **settings):
+    """With a stated extent, so that one window is solved on and no other."""
+    extent = None if isinstance(scene.indenter, Plane) else EXTENT
+    return BEM(points=points, extent=extent, steps=10, **settings)
+
+
+@pytest.fixture
+def built(monkeypatch):
+    """Kernels and symbols as they are made: form and shape."""
+    found = []
+
+    def noting(kind, form, shape_of):
+        make = kind.__init__
+
+        def noted(self, first, *others, **named):
+            found.append((form, shape_of(first)))
+            make(self, first, *others, **named)
+
+        monkeypatch.setattr(kind, "__init__", noted)
+
+    noting(FreeConvolution, "kernel", lambda kernel: kernel.shape)
+    noting(PeriodicFilter, "symbol", lambda shape: shape)
+    noting(FreePair, "kernel", lambda kernels: kernels[0].shape)
+    noting(PeriodicPair, "symbol", lambda shape: shape)
+    noting(Taken, "table", lambda _: PIECES)
+    taking.cache_clear()  # what is kept from another solve is built as well
+    return found
+
+
+def planned(plan):
+    """Of two components there are as many kernels, in one product."""
+    return Counter((kernel.form, kernel.shape[-2:]) for kernel in plan.kernels)
+
+
+def of_the_finest(built, plan):
+    """Of a march everything: it has no coarser grids. Of the rest those of the finest."""
+    if plan.steps:
+        return Counter(built)
+    rows, points = plan.shape
+    finest = {
+        "kernel": {(rows, 2 * points)} | ({plan.shape} if rows > 1 else set()),  # pairs are of squares
+        "symbol": {plan.shape},
+        "table": {PIECES},
+    }
+    return Counter((form, shape) for form, shape in built if shape in finest[form])
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_kernels_of_a_plan_are_those_that_a_solve_builds(name, built):
+    scene = SCENES[name]
+    asked = solver(scene)
+    plan = asked.plan(scene)
+    assert not built  # a plan builds none
+    answer = asked.solve(scene)
+    assert planned(plan) == of_the_finest(built, plan)
+    assert plan.steps == answer.measures.get("time_steps", 0)
+    assert plan.shape == answer.fields["pressure"].shape
+
+
+def test_a_plan_says_that_tractions_without_coupling_build_the_kernel_of_the_pressure_again():
+    scene = SCENES["shear-uncoupled"]
+    said = solver(scene).plan(scene).kernels
+    (again,) = [kernel for kernel in said if kernel.name == "tractions: that of the pressure, built again"]
+    assert (again.form, again.shape) in [(kernel.form, kernel.shape) for kernel in said if kernel is not again]
+
+
+def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
+    scene = SCENES["slide"]
+    asked = solver(scene)
+    plan = asked.plan(scene)
+    asked.solve(scene)
+    fewer = replace(plan, kernels=plan.kernels[1:])
+    assert planned(fewer) != of_the_finest(built, plan)
+
+
+@pytest.mark.parametrize(
+    ("name", "points"),
+    [
+        ("rest", 256),
+        ("slide", 256),
+        ("modes", 256),
+        ("rough", 256),
+        ("plane", 256),
+        ("plane-slide", 256),
+        ("line-slide", 1024),
+        ("program", 256),
+        ("plane-program", 256),
+        ("layer", 256),
+        ("shear", 256),
+        ("shear-plane", 256),
+        ("topography", 256),
+    ],
+)
+def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
+    scene = SCENES[name]
+    asked = solver(scene, points=points)
+    solver(scene).solve(scene)  # what is loaded once is no part of it
+    tracemalloc.start()
+    try:
+        asked.solve(scene)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most / FACTOR < asked.plan(scene).memory < most * FACTOR
+
+
+def test_a_plan_draws_no_surface_and_holds_next_to_nothing(monkeypatch):
+    def drawn(*_):
+        raise AssertionError("a surface was drawn")
+
+    monkeypatch.setattr(RoughSurface, "of", drawn)
+    tracemalloc.start()
+    try:
+        plan = BEM(points=8192).plan(SCENES["rough"])
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert plan.memory > 5e9
+    assert most < 1e6
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_simulated_and_what_is_left_out_are_all_of_a_scene(name):
+    scene = SCENES[name]
+    plan = solver(scene).plan(scene)
+    assert list(plan.terms) == list(scene.parts)
+    assert {"roughness", "layer", "temperature", "heating", "interface"} - set(scene.parts) <= set(plan.left_out)
+    assert not set(plan.terms) & set(plan.left_out)
+    assert ("measured surface" in plan.left_out) == (name not in ("topography", "measured"))
+
+
+def test_at_rest_no_mode_is_followed_and_no_loss_is_looked_for():
+    rest, slide = (solver(SCENES[name]).plan(SCENES[name]) for name in ("rest", "slide"))
+    assert (rest.modes.count, slide.modes.count) == (0, 1)
+    assert "flow" in rest.left_out
+    assert "flow" not in slide.left_out
+    assert not [kernel for kernel in rest.kernels if "loss" in kernel.name or "flow" in kernel.name]
+    assert "conjugate gradients" in rest.method
+    assert "GMRES" in slide.method
+
+
+def test_an_elastic_solid_has_no_modes_whatever_the_motion():
+    plan = solver(SCENES["elastic"]).plan(SCENES["elastic"])
+    assert plan.modes.count == 0
+    assert {"modes", "flow"} <= set(plan.left_out)
+    assert plan.kernels == solver(SCENES["rest"]).plan(SCENES["rest"]).kernels
+
+
+@pytest.mark.parametrize("name", ["rest", "slide", "rough", "plane"])
+def test_the_applications_expected_are_near_those_that_it_takes(name):
+    # medians over other contacts, solved to 1e-7: a factor of two is their scatter
+    scene = SCENES[name]
+    asked = replace(solver(scene, points=128), tolerance=1e-7, extent=None)
+    expected, taken = asked.plan(scene).applications, asked.solve(scene).applications
+    assert taken / 2 < expected.value < taken * 2
+    assert "medians" in expected.why
+
+
+def test_costs_that_the_ladder_does_not_have_are_said_to_be_unknown():
+    bare = replace(SCENES["rough"], roughness=replace(ROUGH, shortest=None))
+    for scene in (SCENES["line"], bare, SCENES["wave"], SCENES["measured"]):
+        plan = solver(scene).plan(scene)
+        assert plan.seconds.value is None
+        assert plan.applications.value is None
+        assert "not known: " in str(plan)
+
+
+def test_parts_that_the_ladder_does_not_have_multiply_its_costs_by_what_they_were_measured_to_take():
+    known = multiples(EFFECTS)
+    asked, scene = solver(SCENES["layer"]), SCENES["layer"]
+    plain, layered = asked.plan(SCENES["slide"]), asked.plan(scene)
+    assert layered.seconds.value == pytest.approx(plain.seconds.value * known["Layer"]["seconds"])
+    held, march = asked.plan(SCENES["rest"]), asked.plan(replace(SCENES["pressed"], elastomer=KELVIN))
+    expected = held.applications.value * known["Program"]["applications"] * march.steps
+    assert march.applications.value == pytest.approx(expected)
+
+
+def test_what_is_refused_has_no_plan():
+    scene = replace(SCENES["plane"], roughness=replace(CELL, shortest=2e-6))
+    with pytest.raises(Refused, match="less than two pixels"):
+        BEM(points=64).plan(scene)
+
+
+def test_a_program_of_too_many_steps_is_said_before_it_is_marched():
+    far = Program(stages=(Stage(duration=1.0, load=LOAD), Stage(duration=1e6, speed=1.0)))
+    with pytest.raises(SolveError, match="more than 1000000"):
+        BEM(points=64).plan(Scene(SPHERE, STANDARD, far))
+
+
+def test_a_printed_plan_says_all_of_it():
+    plan = solver(SCENES["rough"]).plan(SCENES["rough"])
+    page = str(plan)
+    assert isinstance(plan, Plan)
+    for said in (*plan.terms.values(), *plan.left_out.values(), *(kernel.name for kernel in plan.kernels)):
+        assert said in page
+    for heading in ("simulated", "method", "grids", "kernels", "modes", "memory", "expected", "left out"):
+        assert f"\n  {heading}" in page
+    assert "hurst=0.8" in plan.terms["roughness"]
+    assert "rolloff" not in plan.terms["roughness"]  # what is not stated is not repeated

@@ -1,0 +1,126 @@
+"""Cerruti's kernels: means over pixels, waves, and products of two planes with a matrix of them."""
+
+import numpy as np
+import pytest
+
+from bem3d import cerruti, influence
+from bem3d.engine import Engine, WholePair, WholePlane
+from bem3d.grid import Grid
+
+ROUNDING = 1e-12
+PEAK = 1e-12  # of the greatest value: what the form of distant pixels leaves out, 100 pixels away
+SINGLE = 2e-6  # 2^-23 summed over a transform
+NU = 0.3
+
+
+@pytest.mark.parametrize(("j", "i"), [(0, 1), (1, 1), (2, 5), (40, 99), (99, 99), (100, 100), (3, 120), (150, 20)])
+def test_kernels_are_means_over_pixels(j, i):
+    node, weight = np.polynomial.legendre.leggauss(30)
+    x, y, both = i + node[None, :] / 2, j + node[:, None] / 2, weight[None, :] * weight[:, None] / 4
+    along, across = cerruti.kernels(160)
+    for kernel, part in ((along, x * x), (across, x * y)):
+        expected = (both * part / np.hypot(x, y) ** 3).sum() / np.pi
+        assert kernel[j, i] == pytest.approx(expected, abs=PEAK)
+
+
+def test_both_directions_together_are_loves_kernel():
+    along, _ = cerruti.kernels(160)
+    np.testing.assert_allclose(along + along.T, influence.elastic(160, 160)[:, 160:], atol=PEAK)
+
+
+def tractions(points):
+    return np.random.default_rng(0).standard_normal((2, points, points))
+
+
+@pytest.mark.parametrize("points", [8, 9])
+def test_a_free_product_is_the_sum_over_pairs_of_pixels(points):
+    (along, across), c, given = cerruti.kernels(points), NU / (1 - NU), tractions(points)
+    expected = np.zeros_like(given)
+    for j, i, row, column in np.ndindex(points, points, points, points):
+        dy, dx = abs(row - j), abs(column - i)
+        aside, mixed = along[dx, dy], c * across[dy, dx] * np.sign((row - j) * (column - i))
+        matrix = np.array([[(1 + c) * along[dy, dx] + aside, mixed], [mixed, along[dy, dx] + (1 + c) * aside]])
+        expected[:, row, column] += matrix @ given[:, j, i]
+    product = cerruti.free(Grid(points, 1.0), NU, Engine())
+    np.testing.assert_allclose(product(given), expected, atol=ROUNDING * np.abs(expected).max())
+    assert product.applications == 2
+
+
+@pytest.mark.parametrize("points", [12, 15])
+def test_a_wave_of_traction_displaces_along_its_crests_more_than_across(points):
+    y, x = np.mgrid[:points, :points]
+    q = 2 * np.pi / points * np.array([3, -2])
+    wave = np.cos(q[0] * x + q[1] * y)
+    product = cerruti.periodic(Grid(points, 1.0), NU, Engine())
+    across, along = q / np.hypot(*q), np.array([-q[1], q[0]]) / np.hypot(*q)
+    for direction, factor in ((across, 1.0), (along, 1 / (1 - NU))):
+        expected = direction[:, None, None] * wave * factor * 2 / np.hypot(*q)
+        np.testing.assert_allclose(product(direction[:, None, None] * wave), expected, atol=ROUNDING * 10)
+    even = np.ones((2, points, points))
+    np.testing.assert_allclose(product(even), 0.0, atol=ROUNDING)
+
+
+def test_on_odd_grids_the_approximate_inverse_of_a_cell_is_exact():
+    grid, given = Grid(15, 1.0), tractions(15)
+    given -= given.mean(axis=(1, 2), keepdims=True)
+    image = cerruti.preconditioner(grid, NU, Engine())(cerruti.periodic(grid, NU, Engine())(given))
+    np.testing.assert_allclose(image, given, atol=ROUNDING * 10)
+
+
+def products(points, engine):
+    grid = Grid(points, 1.0)
+    yield cerruti.free(grid, NU, engine)
+    yield cerruti.periodic(grid, NU, engine)
+
+
+@pytest.mark.parametrize("points", [16, 17])
+@pytest.mark.parametrize(
+    ("other", "accuracy"),
+    [
+        (Engine("fftw"), ROUNDING),
+        (Engine("ducc0", threads=2), ROUNDING),
+        (Engine("ducc0", precision="single"), SINGLE),
+        (Engine("fftw", precision="single"), SINGLE),
+    ],
+)
+def test_every_library_gives_the_same_pairs(other, accuracy, points):
+    given = tractions(points)
+    for product, another in zip(products(points, Engine()), products(points, other), strict=True):
+        expected = product(given)
+        np.testing.assert_allclose(another(given), expected, atol=accuracy * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("points", [16, 17])
+def test_whole_planes_and_blocks_are_one_product(points):
+    rng, given = np.random.default_rng(1), tractions(points)
+    padded = 2 * points, 2 * points
+    symbols = rng.standard_normal((3, points + 1, points + 1))
+    symbols[1, [0, -1]] = symbols[1, :, [0, -1]] = 0  # odd, and real planes
+    blocked = Engine().pair(list(symbols), (points, points), padded)
+    whole = WholePair(list(symbols), (points, points), padded, np)
+    out = np.empty_like(given)
+    np.testing.assert_allclose(whole(given), blocked(given), atol=ROUNDING)
+    assert blocked(given, out) is out
+    assert whole(given, out) is out
+    np.testing.assert_allclose(out, blocked(given), atol=ROUNDING)
+
+
+@pytest.mark.parametrize(("shape", "padded"), [((16, 12), (32, 24)), ((17, 12), (17, 24)), ((9, 12), (1, 12))])
+def test_whole_planes_and_blocks_are_one_product_of_a_single_symbol(shape, padded):
+    rng = np.random.default_rng(1)
+    symbol = rng.standard_normal((padded[0] // 2 + 1, padded[1] // 2 + 1)) + 0j
+    symbol[:, 1:-1] += 1j * rng.standard_normal((len(symbol), padded[1] // 2 - 1))
+    plane, out = rng.standard_normal(shape), np.empty(shape)
+    blocked, whole = Engine().product(symbol, shape, padded), WholePlane(symbol, shape, padded, np)
+    np.testing.assert_allclose(whole(plane), blocked(plane), atol=ROUNDING)
+    assert whole(plane, out) is out
+    np.testing.assert_array_equal(out, whole(plane))
+
+
+@pytest.mark.parametrize("points", [10, 11])
+def test_products_are_symmetric_and_definite(points):
+    grid = Grid(points, 1.0)
+    one, other = tractions(points), tractions(points)[::-1]
+    for product in (cerruti.free(grid, NU, Engine()), cerruti.preconditioner(grid, NU, Engine())):
+        assert np.sum(other * product(one)) == pytest.approx(np.sum(one * product(other)), rel=1e-10)
+        assert np.sum(one * product(one)) > 0

@@ -1,0 +1,305 @@
+"""Boundary elements on measured maps: the same answers as on the surface that was measured, or none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import bem3d.surface
+import scene.topography
+from bem3d import BEM
+from bem3d.engine import Engine
+from bem3d.grid import Grid
+from bem3d.problem import Problem
+from bem3d.surface import MOST_WAVES, RoughSurface
+from bem3d.topography import MeasuredRoughness
+from scene import (
+    Arrhenius,
+    Coulomb,
+    Indent,
+    Kelvin,
+    Layer,
+    Measured,
+    Plane,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Topography,
+)
+from scene.scales import elastic_contact
+
+L = 1e-3
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=L, shortest=L / 8, seed=1)
+SOLID = StandardLinearSolid(1e6, 1e7, 1e-3)
+ROUNDING = 1e-12  # of heights that differ by rounding, through a solve of the same steps
+BALL = Sphere(1e-2)
+PRESSED = Scene(Plane(), SOLID, Slide(speed=0.1, pressure=2e4), ROUGH)
+SLIDING = Scene(BALL, SOLID, Slide(speed=0.1, load=0.1), replace(ROUGH, longest=4 * L, shortest=L / 2))
+
+
+def sampled(rough, points, **other):
+    """A map of one period as an instrument might give it: heights at the pixels of a grid."""
+    grid = Grid(points, rough.longest)
+    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)
+    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
+    return Topography(heights=heights, **(stated | other))
+
+
+def same(one, other, rel):
+    assert one.normal_force == pytest.approx(other.normal_force, rel=rel)
+    assert one.depth == pytest.approx(other.depth, rel=rel)
+    assert one.friction_force == pytest.approx(other.friction_force, rel=rel, abs=rel * one.normal_force)
+    peak = one.fields["pressure"].max()
+    np.testing.assert_allclose(one.fields["pressure"], other.fields["pressure"], atol=rel * peak)
+
+
+# 17 pixels show eight waves and no more; of 64 the shorter ones are left out, to the rounding they have.
+@pytest.mark.parametrize("map_", [{"points": 17}, {"points": 64, "shortest_kept": L / 8}])
+@pytest.mark.parametrize("motion", [Indent(pressure=2e4), Slide(speed=0.1, pressure=2e4), Indent(gap=1e-6)])
+def test_a_plane_with_the_map_of_a_surface_is_the_plane_with_that_surface(map_, motion):
+    asked = replace(PRESSED, motion=motion)
+    solver = BEM(points=64)
+    one, other = (solver.solve(each) for each in (asked, replace(asked, roughness=sampled(ROUGH, **map_))))
+    same(one, other, 1e-9 if motion.pressed_by == "gap" else ROUNDING)
+    assert one.measures["rms_height"] == pytest.approx(other.measures["rms_height"], rel=ROUNDING)
+    assert one.measures["rms_slope"] == pytest.approx(other.measures["rms_slope"], rel=ROUNDING)
+    assert one.applications == other.applications
+
+
+@pytest.mark.parametrize("motion", [Indent(load=0.1), Slide(speed=0.1, load=0.1), Slide(speed=0.1, depth=1e-5)])
+def test_a_sphere_with_the_map_of_a_surface_is_the_sphere_with_that_surface(motion):
+    asked = replace(SLIDING, motion=motion)
+    twin = replace(asked, roughness=sampled(asked.roughness, 17))
+    solver = BEM(points=48)
+    one, other = solver.solve(asked), solver.solve(twin)
+    assert one.settings["extent"] == other.settings["extent"]
+    same(one, other, 1e-9)
+
+
+def test_a_program_with_the_map_of_a_surface_is_that_with_the_surface():
+    program = Program(stages=(Stage(duration=1e-3, load=0.1), Stage(duration=1e-3, speed=0.2)))
+    asked = replace(SLIDING, motion=program)
+    solver = BEM(points=32, steps=8)
+    one, other = (solver.solve(each) for each in (asked, replace(asked, roughness=sampled(asked.roughness, 17))))
+    np.testing.assert_allclose(one.fields["friction_force"], other.fields["friction_force"], atol=1e-9)
+    np.testing.assert_allclose(one.fields["depth"], other.fields["depth"], rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "effect",
+    [
+        {"layer": Layer(thickness=1e-3)},
+        {"temperature": Arrhenius(temperature=310.0, reference=300.0, activation_energy=1e5)},
+        {"motion": Shear(load=0.1, displacement=1e-6), "interface": Coulomb(coefficient=0.3)},
+    ],
+    ids=["layer", "temperature", "shear"],
+)
+def test_beside_other_effects_too_the_map_of_a_surface_is_that_surface(effect):
+    asked, solver = replace(SLIDING, **effect), BEM(points=48)
+    one, other = (solver.solve(each) for each in (asked, replace(asked, roughness=sampled(asked.roughness, 17))))
+    same(one, other, 1e-8)
+    smooth = solver.solve(replace(asked, roughness=None))
+    assert one.depth != pytest.approx(smooth.depth, rel=0.05)
+
+
+def test_the_surface_of_a_map_is_the_map():
+    rng = np.random.default_rng(0)
+    for repeat in ("mirror", "periodic"):
+        map_ = Topography(heights=rng.normal(size=(6, 9)), pixel=(1.0, 2.0), repeat=repeat, level="mean")
+        surface = RoughSurface.of(map_, map_.q_max(0.0))
+        x, y = np.arange(9) - 4.0, 2 * (np.arange(6) - 2.5)
+        np.testing.assert_allclose(surface.heights(x, y), map_.relief, atol=1e-13)
+        step = 1e-6
+        differences = (surface.heights(x + step, y) - surface.heights(x - step, y)) / (2 * step)
+        np.testing.assert_allclose(surface.slopes(x, y), differences, atol=1e-8)
+        # one transform over a period, or a product of matrices: the same sum
+        side_x, side_y = map_.sides
+        fine_x, fine_y = np.arange(60) * side_x / 60, np.arange(50) * side_y / 50
+        apart = np.concatenate([fine_x, [0.1]])
+        np.testing.assert_allclose(
+            surface.heights(fine_x, fine_y), surface.heights(apart, fine_y)[:, :-1], atol=1e-13
+        )
+
+
+def test_a_seed_moves_the_map_by_whole_pixels():
+    map_ = Topography(heights=np.random.default_rng(0).normal(size=(6, 9)), pixel=1.0, repeat="periodic", seed=5)
+    column, row = map_.place
+    assert (column, row) != (0, 0)
+    x, y = np.arange(9) - 4.0, np.arange(6) - 2.5
+    moved = RoughSurface.of(map_, 1.0).heights(x, y)
+    np.testing.assert_allclose(moved, np.roll(map_.relief, (-row, -column), (0, 1)), atol=1e-12)
+
+
+def test_places_of_a_map_differ():
+    asked, solver = replace(SLIDING, roughness=sampled(SLIDING.roughness, 17)), BEM(points=48)
+    forces = [
+        solver.solve(replace(asked, motion=Indent(depth=1e-5), roughness=replace(asked.roughness, seed=k)))
+        for k in (0, 2, 3)
+    ]
+    assert len({answer.normal_force for answer in forces}) == 3
+
+
+def test_a_map_without_heights_is_no_roughness():
+    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
+    smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))
+    same(smooth, bare, 0.0)
+    assert smooth.applications == bare.applications
+
+
+def test_a_scene_without_a_map_builds_none(monkeypatch):
+    def built(*_):
+        raise AssertionError("a map was looked at")
+
+    monkeypatch.setattr(scene.topography, "_waves", built)
+    monkeypatch.setattr(MeasuredRoughness, "refusals", built)
+    monkeypatch.setattr(bem3d.window, "check_on_map", lambda *_: None)
+    answer = BEM(points=32).solve(SLIDING)
+    assert answer.friction_coefficient > 0
+
+
+def test_the_map_is_built_once_for_all_grids(monkeypatch):
+    calls = []
+    build = scene.topography._mirrored
+    monkeypatch.setattr(scene.topography, "_mirrored", lambda *given: calls.append(1) or build(*given))
+    fresh = sampled(SLIDING.roughness, 19, repeat="mirror")
+    for seed in (0, 1):
+        BEM(points=48).solve(replace(SLIDING, roughness=replace(fresh, seed=seed)))
+    assert len(calls) == 1
+
+
+def test_rectangles_are_roughness_but_no_cell():
+    heights = 1e-6 * np.random.default_rng(0).normal(size=(12, 18))
+    map_ = Topography(heights=heights, pixel=1e-4, repeat="periodic", shortest_kept=4e-4)
+    answer = BEM(points=64).solve(replace(SLIDING, roughness=map_, motion=Indent(load=0.1)))
+    assert answer.normal_force == pytest.approx(0.1)
+    with pytest.raises(Refused, match="cell of a Plane is a square: crop"):
+        BEM(points=64).solve(replace(PRESSED, roughness=map_))
+
+
+def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
+    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
+    map_ = Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6)
+    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"
+    for body, motion in ((BALL, SLIDING.motion), (Plane(), PRESSED.motion)):
+        asked = Scene(body, SOLID, motion, map_)
+        with pytest.raises(Refused, match=refused):
+            BEM(points=32).solve(asked)
+        with pytest.raises(Refused, match=refused):
+            BEM(points=32).plan(asked)
+
+
+def test_a_grid_too_coarse_for_a_map_is_refused():
+    map_ = sampled(ROUGH, 100)
+    with pytest.raises(Refused, match=r"points = 100 would carry it"):
+        BEM(points=96).solve(replace(PRESSED, roughness=map_))
+    # as fine as the map is fine enough, whatever the rounding of the period
+    for points in (49, 50, 100):
+        BEM(points=points).solve(replace(PRESSED, roughness=sampled(ROUGH, points)))
+
+
+def ball(points, extent, middle=(0.0, 0.0), **other):
+    grid = Grid(points, extent)
+    x, y = grid.x - middle[0], grid.y[:, None] - middle[1]
+    return Measured(heights=-(x**2 + y**2) / (2 * BALL.radius), pixel=grid.pixel, **other)
+
+
+# Of a contact some 25 pixels in radius: the lowest pixel is not quite the apex, and windows are not the same.
+@pytest.mark.parametrize(
+    ("motion", "allowed"),
+    [(Indent(load=0.3), 3e-3), (Indent(depth=1e-5), 1e-2), (Slide(speed=0.5, load=0.3), 5e-3)],
+)
+def test_a_measured_sphere_is_a_sphere(motion, allowed):
+    asked, solver = Scene(BALL, SOLID, motion), BEM(points=96)
+    known, found = solver.solve(asked), solver.solve(replace(asked, indenter=ball(97, 4e-3)))
+    assert found.normal_force == pytest.approx(known.normal_force, rel=allowed)
+    assert found.depth == pytest.approx(known.depth, rel=allowed)
+    assert found.friction_force == pytest.approx(known.friction_force, rel=allowed)
+    assert found.measures["points_per_shortest_wave"] == pytest.approx(2 * (4e-3 / 97) / found.measures["pixel"])
+
+
+def test_a_measured_sphere_in_time_is_a_sphere():
+    program = Program(stages=(Stage(duration=1e-3, load=0.3), Stage(duration=2e-3, speed=0.5)))
+    solver = BEM(points=64, steps=16)
+    known, found = (solver.solve(Scene(body, SOLID, program)) for body in (BALL, ball(65, 4e-3)))
+    np.testing.assert_allclose(found.fields["depth"], known.fields["depth"], rtol=2e-2)
+    assert found.friction_force == pytest.approx(known.friction_force, rel=2e-2)
+
+
+def test_a_body_is_found_wherever_it_is_on_its_map():
+    solver, load = BEM(points=96), Indent(load=0.05)
+    answers = [
+        solver.solve(Scene(ball(97, 4e-3, (at * 4e-3 / 97, -at * 4e-3 / 97)), SOLID, load)) for at in (0, 25)
+    ]
+    assert answers[1].settings["centre"] == pytest.approx((25 * 4e-3 / 97, -25 * 4e-3 / 97), abs=1e-4)
+    assert answers[1].depth == pytest.approx(answers[0].depth, rel=5e-3)
+
+
+def test_a_peak_too_thin_for_a_coarse_grid_is_found():
+    # one pixel, far from the broad body: no point of the grids that place the window comes near it
+    grid = Grid(201, 8e-3)
+    x, y = grid.x, grid.y[:, None]
+    heights = np.maximum(-((x + 1e-3) ** 2 + y**2) / (2 * BALL.radius), -5e-5)
+    peak = np.argmin(np.abs(x - 3e-3))
+    heights[100, peak] += 4e-5
+    answer = BEM(points=256).solve(Scene(Measured(heights=heights, pixel=grid.pixel), SOLID, Indent(depth=3e-5)))
+    at = answer.fields["x"][(answer.fields["pressure"] > 0).any(axis=0)]
+    assert at.min() < -1e-3
+    assert at.max() == pytest.approx(x[peak], abs=grid.pixel)
+
+
+def test_a_contact_at_the_rim_of_a_map_is_an_error():
+    body = ball(64, 1e-3)
+    deep = elastic_contact(Scene(BALL, SOLID, Indent(depth=3e-5)))
+    assert deep.radius > 0.5e-3
+    for motion in (
+        Indent(depth=deep.depth),
+        Indent(load=deep.load),
+        Slide(speed=0.1, load=4 * deep.load),
+        Program(stages=(Stage(duration=1.0, load=deep.load),)),
+    ):
+        with pytest.raises(SolveError, match=r"rim of the map, 0\.001 x 0\.001 m"):
+            BEM(points=96, steps=4).solve(Scene(body, SOLID, motion))
+    # and a stated extent does not help
+    with pytest.raises(SolveError, match="rim of the map"):
+        BEM(points=128, extent=1.2e-3).solve(Scene(body, SOLID, Indent(load=deep.load)))
+    assert BEM(points=96).solve(Scene(body, SOLID, Indent(depth=1e-6))).normal_force > 0
+
+
+def test_a_body_that_is_not_reached_is_not_touched():
+    # its lowest pixel lies on the axis, between the pixels of an even grid
+    with pytest.raises(SolveError, match="between the centres of pixels"):
+        BEM(points=64, extent=1e-3).solve(Scene(ball(65, 2e-3), SOLID, Indent(depth=1e-12)))
+
+
+def test_a_grid_coarser_than_the_map_of_a_body_is_an_error():
+    with pytest.raises(SolveError, match=r"indenter.shortest = 4e-05 m is less than two pixels"):
+        BEM(points=32).solve(Scene(ball(200, 4e-3), SOLID, Indent(load=0.3)))
+
+
+def test_nothing_is_promised_of_measured_bodies():
+    with pytest.raises(ValueError, match="indenter = Measured"):
+        BEM.for_accuracy(Scene(ball(64, 4e-3), SOLID, Indent(load=0.1)), depth=0.1)
+
+
+def test_settings_for_a_map_keep_their_promise():
+    rough = replace(SLIDING.roughness, shortest=L)
+    asked = replace(SLIDING, roughness=sampled(rough, 9), elastomer=Kelvin(1e6, 1e-3))
+    choice = BEM.for_accuracy(asked, friction=0.05)
+    answer, truth = choice.solve(), BEM(points=256, tolerance=1e-6).solve(asked)
+    assert answer.confirmed
+    assert answer.result.friction_force == pytest.approx(truth.friction_force, rel=0.05)
+
+
+def test_a_measured_body_puts_no_roughness_on_grids():
+    problem = Problem(Scene(ball(64, 4e-3), SOLID, Indent(load=0.1)), Engine("ducc0", 1, "double"))
+    grid = Grid(64, 1e-3)
+    assert problem.surface(grid) is None
+    assert problem.points_per_wave(grid) == pytest.approx(2 * (4e-3 / 64) / grid.pixel)
+    assert Problem(Scene(BALL, SOLID, Indent(load=0.1)), problem.engine).shortest(grid) is None

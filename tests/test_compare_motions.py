@@ -1,0 +1,166 @@
+"""Motions in one dimension beside three, and the study of them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from bem3d import BEM
+from compare.effects import motions as study
+from compare.effects.track import Track, harmonic
+from compare.outcome import Outcome, Row
+from compare.references import motions
+from compare.store import key
+from mdr1d import MDR
+from scene import Arrhenius, Kelvin, Layer, Program, Scene, SolveError, Sphere, Stage, StandardLinearSolid
+
+R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3
+DEPTH = A**2 / R
+SOLID = StandardLinearSolid(G, 5 * G, TAU)
+PRESSED = Stage(duration=TAU, load=1.0)
+LINE, SPACE = MDR(points=1000), BEM(points=48, steps=60)
+
+
+def solved(solver, solid, *stages):
+    return solver.solve(Scene(Sphere(R), solid, Program(stages=tuple(Stage(**stage) for stage in stages)))).fields
+
+
+# Of the greatest force, in the mean and at most: pixels of which 16 span the radius; a dashpot that touches again
+# jumps within a step of 1/40 period.
+@pytest.mark.parametrize(("solid", "mean", "most"), [(SOLID, 5e-4, 2e-3), (Kelvin(G, TAU), 5e-3, 0.2)])
+def test_however_large_an_oscillation_of_the_depth_one_dimension_has_the_force_of_three(solid, mean, most):
+    # nothing slides: one dimension is exact, through separation too; a third of the depth, lifted fast
+    stages = (
+        {"duration": TAU, "depth": DEPTH},
+        {"duration": 2 * TAU, "amplitude": 0.3 * DEPTH, "frequency": 1 / TAU},
+        {"duration": TAU, "depth": 0.5 * DEPTH, "amplitude": 0.3 * DEPTH, "frequency": 2 / TAU},
+    )
+    one, three = (solved(solver, solid, *stages) for solver in (LINE, SPACE))
+    expected = np.interp(three["time"], one["time"], one["normal_force"])
+    late = three["time"] > 0.5 * TAU
+    off = np.abs(three["normal_force"] - expected)[late] / expected.max()
+    assert off.mean() < mean
+    assert off.max() < most
+    assert expected[late].min() < 0.05 * expected.max()
+
+
+@pytest.mark.parametrize(("solver", "times"), [(LINE, 2.0), (SPACE, 1.0)])
+def test_coming_down_at_an_angle_on_a_quick_solid_friction_is_its_lag_over_the_radius(solver, times):
+    lag, speed = 1e-3 * TAU, A / TAU
+    down = {"duration": 3 * TAU, "depth": DEPTH, "speed": speed}
+    fields = solved(solver, Kelvin(G, lag), down)
+    late = fields["time"] > TAU
+    mu = fields["friction_force"][late] / fields["normal_force"][late]
+    # of first order in lag over the time to come down, 1e-3; mu by traction on 10 to 16 pixels of radius
+    assert np.median(mu) == pytest.approx(times * lag * speed / R, rel=5e-2)
+
+
+def test_the_closed_form_of_an_oblique_approach_has_its_limits():
+    solid = Kelvin(G, 1e-9)
+    force, friction = motions.oblique(R, solid, 1.0, 1e-3, DEPTH / 1e-3)
+    assert force == pytest.approx(4 / 3 * 4 * G * np.sqrt(R) * DEPTH**1.5, rel=1e-3)
+    assert friction == pytest.approx(2 * 1e-9 / R * force, rel=1e-3)  # twice v tau / R
+    down = motions.oblique(R, Kelvin(G, TAU), 0.0, 0.1, DEPTH / 0.1)
+    # Lee and Radok: B (d^(3/2) + tau d(d^(3/2))/dt)
+    assert down[0] == pytest.approx(4 / 3 * 4 * G * np.sqrt(R * DEPTH) * (DEPTH + 1.5 * TAU * 0.1), rel=1e-12)
+    assert down[1] == pytest.approx(0.0, abs=1e-12 * down[0])
+
+
+def test_a_harmonic_is_found_beside_a_mean_and_a_second_one():
+    time = np.sort(np.random.default_rng(1).random(50))
+    values = 3 + 2 * np.sin(5 * time + 0.7) - np.cos(10 * time)
+    found = harmonic(time, values, 5.0)
+    assert abs(found) == pytest.approx(2.0, rel=1e-9)
+    assert np.angle(found) == pytest.approx(0.7, rel=1e-9)
+
+
+def test_a_track_knows_where_friction_comes_to_and_what_it_does():
+    time = np.linspace(0, 10, 1001)
+    track = Track(time, 2 * time, 1 - np.exp(-time))
+    assert track.until(1.0) == pytest.approx(2 * np.log(20), rel=1e-2)
+    assert np.isnan(track.until(5.0))
+    assert track.within(5.0).mean == pytest.approx(1 - (np.exp(-5) - np.exp(-10)) / 5, rel=1e-4)
+    assert track.work == pytest.approx(2 * (9 + np.exp(-10)), rel=1e-4)
+    assert Track(time, time, 0.5 - time).until_zero == pytest.approx(0.5)
+    assert np.isnan(track.within(20.0).mean)
+
+
+def answered(solver, stage):
+    """The answer, or the reason why there is none."""
+    try:
+        return solver.solve(Scene(Sphere(R), SOLID, Program(stages=(PRESSED, Stage(**stage)))))
+    except (ValidationError, SolveError) as reason:
+        return str(reason)
+
+
+EXTREME = (5e-324, 1e-300, 1e-150, 1e-30, 1e30, 1e150, 1e300)
+
+
+@pytest.mark.parametrize("solver", [MDR(points=60, steps=20), BEM(points=16, steps=10)], ids=["1D", "3D"])
+@pytest.mark.parametrize("value", EXTREME)
+def test_extreme_oscillations_and_reversals_are_followed_or_declined_with_a_reason(value, solver):
+    given = (
+        {"speed": -value},
+        {"amplitude": 0.5, "frequency": value},
+        {"amplitude": min(value, 1.0), "frequency": 1 / TAU, "speed": -0.1},
+        {"amplitude": 0.5, "frequency": 1 / value, "duration": value},
+    )
+    for each in given:
+        answer = answered(solver, {"duration": TAU} | each)
+        if isinstance(answer, str):
+            assert len(answer) > 20
+        else:
+            last = float(answer.scene.motion.prescribed(answer.scene.motion.duration))
+            assert answer.normal_force == pytest.approx(last, rel=0.1)
+            assert each.get("speed", 0.0) >= 0 or -1 < answer.friction_coefficient < 1e-3
+
+
+def test_the_tasks_of_the_study_are_all_different_and_refused_by_no_one():
+    tasks = study.tasks()
+    assert len({key(task) for task in tasks}) == len(tasks) == 2 * (8 + 2 + 3) + 2
+    for task in tasks:
+        assert not task.solver.refusals(task.scenes[0])
+        assert task.label
+
+
+def test_what_could_not_be_solved_is_said_with_its_reason():
+    failed = Outcome((Row(reason="too steep"),))
+    chapter = study.chapter({task: failed for task in study.tasks()})
+    assert chapter.text.count("Not solved") == len(study.tasks())
+    assert "too steep" in chapter.text
+    assert all("nan" in row["found"] for row in chapter.tables["Against closed forms"])
+
+
+@pytest.mark.slow
+def test_the_study_finds_what_is_known_and_draws_it(monkeypatch):
+    monkeypatch.setattr(study, "SOLVERS", {"1D": MDR(points=300, steps=50), "3D": BEM(points=40, steps=30)})
+    chapter = study.chapter({task: task.solve() for task in study.tasks()})
+    assert "Not solved" not in chapter.text
+    assert "nan" not in chapter.text
+    for row in chapter.tables["Against closed forms"]:
+        # 40 and 300 points; some percent where friction of an approach hangs on the edges of a dashpot
+        assert float(row["found"]) == pytest.approx(float(row["closed form"]), rel=3e-2), row
+    (drawing,), (rows,) = chapter.figures.values(), chapter.data.values()
+    assert len(drawing.axes) == 6
+    for dimension in ("1D", "3D"):
+        lowered = {row["x"]: row["y"] for row in rows if (row["panel"], row["dimension"]) == ("mean", dimension)}
+        assert lowered[0.4] / lowered[0.2] == pytest.approx(4.0, rel=0.2)
+        loop = [row for row in rows if (row["panel"], row["dimension"]) == ("reversal", dimension)]
+        assert min(row["y"] for row in loop) == pytest.approx(-max(row["y"] for row in loop), rel=0.1)
+
+
+def test_reversal_on_a_warm_layer_is_its_mirror_image_and_that_of_the_shifted_solid():
+    press, way = {"duration": TAU, "load": 0.5}, {"duration": TAU, "speed": 0.5}
+    there = Program(stages=(Stage(**press), Stage(**way), Stage(**way | {"speed": -0.8})))
+    back = replace(there, stages=tuple(replace(stage, speed=-stage.speed) for stage in there.stages))
+    warm = Arrhenius(temperature=310.0, reference=300.0, activation_energy=5e4)
+    scene = Scene(Sphere(R), SOLID, there, layer=Layer(thickness=2e-3), temperature=warm)
+    solver = BEM(points=24, steps=10)
+    one, other = solver.solve(scene), solver.solve(replace(scene, motion=back))
+    assert other.friction_force == pytest.approx(-one.friction_force, rel=1e-9)
+    faster = StandardLinearSolid(G, 5 * G, TAU * warm.shift)
+    shifted = solver.solve(replace(scene, elastomer=faster, temperature=None))
+    assert shifted.friction_force == pytest.approx(one.friction_force, rel=1e-9)
+    plain = solver.solve(replace(scene, layer=None))
+    assert one.depth < 0.9 * plain.depth

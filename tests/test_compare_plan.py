@@ -1,0 +1,114 @@
+"""`crosscheck plan`: both solvers' plans of a file, and what it says of a file that cannot be solved."""
+
+import subprocess
+import sys
+import time
+import tracemalloc
+
+import pytest
+from test_compare_cases import SCENE
+from typer.testing import CliRunner
+
+from bem3d import BEM
+from compare.__main__ import app
+from compare.planning import plans
+from mdr1d import MDR
+from scene import Scene
+from scene.plan import Plan
+from scene.reading import read
+
+PLANE = """
+[indenter]
+type = "plane"
+[elastomer]
+type = "elastic"
+modulus = 1e6
+[motion]
+type = "indent"
+pressure = 1e4
+[roughness]
+type = "self-affine"
+hurst = 0.8
+rms_height = 1e-6
+longest = 1e-3
+shortest = {shortest}
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text):
+        path = tmp_path / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def told(path):
+    return CliRunner().invoke(app, ["plan", str(path)])
+
+
+def test_both_plans_of_a_scene_are_printed_and_are_those_of_the_solvers(written):
+    path = written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n")
+    answer = told(path)
+    assert answer.exit_code == 0
+    case = written(SCENE)
+    scene = read(case, Scene)
+    assert answer.output == f"{MDR(points=700).plan(scene)}\n\n{BEM(points=96).plan(scene)}\n"
+
+
+def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
+    path = written(PLANE.format(shortest=1e-4))
+    answer = told(path)
+    assert answer.exit_code == 0
+    assert "MDR cannot solve this scene: indenter = Plane: it is no body of revolution" in answer.output
+    assert "\nBEM, 128 points a side" in answer.output
+    assert isinstance(plans(path)["BEM"], Plan)
+
+
+def test_where_all_refuse_the_status_says_so(written):
+    answer = told(written(PLANE.format(shortest=1e-6)))
+    assert answer.exit_code == 2
+    assert "MDR cannot solve this scene" in answer.output
+    assert "BEM cannot solve this scene: roughness.shortest = 1e-06 m is less than two pixels" in answer.output
+
+
+def test_a_program_of_too_many_steps_is_told_and_not_planned(written):
+    head, _ = SCENE.split("[motion]", 1)
+    stages = '[motion]\ntype = "program"\nstages = [{duration = 1.0, load = 1.0}, {duration = 1e9, speed = 1.0}]\n'
+    answer = told(written(head + stages))
+    assert answer.exit_code == 2
+    assert "would not get through this scene" in answer.output
+
+
+def test_a_mistake_in_the_file_is_named(written):
+    answer = told(written(SCENE.replace("load", "lode")))
+    assert answer.exit_code == 2
+    assert "motion.lode" in answer.output
+
+
+def test_plans_are_made_in_less_than_a_second_and_hold_next_to_nothing(written):
+    path = written(SCENE + "[bem]\npoints = 16384\n[mdr]\npoints = 100000\n")
+    plans(path)
+    tracemalloc.start()
+    started = time.process_time()
+    try:
+        found = plans(path)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert time.process_time() - started < 0.5
+    assert found["BEM"].memory > 2e10
+    assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
+
+
+def test_a_plan_solves_nothing(written):
+    # neither solver's loops are even compiled, or loaded from where they were
+    code = (
+        "import sys; from pathlib import Path; from bem3d import contact, window\n"
+        "from compare.planning import plans\n"
+        "contact.solve = window.fitted = None; found = plans(Path(sys.argv[1])); assert len(found) == 2;"
+        "import mdr1d.foundation as f; assert not f._sweep.signatures"
+    )
+    subprocess.run([sys.executable, "-c", code, str(written(SCENE))], check=True)

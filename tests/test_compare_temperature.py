@@ -1,0 +1,407 @@
+"""Temperature and frictional heating in both dimensionalities: laws that hold whatever the solver."""
+
+from dataclasses import fields, replace
+from math import exp, sqrt
+
+import numpy as np
+import pytest
+from scipy.optimize import bisect
+
+from bem3d import BEM
+from bem3d.convolution import FreeConvolution
+from compare import report
+from compare.cases import Case
+from compare.effects import temperature, warmcontacts
+from compare.outcome import Outcome, Row
+from compare.study import Task, points
+from mdr1d import MDR
+from scene import (
+    WLF,
+    Arrhenius,
+    Coulomb,
+    Fractional,
+    Heating,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    Program,
+    Prony,
+    Refused,
+    Result,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+from scene import scene as scenes
+from scene.heated import Heated
+from scene.scales import elastic_contact
+from scene.temperature import GAS_CONSTANT
+
+SOLVERS = (MDR(points=400), BEM(points=32))
+names = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+# Modes found anew from shifted times, and what iterations make of such a difference.
+SUPERPOSED = {"MDR": 1e-10, "BEM": 1e-8}
+AGREE = 1e-6  # temperature and heat, as stated
+
+RADIUS, RUBBERY, TIME, REFERENCE = 50e-3, 3e6, 1e-4, 296.0
+STANDARD = StandardLinearSolid(RUBBERY, 100 * RUBBERY, TIME)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=2e-3, seed=2)
+LAW = WLF(temperature=310.0, reference=REFERENCE, c1=7.2, c2=124.6)
+PLAIN = Scene(Sphere(radius=RADIUS), STANDARD, Slide(speed=0.1, load=10.0))
+WARM = replace(PLAIN, temperature=LAW)
+SOLIDS = {
+    "standard": STANDARD,
+    "kelvin": Kelvin(RUBBERY, TIME),
+    "prony": Prony(RUBBERY, (RUBBERY, 9 * RUBBERY), (10 * TIME, TIME)),
+    "chain": KelvinChain(0.1 / RUBBERY, (0.5 / RUBBERY, 0.4 / RUBBERY), (TIME, 30 * TIME)),
+    "fractional": Fractional(
+        modulus=RUBBERY, relaxation_time=TIME, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e5
+    ),
+}
+
+
+def numbers(result: Result):
+    """All that a result says of the contact, in one array."""
+    forces = [result.normal_force, result.friction_force, result.depth]
+    return np.concatenate([forces, *(np.ravel(field) for field in result.fields.values())])
+
+
+def same(found, wanted, rtol):
+    """Numbers equal to so much of the largest of their kind."""
+    for one, other in (
+        *(([getattr(found, n)], [getattr(wanted, n)]) for n in ("normal_force", "friction_force", "depth")),
+        *((found.fields[name], wanted.fields[name]) for name in wanted.fields),
+    ):
+        one, other = np.asarray(one, float), np.asarray(other, float)
+        np.testing.assert_allclose(one, other, rtol=0, atol=rtol * np.abs(other).max())
+
+
+@names
+@pytest.mark.parametrize("name", SOLIDS)
+def test_a_warmer_contact_is_one_at_the_reference_that_slides_more_slowly(solver, name):
+    warm = replace(WARM, elastomer=SOLIDS[name])
+    slow = replace(PLAIN, elastomer=SOLIDS[name], motion=replace(PLAIN.motion, speed=0.1 * LAW.shift))
+    found = solver.solve(warm)
+    same(found, solver.solve(slow), SUPERPOSED[solver.name])
+    # it matters
+    there = solver.solve(replace(PLAIN, elastomer=SOLIDS[name]))
+    assert abs(found.friction_coefficient / there.friction_coefficient - 1) > 0.05
+
+
+@names
+def test_so_is_a_rough_one_under_the_law_of_arrhenius(solver):
+    law = Arrhenius(temperature=280.0, reference=REFERENCE, activation_energy=60e3)
+    rough = replace(PLAIN, roughness=ROUGH)
+    slow = replace(rough, motion=replace(PLAIN.motion, speed=0.1 * law.shift))
+    same(solver.solve(replace(rough, temperature=law)), solver.solve(slow), SUPERPOSED[solver.name])
+
+
+@names
+def test_a_history_of_a_warmer_contact_is_a_longer_one_at_the_reference(solver):
+    def program(factor):
+        return Program(
+            stages=(
+                Stage(duration=3e-3 / factor, load=10.0),
+                Stage(duration=2.3e-3 / factor, speed=0.5 * factor),
+                Stage(duration=1e-3 / factor, load=4.0, speed=0.1 * factor),
+            )
+        )
+
+    solver = replace(solver, steps=24)
+    found = solver.solve(replace(WARM, motion=program(1.0)))
+    wanted = solver.solve(replace(PLAIN, motion=program(LAW.shift)))
+    factors = {"time": 1 / LAW.shift, "speed": LAW.shift}
+    for name in found.fields:
+        one, other = found.fields[name] * factors.get(name, 1.0), wanted.fields[name]
+        kept = np.isfinite(other)
+        np.testing.assert_array_equal(np.isfinite(one), kept)
+        scale = np.abs(other[kept]).max()
+        np.testing.assert_allclose(one[kept], other[kept], rtol=0, atol=1e-7 * scale, err_msg=name)
+
+
+@names
+def test_at_the_reference_the_answer_is_the_same_bit_by_bit(solver):
+    there = replace(LAW, temperature=REFERENCE)
+    for scene in (PLAIN, replace(PLAIN, roughness=ROUGH)):
+        plain, found = solver.solve(scene), solver.solve(replace(scene, temperature=there))
+        np.testing.assert_array_equal(numbers(found), numbers(plain))
+        assert found.applications == plain.applications
+        assert found.measures == pytest.approx(plain.measures, rel=0, abs=0, nan_ok=True)
+
+
+@names
+def test_at_rest_the_temperature_is_not_felt(solver):
+    rest = replace(PLAIN, motion=Indent(load=10.0))
+    np.testing.assert_array_equal(
+        numbers(solver.solve(replace(rest, temperature=LAW))), numbers(solver.solve(rest))
+    )
+
+
+@names
+def test_a_scene_without_temperature_or_heating_builds_nothing_for_them(solver, monkeypatch):
+    def forbidden(*_, **__):
+        raise AssertionError("built")
+
+    monkeypatch.setattr(scenes, "Shifted", forbidden)
+    monkeypatch.setattr(Heated, "around", forbidden)
+    solver.solve(replace(PLAIN, roughness=ROUGH))
+    with pytest.raises(AssertionError, match="built"):
+        solver.solve(WARM)
+    with pytest.raises(AssertionError, match="built"):
+        solver.solve(replace(PLAIN, heating=Heating(conductivity=1.0)))
+
+
+@names
+def test_estimates_are_read_off_one_solve_that_is_the_same(solver, monkeypatch):
+    built, build = [], FreeConvolution.__init__
+
+    def counting(self, *arguments, **others):
+        built.append(type(self))
+        build(self, *arguments, **others)
+
+    monkeypatch.setattr(FreeConvolution, "__init__", counting)
+    rough = replace(WARM, roughness=ROUGH)
+    plain = solver.solve(rough)
+    before = len(built)
+    found = solver.solve(replace(rough, heating=Heating(conductivity=50.0)))
+    assert len(built) == 2 * before
+    assert (before > 0) == (solver.name == "BEM")
+    np.testing.assert_array_equal(numbers(found), numbers(plain))
+    assert (found.applications, found.settings) == (plain.applications, plain.settings)
+    # Methods of the paper: 2 mu G0 d v/lambda, and G_inf and h0 in the place of G0 and d
+    heat = 2 * plain.friction_coefficient * 0.1 / 50.0
+    extra = {
+        "average_heating": heat * RUBBERY * plain.depth,
+        "flash_heating": heat * 100 * RUBBERY * plain.measures["rms_height"],
+    }
+    assert {name: found.measures[name] for name in extra} == pytest.approx(extra, rel=1e-13)
+    assert found.measures.keys() == plain.measures.keys() | extra.keys()
+
+
+@names
+@pytest.mark.parametrize("feedback", ["average", "flash"])
+def test_a_contact_with_feedback_is_the_contact_at_its_own_temperature(solver, feedback):
+    rough = replace(WARM, roughness=ROUGH)
+    answer = solver.solve(replace(rough, heating=Heating(conductivity=0.2, feedback=feedback)))
+    found = answer.measures
+    own = replace(rough, temperature=replace(LAW, temperature=found["temperature"]))
+    there = solver.solve(replace(own, heating=Heating(conductivity=0.2)))
+    np.testing.assert_array_equal(numbers(answer), numbers(there))
+    rise = there.measures[f"{feedback}_heating"]
+    assert found["temperature"] - 310.0 == pytest.approx(rise, rel=2 * AGREE, abs=1e-9)
+    assert rise > 1.0
+    assert answer.scene.temperature == LAW
+    assert answer.applications >= found["heating_solves"] > 1
+
+
+@names
+def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
+    for scene, conductivity in (
+        (WARM, 1e15),
+        (replace(WARM, motion=Slide(speed=0.0, load=10.0)), 1e-3),
+        (replace(WARM, motion=Indent(depth=1e-4)), 1e-3),
+    ):
+        found = solver.solve(replace(scene, heating=Heating(conductivity=conductivity, feedback="average")))
+        plain = solver.solve(scene)
+        np.testing.assert_array_equal(numbers(found), numbers(plain))
+        assert found.measures["heating_solves"] == 1
+        assert found.applications == plain.applications
+
+
+# Slow sliding of a Kelvin sphere: mu = v tau a_T/R in three dimensions, twice that in one.
+SLOW = {"MDR": 2.0, "BEM": 1.0}
+
+
+@names
+def test_slow_friction_settles_where_a_closed_form_does(solver):
+    speed, energy = 5e-3, 60e3
+    slow = replace(
+        PLAIN,
+        elastomer=Kelvin(RUBBERY, TIME),
+        motion=Slide(speed=speed, load=10.0),
+        temperature=Arrhenius(temperature=290.0, reference=REFERENCE, activation_energy=energy),
+    )
+    depth = (3 * 10.0 / (16 * RUBBERY * sqrt(RADIUS))) ** (2 / 3)
+
+    def friction(temperature):
+        return (
+            SLOW[solver.name]
+            * speed
+            * TIME
+            / RADIUS
+            * exp(energy / GAS_CONSTANT * (1 / temperature - 1 / REFERENCE))
+        )
+
+    # so little heat is conducted that 60 K are to be expected, and a third of that settles
+    conductivity = 2 * friction(290.0) * RUBBERY * depth * speed / 60.0
+    expected = bisect(
+        lambda t: t - 290.0 - 2 * friction(t) * RUBBERY * depth * speed / conductivity, 290.0, 360.0, xtol=1e-9
+    )
+    answer = solver.solve(replace(slow, heating=Heating(conductivity=conductivity, feedback="average")))
+    assert 10 < expected - 290 < 25
+    # v tau/a is 3e-4; three dimensions have a pixel of a tenth of the radius
+    assert answer.measures["temperature"] - 290 == pytest.approx(expected - 290, rel=0.01)
+    assert answer.friction_coefficient == pytest.approx(friction(expected), rel=0.02)
+
+
+@names
+def test_fast_friction_ignites_where_a_closed_form_does(solver):
+    """mu = (4/5) f a_g^2/(R v tau_c) falls with the speed: warmer is slower, and heats more. x = C/a_T(T0 + x)."""
+    stiff, energy, speed = 1000.0, 80e3, 100.0
+    solid = StandardLinearSolid(RUBBERY, stiff * RUBBERY, 10.0)
+    cold = Arrhenius(temperature=REFERENCE, reference=REFERENCE, activation_energy=energy)
+    fast = replace(PLAIN, elastomer=solid, motion=Slide(speed=speed, load=10.0), temperature=cold)
+    glassy = elastic_contact(replace(fast, elastomer=Kelvin(stiff * RUBBERY, TIME)))
+    friction = 0.8 * (stiff - 1) * glassy.radius**2 / (RADIUS * speed * 10.0 * stiff)
+    heat = 2 * friction * RUBBERY * glassy.depth * speed
+
+    def shift(x):
+        return exp(energy / GAS_CONSTANT * (1 / (REFERENCE + x) - 1 / REFERENCE))
+
+    # x a_T(T0 + x) has its maximum where R (T0 + x)^2 = E x
+    top = bisect(lambda x: GAS_CONSTANT * (REFERENCE + x) ** 2 - energy * x, 1.0, 15.0)
+    critical = heat / (top * shift(top))
+
+    def rise(conductivity):
+        heating = Heating(conductivity=conductivity, feedback="average")
+        return solver.solve(replace(fast, heating=heating)).measures["average_heating"]
+
+    low = bisect(lambda x: x * shift(x) - heat / (1.3 * critical), 0.0, top, xtol=1e-9)
+    # three dimensions have a pixel of a tenth of the radius: 3 % of the friction, twice that of the rise
+    assert rise(1.3 * critical) == pytest.approx(low, rel=0.1)
+    assert rise(0.8 * critical) > 10 * top
+
+
+@names
+def test_friction_of_the_interface_heats_too(solver):
+    rubbing = replace(WARM, interface=Coulomb(0.3))
+    if solver.refusals(rubbing):
+        pytest.skip(f"{solver.name} has no friction in the interface")
+    plain = solver.solve(rubbing)
+    found = solver.solve(replace(rubbing, heating=Heating(conductivity=5.0, feedback="average")))
+    there = solver.solve(replace(WARM, temperature=replace(LAW, temperature=found.measures["temperature"])))
+    total = there.friction_coefficient + 0.3
+    assert found.friction_coefficient == pytest.approx(total, rel=1e-12)
+    rise = 2 * total * RUBBERY * there.depth * 0.1 / 5.0
+    assert found.measures["average_heating"] == pytest.approx(rise, rel=1e-12)
+    assert plain.friction_coefficient > 0.3
+
+
+@names
+def test_a_program_with_heating_is_refused_by_name(solver):
+    program = Program(stages=(Stage(duration=1.0, load=1.0), Stage(duration=1.0, speed=0.1)))
+    heated = replace(WARM, motion=program, heating=Heating(conductivity=1.0))
+    with pytest.raises(Refused, match="heating = Heating: it is estimated of steady sliding, not of a Program"):
+        solver.solve(heated)
+
+
+def test_errors_are_not_promised_of_what_acts_back_on_itself():
+    with pytest.raises(ValueError, match=r"heating\.feedback = 'average'"):
+        BEM.for_accuracy(replace(WARM, heating=Heating(conductivity=1.0, feedback="average")), friction=0.1)
+
+
+def test_tasks_at_two_temperatures_are_two():
+    task = Task(SOLVERS[0], (WARM,))
+    other = Task(SOLVERS[0], (replace(WARM, temperature=replace(LAW, temperature=311.0)),))
+    assert task.question != other.question
+    assert task.question == Task(SOLVERS[0], (replace(WARM),)).question
+
+
+def test_every_point_around_a_heated_case_can_be_solved():
+    case = Case(
+        indenter=PLAIN.indenter,
+        elastomer=STANDARD,
+        motion=PLAIN.motion,
+        roughness=ROUGH,
+        temperature=LAW,
+        heating=Heating(conductivity=0.2, feedback="flash"),
+        bem=BEM(points=64),
+    )
+    found = points(case)  # raises where one is refused: smooth bodies and rest too, of which flashes are zero
+    solvers = {
+        kind: {point.solver for point in found if point.kind == kind} for kind in ("own", "smooth", "force-depth")
+    }
+    assert solvers == {"own": {"MDR", "BEM"}, "smooth": {"MDR", "BEM"}, "force-depth": {"MDR", "BEM", "exact"}}
+    assert all(point.scene.heating == case.heating for point in found)
+
+
+def test_a_case_has_its_effects_and_its_report_names_them():
+    case = Case(
+        **{field.name: getattr(WARM, field.name) for field in fields(Scene) if field.name != "heating"},
+        heating=Heating(conductivity=0.2, feedback="average"),
+    )
+    case.refuse()
+    for part, words in (
+        (case.temperature, "WLF, temperature 310 K, stated at 296 K, c1 7.2, c2 124.6 K"),
+        (case.heating, "Heating, conductivity 0.2 W/(m K), feedback average"),
+        (
+            Arrhenius(temperature=310.0, reference=296.0, activation_energy=8e4),
+            "Arrhenius, temperature 310 K, stated at 296 K, activation energy 80000 J/mol",
+        ),
+    ):
+        assert report.described(part) == words
+
+
+@pytest.fixture(scope="module")
+def study():
+    """The study on coarse lines, in one dimension twice: what is under test is what it makes of answers."""
+    patch = pytest.MonkeyPatch()
+    patch.setattr(warmcontacts, "SOLVERS", {"1D": MDR(points=200), "3D": MDR(points=300)})
+    outcomes = {task: task.solve() for task in temperature.tasks()}
+    yield outcomes, warmcontacts.points(outcomes)
+    patch.undo()
+
+
+def test_the_study_collapses_and_finds_what_the_feedback_finds(study):
+    _, found = study
+    assert temperature.collapse(found) < SUPERPOSED["MDR"]
+    for dimension in ("1D", "3D"):
+        steady = temperature.steady(found, dimension)
+        assert len(steady) == 3
+        (given,) = [
+            point.average_heating
+            for point in found
+            if (point.panel, point.dimension) == ("speed", dimension)
+            and (point.feedback, point.speed) == ("average", warmcontacts.SEVERAL_AT)
+        ]
+        # straight lines between rises that grow by a third from one to the next
+        assert given == pytest.approx(steady[0], rel=0.03)
+
+
+def test_steady_temperatures_are_where_lines_between_rises_cross_the_diagonal(study):
+    _, found = study
+    point = next(each for each in found if each.panel == "warmer")
+    warmer = [(0.0, 3.0), (1.0, 3.5), (5.0, 4.5), (10.0, 14.5), (20.0, 0.5)]
+    drawn = [
+        replace(point, temperature=warmcontacts.ROOM + x, average_heating=rise, dimension="1D")
+        for x, rise in warmer
+    ]
+    # 3.5 + (x - 1)/4 = x; 4.5 + 2 (x - 5) = x; 14.5 - 1.4 (x - 10) = x
+    expected = [3.25 / 0.75, 5.5, 28.5 / 2.4]
+    np.testing.assert_allclose(temperature.steady(drawn, "1D"), expected, rtol=1e-10)
+
+
+def test_the_chapter_has_the_numbers_of_the_study(study):
+    outcomes, found = study
+    chapter = temperature.chapter(outcomes)
+    assert "3 temperatures are steady in one dimension and 3 in three" in chapter.text
+    assert "nan" not in chapter.text
+    assert "{" not in chapter.text
+    ((_, rows),) = chapter.tables.items()
+    assert len(rows) == len(warmcontacts.CONTACTS) * len(warmcontacts.CONDUCTIVITIES)
+    # 2 mu G0 d v/lambda of the paper at 1 N and 10 mm/s, mu of the interface and a little more
+    first = float(rows[0]["average, K, 1D"].split()[0])
+    assert first == pytest.approx(2 * 0.51 * 3e6 * 4e-5 * 1e-2 / 20, rel=0.1)
+    assert len(chapter.data["effect-temperature"]) == len(found)
+    assert len(chapter.figures["effect-temperature"].axes) == 4
+
+
+def test_a_study_that_failed_in_part_is_not_a_number_there(study):
+    outcomes, _ = study
+    victim = next(task for task in outcomes if task.scenes[0].interface is not None)
+    spoiled = dict(outcomes) | {victim: Outcome((Row(reason="failed on purpose"),))}
+    chapter = temperature.chapter(spoiled)
+    assert "nan" in str(chapter.tables)

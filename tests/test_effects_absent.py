@@ -1,0 +1,245 @@
+"""Absent is absent: of an effect that a scene does not ask for, not a line is run, and not a digit is another."""
+
+import subprocess
+import sys
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from bem3d.engine import Engine
+from compare.effects.asked import effects
+from mdr1d import MDR
+from scene import (
+    WLF,
+    Coulomb,
+    Heating,
+    Indent,
+    Layer,
+    Measured,
+    Program,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Topography,
+    Wave,
+)
+
+ROOT = Path(__file__).parent.parent
+SOLVERS = {"BEM": BEM(points=32, extent=3e-3, steps=4), "MDR": MDR(points=200, steps=4)}
+SOLID = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=0.4e-3, seed=1)
+FORWARD = Stage(duration=1e-3, speed=0.1)
+PLAIN = {
+    "rest": Scene(Sphere(10e-3), SOLID, Indent(load=0.5)),
+    "slide": Scene(Sphere(10e-3), SOLID, Slide(speed=0.1, load=0.5)),
+    "rough": Scene(Sphere(10e-3), SOLID, Slide(speed=0.1, load=0.5), ROUGH),
+    "program": Scene(Sphere(10e-3), SOLID, Program(stages=(Stage(duration=1e-3, load=0.5), FORWARD))),
+}
+# What an effect is made of, and the parts that ask for it.
+MODULES = {
+    "layer": {"bem3d/layer.py", "bem3d/layerwaves.py"},
+    "temperature": {"scene/temperature.py"},
+    "heating": {"scene/heated.py", "scene/heating.py", "scene/settling.py"},
+    "tangential": {
+        "scene/rubbed.py",
+        "bem3d/tangential.py",
+        "bem3d/cerruti.py",
+        "bem3d/stickslip.py",
+        "mdr1d/tangential.py",
+    },
+    "topography": {"scene/topography.py", "scene/heightmap.py", "bem3d/topography.py", "mdr1d/topography.py"},
+    "measured body": {"scene/measured.py", "scene/heightmap.py"},
+    "measured file": {"scene/heightfile.py"},
+    "oscillation": {"scene/oscillation.py"},
+}
+# What only effects need, and costs more to load than all of ours.
+LIBRARIES = {"scipy.interpolate", "SurfaceTopography"}
+OF_SCENES = {*LIBRARIES, "scipy.special", "scipy.optimize", "scipy.fft"}
+TYPES = {
+    "layer": (Layer,),
+    "temperature": (WLF,),
+    "heating": (Heating,),
+    "tangential": (Coulomb, Shear),
+    "topography": (Topography, Measured),
+    "roughness": (SelfAffine, Wave),
+    "program": (Program,),
+    "sliding": (Slide,),
+}
+# As an effect is asked for on the page, which is the positive of every negative below.
+ASKED = {
+    "layer": "layer",
+    "temperature": "temperature",
+    "heating": "heating, fed back",
+    "tangential": "partial slip",
+    "topography": "measured topography",
+    "oscillation": "oscillation",
+}
+# Classes that follow a wake for an indenter that comes back.
+RETURNING = {"bem3d/upstream.py Returning.__init__", "mdr1d/marching.py _Returning.__init__"}
+
+
+def package(solver):
+    return type(solver).__module__.split(".")[0]
+
+
+@dataclass
+class Called:
+    """Files of ours from which a function was called, and functions, by file and name."""
+
+    files: set[str] = field(default_factory=set)
+    functions: set[str] = field(default_factory=set)
+
+
+@contextmanager
+def watched():
+    """All that is called meanwhile, known at the end."""
+    codes, called = set(), Called()
+
+    def note(frame, event, _):
+        if event == "call":
+            codes.add(frame.f_code)
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        yield called
+    finally:
+        sys.setprofile(before)
+        for code in codes:
+            if code.co_filename.startswith(str(ROOT)):
+                file = Path(code.co_filename).relative_to(ROOT).as_posix()
+                called.files.add(file)
+                called.functions.add(f"{file} {code.co_qualname}")
+
+
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+@pytest.mark.parametrize("name", PLAIN)
+def test_of_effects_that_are_absent_not_a_function_is_called(solver, name):
+    with watched() as called:
+        solver.solve(PLAIN[name])
+    assert f"{package(solver)}/solver.py" in called.files
+    for effect, modules in MODULES.items():
+        assert not called.files & modules, effect
+
+
+@pytest.mark.parametrize("effect", ASKED)
+def test_of_effects_that_are_present_functions_are_called(effect):
+    # the test above can fail: what it looks for is where the effect is computed
+    asked = next(each for each in effects() if each.title == ASKED[effect])
+    with watched() as called:
+        for solver in (BEM(points=48, steps=4), MDR(points=200, steps=4)):
+            if not solver.refusals(asked.scene):
+                solver.solve(asked.scene)
+    assert MODULES[effect] <= called.files
+
+
+@pytest.mark.parametrize("effect", MODULES.keys() - ASKED.keys())
+def test_of_a_measured_body_functions_are_called(effect, tmp_path):
+    x = 5e-5 * np.arange(-20, 21)
+    np.save(tmp_path / "ball.npy", -(x**2 + x[:, None] ** 2) / 0.02)
+    with watched() as called:
+        body = Measured(file=tmp_path / "ball.npy", pixel=5e-5)
+        BEM(points=48).solve(Scene(body, SOLID, Indent(load=0.05)))
+    assert MODULES[effect] <= called.files
+
+
+ALONE = """
+import sys
+import scene, scene.heated
+print(*sorted(set(sys.modules) & {of_scenes}), "| after scene")
+from test_effects_absent import PLAIN, SOLVERS
+for solver in SOLVERS.values():
+    for plain in PLAIN.values():
+        solver.solve(plain)
+print(*sorted(set(sys.modules) & {libraries}), "| after plain contacts")
+solver = SOLVERS["BEM"]
+solver.solve(scene.Scene(*list(PLAIN["rest"].parts.values()), layer=scene.Layer(thickness=2e-3)))
+print(*sorted(set(sys.modules) & {libraries}), "| after a layer")
+"""
+
+
+def test_of_effects_that_are_absent_no_library_is_loaded():
+    program = ALONE.format(of_scenes=OF_SCENES, libraries=LIBRARIES)
+    told = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT / "tests", capture_output=True, text=True, check=True
+    )
+    assert told.stdout.splitlines() == [
+        "| after scene",
+        "| after plain contacts",
+        "scipy.interpolate | after a layer",
+    ]
+
+
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
+    with watched() as called:
+        solver.solve(PLAIN["rest"])
+    modules = ("marching", "material", "upstream", "timeline", "elements")
+    later = {f"{package(solver)}/{module}.py" for module in modules}
+    drawn = {"bem3d/surface.py", "scene/roughness.py"}
+    flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/maxwell.py sweep_modes"}
+    assert not called.files & (later | drawn)
+    assert not called.functions & flowing
+    with watched() as called:
+        solver.solve(PLAIN["rough"])
+    assert not called.files & later
+    assert called.files & drawn
+    assert called.functions & flowing
+
+
+@pytest.mark.parametrize("name", PLAIN)
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+def test_a_table_without_the_lines_of_all_effects_gives_the_same_digits_by_the_same_transforms(
+    solver, name, monkeypatch
+):
+    products = []
+    make = Engine.product
+
+    def counted(self, symbol, shape, padded):
+        products.append((shape, padded, np.iscomplexobj(symbol)))
+        return make(self, symbol, shape, padded)
+
+    monkeypatch.setattr(Engine, "product", counted)
+    scene = PLAIN[name]
+    present = {type(part) for part in scene.parts.values()}
+    absent = {kind for kinds in TYPES.values() for kind in kinds if kind not in present}
+
+    lines = {kind: line for kind, line in solver.terms.items() if kind not in absent}
+    assert len(lines) < len(solver.terms)
+
+    class Bare(type(solver)):
+        terms = lines
+
+    whole, count = solver.solve(scene), len(products)
+    bare = Bare(**asdict(solver)).solve(scene)
+    assert products[:count] == products[count:]
+    assert (whole.normal_force, whole.friction_force, whole.depth) == (
+        bare.normal_force,
+        bare.friction_force,
+        bare.depth,
+    )
+    assert whole.applications == bare.applications
+    assert whole.measures.keys() == bare.measures.keys()
+    for name, values in whole.fields.items():
+        assert np.array_equal(values, bare.fields[name], equal_nan=True), name
+
+
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+def test_a_program_that_does_not_turn_back_keeps_nothing_of_what_it_leaves_behind(solver):
+    forward = PLAIN["program"]
+    back = replace(FORWARD, speed=-0.1)
+    returning = replace(forward, motion=replace(forward.motion, stages=(*forward.motion.stages, back)))
+    with watched() as called:
+        solver.solve(forward)
+    assert not called.functions & RETURNING
+    with watched() as called:
+        solver.solve(returning)
+    assert called.functions & RETURNING

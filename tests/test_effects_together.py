@@ -1,0 +1,125 @@
+"""Effects together: what holds of each alone holds of all that one scene may have at once."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import (
+    WLF,
+    Coulomb,
+    Heating,
+    Indent,
+    Layer,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
+from scene.rubbed import Rubbed
+
+WARM = WLF(temperature=306.0, reference=300.0, c1=10.0, c2=100.0)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=0.4e-3, seed=1)
+LOAD, STICKS = 0.5, 0.3
+PLAIN = Scene(
+    Sphere(radius=10e-3),
+    StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3),
+    Slide(speed=0.3, load=LOAD),
+)
+TOGETHER = replace(PLAIN, roughness=ROUGH, temperature=WARM, interface=Coulomb(STICKS))
+# A layer has no line in the table of one dimension, and heating is estimated of a half-space.
+SOLVED = {
+    "BEM, layer": (BEM(points=64), replace(TOGETHER, layer=Layer(thickness=2e-3))),
+    "BEM, heated": (BEM(points=64), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
+    "MDR, heated": (MDR(points=1000), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
+}
+ROUNDING = 1e-9  # of the answers: iterations stop at the same places, and add rounding up
+
+
+def numbers(answer):
+    return np.array([answer.normal_force, answer.depth, answer.friction_force])
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_friction_in_the_interface_is_added_to_whatever_else_there_is(name):
+    solver, scene = SOLVED[name]
+    # as warm as it gets with the interface, since its friction heats too
+    with_it = solver.solve(scene)
+    temperature = with_it.measures.get("temperature", WARM.temperature)
+    as_warm = replace(scene, temperature=replace(WARM, temperature=temperature), heating=None)
+    without = solver.solve(replace(as_warm, interface=None))
+    assert with_it.depth == pytest.approx(without.depth, rel=ROUNDING)
+    added = with_it.friction_force - without.friction_force
+    assert added == pytest.approx(STICKS * with_it.normal_force, rel=ROUNDING)
+    assert with_it.measures["friction_in_interface"] == pytest.approx(added, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)], ids=lambda solver: solver.name)
+def test_an_interface_at_speed_zero_is_that_of_ever_slower_sliding(solver):
+    heated = replace(TOGETHER, heating=Heating(conductivity=0.5))
+    slow, still = (solver.solve(replace(heated, motion=Slide(speed=speed, load=LOAD))) for speed in (1e-9, 0.0))
+    assert still.friction_force == pytest.approx(STICKS * LOAD, rel=ROUNDING)
+    # what the elastomer loses at 1e-9 m/s
+    assert slow.friction_force == pytest.approx(still.friction_force, rel=1e-6)
+    assert still.measures["friction_in_elastomer"] == pytest.approx(0.0, abs=1e-6 * LOAD)
+    assert [still.measures[f"{which}_heating"] for which in ("average", "flash")] == [0, 0]
+    assert slow.measures["average_heating"] > 0
+    at_rest = replace(heated, motion=Indent(load=LOAD))
+    assert solver.solve(at_rest).friction_force == solver.solve(replace(at_rest, interface=None)).friction_force
+
+
+def test_both_solvers_have_one_friction_in_the_interface():
+    for solver in (BEM, MDR):
+        kind = solver.terms[Coulomb]
+        assert issubclass(kind, Rubbed)
+        assert "refusals" not in vars(kind)
+
+
+@pytest.mark.parametrize("name", ["BEM, layer", "MDR, heated"])
+def test_a_warmer_scene_is_a_slower_one_whatever_else_there_is(name):
+    solver, scene = SOLVED[name]
+    scene = replace(scene, heating=None)
+    slower = replace(scene, temperature=None, motion=replace(scene.motion, speed=0.3 * WARM.shift))
+    assert 0.1 < WARM.shift < 0.5
+    assert numbers(solver.solve(scene)) == pytest.approx(numbers(solver.solve(slower)), rel=ROUNDING)
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_a_scene_twice_as_large_in_every_length_has_four_times_the_forces(name):
+    solver, scene = SOLVED[name]
+    larger = replace(
+        scene,
+        indenter=Sphere(radius=2 * 10e-3),
+        motion=Slide(speed=2 * 0.3, load=4 * LOAD),
+        roughness=replace(ROUGH, rms_height=4e-6, longest=4e-3, shortest=0.8e-3),
+    )
+    if scene.layer is not None:
+        larger = replace(larger, layer=Layer(thickness=4e-3))
+    if scene.heating is not None:  # heat goes as force times speed, and leaves as conductivity times length
+        larger = replace(larger, heating=replace(scene.heating, conductivity=4 * 0.5))
+    small, large = solver.solve(scene), solver.solve(larger)
+    assert numbers(large) == pytest.approx(numbers(small) * [4, 2, 4], rel=ROUNDING)
+    assert large.applications == small.applications
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_each_effect_changes_an_answer_that_has_all_others(name):
+    # the laws above can fail: no effect is lost beside another
+    solver, scene = SOLVED[name]
+    whole = numbers(solver.solve(scene))
+    for effect in ("roughness", "layer", "temperature", "heating", "interface"):
+        if effect not in scene.parts:
+            continue
+        left = {effect: None} if effect != "temperature" else {"temperature": None, "heating": None}
+        assert np.abs(numbers(solver.solve(replace(scene, **left))) / whole - 1).max() > 1e-4, effect
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_a_plan_has_all_of_them(name):
+    solver, scene = SOLVED[name]
+    plan = solver.plan(scene)
+    assert set(plan.terms) == set(scene.parts)
+    assert plan.seconds.value > solver.plan(PLAIN).seconds.value

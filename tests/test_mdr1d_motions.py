@@ -1,0 +1,324 @@
+"""An indenter that turns back, changes its speed, comes in at an angle and oscillates over a foundation."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mdr1d.timeline
+from compare.effects.track import harmonic
+from compare.references import motions
+from mdr1d import MDR, marching
+from mdr1d.timeline import timeline
+from scene import (
+    Elastic,
+    Kelvin,
+    KelvinChain,
+    Program,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+
+# E* = 4G: moduli of indentation of 1 at rest and 5 at first.
+SOLID = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=1.25, relaxation_time=1.0)
+KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
+SERIES = Prony(equilibrium_modulus=0.25, moduli=(1.0, 0.5, 20.0), relaxation_times=(1.0, 10.0, 0.02))
+CHAIN = KelvinChain(instantaneous_compliance=0.0, compliances=(3.0, 1.0), retardation_times=(1.0, 0.03))
+VISCOUS = {"standard": SOLID, "kelvin": KELVIN, "series": SERIES, "chain with a dashpot": CHAIN}
+SOLIDS = {"elastic": Elastic(0.25), **VISCOUS}
+BALL = Sphere(1.0)
+ROUGH = SelfAffine(hurst=0.7, rms_height=1e-3, longest=1.0, shortest=0.02, seed=3)
+
+DEPTH, SPEED = 0.1, 0.3
+A = np.sqrt(DEPTH)  # of the contact
+# Sums of some thousand terms over some hundred steps.
+ROUNDING = 1e-11
+
+
+def program(*stages):
+    return Program(stages=tuple(Stage(**stage) for stage in stages))
+
+
+def pressed(by="depth"):
+    return {"duration": 1.0, by: DEPTH}
+
+
+def slid(path, speed=SPEED, **given):
+    return {"duration": abs(path / speed), "speed": np.copysign(speed, path), **given}
+
+
+def solved(motion, elastomer=SOLID, roughness=None, **settings):
+    settings = {"points": 200, "extent": 1.0, "steps": 50} | settings
+    return MDR(**settings).solve(Scene(BALL, elastomer, motion, roughness))
+
+
+def mirrored(motion):
+    return replace(motion, stages=tuple(replace(stage, speed=-stage.speed) for stage in motion.stages))
+
+
+# Out of the grid and back into it, past where it began, and on again; turned within pixels, which are 0.005.
+THERE_AND_BACK = program(pressed(), slid(1.3017), slid(-1.9003), {"duration": 0.3}, slid(0.7771))
+
+
+@pytest.mark.parametrize("roughness", [None, ROUGH], ids=["smooth", "rough"])
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_what_leaves_the_grid_is_found_again_as_if_the_grid_had_held_it(solid, roughness):
+    near, far = (solved(THERE_AND_BACK, SOLIDS[solid], roughness, points=200 * n, extent=1.0 * n) for n in (1, 5))
+    for name in ("normal_force", "friction_force", "depth", "contact_length", "work", "dissipated", "stored"):
+        expected = far.fields[name]
+        np.testing.assert_allclose(near.fields[name], expected, atol=ROUNDING * max(1e-3, np.abs(expected).max()))
+    inside = np.abs(far.fields["x"] - near.fields["x"].mean()) < 0.5
+    np.testing.assert_allclose(near.fields["displacement"], far.fields["displacement"][inside], atol=ROUNDING)
+
+
+def test_a_wake_that_is_forgotten_is_felt(monkeypatch):
+    right, follow = solved(THERE_AND_BACK), marching._Returning.follow
+
+    def forgetful(row, line, k):
+        row._behind = {1: [], -1: []}
+        return follow(row, line, k)
+
+    monkeypatch.setattr(marching._Returning, "follow", forgetful)
+    monkeypatch.setattr(marching, "_BALANCED", np.inf)
+    wrong = solved(THERE_AND_BACK)
+    assert np.abs(wrong.fields["normal_force"] - right.fields["normal_force"]).max() > 0.02
+
+
+def test_an_indenter_that_never_turns_back_keeps_nothing_behind(monkeypatch):
+    monkeypatch.setattr(marching, "_Returning", None)
+    solved(program(pressed(), slid(1.5), slid(0.5, 3 * SPEED)))
+    with pytest.raises(TypeError):
+        solved(program(pressed(), slid(-0.1)))
+
+
+@pytest.mark.parametrize("by", ["depth", "load"])
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(solid, by):
+    motion = program(pressed(by), slid(0.4), slid(-0.9003, **{by: 0.8 * DEPTH}), slid(0.3, 2 * SPEED))
+    one, other = solved(motion, SOLIDS[solid]), solved(mirrored(motion), SOLIDS[solid])
+    scale = np.abs(one.fields["normal_force"]).max()
+    for name, sign in {"normal_force": 1, "depth": 1, "friction_force": -1, "path": -1, "speed": -1}.items():
+        np.testing.assert_allclose(sign * other.fields[name], one.fields[name], atol=ROUNDING * max(scale, 1.0))
+    assert other.friction_coefficient == pytest.approx(-one.friction_coefficient, rel=1e-9, abs=ROUNDING)
+    assert solid == "elastic" or one.friction_coefficient > 0.01
+
+
+def test_a_program_that_goes_backwards_first_is_the_mirror_image_of_one_that_goes_forwards():
+    forwards = program(pressed(), slid(2.0))
+    backwards = mirrored(forwards)
+    assert solved(backwards).friction_force == pytest.approx(-solved(forwards).friction_force, rel=1e-9)
+
+
+@pytest.mark.parametrize("solid", VISCOUS)
+def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(solid):
+    steady = solved(Slide(speed=SPEED, depth=DEPTH), VISCOUS[solid])
+    # the last 3 m are new to it, and the grid is 1 m long
+    result = solved(program(pressed(), slid(2.0), slid(-5.0)), VISCOUS[solid])
+    assert result.friction_force == pytest.approx(-steady.friction_force, rel=1e-9)
+    at_turn = np.interp(1.0 + 2.0 / SPEED, result.fields["time"], result.fields["friction_force"])
+    assert at_turn == pytest.approx(steady.friction_force, rel=1e-9)
+
+
+def test_a_solid_that_forgets_at_once_turns_its_friction_round_at_once():
+    quick = Kelvin(modulus=0.25, relaxation_time=1e-4)
+    result = solved(program(pressed(), slid(0.5), slid(-0.02)), quick, points=1000)
+    friction = result.fields["friction_force"]
+    steady = solved(Slide(speed=SPEED, depth=DEPTH), quick, points=1000).friction_force
+    before = np.searchsorted(result.fields["time"], 1.0 + 0.5 / SPEED) - 1
+    assert friction[before] == pytest.approx(steady, rel=1e-9)
+    assert friction[-1] == pytest.approx(-steady, rel=1e-3)
+
+
+@pytest.mark.parametrize("speeds", [(0.03, 0.3), (0.3, 0.03), (0.3, 0.0, 0.1)])
+def test_after_a_step_of_the_speed_friction_comes_to_that_of_the_new_one(speeds):
+    stages = [slid(2.0, speed) if speed else {"duration": 3.0} for speed in speeds]
+    result = solved(program(pressed(), *stages))
+    steady = solved(Slide(speed=speeds[-1], depth=DEPTH))
+    assert result.friction_force == pytest.approx(steady.friction_force, rel=1e-9)
+    assert result.normal_force == pytest.approx(steady.normal_force, rel=1e-3)  # of whole elements
+
+
+@pytest.mark.parametrize(("speed", "approach"), [(0.0, 0.02), (0.02, 0.02), (0.3, 0.2), (3.0, 0.2)])
+def test_an_oblique_approach_on_a_kelvin_solid_is_the_closed_form(speed, approach):
+    motion, errors = program({"duration": DEPTH / approach, "depth": DEPTH, "speed": speed}), []
+    for extent in np.linspace(1.0, 1.1, 5):  # places of the edges in their pixels
+        result = solved(motion, KELVIN, points=600, extent=extent, steps=200)
+        force, friction = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)
+        errors.append((result.normal_force / force - 1, (result.friction_force - friction) / force))
+    # at the front of a dashpot an element carries its whole force at once: an edge is known to a pixel of 1/190
+    np.testing.assert_allclose(errors, 0, atol=3 / 380)
+
+
+WORKED = {
+    "reversal": THERE_AND_BACK,
+    "fretting": program(pressed(), *(slid(0.0237 * (-1) ** k) for k in range(20))),
+    "reversal without load": program(pressed("load"), slid(0.3, load=0.0), slid(-0.4), slid(-0.1, load=DEPTH)),
+    "oscillation": program(
+        pressed("load"), {"duration": 3.0, "speed": -SPEED, "load": DEPTH, "amplitude": 0.04, "frequency": 1.3}
+    ),
+    "oscillation of depth": program(
+        pressed(), {"duration": 3.0, "speed": SPEED, "depth": 0.05, "amplitude": 0.02, "frequency": 0.7}, slid(-1)
+    ),
+}
+
+
+@pytest.mark.parametrize("motion", WORKED)
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_work_of_the_indenter_is_what_is_stored_and_what_is_lost(solid, motion):
+    result = solved(WORKED[motion], SOLIDS[solid])
+    work, lost, stored = (result.fields[name] for name in ("work", "dissipated", "stored"))
+    np.testing.assert_allclose(stored + lost, work, atol=1e-10 * work.max())
+    assert np.all(np.diff(lost) >= -ROUNDING * work.max())
+    assert np.all(stored >= -ROUNDING * work.max())
+    assert result.fields["normal_force"].min() >= 0
+    assert np.all(lost == 0) if solid == "elastic" else lost[-1] > 0.01 * work.max()
+
+
+@pytest.mark.parametrize("solid", VISCOUS)
+def test_friction_over_the_path_is_the_work_forwards_and_backwards(solid):
+    """Over whole pixels of 1/200 the friction is the mean over the last one."""
+    result = solved(program(pressed(), slid(0.5), slid(-0.4), slid(0.2)), VISCOUS[solid])
+    fields, pixel = result.fields, result.settings["pixel"]
+    place = fields["path"] / pixel
+    at_nodes = (np.abs(place - np.rint(place)) < 1e-6) & (fields["time"] > 1.0 + 1e-9)
+    path, friction = fields["path"][at_nodes], fields["friction_force"][at_nodes]
+    work = fields["work"]
+    moved = np.diff(np.append(0.0, path))
+    np.testing.assert_allclose(np.abs(moved), pixel, rtol=1e-6)
+    done = np.sum(friction * moved)
+    assert done == pytest.approx(work[-1] - work[fields["time"] <= 1.0 + 1e-9][-1], rel=1e-9)
+    assert done > 0
+
+
+def test_a_cycle_of_fretting_encloses_what_it_loses():
+    cycles = [slid(0.05), *(slid(0.1 * (-1) ** (k + 1)) for k in range(20))]
+    fields = solved(program(pressed(), *cycles), KELVIN, points=400).fields
+    last = 1.0 + sum(stage["duration"] for stage in cycles) - np.array([0.2 / SPEED, 0.0])
+    work, lost, stored = (
+        np.diff(np.interp(last, fields["time"], fields[name]))[0] for name in ("work", "dissipated", "stored")
+    )
+    # what the first press has left behind fades as exp(-t), and 7 s have passed
+    assert work == pytest.approx(lost, rel=np.exp(-6))
+    assert abs(stored) < np.exp(-6) * work
+
+
+@pytest.mark.parametrize("solid", SOLIDS)
+def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it(solid):
+    lifted, again = [pressed(), {"duration": 0.3, "depth": 0.0}], {"duration": 1.0, "depth": DEPTH}
+    moved = solved(program(*lifted, slid(1.5, 1.5), slid(-1.5, 1.5), again), SOLIDS[solid])
+    waited = solved(program(*lifted, {"duration": 2.0}, again), SOLIDS[solid])
+    fresh = solved(program(again), SOLIDS[solid])
+    assert moved.normal_force == pytest.approx(waited.normal_force, rel=1e-9)
+    # it lands later in a dent than on fresh ground
+    work = moved.fields["work"][-1] - moved.fields["work"][moved.fields["time"] <= 3.3 + 1e-9][-1]
+    assert (
+        work == pytest.approx(fresh.fields["work"][-1], rel=1e-9)
+        if solid == "elastic"
+        else (work < 0.99 * fresh.fields["work"][-1])
+    )
+
+
+def response(amplitude, omega, solid=SOLID, **settings):
+    """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
+    frequency, held = omega / (2 * np.pi), 100.0
+    periods = 2 + int(2 * omega)  # the start is forgotten in some relaxation times
+    swing = {"duration": periods / frequency, "amplitude": amplitude, "frequency": frequency}
+    fields = solved(program(pressed(), {"duration": held}, swing), solid, **settings).fields
+    start = 1.0 + held + (periods - 1) / frequency
+    late = fields["time"] >= start * (1 - 1e-9)
+    time = fields["time"][late] - start
+    return harmonic(time, fields["normal_force"][late], omega) / amplitude  # the depth is a sine
+
+
+@pytest.mark.parametrize("omega", [0.2, 1.0, 5.0])
+@pytest.mark.parametrize("solid", [SOLID, Prony(0.25, (0.5, 5.0), (1.0, 0.05))], ids=["one mode", "two modes"])
+def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps_its_radius(omega, solid):
+    # 410 pixels across the contact, and 200 steps a period at whose ends a mode much shorter is half a step late
+    exact = motions.stiffness(A, solid, omega)
+    found = response(1e-4 * DEPTH, omega, solid, points=650)
+    assert abs(found) == pytest.approx(abs(exact), rel=5e-3)
+    assert np.angle(found / exact) == pytest.approx(0.0, abs=5e-3)
+    assert np.angle(exact) > 0.1
+
+
+def test_a_large_oscillation_meets_less_than_that():
+    exact = motions.stiffness(A, SOLID, 1.0)
+    assert abs(response(0.1 * DEPTH, 1.0)) < 0.97 * abs(exact)
+
+
+SWUNG = {"duration": 2.0, "depth": 0.08, "speed": 0.01, "amplitude": 0.03, "frequency": 0.9}
+
+
+def test_an_oscillation_of_the_depth_is_followed_at_second_order_in_the_step(monkeypatch):
+    counts, work = np.array([10, 20, 40]), []
+    for count in (*counts, 640):
+        monkeypatch.setattr(mdr1d.timeline, "PERIOD", count)
+        work.append(solved(program(pressed(), SWUNG), steps=1).fields["work"][-1])
+    errors = np.abs(np.array(work[:-1]) / work[-1] - 1)
+    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(2.0, abs=0.3)
+    assert errors[-1] < 5e-3
+
+
+@pytest.mark.parametrize("by", ["depth", "load"])
+def test_an_oscillation_has_two_hundred_steps_a_period_at_least_and_is_met_at_each_of_their_ends(by):
+    swing = SWUNG | {"speed": 0.0, by: 0.08} if by == "depth" else {k: v for k, v in SWUNG.items() if k != "depth"}
+    motion = program(pressed(by), swing)
+    fields = solved(motion, steps=1).fields
+    within = fields["time"] > 1.0
+    assert np.diff(fields["time"][within]).max() <= (1 + 1e-9) / 200 / 0.9
+    found = fields["depth" if by == "depth" else "normal_force"]
+    np.testing.assert_allclose(found, motion.prescribed(fields["time"]), rtol=1e-12)
+
+
+def test_an_amplitude_of_zero_costs_no_step():
+    plain = program(pressed(), slid(0.5))
+    still = program(pressed(), slid(0.5, amplitude=0.0, frequency=1e3))
+    assert np.array_equal(timeline(still, 0.005, 50).times, timeline(plain, 0.005, 50).times)
+
+
+def test_friction_under_an_oscillating_load_departs_from_the_steady_one_at_second_order_of_the_amplitude():
+    period, count = 0.5, 8
+
+    def mean(amplitude):
+        swing = {"duration": count * period, "speed": SPEED, "amplitude": amplitude, "frequency": 1 / period}
+        fields = solved(program(pressed("load"), slid(2.0), swing), points=200).fields
+        late = fields["time"] > fields["time"][-1] - 4 * period * (1 + 1e-9)
+        time, friction = fields["time"][late], fields["friction_force"][late]
+        return np.sum((friction[1:] + friction[:-1]) / 2 * np.diff(time)) / np.ptp(time)
+
+    amplitudes = np.array([0.02, 0.04, 0.08])
+    changes = np.array([mean(amplitude) for amplitude in amplitudes]) - mean(0.0)
+    assert np.polyfit(np.log(amplitudes), np.log(np.abs(changes)), 1)[0] == pytest.approx(2.0, abs=0.3)
+
+
+def test_too_many_periods_are_refused_with_what_to_change():
+    swing = {"duration": 1.0, "amplitude": 0.01, "frequency": 1e6}
+    with pytest.raises(SolveError, match=r"takes 4e\+08 steps .* oscillate for fewer periods"):
+        solved(program(pressed(), swing))
+    with pytest.raises(SolveError, match="slide a shorter path, take a larger"):
+        solved(program(pressed(), slid(-1e6)))
+
+
+@pytest.mark.parametrize("path", [1e-3, 4.99999e-3, 0.005, 0.0123])
+@pytest.mark.parametrize("solid", ["kelvin", "series"])
+def test_a_reversal_within_the_first_pixels_is_followed_as_by_far_smaller_ones(solid, path):
+    motion = program(pressed(), slid(path), slid(-2 * path), slid(path))
+    coarse, fine = (solved(motion, VISCOUS[solid], points=points) for points in (200, 800))
+    assert coarse.normal_force == pytest.approx(fine.normal_force, rel=2 / 126)  # edges, known to an element
+    assert coarse.fields["path"][-1] == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("time", [1e-9, 1e-4, 1e4, 1e9])
+def test_reversal_of_the_shortest_and_longest_memories_loses_nothing(time):
+    solid = StandardLinearSolid(0.25, 1.25, time)
+    result = solved(program(pressed(), slid(0.7), slid(-1.1)), solid)
+    glassy = Elastic(1.25 if time > 1 else 0.25)
+    elastic = solved(program(pressed(), slid(0.7), slid(-1.1)), glassy)
+    assert result.normal_force == pytest.approx(elastic.normal_force, rel=2e-3)
+    assert abs(result.friction_coefficient) < 2e-3

@@ -1,0 +1,160 @@
+"""What a plan of one dimension says: sweeps and steps along a foundation, and nothing that a scene lacks."""
+
+import tracemalloc
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d.surface import RoughSurface
+from mdr1d import MDR
+from mdr1d.plan import EFFECTS
+from scene import (
+    WLF,
+    Coulomb,
+    Elastic,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Plane,
+    Program,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Topography,
+)
+from scene.costs import multiples
+
+KELVIN = Kelvin(1e6, 1e-3)
+STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
+PRONY = Prony(1e6, (1e6, 2e6, 3e6), (1e-4, 1e-3, 1e-2))
+MANY = Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16)))
+SPHERE, LOAD = Sphere(radius=10e-3), 0.5
+ROUGH = SelfAffine(hurst=0.2, rms_height=5e-6, longest=10e-3, shortest=0.5e-3, seed=1)
+STAGES = Program(stages=(Stage(duration=1e-3, load=LOAD), Stage(duration=1e-3, speed=0.2)))
+DEPTHS = Program(stages=(Stage(duration=1e-3, depth=1e-4), Stage(duration=1e-3, speed=0.2)))
+SCENES = {
+    "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),
+    "depth": Scene(SPHERE, KELVIN, Slide(speed=0.1, depth=1e-4)),
+    "elastic": Scene(SPHERE, Elastic(1e6), Slide(speed=1.0, load=LOAD)),
+    "slide": Scene(SPHERE, KELVIN, Slide(speed=0.1, load=LOAD)),
+    "modes": Scene(SPHERE, PRONY, Slide(speed=0.1, load=LOAD)),
+    "rough": Scene(SPHERE, STANDARD, Slide(speed=0.1, load=LOAD), ROUGH),
+    "program": Scene(SPHERE, STANDARD, STAGES),
+    "depths": Scene(SPHERE, PRONY, DEPTHS),
+    "many": Scene(SPHERE, MANY, DEPTHS),
+}
+WARM = WLF(temperature=301, reference=300, c1=10, c2=100)
+HEIGHTS = RoughSurface.of(ROUGH, ROUGH.q_max(1.0)).heights(*np.tile(np.arange(64) * ROUGH.longest / 64, (2, 1)))
+MAP = Topography(heights=HEIGHTS, pixel=ROUGH.longest / 64, repeat="periodic")
+SCENES |= {
+    "temperature": replace(SCENES["slide"], temperature=WARM),
+    "heating": replace(SCENES["slide"], heating=Heating(conductivity=50.0)),
+    "interface": replace(SCENES["slide"], interface=Coulomb(0.3)),
+    "shear": replace(SCENES["rest"], motion=Shear(load=LOAD, displacement=1e-5), interface=Coulomb(0.3)),
+    "topography": replace(SCENES["rough"], roughness=MAP),
+}
+FACTOR = 2.0  # the formulas count arrays; copies within an expression come and go
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_plan_is_of_the_grid_and_the_steps_of_the_solve(name):
+    scene = SCENES[name]
+    asked = MDR(points=2000, steps=50)
+    plan, answer = asked.plan(scene), asked.solve(scene)
+    assert plan.shape == (answer.settings["points"] + 1,)
+    assert plan.steps == answer.measures.get("time_steps", 0)
+    assert plan.kernels == ()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_applications_expected_are_near_those_that_it_takes(name):
+    # exact at a prescribed depth and in time; under a load the search takes 2 to 7 sweeps, and 5 are expected
+    scene = SCENES[name]
+    asked = MDR(points=2000, steps=50)
+    plan, taken = asked.plan(scene), asked.solve(scene).applications
+    expected = plan.applications.value
+    if scene.motion.pressed_by == "depth" or isinstance(scene.motion, Program):
+        assert expected == taken
+    else:
+        assert taken / 3 < expected < taken * 3
+
+
+@pytest.mark.parametrize(
+    ("name", "points"),
+    [
+        ("rest", 10**5),
+        ("modes", 10**5),
+        ("rough", 10**5),
+        ("shear", 10**5),
+        ("topography", 10**5),
+        ("program", 2000),
+        ("depths", 2000),
+        ("many", 2000),
+    ],
+)
+def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
+    scene = SCENES[name]
+    asked = MDR(points=points, steps=50)
+    MDR(points=500, steps=5).solve(scene)  # what is loaded once is no part of it
+    if scene.roughness is not None:
+        scene = replace(scene, roughness=replace(scene.roughness, seed=2))  # a line is kept once drawn
+    tracemalloc.start()
+    try:
+        asked.solve(scene)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most / FACTOR < asked.plan(scene).memory < most * FACTOR
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_simulated_and_what_is_left_out_are_all_of_a_scene(name):
+    scene = SCENES[name]
+    plan = MDR().plan(scene)
+    assert list(plan.terms) == list(scene.parts)
+    assert {"roughness", "layer", "temperature", "heating", "interface"} - set(scene.parts) <= set(plan.left_out)
+    assert not set(plan.terms) & set(plan.left_out)
+    assert ("measured surface" in plan.left_out) == (name != "topography")
+
+
+def test_modes_are_followed_where_something_moves_and_there_are_any():
+    counts = {name: MDR().plan(scene).modes.count for name, scene in SCENES.items()}
+    assert counts["rest"] == counts["elastic"] == 0
+    assert counts["slide"] == counts["rough"] == counts["program"] == 1
+    assert counts["modes"] == counts["depths"] == 3
+    # each retardation time is longer than the relaxation time below it
+    shortest, longest = MDR().plan(SCENES["modes"]).modes.times
+    assert 1e-4 < shortest < 1e-3
+    assert longest > 1e-2
+
+
+def test_parts_that_are_not_counted_multiply_the_costs_by_what_they_were_measured_to_take():
+    plain, drawn = MDR().plan(SCENES["rest"]), MDR().plan(SCENES["shear"])
+    times = multiples(EFFECTS)["Shear"]["seconds"] * multiples(EFFECTS)["Coulomb"]["seconds"]
+    assert drawn.seconds.value == pytest.approx(plain.seconds.value * times)
+    assert "times what Shear and Coulomb took of a sphere" in drawn.seconds.why
+
+
+def test_feedback_is_said_to_take_several_solves():
+    fed = replace(SCENES["temperature"], heating=Heating(conductivity=0.2, feedback="average"))
+    once, often = MDR().plan(SCENES["temperature"]), MDR().plan(fed)
+    assert often.applications.value > 2 * once.applications.value
+    assert "until it is as warm as its friction makes it" in often.method
+    taken = MDR().solve(fed)
+    assert taken.measures["heating_solves"] / 3 < often.applications.value / once.applications.value
+    assert often.applications.value / once.applications.value < 3 * taken.measures["heating_solves"]
+
+
+def test_what_is_refused_has_no_plan():
+    with pytest.raises(Refused, match="layer = Layer"):
+        MDR().plan(replace(SCENES["slide"], layer=Layer(thickness=1e-3)))
+    with pytest.raises(Refused, match="indenter = Plane"):
+        MDR().plan(Scene(Plane(), KELVIN, Indent(pressure=1e4), ROUGH))

@@ -1,0 +1,238 @@
+"""Lines of a measured map: the rule of the MDR as an exact sum over its waves, and rows that are its rows."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mdr1d.topography
+import scene.topography
+from bem3d.grid import Grid
+from bem3d.surface import RoughSurface
+from mdr1d import MDR, draw
+from mdr1d.surface import band_of
+from mdr1d.topography import amplitudes
+from scene import (
+    Cone,
+    Indent,
+    Kelvin,
+    Measured,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    Topography,
+)
+from scene.waves import MOST_WAVES
+
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=4e-3, shortest=0.25e-3, seed=3)
+ROUNDING = 1e-12
+SIGMAS = 4  # of a difference of two means
+SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
+
+
+def sampled(rough=ROUGH, points=64, **other):
+    grid = Grid(points, rough.longest)
+    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)
+    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
+    return Topography(heights=heights, **(stated | other))
+
+
+def noise(shape, **other):
+    heights = np.random.default_rng(1).normal(size=shape)
+    return Topography(**{"heights": heights, "pixel": 1e-3, "level": "mean", "peaks": "down"} | other)
+
+
+@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
+@pytest.mark.parametrize("shape", [(9, 9), (12, 12), (8, 15), (30, 6)])
+@pytest.mark.parametrize("kept", [None, 2.5e-3])
+def test_a_mapped_line_keeps_the_mean_square_of_the_map(repeat, shape, kept):
+    map_ = noise(shape, repeat=repeat, shortest_kept=kept)
+    found = amplitudes(map_)
+    assert np.sum(found**2) / 2 == pytest.approx(map_.rms_height**2, rel=ROUNDING)
+    line = draw(map_, 4 * len(found))
+    assert line.period == pytest.approx(map_.period)
+    assert line.rms_height == pytest.approx(map_.rms_height, rel=1e-9)
+
+
+def test_a_mapped_line_has_each_wave_of_the_map_at_its_own_wave_number():
+    # waves at (3, 4), (5, 0) and (0, 2) of a period: five, five and two of the line
+    grid = Grid(32, 1.0)
+    x, y = 2 * np.pi * grid.x, 2 * np.pi * grid.y[:, None]
+    map_ = Topography(
+        heights=3 * np.cos(3 * x + 4 * y) + 4 * np.sin(5 * x) + 2 * np.cos(2 * y),
+        pixel=grid.pixel,
+        level="mean",
+        repeat="periodic",
+    )
+    found = amplitudes(map_)
+    assert found[4] == pytest.approx(5.0)
+    assert found[1] == pytest.approx(2.0)
+    assert np.abs(np.delete(found, [1, 4])).max() < 1e-12
+
+
+def test_a_mapped_line_is_the_line_of_the_spectrum_that_the_map_was_drawn_from():
+    one, other = draw(ROUGH, 512), draw(sampled(seed=ROUGH.seed), 512)
+    assert other.rms_height == pytest.approx(one.rms_height, rel=1e-9)
+    # cells of the line and of the lattice of the surface share a power a little differently
+    assert other.rms_slope_spectral == pytest.approx(one.rms_slope_spectral, rel=0.05)
+    ratio = amplitudes(sampled())[4:16] / one.amplitudes[4:16]
+    assert np.exp(np.mean(np.log(ratio))) == pytest.approx(1.0, abs=0.03)
+
+
+@pytest.mark.parametrize("peaks", ["up", "down"])
+def test_the_sign_of_heights_is_lost_on_mapped_lines_alone(peaks):
+    turned = noise((9, 9), peaks=peaks)
+    up = noise((9, 9), peaks="up")
+    assert np.allclose(draw(turned, 64).heights, draw(up, 64).heights)
+    sign = 1.0 if peaks == "up" else -1.0
+    assert np.allclose(draw(turned, 64, "line-scan").heights, sign * draw(up, 64, "line-scan").heights)
+
+
+@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
+@pytest.mark.parametrize("shape", [(9, 11), (8, 15), (9, 8)])
+@pytest.mark.parametrize("seed", [0, 1, 2, 7])
+def test_a_scanned_line_is_a_row_of_the_map(repeat, shape, seed):
+    map_ = noise(shape, repeat=repeat, seed=seed)
+    rows, columns = shape
+    across, up = map_.place
+    row = map_.relief[rows // 2 + up]
+    # twice as many nodes as pixels: the tip lies on a pixel of an odd number of columns, or between two
+    nodes = 2 * columns * (2 if repeat == "mirror" else 1)
+    line = draw(map_, nodes, "line-scan")
+    pixels = np.arange(columns) - across - (columns - 1) / 2
+    found = line.heights[np.round(2 * pixels).astype(int) % nodes]
+    np.testing.assert_allclose(found, row - row.mean(), atol=1e-12)
+    assert line.heights.mean() == pytest.approx(0.0, abs=ROUNDING)
+    assert line.period == pytest.approx(map_.sides[0])
+
+
+def test_on_as_many_nodes_as_pixels_a_row_is_whole():
+    # the wave of two pixels included, which has one value at each node
+    map_ = noise((9, 9), repeat="periodic")
+    even = noise((9, 8), repeat="periodic")
+    odd = draw(map_, 9, "line-scan").heights
+    row = map_.relief[4]
+    np.testing.assert_allclose(np.roll(odd, 4), row - row.mean(), atol=1e-12)
+    assert band_of(even, "line-scan").nodes == 8
+    kept = noise((12, 12), repeat="periodic", shortest_kept=3e-3)
+    assert band_of(kept, "line-scan").nodes == 8
+    for each in (even, kept):
+        coarse, fine = draw(each, 8, "line-scan").heights, draw(each, 16, "line-scan").heights
+        np.testing.assert_allclose(coarse, fine[::2], atol=1e-12)
+
+
+def test_rows_have_all_they_have_and_no_mean():
+    map_ = sampled(points=65)
+    squares = [draw(replace(map_, seed=seed), 130, "line-scan").rms_height ** 2 for seed in range(1, 300)]
+    rows = map_.relief - map_.relief.mean(axis=1, keepdims=True)
+    assert np.mean(squares) == pytest.approx(
+        np.mean(rows**2), rel=SIGMAS * np.std(squares) / 17 / np.mean(squares)
+    )
+
+
+def test_seeds_are_lines_and_equal_seeds_are_equal():
+    map_ = sampled()
+    for spectrum in ("mapped", "line-scan"):
+        one, twin, other = (draw(replace(map_, seed=seed), 200, spectrum).heights for seed in (3, 3, 4))
+        assert np.array_equal(one, twin)
+        assert not np.allclose(one, other)
+
+
+@pytest.mark.parametrize("spectrum", ["mapped", "line-scan"])
+@pytest.mark.parametrize("body", [Sphere(0.1), Cone(0.03)])  # flatter than the roughness
+def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum, body):
+    slow = replace(SLIDING.motion, speed=0.01)
+    scene, solver = replace(SLIDING, indenter=body, motion=slow), MDR(points=1000, spectrum=spectrum)
+    rough = replace(ROUGH, amplitudes="gaussian", rms_height=2e-5)
+
+    def friction(roughness, seeds):
+        answers = (solver.solve(replace(scene, roughness=replace(roughness, seed=seed))) for seed in seeds)
+        return np.array([answer.friction_coefficient for answer in answers])
+
+    # of maps drawn anew: rows of one map are not independent
+    lines = friction(rough, range(1, 61))
+    rows = np.concatenate([friction(sampled(replace(rough, seed=k)), [k]) for k in range(1, 61)])
+    error = np.hypot(lines.std(), rows.std()) / np.sqrt(60)
+    assert rows.mean() == pytest.approx(lines.mean(), abs=SIGMAS * error)
+    smooth = solver.solve(scene).friction_coefficient
+    assert rows.mean() - smooth > 10 * error  # the roughness does something
+
+
+def test_a_map_without_heights_is_no_roughness():
+    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
+    for spectrum in ("mapped", "line-scan"):
+        solver = MDR(points=1000, extent=4e-3, spectrum=spectrum)
+        with_it, without = solver.solve(replace(SLIDING, roughness=flat)), solver.solve(SLIDING)
+        assert with_it.friction_force == pytest.approx(without.friction_force, rel=1e-9)
+        assert with_it.depth == pytest.approx(without.depth, rel=1e-9)
+
+
+def test_a_program_slides_on_rows_of_a_map():
+    program = Program(stages=(Stage(duration=1e-2, load=1.0), Stage(duration=4e-3, speed=0.1)))
+    for spectrum in ("mapped", "line-scan"):
+        answer = MDR(points=400, spectrum=spectrum, steps=20).solve(
+            replace(SLIDING, motion=program, roughness=sampled())
+        )
+        assert answer.friction_force > 0
+        assert answer.normal_force == pytest.approx(1.0)
+
+
+def test_measures_are_those_of_the_line():
+    map_ = sampled()
+    answer = MDR(points=2000).solve(replace(SLIDING, roughness=map_))
+    assert answer.measures["rms_height"] == pytest.approx(map_.rms_height, rel=1e-9)
+    assert answer.settings["cutoff"] == "resolved"
+    row = MDR(points=2000, spectrum="line-scan").solve(replace(SLIDING, roughness=map_))
+    relief = map_.relief[32] - map_.relief[32].mean()
+    assert row.measures["rms_height"] == pytest.approx(relief.std(), rel=1e-6)
+
+
+def test_a_rectangle_is_as_long_as_its_longer_side_or_its_rows():
+    map_ = noise((30, 6), repeat="periodic")
+    assert band_of(map_, "mapped").period == pytest.approx(30e-3)
+    assert band_of(map_, "line-scan").period == pytest.approx(6e-3)
+    assert band_of(map_, "line-scan").shortest == pytest.approx(2e-3)
+
+
+def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
+    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
+    map_ = Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6)
+    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"
+    for spectrum in ("mapped", "line-scan"):
+        for ask in (MDR(spectrum=spectrum).solve, MDR(spectrum=spectrum).plan):
+            with pytest.raises(Refused, match=refused):
+                ask(replace(SLIDING, roughness=map_))
+
+
+def test_a_grid_too_coarse_for_a_map_is_refused():
+    with pytest.raises(Refused, match="is not resolved"):
+        MDR(points=16, extent=4e-3).solve(replace(SLIDING, roughness=sampled()))
+
+
+def test_measured_bodies_are_refused_by_name():
+    body = Measured(heights=np.random.default_rng(0).normal(size=(5, 5)), pixel=1e-3)
+    with pytest.raises(Refused, match="indenter = Measured: it is no body of revolution"):
+        MDR().solve(replace(SLIDING, indenter=body, motion=Indent(load=1.0)))
+
+
+def test_a_scene_without_a_map_draws_from_none(monkeypatch):
+    def built(*_):
+        raise AssertionError("a map was looked at")
+
+    monkeypatch.setattr(mdr1d.topography, "draw", built)
+    assert MDR(points=500).solve(replace(SLIDING, roughness=ROUGH)).friction_force > 0
+    assert MDR(points=500).solve(SLIDING).friction_force > 0
+
+
+def test_amplitudes_are_summed_once_for_all_seeds(monkeypatch):
+    calls = []
+    summed = mdr1d.topography.amplitudes
+    monkeypatch.setattr(mdr1d.topography, "amplitudes", lambda map_: calls.append(1) or summed(map_))
+    map_ = noise((11, 13))
+    for seed in range(5):
+        draw(replace(map_, seed=seed), 128)
+    assert len(calls) == 1

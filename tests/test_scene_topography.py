@@ -1,0 +1,575 @@
+"""A measured map is what was measured: at its pixels, by its key, from its file; and what is none is named."""
+
+import copy
+import json
+import os
+import pickle
+import sys
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter, ValidationError
+
+import scene.topography
+from compare.cases import Case
+from compare.study import SCENES
+from scene import (
+    CrossedWaves,
+    Elastic,
+    Indent,
+    Measured,
+    Plane,
+    Scene,
+    SelfAffine,
+    Sphere,
+    Topography,
+    Wave,
+)
+from scene.reading import InvalidInput, read
+from scene.waves import MOST_WAVES
+
+ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
+SPLINE = 1e-12  # a paraboloid is a bicubic spline: what is left is rounding
+SHAPES = [(4, 4), (5, 7), (6, 8), (9, 6)]
+STORED = TypeAdapter(Topography)
+
+
+def drawn(shape, seed=0):
+    return np.random.default_rng(seed).normal(size=shape)
+
+
+def rough(heights=None, **other):
+    heights = drawn((6, 8)) if heights is None else heights
+    return Topography(**{"heights": heights, "pixel": 1e-3, "peaks": "down", "level": "mean"} | other)
+
+
+def summed(waves, x, y):
+    along_y, along_x = (np.exp(1j * np.outer(at, q)) for at, q in ((y, waves.along_y), (x, waves.along_x)))
+    return (along_y @ waves.amplitudes @ along_x.T).real
+
+
+def places(topography):
+    (rows, columns), (dx, dy) = topography.heights.shape, topography.pixel
+    return (np.arange(columns) - (columns - 1) / 2) * dx, (np.arange(rows) - (rows - 1) / 2) * dy
+
+
+def says(error):
+    return " ".join(str(error.value).split())
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
+@pytest.mark.parametrize("pixel", [1.0, (1.0, 2.5)])
+def test_waves_pass_through_every_pixel(shape, repeat, pixel):
+    map_ = rough(drawn(shape), pixel=pixel, repeat=repeat)
+    expected = map_.heights.heights - map_.heights.heights.mean()
+    np.testing.assert_allclose(summed(map_.waves, *places(map_)), expected, atol=10 * ROUNDING)
+
+
+@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
+def test_beyond_its_sides_a_map_goes_on_as_stated(repeat):
+    map_ = rough(repeat=repeat)
+    x, y = places(map_)
+    beyond = summed(map_.waves, x + map_.size[0], y)
+    here = summed(map_.waves, x, y)
+    np.testing.assert_allclose(beyond, here[:, ::-1] if repeat == "mirror" else here, atol=ROUNDING)
+
+
+def test_mean_squares_of_the_waves_are_those_of_the_pixels():
+    # a wave of two pixels counts half: an odd map has none, a mirrored one neither
+    for map_ in (rough(drawn((7, 9)), repeat="periodic"), rough(drawn((6, 8)))):
+        assert map_.rms_height == pytest.approx(map_.relief.std(), rel=ROUNDING)
+    even = rough(np.tile([1.0, -1.0], (4, 2)), repeat="periodic")
+    assert even.rms_height == pytest.approx(np.sqrt(0.5))
+
+
+def test_slopes_of_the_waves_are_those_of_one_wave():
+    x = np.arange(16) / 16
+    along_x = rough(np.tile(np.cos(2 * pi * x), (16, 1)), pixel=1 / 16, repeat="periodic").waves
+    assert (along_x.rms_slope_x, along_x.rms_slope_y) == pytest.approx((2 * pi / np.sqrt(2), 0.0), abs=1e-12)
+    assert along_x.rms_slope == pytest.approx(2 * pi / np.sqrt(2))
+
+
+def test_peaks_up_touch_first():
+    up, down = (rough(drawn((5, 5)), peaks=peaks) for peaks in ("up", "down"))
+    np.testing.assert_allclose(up.relief, -down.relief, atol=ROUNDING)
+    tip = np.zeros((5, 5))
+    tip[2, 2] = 1.0
+    assert rough(tip, peaks="up").relief.argmin() == 12
+    assert Measured(heights=tip, pixel=1.0).height(0.0, 0.0) == pytest.approx(0.0, abs=SPLINE)
+    assert Measured(heights=tip, pixel=1.0, peaks="down").height(0.0, 0.0) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("level", "left"), [("mean", 1.0), ("tilt", 1.0), ("curvature", 0.0)])
+def test_what_is_levelled_is_gone_and_nothing_else(level, left):
+    y, x = np.mgrid[-1:1:20j, -1:1:30j]
+    form = x**2 - 0.3 * x * y + 0.1 * y**2
+    tilt = 5.0 + (0.0 if level == "mean" else 2.0 * x - y)
+    relief = rough(form + tilt, level=level).relief
+    np.testing.assert_allclose(relief, left * (form - form.mean()), atol=1e-12)
+
+
+def test_a_plane_levelled_has_no_heights_at_all():
+    y, x = np.mgrid[0:1:20j, 0:1:30j]
+    plane = rough(1e-3 + 0.1 * x - 0.7 * y, level="tilt")
+    assert plane.rms_height == 0.0
+    assert not plane.relief.any()
+    with pytest.raises(ValidationError, match="without roughness touches everywhere"):
+        Scene(Plane(), Elastic(1e6), Indent(pressure=1e4), plane)
+
+
+def test_a_map_that_repeats_keeps_its_plane_and_one_that_is_mirrored_does_not():
+    # a sine over its period has a plane that fits it best, and is falsified where that is taken off
+    sine = np.tile(np.sin(2 * pi * np.arange(64) / 64), (64, 1))
+    stated = {"heights": sine, "pixel": 1 / 64, "peaks": "down"}
+    whole = Topography(**stated, repeat="periodic")
+    assert whole.level == "mean"
+    assert whole == Topography(**stated, repeat="periodic", level="mean")
+    assert whole.rms_height == pytest.approx(np.sqrt(0.5), rel=ROUNDING)
+    assert whole.waves.rms_slope == pytest.approx(2 * pi * np.sqrt(0.5), rel=ROUNDING)
+    assert Topography(**stated).level == Topography(**stated, repeat="mirror").level == "tilt"
+    with pytest.raises(ValidationError, match='level = "tilt" with repeat = "periodic"'):
+        replace(Topography(**stated), repeat="periodic")
+
+
+def test_a_scene_file_without_level_has_that_of_what_repeats(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("surface.npy", drawn((5, 6)))
+    for repeat, level in (("periodic", "mean"), ("mirror", "tilt")):
+        (tmp_path / "scene.toml").write_text(FILE + f"pixel = 1e-6\nrepeat = '{repeat}'\n")
+        assert read("scene.toml", Scene).roughness.level == level
+
+
+def test_whether_there_are_heights_is_asked_without_a_wave(monkeypatch):
+    def built(*_):
+        raise AssertionError("waves were built")
+
+    monkeypatch.setattr(scene.topography, "_waves", built)
+    plane = np.add.outer(np.arange(9.0), np.arange(9.0))
+    for map_, flat in ((rough(drawn((9, 9)), seed=3), False), (rough(plane, level="tilt"), True)):
+        assert map_.flat == flat
+    ball, solid = Sphere(1e-2), Elastic(1e6)
+    assert not Scene(Plane(), solid, Indent(pressure=1e4), rough(drawn((9, 9)), repeat="periodic")).roughness.flat
+    assert Case(indenter=ball, elastomer=solid, motion=Indent(load=1.0), roughness=rough()).roughness is not None
+    flat = rough(plane, level="tilt")
+    assert Case(indenter=ball, elastomer=solid, motion=Indent(load=1.0), roughness=flat).roughness is None
+
+
+@pytest.mark.parametrize("kind", [Wave, CrossedWaves])
+def test_plain_waves_are_flat_where_they_have_no_amplitude(kind):
+    assert kind(amplitude=0.0, wavelength=1.0).flat
+    assert not kind(amplitude=1e-9, wavelength=1.0).flat
+    assert SelfAffine(hurst=0.5, rms_height=0.0, longest=1.0).flat
+
+
+def test_more_waves_than_fit_are_an_error_before_they_are_built(monkeypatch):
+    heights = np.zeros((4, 2 * MOST_WAVES + 2))
+    heights[0, 0] = 1.0
+
+    def transformed(*_, **__):
+        raise AssertionError("an array was made")
+
+    crowded = Topography(heights=heights, pixel=1e-6, repeat="periodic")
+    with monkeypatch.context() as patched:
+        patched.setattr(np.fft, "rfft", transformed)
+        with pytest.raises(ValueError, match=f"{MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory"):
+            _ = crowded.waves
+    kept = replace(crowded, pixel=(1e-6, 1e-4), shortest_kept=2e-4)
+    assert kept.waves.amplitudes.shape == (5, kept.tops[0] + 1)
+    assert kept.tops[0] < MOST_WAVES / 40
+
+
+@pytest.mark.parametrize("level", ["tilt", "curvature"])
+@pytest.mark.parametrize("shape", [(4, 4), (5, 9), (20, 6)])
+def test_what_is_taken_off_is_what_fits_best(level, shape):
+    heights, (rows, columns) = drawn(shape), shape
+    y, x = (axis.ravel() for axis in np.mgrid[-1 : 1 : rows * 1j, -1 : 1 : columns * 1j])
+    terms = [np.ones_like(x), x, y] + ([x * y, x * x, y * y] if level == "curvature" else [])
+    fitted = np.stack(terms, 1) @ np.linalg.lstsq(np.stack(terms, 1), heights.ravel(), rcond=None)[0]
+    relief = rough(heights, level=level).relief
+    np.testing.assert_allclose(relief, heights - fitted.reshape(shape), atol=10 * ROUNDING)
+
+
+@pytest.mark.parametrize("height", [1e-200, 1e200])
+def test_heights_whose_squares_are_no_numbers_keep_their_proportion(height):
+    one = rough()
+    far = rough(height * drawn((6, 8)))
+    assert far.rms_height == pytest.approx(height * one.rms_height, rel=1e-12)
+    assert far.waves.rms_slope == pytest.approx(height * one.waves.rms_slope, rel=1e-12)
+
+
+@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
+def test_shorter_waves_than_kept_are_gone_and_longer_ones_are_as_they_were(repeat):
+    whole = rough(drawn((24, 24)), repeat=repeat)
+    kept = replace(whole, shortest_kept=6e-3)
+    cut, middle = kept.waves, whole.waves.amplitudes.shape[0] // 2
+    (k, j) = kept.tops
+    expected = whole.waves.amplitudes[middle - j : middle + j + 1, : k + 1]
+    inside = cut.q <= 2 * pi / 6e-3 * (1 + 1e-9)
+    assert np.array_equal(cut.amplitudes[inside], expected[inside])
+    assert not cut.amplitudes[~inside].any()
+    assert kept.shortest == pytest.approx(6e-3)
+    assert cut.along_x[-1] == pytest.approx(2 * pi / 6e-3)
+    assert whole.rms_height > 1.5 * kept.rms_height > 0
+
+
+def test_seeds_are_pixels_of_the_map_and_none_is_its_middle():
+    map_ = rough(drawn((6, 8)), pixel=(1.0, 2.0))
+    assert map_.place == (0, 0)
+    found = np.array([replace(map_, seed=seed).place for seed in range(1, 400)])
+    assert set(found[:, 0]) == set(range(-4, 4))
+    assert set(found[:, 1]) == set(range(-3, 3))
+    moved = replace(map_, seed=7)
+    assert moved.shift == (moved.place[0] * 1.0, moved.place[1] * 2.0)
+    assert moved.waves is map_.waves  # built once for all seeds
+
+
+def test_a_key_changes_with_any_height_and_never_holds_them():
+    heights = drawn((40, 40))
+    other = heights.copy()
+    other[17, 3] = np.nextafter(other[17, 3], 1.0)
+    scenes = [
+        Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0), rough(h)) for h in (heights, heights.copy(), other)
+    ]
+    keys = [json.dumps(SCENES.dump_python((scene,), mode="json"), sort_keys=True) for scene in scenes]
+    assert keys[0] == keys[1] != keys[2]
+    assert len(keys[0]) < 1000
+    assert scenes[0] == scenes[1] != scenes[2]
+    assert hash(scenes[0]) == hash(scenes[1])
+    # the same numbers in another shape are another map
+    assert rough(heights.reshape(20, 80)) != rough(heights)
+
+
+def test_a_map_goes_to_a_worker_and_cannot_be_changed():
+    map_ = rough()
+    for twin in (pickle.loads(pickle.dumps(map_)), copy.deepcopy(map_)):
+        assert twin == map_
+        assert np.array_equal(twin.heights.heights, map_.heights.heights)
+        for each in (map_, twin):
+            with pytest.raises(ValueError, match="read-only"):
+                each.heights.heights[0, 0] = 1.0
+            with pytest.raises(ValueError, match="WRITEABLE"):
+                each.heights.heights.setflags(write=True)
+    given = drawn((5, 5))
+    kept = rough(given)
+    given[0, 0] = 7.0
+    assert kept.heights.heights[0, 0] != 7.0
+
+
+@pytest.mark.parametrize(
+    ("wrong", "named"),
+    [
+        ({"heights": np.zeros(5)}, r"shape \(5,\)"),
+        ({"heights": np.zeros((3, 9))}, "at least 4 rows and columns"),
+        ({"heights": [[1.0, 2.0], [1.0]]}, "unequal lengths"),
+        ({"heights": np.where(np.eye(5) > 0, np.nan, 1.0)}, r"heights\[0\]\[0\] = nan: every pixel"),
+        ({"heights": np.where(np.arange(25).reshape(5, 5) == 7, np.inf, 1.0)}, r"heights\[1\]\[2\] = inf"),
+        ({"heights": np.ma.masked_equal(np.eye(5), 1.0)}, "5 pixels have no height"),
+        ({"heights": np.full((5, 5), 1j)}, "real numbers"),
+        ({"heights": np.full((5, 5), "a")}, "real numbers"),
+        ({"heights": "a.npy"}, "or give file instead"),
+        ({"pixel": 0.0}, "greater than 0"),
+        ({"pixel": (1e-6, -1e-6)}, "greater than 0"),
+        ({"pixel": (1e-6, 1.0)}, "factor of 1000"),
+        ({"pixel": (1e-6,) * 3}, "side of a pixel, greater than 0 .m., or two of them, along x and y"),
+        ({"pixel": [1e-6]}, "or two of them"),
+        ({"pixel": []}, "or two of them"),
+        ({"pixel": np.ones(3)}, "or two of them"),
+        ({"pixel": np.array("a")}, "or two of them"),
+        ({"pixel": 10**400}, "or two of them"),
+        ({"peaks": "sideways"}, "'up' or 'down'"),
+        ({"level": "flat"}, "'mean', 'tilt' or 'curvature'"),
+        ({"repeat": "never"}, "'mirror' or 'periodic'"),
+        ({"repeat": "periodic", "level": "tilt"}, 'level = "tilt" with repeat = "periodic".*take level = "mean"'),
+        ({"repeat": "periodic", "level": "curvature"}, 'level = "curvature" with repeat'),
+        ({"shortest_kept": 1.9e-3}, "from two pixels, 0.002 m"),
+        ({"shortest_kept": 1.0}, "to half of what repeats"),
+        ({"seed": -1}, "greater than or equal to 0"),
+        ({"file": "a.npy"}, "beside heights"),
+    ],
+)
+def test_what_is_no_map_is_named(wrong, named):
+    with pytest.raises(ValidationError, match=named):
+        rough(**wrong)
+
+
+@pytest.mark.parametrize("other", [{"repeat": "periodic"}, {"file": "a.npy"}])
+def test_fields_of_a_map_have_names(other):
+    with pytest.raises(ValidationError, match=r"\n0\n  Input should be"):
+        Topography(drawn((5, 5)), pixel=1.0, **other)
+
+
+def test_what_is_no_file_is_not_read(tmp_path):
+    pipe = tmp_path / "a.npy"
+    os.mkfifo(pipe)
+    with pytest.raises(ValidationError, match="it is no file to read from"):
+        Topography(file=pipe, pixel=1.0)
+
+
+def test_a_body_whose_map_is_a_plane_has_no_lowest_point():
+    y, x = np.mgrid[0:1:6j, 0:1:5j]
+    for heights, level in ((np.ones((5, 5)), "none"), (x + y, "tilt")):
+        with pytest.raises(ValidationError, match="has to have a lowest point"):
+            Measured(heights=heights, pixel=1e-3, level=level)
+    assert Measured(heights=x + y, pixel=1e-3).side == pytest.approx(6e-3)
+
+
+def test_a_body_has_its_own_roughness():
+    body = Measured(heights=drawn((5, 5)), pixel=1e-3)
+    with pytest.raises(ValidationError, match="leave roughness out"):
+        Scene(body, Elastic(1e6), Indent(load=1.0), SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2))
+    with pytest.raises(ValidationError, match="does not press a Measured"):
+        Scene(body, Elastic(1e6), Indent(pressure=1e4))
+
+
+def test_between_the_pixels_a_measured_paraboloid_is_a_paraboloid():
+    pixel, radius = (1e-5, 2e-5), 1e-2
+    x, y = ((np.arange(count) - (count - 1) / 2) * side for count, side in ((41, pixel[0]), (31, pixel[1])))
+    body = Measured(heights=-(x**2 + y[:, None] ** 2) / (2 * radius), pixel=pixel)
+    at_x, at_y = np.linspace(-1.9e-4, 1.9e-4, 33), np.linspace(-2.9e-4, 2.9e-4, 21)[:, None]
+    np.testing.assert_allclose(
+        body.height(at_x, at_y), (at_x**2 + at_y**2) / (2 * radius), atol=SPLINE * body.height(1.0, 1.0)
+    )
+    np.testing.assert_allclose(body.slope(at_x, at_y), np.broadcast_to(at_x / radius, (21, 33)), atol=1e-12)
+    # beyond the map nothing is known, and nothing touches
+    assert body.height(3e-4, 0.0) == body.height(0.0, -1.0) == pytest.approx((2e-4**2 + 3e-4**2) / (2 * radius))
+    assert body.slope(3e-4, 0.0) == 0.0
+    rim = body.on_rim(np.array([0.0, 1.94e-4, 1.96e-4, -1.96e-4, 0.0]), np.array([0.0, 0.0, 0.0, 0.0, 2.95e-4]))
+    assert rim.tolist() == [False, False, True, True, True]
+
+
+@pytest.mark.parametrize(
+    ("name", "write"),
+    [
+        ("a.npy", np.save),
+        ("a.csv", lambda path, heights: np.savetxt(path, heights, delimiter=";", header="heights")),
+        ("a.txt", np.savetxt),
+    ],
+)
+def test_plain_files_are_read_as_they_are(tmp_path, name, write):
+    heights = drawn((5, 6))
+    write(tmp_path / name, heights)
+    found = Topography(file=tmp_path / name, pixel=(1e-6, 2e-6), unit="um")
+    # text keeps 18 digits
+    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=1e-15)
+    assert found.pixel == (1e-6, 2e-6)
+    assert Topography(file=tmp_path / name, pixel=1e-6) == Topography(heights=heights, pixel=1e-6)
+
+
+def test_an_archive_states_its_pixel_in_the_unit_of_its_heights(tmp_path):
+    heights, path = drawn((5, 6)), tmp_path / "a.npz"
+    np.savez(path, heights=heights, pixel=3.0)
+    assert Topography(file=path, unit="nm").pixel == pytest.approx((3e-9, 3e-9))
+    with pytest.raises(ValidationError, match="states its own"):
+        Topography(file=path, pixel=1e-6)
+    np.savez(path, other=heights)
+    with pytest.raises(ValidationError, match="holds other, and no array heights"):
+        Topography(file=path, pixel=1e-6)
+
+
+# What is no pixel, and what is said of it.
+NO_PIXELS = [
+    ([], "shape (0,)"),
+    (np.full(3, 1e-6), "shape (3,)"),
+    (np.eye(3), "shape (3, 3)"),
+    ("a", "type <U1"),
+    (1j, "type complex128"),
+    (True, "type bool"),
+    (np.nan, "pixel = nan: numbers greater than 0"),
+    ([1e-6, -1e-6], "pixel = [1e-06, -1e-06]: numbers greater than 0"),
+]
+
+
+@pytest.mark.parametrize(("pixel", "said"), NO_PIXELS, ids=[said for _, said in NO_PIXELS])
+def test_a_pixel_of_an_archive_is_one_number_or_two(tmp_path, pixel, said):
+    path = tmp_path / "a.npz"
+    np.savez(path, heights=drawn((5, 6)), pixel=pixel)
+    with pytest.raises(ValidationError) as error:
+        Topography(file=path)
+    assert f"a.npz has {'a pixel of ' * said.startswith(('shape', 'type'))}" in says(error)
+    assert said in says(error)
+
+
+@pytest.mark.parametrize("pixel", [3e-6, [3e-6], [3e-6, 4e-6]])
+def test_pixels_of_archives_and_arrays_are_those_of_numbers(tmp_path, pixel):
+    heights, path = drawn((5, 6)), tmp_path / "a.npz"
+    np.savez(path, heights=heights, pixel=pixel)
+    expected = Topography(heights=heights, pixel=(3e-6, np.ravel(pixel)[-1]))
+    assert Topography(file=path) == expected
+    if np.size(pixel) == np.ndim(pixel) + 1:  # a number, or two
+        assert Topography(heights=heights, pixel=np.array(pixel)) == expected
+
+
+# Arrays that are no maps, and what is said of each.
+NO_MAPS = {
+    "nan": (np.where(np.eye(5) > 0, np.nan, 1.0), "heights[0][0] = nan: every pixel needs a finite height"),
+    "infinite": (np.where(np.eye(5) > 0, -np.inf, 1.0), "heights[0][0] = -inf: every pixel needs a finite height"),
+    "complex": (np.full((5, 5), 1j), "an array of type complex128: heights are real numbers [m]"),
+    "text": (np.full((5, 5), "1.0"), "an array of type <U3: heights are real numbers [m]"),
+    "records": (np.zeros((5, 5), [("a", float)]), "heights are real numbers [m]"),
+    "solid": (np.zeros((5, 5, 5)), "an array of shape (5, 5, 5): a map has at least 4 rows and columns"),
+    "small": (np.eye(3), "an array of shape (3, 3): a map has at least 4 rows and columns"),
+    "empty": (np.zeros((0, 5)), "an array of shape (0, 5)"),
+}
+
+
+@pytest.mark.parametrize("kind", NO_MAPS)
+@pytest.mark.parametrize("ending", ["npy", "npz"])
+@pytest.mark.parametrize("table", ["roughness", "indenter"])
+def test_a_scene_file_whose_map_is_none_is_told_the_table_the_file_and_what_is_allowed(
+    tmp_path, monkeypatch, kind, ending, table
+):
+    monkeypatch.chdir(tmp_path)
+    (heights, said), name = NO_MAPS[kind], f"map.{ending}"
+    save = np.save if ending == "npy" else lambda path, heights: np.savez(path, heights=heights)
+    save(name, heights)
+    text = FILE.replace("surface.npy", name) + "pixel = 1e-6\n"
+    if table == "indenter":
+        text = text[text.index("[elastomer]") :].replace("roughness", "indenter").replace("topography", "measured")
+    (tmp_path / "scene.toml").write_text(text)
+    with pytest.raises(InvalidInput) as error:
+        read("scene.toml", Scene)
+    assert str(error.value).startswith(f"scene.toml: {table}: file = '{name}': ")
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_damaged_archive_is_named(tmp_path):
+    path = tmp_path / "a.npz"
+    np.savez(path, heights=drawn((9, 9)), pixel=1.0)
+    whole = path.read_bytes()
+    for damaged in (whole[:-60], whole[:60] + b"x" * 30 + whole[90:], b""):
+        path.write_bytes(damaged)
+        with pytest.raises(ValidationError, match=r"a.npz cannot be read as arrays"):
+            Topography(file=path)
+
+
+def test_numbers_of_half_precision_are_no_less_in_nanometres(tmp_path):
+    heights = drawn((5, 6)).astype(np.float16)
+    np.save(tmp_path / "a.npy", heights)
+    found = Topography(file=tmp_path / "a.npy", pixel=1e-6, unit="nm")
+    assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "stated", "named"),
+    [
+        ("a.csv", "1,2\n3\n", {"pixel": 1.0}, "cannot be read as rows of numbers"),
+        ("a.csv", "1,2\n3,x\n", {"pixel": 1.0}, "cannot be read as rows of numbers"),
+        ("a.txt", "# nothing\n", {"pixel": 1.0}, "there is nothing in it"),
+        ("a.csv", "1 2 3 4\n" * 4, {}, "give pixel"),
+        ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": "inch"}, "one of m, mm, um, nm"),
+        ("a.npy", "no array", {"pixel": 1.0}, "cannot be read as arrays"),
+        ("a.npz", "no archive", {"pixel": 1.0}, "cannot be read as arrays"),
+        ("a.npy", None, {"pixel": 1.0}, "there is no such file"),
+        (".", None, {"pixel": 1.0}, "it is a folder"),
+        ("a" * 5000 + ".npy", None, {"pixel": 1.0}, "too long"),
+        ("a\0.npy", None, {"pixel": 1.0}, "null"),
+        ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": ["m"]}, "one of m, mm, um, nm"),
+        ("a.csv", "1 2 3 nan\n" * 4, {"pixel": 1.0}, r"a.csv': heights\[0\]\[3\] = nan: every pixel"),
+        ("a.csv", "1 2 3 1+2j\n" * 4, {"pixel": 1.0}, "cannot be read as rows of numbers"),
+    ],
+)
+def test_what_is_wrong_with_a_file_is_said_with_its_name(tmp_path, name, content, stated, named):
+    path = tmp_path / name
+    if content is not None:
+        path.write_text(content)
+    with pytest.raises(ValidationError, match=named) as error:
+        Topography(file=path, **stated)
+    assert repr(name[-6:])[1:-1] in says(error) or "unit" in stated
+    assert len(says(error)) < 1000
+
+
+def test_without_the_extra_other_files_ask_for_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    path = tmp_path / "a.sur"
+    path.write_bytes(b"0" * 100)
+    with pytest.raises(ValidationError, match=r"mdr-bem-crosscheck\[topography\]"):
+        Topography(file=path)
+
+
+@pytest.fixture
+def surface_topography():
+    return pytest.importorskip("SurfaceTopography")
+
+
+@pytest.mark.parametrize(("unit", "metre"), [("nm", 1e-9), ("um", 1e-6), ("mm", 1e-3)])
+def test_other_files_are_read_with_their_sizes_and_units(tmp_path, surface_topography, unit, metre):
+    heights, path = drawn((5, 6)), tmp_path / "a.nc"
+    one = surface_topography.Topography(heights.T, (12.0, 20.0), unit=unit)
+    one.to_netcdf(str(path))
+    found = Topography(file=path)
+    np.testing.assert_allclose(found.heights.heights, metre * heights, rtol=1e-12)
+    assert found.pixel == pytest.approx((2 * metre, 4 * metre))
+    with pytest.raises(ValidationError, match="states its own"):
+        Topography(file=path, pixel=1e-6)
+    with pytest.raises(ValidationError, match="states its own"):
+        Topography(file=path, unit="nm")
+
+
+def test_a_file_that_states_no_unit_asks_for_it(tmp_path, surface_topography):
+    path = tmp_path / "a.nc"
+    surface_topography.Topography(drawn((6, 5)), (12.0, 20.0)).to_netcdf(str(path))
+    with pytest.raises(ValidationError, match="give unit"):
+        Topography(file=path)
+    assert Topography(file=path, unit="um").pixel == pytest.approx((2e-6, 4e-6))
+
+
+def test_a_damaged_file_is_named(tmp_path, surface_topography):
+    path = tmp_path / "a.sur"
+    path.write_bytes(b"DIGITAL SURF" + b"\0" * 40)
+    with pytest.raises(ValidationError, match="cannot be read by SurfaceTopography: it is of no format"):
+        Topography(file=path)
+
+
+def test_of_what_another_program_says_a_line_is_kept(tmp_path, surface_topography, monkeypatch):
+    def fails(_):
+        raise RuntimeError("the header ends\nand so on\nand on")
+
+    monkeypatch.setattr(surface_topography, "open_topography", fails)
+    path = tmp_path / "a.sur"
+    path.write_bytes(b"0")
+    with pytest.raises(ValidationError) as error:
+        Topography(file=path)
+    assert "a.sur cannot be read by SurfaceTopography: the header ends" in says(error)
+    assert "and so on" not in says(error)
+
+
+FILE = """
+[indenter]
+type = "sphere"
+radius = 1e-2
+[elastomer]
+type = "elastic"
+modulus = 1e6
+[motion]
+type = "indent"
+load = 1.0
+[roughness]
+type = "topography"
+file = "surface.npy"
+"""
+
+
+def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("surface.npy", drawn((5, 6)))
+    (tmp_path / "scene.toml").write_text(FILE + "pixel = [1e-6, 2e-6]\nunit = 'um'\nseed = 3\n")
+    found = read("scene.toml", Scene)
+    assert found.roughness == Topography(heights=1e-6 * drawn((5, 6)), pixel=(1e-6, 2e-6), seed=3)
+    (tmp_path / "scene.toml").write_text(FILE)
+    with pytest.raises(InvalidInput, match=r"roughness: surface.npy does not state the size of a pixel"):
+        read("scene.toml", Scene)
+    (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\npath"))
+    with pytest.raises(InvalidInput) as error:
+        read("scene.toml", Scene)
+    for named in ("roughness.heights", "roughness.pixel: missing", "roughness.path"):
+        assert named in str(error.value)
+
+
+def test_a_stored_map_is_its_digest():
+    stored = STORED.dump_python(rough(), mode="json")["heights"]
+    assert stored["shape"] == [6, 8]
+    assert len(stored["digest"]) == 64
