@@ -18,6 +18,7 @@ def marched(solver, scene, started) -> Result:
     problem = Problem(replace(scene, motion=program.held), solver.engine, solver.terms)
     grid = _grid(solver, problem, program)
     window.check_waves(scene, grid)
+    window.check_layer(scene, grid)
     history = march(problem, program, grid, solver.tolerance, solver.steps)
     _check(grid, history)
     points = grid.points * grid.rows

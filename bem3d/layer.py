@@ -21,10 +21,12 @@ from .layerwaves import PIECES, REACH, Base, Bonded, Frictionless, taking
 from .term import Term
 
 MEAN = 1e13  # over the thickness: one over the error of the mean over a pixel of what the base takes off
-WAVE = 16  # pixels, of the wave by which a grid is judged
-FALSIFIED = 1e-2  # of the displacement by that wave: what pixels may add
-ALIKE = 100  # waves of a pixel and less, of either sign, that look like it
-ENOUGH = 1.6  # pixels to the thickness with which every layer is shown
+FALSIFIED = 1e-2  # of the force: what a grid may falsify beyond what it does on a half-space
+UNSHOWN = 50.0, 3.0  # of what spreads between pixels thicker than the layer, see `Layered.falsified`
+ADDED = 0.024, 6.0  # of what the waves of a pixel and less add to the spreading
+MARGIN = 1.15  # window over contact, before the contact is known
+SPARE = 1.25  # points over what a contact needs: on a finer grid it has another radius
+ALLOWED = np.arange(16, 16385)  # points a side
 
 
 @dataclass(frozen=True)
@@ -67,28 +69,52 @@ class Layered:
         """Displacement by a loaded strip as wide as a pixel [m], in the first and only row."""
         return _shown(ByStrip, self.base, self.thickness / pixel)
 
-    def falsified(self, pixel: float) -> float:
-        """What pixels [m] of a free surface add to the displacement by a wave of WAVE of them, relative to it.
+    def falsified(self, pixel, radius: float):
+        """What pixels [m] of a free surface falsify in the force of a contact of this radius [m], over the force.
 
-        A pressure that is constant on pixels has waves of a pixel and less, which at the pixels' centres look like
-        the wave itself. The long waves of an incompressible bonded layer hardly displace it, but those do.
+        With l the length over which a layer spreads the pressure and x = (l/a)^2, of pixels D (any shape)
+
+            50 x/(1 + 3x) (D/a)^2 [1 - (h/D)^2] + 0.024 min(D/h, 1)^3 6x/(1 + 6x),
+
+        the first for D > h only: pixels thicker than the layer do not show how it spreads, measured against round
+        contacts that are known without a grid. The second: a pressure that is constant on pixels has waves of a
+        pixel and less, which at the pixels' centres look like long ones. Neither falls with D.
         """
-        q, thickness = 2 * np.pi / WAVE, self.thickness / pixel
-        order = np.delete(np.arange(-ALIKE, ALIKE + 1), ALIKE)
-        alike = q + 2 * np.pi * order
-        added = (-1.0) ** order * q / alike / np.abs(alike) * self.base.yields(np.abs(alike) * max(thickness, 1.0))
-        return float(abs(min(thickness, 1.0) ** 3 * added.sum() * q / self.base.yields(q * thickness)))
+        spread = min(self.base.spread * self.thickness / radius, 1e6) ** 2
+        (most, over), (added, beside) = UNSHOWN, ADDED
+        unshown = most * spread / (1 + over * spread) * (pixel / radius) ** 2
+        hidden = 1 - (np.minimum(self.thickness, pixel) / pixel) ** 2
+        alike = added * (np.minimum(self.thickness, pixel) / self.thickness) ** 3
+        return unshown * hidden + alike * beside * spread / (1 + beside * spread)
 
 
-def unresolved(scene: Scene, grid: Grid) -> list[str]:
-    """Why a grid on the free surface of a layer falsifies it, if it does."""
-    if Layered.of(scene.layer, scene.solid.poisson_ratio).falsified(grid.pixel) <= FALSIFIED:
+def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[str]:
+    """Why a grid on the free surface of a layer falsifies a contact, if it does.
+
+    radius : of the contact [m]; without one that of a contact that fills the grid
+    """
+    radius = grid.extent / 2 / MARGIN if radius is None else radius
+    if Layered.of(scene.layer, scene.solid.poisson_ratio).falsified(grid.pixel, radius) <= FALSIFIED:
         return []
     return [
-        f"layer.thickness = {scene.layer.thickness:g} m of nu = {scene.solid.poisson_ratio:g} is too thin for "
-        f"pixels of {grid.pixel:g} m: a layer that hardly yields to an even pressure has to be resolved; points = "
-        f"{int(np.ceil(ENOUGH * grid.extent / scene.layer.thickness))} would do"
+        f"layer.thickness = {scene.layer.thickness:g} m of nu = {scene.solid.poisson_ratio:.15g} is too thin for "
+        f"pixels of {grid.pixel:g} m: a layer that hardly yields to an even pressure has to be resolved; "
+        + _remedy(scene.layer, scene.solid.poisson_ratio, grid, radius)
     ]
+
+
+def _remedy(layer, poisson_ratio, grid, radius):
+    """What would do in the place of a grid."""
+    good = Layered.of(layer, poisson_ratio).falsified(grid.extent / ALLOWED, radius) <= FALSIFIED
+    if good.any():
+        enough = ALLOWED[good.argmax()]
+        return f"points = {min(int(np.ceil(SPARE * enough)), ALLOWED[-1])} would do"
+    margins = (digit * 10.0**-power for power in range(14, 0, -1) for digit in range(1, 10))
+    below = next(0.5 - m for m in margins if Layered.of(layer, 0.5 - m).falsified(grid.pixel, radius) <= FALSIFIED)
+    return (
+        f"no allowed number of points would do: take a thicker layer, a smaller extent, or a Poisson ratio of at "
+        f"most {below:.15g}"
+    )
 
 
 def _shown(kind, base, thickness):

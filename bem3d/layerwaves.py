@@ -25,6 +25,7 @@ SHORTEST = 22.0  # 1 - M is 1e-16 there
 PANELS, NODES = 44, 24  # of waves up to it: three and a half periods of the longest distance in each
 COARSE, FINE = 1 / 32, 1 / 1024  # steps of the table: of order 8, and of the pieces looked up, of order 4
 PIECES = 4, round(REACH / FINE)  # coefficients of a table
+DISTANCES, AT_ONCE = 64, 4096  # distances summed and pieces made at once: half a megabyte
 
 
 class Base(Protocol):
@@ -33,6 +34,10 @@ class Base(Protocol):
     @property
     def springs(self) -> float:
         """lim M/t for long waves: a thin layer is a bed of springs that yield 2 h springs p / E*."""
+
+    @property
+    def spread(self) -> float:
+        """Length over which a thin layer spreads pressure, the root of lim |M/t - springs| / (springs t^2)."""
 
     def yields(self, t):
         """M(t)."""
@@ -50,6 +55,12 @@ class Bonded:
     @property
     def springs(self):
         return (1 - 2 * self.poisson_ratio) / (2 * (1 - self.poisson_ratio) ** 2)
+
+    @property
+    def spread(self):
+        k = self._k
+        squeezed = (8 / 3 * k - 16 * (k - 1) / (k + 1)) / (1 + k) ** 2
+        return np.inf if self.springs == 0 else float(np.sqrt(abs(squeezed) / self.springs))
 
     def yields(self, t):
         t = np.minimum(t, THICK)
@@ -75,6 +86,7 @@ class Frictionless:
     """The lower side slides along the base, and is not lifted. The same for every Poisson ratio."""
 
     springs: float = 0.5
+    spread: float = 0.0
 
     def yields(self, t):
         t = np.minimum(t, THICK)
@@ -106,13 +118,22 @@ class Taken:
     def __init__(self, values):
         """values : of distances (n,), even and smooth."""
         # Only layers need it.
-        from scipy.interpolate import CubicHermiteSpline, make_interp_spline
+        from scipy.interpolate import make_interp_spline
 
         at = np.arange(-8, round(REACH / COARSE) + 9) * COARSE
         smooth = make_interp_spline(at, values(np.abs(at)), k=7)
-        at = np.arange(round(REACH / FINE) + 1) * FINE
-        # Cubics of the place within a piece, from 0 to 1.
-        self._pieces = CubicHermiteSpline(at, smooth(at), smooth(at, 1)).c * FINE ** np.arange(3, -1, -1)[:, None]
+        # Cubics of the place within a piece, from 0 to 1, by value and slope at both ends.
+        self._pieces = np.empty(PIECES)
+        for first in range(0, PIECES[1], AT_ONCE):
+            at = np.arange(first, min(first + AT_ONCE, PIECES[1]) + 1) * FINE
+            value, slope = smooth(at), smooth(at, 1) * FINE
+            step, start, end = np.diff(value), slope[:-1], slope[1:]
+            self._pieces[:, first : first + AT_ONCE] = (
+                start + end - 2 * step,
+                3 * step - 2 * start - end,
+                start,
+                value[:-1],
+            )
 
     def __call__(self, distance):
         """c at distances (any shape), none above REACH."""
@@ -138,7 +159,7 @@ class Taking:
         """c(r) = int_0^inf (1 - M) J0(r t) dt."""
         t, weights = _waves()
         hindered = weights * self.base.hinders(t)
-        return Taken(lambda r: j0(np.outer(r, t)) @ hindered)
+        return Taken(lambda r: _summed(j0, r, t, hindered))
 
     @cached_property
     def from_line(self) -> Taken:
@@ -148,13 +169,19 @@ class Taking:
         """
         t, weights = _waves()
         rest = weights * (self.base.yields(t) + np.expm1(-2 * t)) / t
-        return Taken(lambda x: -np.log(4 + x**2) / 2 - np.cos(np.outer(x, t)) @ rest)
+        return Taken(lambda x: -np.log(4 + x**2) / 2 - _summed(np.cos, x, t, rest))
 
 
 @lru_cache(maxsize=8)
 def taking(base: Base) -> Taking:
     """Kept, as the tables know nothing of thickness and grid."""
     return Taking(base)
+
+
+def _summed(turning, distances, t, weights):
+    """Sum over t of turning(distance t) by weights, of some DISTANCES at a time."""
+    parts = np.split(distances, range(DISTANCES, len(distances), DISTANCES))
+    return np.concatenate([turning(np.outer(part, t)) @ weights for part in parts])
 
 
 def _waves():

@@ -20,14 +20,14 @@ from . import contact
 from .grid import Grid
 from .material import Creep, Material
 from .problem import Problem
-from .timeline import timeline
+from .timeline import in_a_pixel, timeline
 from .upstream import Endless, Repeating, Returning, Sheet
 from .window import check_on_map
 
 ROUNDING = 1e-12  # of the heights: an overlap of less is none
 FIRST = 1 / 64  # of the window that a load is guessed to touch first
 YIELDING = 0.6  # of a step: a solid collocated later than that has little stiffness at once
-PLACES = 8  # within a pixel, of which the heights are kept
+KEPT = 2**23  # values of heights and slopes at places within a pixel, at most
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,8 @@ def march(problem: Problem, program: Program, grid: Grid, tolerance: float, step
     Raises SolveError where there are too many steps, a contact does not converge or it reaches the grid's edge.
     """
     times = timeline(program, grid.pixel, steps)
-    body, material, press = _Body(problem, grid), _material(problem, program, grid), _Press(problem, program, grid)
+    body = _Body(problem, grid, places(program, grid, steps))
+    material, press = _material(problem, program, grid), _Press(problem, program, grid)
     touch, rows = _Touch(np.zeros(grid.shape)), []
     turns = program.turns
     for start, end in pairwise(times):
@@ -110,12 +111,26 @@ def _material(problem, program, grid):
     return Material(creep, Endless(window, program.span, half_space))
 
 
-class _Body:
-    """The indenter over the material: mostly at few places within a pixel, where it is evaluated once."""
+def places(program: Program, grid: Grid, steps: int) -> int:
+    """Within a pixel, of which heights or slopes are kept.
 
-    def __init__(self, problem, grid):
+    Steps that pass a pixel in equal parts come back to the same places, as many for heights as for slopes; at
+    rest there is one of each. If those of a pixel are more than KEPT, none but two are kept: the place that is
+    wanted next would always be the first to be dropped.
+    """
+    wanted = 2 * in_a_pixel(program, grid.pixel, steps)
+    return wanted if wanted * grid.points * grid.rows <= KEPT else 2
+
+
+class _Body:
+    """The indenter over the material: where it comes back to a place within a pixel, it is evaluated once.
+
+    kept : how many places
+    """
+
+    def __init__(self, problem, grid, kept):
         self._problem, self._grid, self._surface = problem, grid, problem.surface(grid)
-        self._at = lru_cache(PLACES)(self._evaluated)
+        self._at = lru_cache(kept)(self._evaluated)
 
     def heights(self, offset):
         """z [m] at points so far [m] downstream of the grid's."""

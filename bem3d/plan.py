@@ -1,13 +1,13 @@
 """What this solver would do about a scene: grids and kernels as `Problem` builds them, costs by the ladder."""
 
 from dataclasses import replace
+from math import ceil, log10
 from pathlib import Path
 
 from scene import Indent, Measured, Plane, Program, Scene, SelfAffine, Slide
-from scene.costs import expected, not_known
-from scene.heightmap import Scanned
+from scene.costs import at_tolerance, expected, not_known
 from scene.indenter import Axisymmetric
-from scene.plan import Array, Kernel, Modes, Plan, absent, by
+from scene.plan import PIECE, Array, Kernel, Modes, Plan, by, left_out
 from scene.scales import elastic_contact
 from scene.terms import terms_of
 from scene.viscoelastic import Linear
@@ -16,27 +16,24 @@ from . import window
 from .accuracy import typical
 from .arrays import as_drawn, engine_of, in_contact, laying_out, of_roughness, padded, product
 from .grid import Grid
-from .marching import PLACES
+from .marching import places
 from .problem import COARSEST, row_width
 from .sliding import Flow
 from .timeline import timeline
-from .upstream import wider_grids
+from .upstream import left_behind, wider_grids
 
 EFFECTS = Path(__file__).with_name("effects.csv")
 # What the ladder is made of. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
-IN_THE_LADDER = (Axisymmetric, Plane, Linear, Indent, Slide, SelfAffine)
+IN_THE_LADDER = (Axisymmetric, Linear, Indent, Slide, SelfAffine)
 LADDER = "medians of solves to 1e-7 on the machine where the ladder was measured"
-ABSENT = {
+TIGHT = 1e-7
+LEFT_OUT = {
     "roughness": "no spectrum, and nothing is drawn on top of the indenter",
     "layer": "the kernel is that of a half-space: no table and no thickness",
-    "temperature": "times are as stated: none is shifted",
-    "heating": "nothing gets warmer: no temperature is sought",
     "interface": "no tangential kernels and no tractions: all friction is loss in the elastomer",
+    "time": "no steps, and nothing is remembered from one to the next",
+    "flow": "real kernels, conjugate gradients instead of GMRES, no kernels of loss",
 }
-NO_MARCH = "no steps, and nothing is remembered from one to the next"
-NO_FLOW = "real kernels, conjugate gradients instead of GMRES, no kernels of loss"
-NO_MAP = "no map of heights is read, levelled or turned into waves"
-NO_MODES = "the solid is elastic: it has none"
 
 
 def plan_of(solver, scene: Scene) -> Plan:
@@ -58,8 +55,9 @@ def plan_of(solver, scene: Scene) -> Plan:
         modes=Modes.of(times if moving else ()),
         arrays=_held(solver, scene, flow, shape, march),
         steps=march.steps if march else 0,
-        **_expected(scene, shape, march),
-        left_out=_left_out(scene, flow, march),
+        **_expected(solver, scene, shape, march),
+        left_out=left_out(scene, LEFT_OUT),
+        doubts=(*_doubts(solver, scene),),
     )
     for term in terms:
         found = term.planned(found, scene)
@@ -78,9 +76,11 @@ class _March:
         self.grid = Grid(solver.points, extent, width=row_width(scene))
         self.steps = len(timeline(program, self.grid.pixel, solver.steps)) - 1
         self.modes = len(scene.solid.retardation()[2])
-        self.moves = any(stage.speed for stage in program.stages)
+        self.places = min(places(program, self.grid, solver.steps), 2 * self.steps)
         repeats = isinstance(scene.indenter, Plane)
         self.sheets = [] if repeats or not self.modes else wider_grids(self.grid, program.span)
+        # Path on which what is left behind is kept [m].
+        self.back = left_behind(program, scene.solid.retardation()[2]) if self.sheets and program.reverses else 0.0
         self.kernels = [
             Kernel(f"response, sheet {k}", "kernel", (sheet.rows, 2 * sheet.points))
             for k, sheet in enumerate(self.sheets, 1)
@@ -88,12 +88,16 @@ class _March:
 
     def arrays(self, engine):
         """What it holds beside the contact of a step."""
-        places = PLACES if self.moves else 1
         yield Array("modes in the window", (self.modes, *self.grid.shape))
-        yield Array("heights and slopes at places within a pixel", (2 * places, *self.grid.shape))
+        yield Array("heights and slopes at places within a pixel", (self.places, *self.grid.shape))
         for k, sheet in enumerate(self.sheets, 1):
             yield Array(f"modes on sheet {k}", (self.modes, *sheet.shape))
             yield from product(engine, f"response, sheet {k}", sheet.shape, padded(engine, sheet.shape), real=True)
+        if self.back:
+            # Of each sheet but the widest, columns of all modes.
+            for finer in [self.grid, *self.sheets][: len(self.sheets)]:
+                columns = ceil(self.back / finer.pixel)
+                yield Array(f"left behind {by(finer.shape)} points", (columns, self.modes * finer.rows + PIECE))
 
 
 def _extent(solver, scene):
@@ -117,12 +121,19 @@ def _method(scene, flow, march):
     return f"one contact in steady flow: {inner} on sets of contact"
 
 
+def _doubts(solver, scene):
+    """Of a window that is an estimate: that of a contact at rest, and on a layer that of a half-space."""
+    if solver.extent is None and not isinstance(scene.indenter, Plane):
+        yield from window.unresolved(scene, Grid(solver.points, _extent(solver, scene), width=row_width(scene)))
+
+
 def _grids(solver, scene, march):
     """In words: where the window is sought, the way from coarse to fine, and what is followed beside it."""
     fixed = isinstance(scene.indenter, Plane) or solver.extent is not None
     if not fixed:
         coarse = min(solver.points, window.COARSE)
-        yield f"{coarse} points a side, to find a window, of about {_extent(solver, scene):.2g} m"
+        as_of = ", as on a half-space" if scene.layer else ""
+        yield f"{coarse} points a side, to find a window, of about {_extent(solver, scene):.2g} m{as_of}"
     if march is None:
         coarser = [solver.points]
         while coarser[-1] >= 2 * COARSEST:
@@ -162,10 +173,12 @@ def _held(solver, scene, flow, shape, march):
     return max(stages, key=lambda stage: sum(array.bytes for array in stage))
 
 
-def _expected(scene, shape, march):
+def _expected(solver, scene, shape, march):
     """Of a steady contact by the ladder, times what parts that the ladder has not were measured to make of it."""
     if shape[0] == 1:
-        return not_known("the ladder has squares; a row takes next to nothing")
+        return not_known("the ladder has squares, no rows")
+    if isinstance(scene.indenter, Plane):
+        return not_known("in the ladder planes are few among spheres, which take several times as long")
     rough = scene.roughness
     if rough is not None and not rough.flat and getattr(rough, "shortest", None) is None:
         return not_known("the ladder has no roughness without a shortest wave")
@@ -173,20 +186,8 @@ def _expected(scene, shape, march):
     steady, times = (replace(scene, motion=scene.motion.held), march.steps) if march else (scene, 1)
 
     def by_the_ladder():
-        return {name: times * value for name, value in typical(steady, shape[1]).items()}
+        counted = at_tolerance(typical(steady, shape[1]), log10(solver.tolerance / TIGHT))
+        return {name: times * value for name, value in counted.items()}
 
-    return expected(by_the_ladder, LADDER, others, EFFECTS)
-
-
-def _left_out(scene, flow, march):
-    """What the scene does not ask for, and what follows from that."""
-    left = absent(scene, ABSENT)
-    if not any(isinstance(part, Scanned) for part in scene.parts.values()):
-        left["measured surface"] = NO_MAP
-    if not len(scene.solid.retardation()[2]):
-        left["modes"] = NO_MODES
-    if march is None:
-        left["time"] = NO_MARCH
-        if flow.at_rest:
-            left["flow"] = NO_FLOW
-    return left
+    why = LADDER if solver.tolerance == TIGHT else f"{LADDER}, brought to {solver.tolerance:g} by what a few took"
+    return expected(by_the_ladder, why, others, EFFECTS)

@@ -150,7 +150,11 @@ class BEM:
         return reasons
 
     def plan(self, scene: Scene) -> Plan:
-        """What would be simulated of a scene, and what it costs; nothing is solved. Raises as `solve` does."""
+        """What would be simulated of a scene, and what it costs; nothing is solved.
+
+        Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
+        of numbers. Other reasons for which a solve may fail it does not see.
+        """
         refuse(self, scene)
         with trusted():
             return plan_of(self, scene)
@@ -181,7 +185,7 @@ class BEM:
         grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid)
         window.check_on_map(problem.scene, grid, answer.pressure > 0)
-        window.check(grid, answer, repeats)
+        window.check(problem.scene, grid, answer, repeats)
         if repeats:
             _check_gap(problem.scene.motion.gap, grid, answer)
         return grid, answer

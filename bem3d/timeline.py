@@ -4,9 +4,9 @@ from math import ceil
 
 import numpy as np
 
-from scene import Program, SolveError
+from scene import Program
+from scene.steps import check_count, check_told_apart
 
-MOST = 10**6
 RAMP = 20  # steps at least while what is prescribed changes: in one, the surface would be thrown off the indenter
 PERIOD = 40  # steps at least in a period of what oscillates: a cosine through them is right to 0.1 %
 GROWTH = 1.25  # of a step over the one before: what follows a ramp is as quick as the ramp was
@@ -22,24 +22,37 @@ def timeline(program: Program, pixel: float, steps: int) -> np.ndarray:
     Raises SolveError for too many, or too unlike ones.
     """
     longest = _longest(program, pixel, program.duration / steps)
-    count = sum(stage.duration / step for stage, step in zip(program.stages, longest, strict=True))
-    if count > MOST:
-        fewer = "oscillate for fewer periods, " if any(stage.oscillation for stage in program.stages) else ""
-        raise SolveError(
-            f"the program takes {count:.2g} steps on pixels of {pixel:g} m, more than {MOST}: "
-            f"slide a shorter path, {fewer}take a larger extent or fewer points, or fewer steps than {steps}"
-        )
+    check_count(_asked(program, pixel, steps, longest), pixel)
     times, before = [0.0], np.inf
     for stage, step in zip(program.stages, longest, strict=True):
         ends = _ends(stage.duration, step, before)
         times.extend(times[-1] + ends)
         before = step
-    if not np.all(np.diff(times) > 0):
-        raise SolveError(
-            f"durations of the stages, from {min(stage.duration for stage in program.stages):g} to "
-            f"{program.duration:g} s in all, differ by more than rounding allows: steps of the shortest are lost"
-        )
+    check_told_apart(np.array(times), program)
     return np.array(times)
+
+
+def in_a_pixel(program: Program, pixel: float, steps: int) -> int:
+    """Steps in which a stage passes a pixel, most of all stages; 1 where none moves."""
+    longest = _longest(program, pixel, program.duration / steps)
+    crossings = [
+        pixel / abs(stage.speed) / step for stage, step in zip(program.stages, longest, strict=True) if stage.speed
+    ]
+    return max(1, round(max(crossings, default=1)))
+
+
+def _asked(program, pixel, steps, longest):
+    """Steps of all stages, by what asks for them."""
+    asked = dict.fromkeys(("steps", "stages", "path", "oscillation"), 0.0)
+    for stage, step in zip(program.stages, longest, strict=True):
+        needs = {
+            "steps": steps * stage.duration / program.duration,
+            "stages": RAMP,
+            "path": abs(stage.speed) * stage.duration / pixel,
+            "oscillation": PERIOD * stage.oscillation.periods if stage.oscillation else 0.0,
+        }
+        asked[max(needs, key=needs.get)] += stage.duration / step
+    return asked
 
 
 def _longest(program, pixel, share):

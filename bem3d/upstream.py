@@ -16,6 +16,8 @@ from itertools import pairwise
 import numpy as np
 from scipy.sparse import csr_array
 
+from scene import Program
+
 from .grid import Grid
 
 LEAST, MOST = 32, 128  # points along the first sheet, those of the window in between; of the next half, and so on
@@ -61,6 +63,12 @@ def wider_grids(grid: Grid, path: float) -> list[Grid]:
     count = int(np.ceil(np.log2(1 + 2 * path / grid.extent))) + 1
     points = (max(LEAST, min(grid.points, MOST) >> k) for k in range(count))
     return [Grid(each, grid.extent * 2.0 ** (k + 1), grid.centre, grid.width) for k, each in enumerate(points)]
+
+
+def left_behind(program: Program, times: np.ndarray) -> float:
+    """Path [m], at most, on which what leaves a sheet has not faded, of modes with these retardation times [s]."""
+    fastest = max(abs(stage.speed) for stage in program.stages)
+    return min(program.span, fastest * float(np.max(times)) * -np.log(FADED))
 
 
 class Endless:

@@ -74,8 +74,8 @@ def fitted(problem: Problem, points: int) -> Grid:
     return Grid.around(box, points, margin, problem.width)
 
 
-def check(grid: Grid, answer, repeats: bool = False) -> None:
-    """Raise SolveError if the grid holds too little of the contact or too little of it is resolved.
+def check(scene: Scene, grid: Grid, answer, repeats: bool = False) -> None:
+    """Raise SolveError if the grid holds too little of the contact or too little of it, or its layer, is resolved.
 
     A surface that repeats has no edge to reach.
     """
@@ -83,6 +83,7 @@ def check(grid: Grid, answer, repeats: bool = False) -> None:
     if not repeats and grid.on_rim(touched):
         raise SolveError(f"the contact reaches the edge of extent = {grid.extent:g} m; take a larger extent")
     check_resolved(grid, touched)
+    check_layer(scene, grid, spot_radius(grid, touched))
 
 
 def check_resolved(grid: Grid, touched: np.ndarray) -> None:
@@ -92,6 +93,15 @@ def check_resolved(grid: Grid, touched: np.ndarray) -> None:
             f"the contact covers {np.count_nonzero(touched)} of {grid.points} x {grid.rows} points on extent = "
             f"{grid.extent:g} m, {FEWEST} are needed; take more points"
         )
+
+
+def spot_radius(grid: Grid, touched: np.ndarray) -> float:
+    """Radius [m] of a disc with the same area over rim as the contact, of a row half the width of a strip."""
+    area, rim = np.count_nonzero(touched), np.count_nonzero(np.diff(np.pad(touched, ((0, 0), (1, 1))), axis=1))
+    if grid.rows == 1:
+        return grid.pixel * area / rim
+    rim += np.count_nonzero(np.diff(np.pad(touched, ((1, 1), (0, 0))), axis=0))
+    return grid.pixel * 8 / np.pi * area / rim  # pixels make the rim of a disc 4/pi times as long
 
 
 def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
@@ -109,7 +119,7 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
     closer = Grid.around(box.padded(grid.pixel), grid.points, MARGIN, grid.width)
     if np.count_nonzero(touched) < FEWEST and closer.extent < SETTLED * grid.extent:
         return closer
-    check(grid, answer)
+    check(problem.scene, grid, answer)
     return None
 
 
@@ -171,23 +181,36 @@ def check_on_map(scene: Scene, grid: Grid, touched: np.ndarray) -> None:
 
 
 def check_waves(scene, grid: Grid) -> None:
-    """Raise SolveError where the grid cannot carry the roughness or the layer."""
-    if reasons := unresolved(scene, grid):
+    """Raise SolveError where the grid cannot carry the roughness."""
+    if reasons := _missed(scene, grid):
+        raise SolveError("; ".join(reasons))
+
+
+def check_layer(scene, grid: Grid, radius: float | None = None) -> None:
+    """Raise SolveError where the grid falsifies a contact on the layer; radius [m], None if it fills the grid."""
+    if reasons := _falsified(scene, grid, radius):
         raise SolveError("; ".join(reasons))
 
 
 def unresolved(scene, grid: Grid) -> list[str]:
     """Why the grid cannot carry the roughness, the map of a measured body or the layer, if it cannot."""
-    on_layer = scene.layer is not None and not isinstance(scene.indenter, Plane)
-    reasons = layer.unresolved(scene, grid) if on_layer else []
+    return _falsified(scene, grid) + _missed(scene, grid)
+
+
+def _falsified(scene, grid, radius=None):
+    if scene.layer is None or isinstance(scene.indenter, Plane):
+        return []
+    return layer.unresolved(scene, grid, radius)
+
+
+def _missed(scene, grid):
     field, rough = "roughness", scene.roughness
     if rough is None and isinstance(scene.indenter, Measured):
         field, rough = "indenter", scene.indenter
     if rough is None or rough.shortest is None or 2 * grid.pixel <= rough.shortest:
-        return reasons
+        return []
     least = int(np.ceil(2 * grid.extent / rough.shortest))
     return [
-        *reasons,
         f"{field}.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
         f"points = {least:.15g} would carry it, {4 * least:.15g} resolve it",
     ]

@@ -2,10 +2,11 @@
 
 What has been solved once is in docs/effects/solved. Costs want a quiet machine.
 
-python docs/effects.py [costs]   with the word costs, writes anew what plans multiply costs with
+python docs/effects.py
+
+What plans multiply costs with, bem3d/effects.csv and mdr1d/effects.csv, is written from the same measurements.
 """
 
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
@@ -55,9 +56,8 @@ def main() -> None:
     outcomes = _swept(console, store, [task for study in STUDIES for task in study.tasks()])
     timed = _swept(console, store, costs.tasks(), 1, tasks_each=1)
     billed = costs.costs(timed)
-    if "costs" in sys.argv[1:]:
-        for name, rows in costs.tables(billed).items():
-            write_csv(TABLES[name], rows)
+    for name, rows in costs.tables(billed).items():
+        write_csv(TABLES[name], rows)
     with style.applied():
         chapters = {study.TITLE: study.chapter(outcomes) for study in STUDIES}
         chapters[costs.TITLE] = costs.chapter(timed)

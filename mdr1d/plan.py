@@ -1,12 +1,12 @@
 """What this solver would do about a scene: a foundation needs no kernels, and its costs go by node and sweep."""
 
+from math import ceil
 from pathlib import Path
 
 from scene import Indent, Program, Scene, SelfAffine, Slide
 from scene.costs import expected
-from scene.heightmap import Scanned
 from scene.indenter import Axisymmetric
-from scene.plan import Array, Modes, Plan, absent
+from scene.plan import PIECE, Array, Modes, Plan, left_out
 from scene.terms import terms_of
 from scene.viscoelastic import Linear
 
@@ -23,17 +23,13 @@ COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, SelfAffine)
 START, KELVIN, MAXWELL, BRANCH, STEP, MODE, DRAWN = 1e-4, 4e-9, 14e-9, 2.5e-9, 110e-9, 7e-9, 100e-9
 SWEEPS = 5  # under a load; 2 to 7 are usual
 MEASURED = "by node and sweep, as measured on spheres"
-ABSENT = {
+LEFT_OUT = {
     "roughness": "the profile is smooth: no line is drawn",
     "layer": "the foundation is that of a half-space",
-    "temperature": "times are as stated: none is shifted",
-    "heating": "nothing gets warmer: no temperature is sought",
     "interface": "no tangential springs: all friction is loss in the elastomer",
+    "time": "no steps: elements have no state, one sweep along the profile finds them all",
+    "flow": "springs alone: no memory from node to node",
 }
-NO_MARCH = "no steps: elements have no state, one sweep along the profile finds them all"
-NO_FLOW = "springs alone: no memory from node to node"
-NO_MAP = "no map of heights is read, levelled or turned into waves"
-NO_MODES = "the solid is elastic: it has none"
 
 
 def plan_of(solver, scene: Scene, layout) -> Plan:
@@ -61,7 +57,7 @@ def plan_of(solver, scene: Scene, layout) -> Plan:
         arrays=tuple(_arrays(solver, scene, layout, steps)),
         steps=steps,
         **_expected(scene, nodes, steps),
-        left_out=_left_out(scene, modes, steps),
+        left_out=left_out(scene, LEFT_OUT),
     )
     for term in terms:
         found = term.planned(found, scene)
@@ -86,6 +82,9 @@ def _arrays(solver, scene, layout, steps):
         yield Array("states of the elements", (nodes - 1, states))
         yield Array("profile, its slopes, and rates", (12, nodes))
         yield Array("history", (3 * 14, steps))
+        if scene.motion.reverses:
+            passed = ceil(scene.motion.span / layout.pixel)
+            yield Array("elements left behind", (passed, len(modes.compliances) + PIECE))
     else:
         yield Array("profile, displacement, forces, and their copies", (9, nodes))
     if layout.period is not None:
@@ -105,17 +104,3 @@ def _expected(scene, nodes, steps):
     others = [part for part in scene.parts.values() if not isinstance(part, COUNTED)]
     plain = {"applications": float(sweeps), "seconds": START + nodes * (sweeps * each + drawn)}
     return expected(lambda: plain, MEASURED, others, EFFECTS)
-
-
-def _left_out(scene, modes, steps):
-    """What the scene does not ask for, and what follows from that."""
-    left = absent(scene, ABSENT)
-    if not any(isinstance(part, Scanned) for part in scene.parts.values()):
-        left["measured surface"] = NO_MAP
-    if not len(scene.solid.retardation()[2]):
-        left["modes"] = NO_MODES
-    if not steps:
-        left["time"] = NO_MARCH
-        if not modes:
-            left["flow"] = NO_FLOW
-    return left

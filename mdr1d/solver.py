@@ -91,7 +91,11 @@ class MDR:
         return reasons
 
     def plan(self, scene: Scene) -> Plan:
-        """What would be simulated of a scene, and what it costs; nothing is solved. Raises as `solve` does."""
+        """What would be simulated of a scene, and what it costs; nothing is solved.
+
+        Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
+        of numbers. Other reasons for which a solve may fail it does not see.
+        """
         with trusted():
             refuse(self, scene)
             return plan_of(self, scene, self._laid_out(scene))

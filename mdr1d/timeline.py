@@ -5,9 +5,9 @@ from math import ceil
 
 import numpy as np
 
-from scene import Program, SolveError
+from scene import Program
+from scene.steps import check_count, check_told_apart
 
-MOST = 10**6
 LEAST = 20  # steps of a stage
 # Steps at least in a period of what oscillates, where they are longest. A dashpot feels the mean rate of a step
 # at its end: half a step late, 0.016 rad.
@@ -38,13 +38,8 @@ def timeline(program: Program, pixel: float, steps: int) -> Timeline:
     as it passes whole pixels [m] too. Raises SolveError for too many.
     """
     swings = [2 * PERIOD * stage.oscillation.periods if stage.oscillation else 0 for stage in program.stages]
-    count = steps + LEAST * len(program.stages) + program.length / pixel + sum(swings)
-    if not count <= MOST:
-        fewer = "oscillate for fewer periods, " if any(swings) else ""
-        raise SolveError(
-            f"the program takes {count:.2g} steps on pixels of {pixel:g} m, more than {MOST}: "
-            f"slide a shorter path, {fewer}take a larger extent or fewer points, or fewer steps than {steps}"
-        )
+    path = program.length / pixel
+    check_count({"steps": steps, "stages": LEAST * len(swings), "path": path, "oscillation": sum(swings)}, pixel)
     times, places = [np.zeros(1)], [np.zeros(1)]
     for stage, swing in zip(program.stages, swings, strict=True):
         slid, length = places[-1][-1], stage.speed * stage.duration / pixel
@@ -58,11 +53,7 @@ def timeline(program: Program, pixel: float, steps: int) -> Timeline:
         # Not the path at those times: late in a program a short step is known less well than its path.
         place = slid + length * shares
         places.append(np.where(np.abs(place - np.rint(place)) < ROUNDING, np.rint(place), place))
-    if not np.all(np.diff(np.concatenate(times)) > 0):
-        raise SolveError(
-            f"durations of the stages, from {min(stage.duration for stage in program.stages):g} to "
-            f"{program.duration:g} s in all, differ by more than rounding allows: steps of the shortest are lost"
-        )
+    check_told_apart(np.concatenate(times), program)
     place = np.concatenate(places)
     passed = np.floor(np.minimum(place[:-1], place[1:]))
     return Timeline(np.concatenate(times), passed.astype(int), place[:-1] - passed, place[1:] - passed)

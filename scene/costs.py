@@ -8,6 +8,9 @@ from math import prod
 from pathlib import Path
 
 COSTS = "applications", "seconds"
+# Of what a solve to 1e-7 takes, saved by each power of ten in the tolerance. Contacts at rest and sliding, smooth
+# and rough, took 0.81 of the applications to 1e-5 and 0.57 to 1e-3, of the seconds 0.89 and 0.71: medians of 22.
+DECADE, LEAST = {"applications": 0.1, "seconds": 0.07}, 0.5
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,11 @@ class Expected:
 
     def __str__(self) -> str:
         return f"not known: {self.why}" if self.value is None else f"{two_digits(self.value)}, {self.why}"
+
+
+def at_tolerance(counted: Mapping[str, float], decades: float) -> dict[str, float]:
+    """Costs of a solve to a tolerance that is so many powers of ten wider than that they were counted at."""
+    return {cost: value * max(1 - DECADE[cost] * decades, LEAST) for cost, value in counted.items()}
 
 
 def two_digits(value: float) -> str:

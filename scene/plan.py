@@ -6,9 +6,22 @@ from math import prod
 from typing import Any
 
 from .costs import Expected
+from .heightmap import Scanned
+from .motion import UNITS, Program
 from .scene import Scene
 
-WIDTH = 36  # of the first column of a plan
+WIDTH = 36  # of the first column of a plan, at least
+FEW = 4  # of a part's values or stages, that are said one by one
+PIECE = 27  # words that Python needs for each array that is kept apart, and its time
+# What an absent part means for every solver.
+ABSENT = {
+    "temperature": "times are as stated: none is shifted",
+    "heating": "nothing gets warmer: no temperature is sought",
+}
+NO_MAP = "no map of heights is read, levelled or turned into waves"
+NO_MODES = "the solid is elastic: it has none"
+NO_REVERSAL = "nothing is kept of what is left behind"
+NO_OSCILLATION = "no steps are there to follow one"
 
 
 @dataclass(frozen=True)
@@ -79,6 +92,7 @@ class Plan:
     steps : in time; 0 of what is steady
     applications, seconds : of the operator, in equivalents of the finest grid, and of processor
     left_out : what the scene does not ask for, and what therefore is not done
+    doubts : why a solve may refuse what is planned, where that rests on an estimate
     """
 
     solver: str
@@ -94,6 +108,7 @@ class Plan:
     applications: Expected
     seconds: Expected
     left_out: Mapping[str, str] = field(default_factory=dict)
+    doubts: tuple[str, ...] = ()
 
     @property
     def memory(self) -> int:
@@ -107,6 +122,8 @@ class Plan:
         yield from _table("simulated", self.terms)
         yield from _list("method", [self.method])
         yield from _list("grids", self.grids)
+        if self.doubts:
+            yield from _list("doubtful, as far as the window is an estimate", self.doubts)
         yield from _table("kernels", {kernel.name: kernel for kernel in self.kernels})
         yield from _list("modes", [self.modes])
         yield from _list("steps in time", [self.steps or "none"])
@@ -117,12 +134,28 @@ class Plan:
 
 def said(part: Any) -> str:
     """A part of a scene in a line: its type, and of its fields those that say something."""
-    if isinstance(part, tuple):
-        return f"({', '.join(map(said, part))})"
+    match part:
+        case Program() if len(part.stages) > FEW:
+            return _summed_up(part)
+        case tuple() if len(part) > FEW and all(isinstance(value, float) for value in part):
+            return f"{len(part)} from {min(part):g} to {max(part):g}"
+        case tuple():
+            return f"({', '.join(map(said, part))})"
     if not is_dataclass(part):
         return f"{part:g}" if isinstance(part, float) else repr(part)
     stated = (each for each in fields(part) if each.repr and not _usual(each, getattr(part, each.name)))
     return f"{type(part).__name__}({', '.join(f'{e.name}={said(getattr(part, e.name))}' for e in stated)})"
+
+
+def _summed_up(program):
+    """A program of many stages."""
+    speeds = [stage.speed for stage in program.stages]
+    swings = sum(stage.oscillation is not None for stage in program.stages)
+    return (
+        f"Program({len(speeds)} stages{f', {swings} of them oscillating' if swings else ''}, "
+        f"{program.duration:g} s, path {program.length:g} m, speed {min(speeds):g} to {max(speeds):g} m/s, "
+        f"{program.pressed_by} up to {program.greatest:g} {UNITS[program.pressed_by]})"
+    )
 
 
 def _usual(declared: Field, value: Any) -> bool:
@@ -134,6 +167,28 @@ def absent(scene: Scene, meanings: Mapping[str, str]) -> dict[str, str]:
     """The fields of a scene in which nothing stands, and what that means."""
     empty = (each.name for each in fields(scene) if each.name not in scene.parts)
     return {name: meanings.get(name, "nothing is built for it") for name in empty}
+
+
+def left_out(scene: Scene, meanings: Mapping[str, str]) -> dict[str, str]:
+    """What a scene does not ask for, and what follows from that.
+
+    meanings : of absent fields, for the solver, and of "time" and "flow", where nothing changes or flows
+    """
+    left, delayed = absent(scene, {**ABSENT, **meanings}), len(scene.solid.retardation()[2]) > 0
+    if not any(isinstance(part, Scanned) for part in scene.parts.values()):
+        left["measured surface"] = NO_MAP
+    if not delayed:
+        left["modes"] = NO_MODES
+    if isinstance(scene.motion, Program):
+        if not scene.motion.reverses:
+            left["reversal"] = NO_REVERSAL
+        if not any(stage.oscillation for stage in scene.motion.stages):
+            left["oscillation"] = NO_OSCILLATION
+        return left
+    left["time"] = meanings["time"]
+    if not delayed or not scene.motion.speed:
+        left["flow"] = meanings["flow"]
+    return left
 
 
 def by(shape: Sequence[int]) -> str:
@@ -151,7 +206,8 @@ def size(count: float) -> str:
 
 
 def _table(title, rows):
-    return _list(title, [f"{name:<{WIDTH}s} {value}" for name, value in rows.items()] or ["none"])
+    width = max([WIDTH, *map(len, rows)])
+    return _list(title, [f"{name:<{width}s} {value}" for name, value in rows.items()] or ["none"])
 
 
 def _list(title, lines):

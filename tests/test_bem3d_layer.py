@@ -1,5 +1,6 @@
 """Layers: waves against elasticity itself, kernels against their waves, contacts against what needs no grid."""
 
+import tracemalloc
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from itertools import pairwise
@@ -10,11 +11,11 @@ from scipy.integrate import quad
 from scipy.linalg import expm
 from scipy.special import j0
 
-from bem3d import BEM, influence, layer, layerwaves
+from bem3d import BEM, influence, layer, layerwaves, window
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
-from bem3d.layer import ENOUGH, FALSIFIED, Layered
+from bem3d.layer import FALSIFIED, Layered
 from bem3d.layerwaves import Bonded, Frictionless
 from bem3d.line import Line
 from bem3d.sliding import Flow
@@ -43,6 +44,7 @@ BASES = [Bonded(0.5), Bonded(0.4999), Bonded(0.3), Bonded(0.0), Bonded(-0.9), Fr
 SPHERE = Sphere(10e-3)
 SOFT = Elastic(1e6)
 ROUNDING = 1e-14  # relative: some tens of the last place
+ENOUGH = 1.4  # pixels to the thickness with which every layer is shown
 TABLE = 1e-13  # of the greatest, which is about one
 
 
@@ -188,10 +190,101 @@ def test_operators_are_positive_definite(base, thickness):
 
 
 @pytest.mark.parametrize("poisson_ratio", [-0.9, 0.3, 0.45, 0.49, 0.499, 0.5])
-def test_enough_points_show_every_layer(poisson_ratio):
-    for finer in (1.0, 1.5, 10.0, 1e6):
-        assert Layered(ENOUGH * finer, Bonded(poisson_ratio)).falsified(1.0) < FALSIFIED
-    assert Layered(1.0, Bonded(0.5)).falsified(1.0) > FALSIFIED
+def test_enough_points_show_every_layer_and_finer_ones_falsify_less(poisson_ratio):
+    pixels = np.geomspace(1e-3, 1e3, 400)
+    for radius in (0.3, 3.0, 30.0, 1e3):
+        falsified = Layered(1.0, Bonded(poisson_ratio)).falsified(pixels, radius)
+        assert np.all(np.diff(falsified) >= 0)
+        assert np.all(falsified[pixels <= 1 / ENOUGH] < FALSIFIED)
+        assert np.all(Layered(1.0, Frictionless()).falsified(pixels, radius) == 0)
+    assert Layered(1.0, Bonded(0.5)).falsified(1.0, 10.0) > FALSIFIED
+
+
+ON_HALF_SPACES = 3e-3  # of the force: what 20 points and more bring there, with contacts of 8 pixels across
+
+
+@pytest.mark.parametrize("poisson_ratio", [0.3, 0.45, 0.48, 0.49, 0.493, 0.499, 0.4995, 0.5])
+def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_not_refused(poisson_ratio):
+    """Contacts of 3 to 90 thicknesses, pixels of 1/8 to 10: some refused ones were up to 20 % off."""
+    stated, solid, taken = Layer(thickness=1e-4), Elastic(1e6, poisson_ratio=poisson_ratio), 0
+    for slenderness in (3, 20, 60, 90):
+        known = reference.of_radius(
+            SPHERE, stated, solid.indentation_modulus, poisson_ratio, slenderness * stated.thickness
+        )
+        scene, before = Scene(SPHERE, solid, Indent(depth=known.depth), layer=stated), False
+        for points in (24, 32, 48, 64, 96):
+            try:
+                found = BEM(points=points).solve(scene)
+            except SolveError:
+                assert not before
+                continue
+            before = True
+            taken += 1
+            assert found.normal_force == pytest.approx(known.load, rel=FALSIFIED + ON_HALF_SPACES)
+    assert taken > 5
+
+
+@pytest.mark.parametrize(
+    ("poisson_ratio", "slenderness", "points"),
+    [(0.49, 20, 24), (0.493, 20, 24), (0.499, 60, 24), (0.4995, 90, 24)],
+)
+def test_a_layer_that_its_pixels_do_not_show_is_refused(poisson_ratio, slenderness, points):
+    """Their forces would be 2.3 to 3.6 % off."""
+    stated, solid = Layer(thickness=1e-4), Elastic(1e6, poisson_ratio=poisson_ratio)
+    radius = slenderness * stated.thickness
+    known = reference.of_radius(SPHERE, stated, solid.indentation_modulus, poisson_ratio, radius)
+    scene = Scene(SPHERE, solid, Indent(depth=known.depth), layer=stated)
+    with pytest.raises(SolveError, match="too thin for pixels") as refused:
+        BEM(points=points).solve(scene)
+    enough = int(str(refused.value).split("points = ")[1].split()[0])
+    assert BEM(points=enough).solve(scene).normal_force == pytest.approx(known.load, rel=FALSIFIED)
+
+
+def test_small_spots_on_a_layer_take_finer_pixels_than_one_contact():
+    """64 points are 4.6 % off 384 on these, and 0.4 % on the smooth sphere."""
+    rough = SelfAffine(hurst=0.8, rms_height=2e-4, longest=4e-3, shortest=6e-4, seed=1)
+    solid = Elastic(1e6, poisson_ratio=0.49)
+    scene = Scene(SPHERE, solid, Indent(depth=3e-4), layer=Layer(thickness=5e-5))
+    assert BEM(points=64, extent=8e-3).solve(scene).normal_force > 0
+    with pytest.raises(SolveError, match="too thin for pixels"):
+        BEM(points=64, extent=1.7e-2).solve(replace(scene, roughness=rough))
+
+
+@pytest.mark.parametrize("shape", [(1, 400), (400, 400)])
+def test_the_radius_of_spots_is_that_of_one_of_them(shape):
+    grid = Grid(400, 2.0, width=1.0 if shape[0] == 1 else None)
+    x, y = (grid.x[None, :], np.zeros((1, 1))) if shape[0] == 1 else (grid.x[None, :], grid.y[:, None])
+    across = np.abs(np.abs(x) - 0.5)
+    one, two = np.hypot(x, y) < 0.3, np.hypot(across, y) < 0.3
+    for touched in (one, two):
+        assert window.spot_radius(grid, touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
+
+
+@pytest.mark.parametrize("of", ["from_point", "from_line"])
+def test_making_a_table_takes_little_more_memory_than_the_table(of):
+    tracemalloc.start()
+    try:
+        getattr(layerwaves.Taking(Bonded(0.5)), of)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 8 * np.prod(layerwaves.PIECES) + 1e6
+
+
+def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead():
+    scene = Scene(SPHERE, Elastic(1e6, poisson_ratio=0.49999999), Indent(load=1.0), layer=Layer(thickness=1e-7))
+    coarse = BEM(points=64, extent=2e-3)
+    (reason,) = coarse.refusals(scene)
+    assert "of nu = 0.49999999 is too thin" in reason
+    assert "no allowed number of points would do" in reason
+    most = float(reason.split("Poisson ratio of at most ")[1])
+    assert 0.45 < most < 0.49999999
+    assert coarse.refusals(replace(scene, elastomer=Elastic(1e6, poisson_ratio=most))) == []
+    assert BEM(points=16384, extent=2e-3).refusals(scene) != []
+    incompressible = replace(scene, elastomer=Elastic(1e6, poisson_ratio=0.5))
+    for thickness in (1e-12, 1e-300, 5e-324):
+        (reason,) = coarse.refusals(replace(incompressible, layer=Layer(thickness=thickness)))
+        assert "no allowed number of points would do" in reason
 
 
 PUBLISHED = {0.2: (1.26977, 1.08065), 0.5: (1.85712, 1.19845), 1.0: (3.37110, 1.33700), 2.0: (8.4680, 1.4827)}
@@ -365,7 +458,7 @@ def test_a_rough_sphere_finds_its_window_on_a_thin_layer():
 
 @pytest.mark.parametrize("indenter", [SPHERE, Cylinder(10e-3)], ids=lambda shape: shape.type)
 def test_a_layer_too_thin_for_its_grid_is_refused_with_the_points_that_would_do(indenter):
-    motion = Indent(load=1.0) if indenter is SPHERE else Indent(line_load=100.0)
+    motion = Indent(load=1.0) if indenter is SPHERE else Indent(line_load=1000.0)
     scene = Scene(indenter, SOFT, motion, layer=Layer(thickness=1e-5))
     with pytest.raises(SolveError, match=r"layer\.thickness = 1e-05 m of nu = 0\.5 is too thin for pixels"):
         BEM(points=32).solve(scene)

@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM
+from bem3d import BEM, marching
 from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
+from bem3d.grid import Grid
 from bem3d.layerwaves import PIECES, Taken, taking
 from bem3d.plan import EFFECTS
 from bem3d.surface import RoughSurface
@@ -38,7 +39,7 @@ from scene import (
     Wave,
 )
 from scene.costs import multiples
-from scene.plan import Plan
+from scene.plan import Kernel, Plan
 
 KELVIN = Kelvin(1e6, 1e-3)
 STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
@@ -47,6 +48,8 @@ SPHERE, LOAD, EXTENT = Sphere(radius=10e-3), 0.5, 3e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 STAGES = Program(stages=(Stage(duration=1e-3, load=LOAD), Stage(duration=1e-3, speed=0.2)))
+MANY = Prony(1e6, (1e6,) * 40, tuple(1e-4 * 1.3**k for k in range(40)))
+FAR = Program(stages=tuple(Stage(duration=1e-2, load=LOAD, speed=way) for way in (1.0, -1.0)))
 BACK = Program(stages=(Stage(duration=1e-3, load=LOAD, speed=1.0), Stage(duration=1e-3, speed=-1.0)))
 SWINGS = Program(stages=(Stage(duration=1e-3, load=LOAD, amplitude=0.1, frequency=1e3),))
 PRESSED = Program(stages=(Stage(duration=1e-3, load=LOAD),))
@@ -87,12 +90,14 @@ SCENES |= {
     "shear-plane": replace(SCENES["plane"], motion=Shear(pressure=1e5, displacement=1e-7), interface=STICKS),
     "shear-not": replace(SCENES["rest"], motion=replace(DRAWN, displacement=0.0), interface=STICKS),
     "reversal": Scene(SPHERE, STANDARD, BACK),
+    "far-and-back": Scene(SPHERE, MANY, FAR),
     "oscillation": Scene(SPHERE, STANDARD, SWINGS),
     "measured": replace(SCENES["slide"], indenter=Measured(heights=BOWL, pixel=1e-4, peaks="down")),
     "topography": replace(
         SCENES["slide"], roughness=Topography(heights=HEIGHTS, pixel=ROUGH.longest / 16, repeat="periodic")
     ),
 }
+PLANES = SCENES["plane"], SCENES["plane-slide"], SCENES["layer-plane"], SCENES["plane-program"]
 # The arrays that a plan counts are those of its formulas; contacts, and thereby vectors, are of any size.
 FACTOR = 1.5
 
@@ -183,6 +188,7 @@ def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
         ("plane-slide", 256),
         ("line-slide", 1024),
         ("program", 256),
+        ("far-and-back", 64),
         ("plane-program", 256),
         ("layer", 256),
         ("shear", 256),
@@ -192,8 +198,10 @@ def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
 )
 def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
     scene = SCENES[name]
-    asked = solver(scene, points=points)
-    solver(scene).solve(scene)  # what is loaded once is no part of it
+    # The bindings of ducc0 hold more the oftener they were called; a long march calls them very often.
+    asked = solver(scene, points=points, transforms="fftw" if name == "far-and-back" else "ducc0")
+    replace(asked, points=64).solve(scene)  # what is loaded once is no part of it
+    taking.cache_clear()  # a layer's table is
     tracemalloc.start()
     try:
         asked.solve(scene)
@@ -245,11 +253,12 @@ def test_an_elastic_solid_has_no_modes_whatever_the_motion():
     assert plan.kernels == solver(SCENES["rest"]).plan(SCENES["rest"]).kernels
 
 
-@pytest.mark.parametrize("name", ["rest", "slide", "rough", "plane"])
-def test_the_applications_expected_are_near_those_that_it_takes(name):
-    # medians over other contacts, solved to 1e-7: a factor of two is their scatter
+@pytest.mark.parametrize("tolerance", [BEM().tolerance, 1e-7])
+@pytest.mark.parametrize("name", ["rest", "slide", "rough", "modes"])
+def test_the_applications_expected_are_near_those_that_it_takes(name, tolerance):
+    # medians over other contacts: a factor of two is their scatter
     scene = SCENES[name]
-    asked = replace(solver(scene, points=128), tolerance=1e-7, extent=None)
+    asked = replace(solver(scene, points=128), tolerance=tolerance, extent=None)
     expected, taken = asked.plan(scene).applications, asked.solve(scene).applications
     assert taken / 2 < expected.value < taken * 2
     assert "medians" in expected.why
@@ -257,7 +266,7 @@ def test_the_applications_expected_are_near_those_that_it_takes(name):
 
 def test_costs_that_the_ladder_does_not_have_are_said_to_be_unknown():
     bare = replace(SCENES["rough"], roughness=replace(ROUGH, shortest=None))
-    for scene in (SCENES["line"], bare, SCENES["wave"], SCENES["measured"]):
+    for scene in (SCENES["line"], bare, SCENES["wave"], SCENES["measured"], *PLANES):
         plan = solver(scene).plan(scene)
         assert plan.seconds.value is None
         assert plan.applications.value is None
@@ -274,6 +283,68 @@ def test_parts_that_the_ladder_does_not_have_multiply_its_costs_by_what_they_wer
     assert march.applications.value == pytest.approx(expected)
 
 
+def test_a_looser_tolerance_is_expected_to_take_less_and_a_closer_one_more():
+    scene = SCENES["slide"]
+    plans = [BEM(points=128, tolerance=tolerance).plan(scene) for tolerance in (1e-3, 1e-5, 1e-7, 1e-9)]
+    for cost in ("applications", "seconds"):
+        values = [getattr(plan, cost).value for plan in plans]
+        assert values == sorted(values)
+        assert values[0] < values[-1]
+    assert "brought to" in plans[1].seconds.why
+    assert "brought to" not in plans[2].seconds.why
+
+
+def test_what_an_estimated_window_could_not_carry_is_said():
+    thin = Scene(SPHERE, Elastic(1e6), Indent(load=LOAD), layer=Layer(thickness=1e-12))
+    asked = BEM(points=64)
+    assert "too thin" in str(asked.plan(thin))
+    with pytest.raises(SolveError, match="too thin"):
+        asked.solve(thin)
+    assert not asked.plan(SCENES["layer"]).doubts
+    assert "as on a half-space" in str(asked.plan(SCENES["layer"]))
+
+
+def test_a_march_evaluates_heights_once_at_each_place_within_a_pixel(monkeypatch):
+    evaluated = []
+
+    def counted(self, of, pixels):
+        evaluated.append(pixels)
+        return evaluate(self, of, pixels)
+
+    evaluate = marching._Body._evaluated
+    monkeypatch.setattr(marching._Body, "_evaluated", counted)
+    program = Program(stages=(Stage(duration=1e-3, load=LOAD, speed=0.2),))
+    scene, asked = replace(SCENES["rough"], motion=program), BEM(points=32, extent=EXTENT, steps=40)
+    steps = asked.solve(scene).measures["time_steps"]
+    kept = marching.places(program, Grid(32, EXTENT), 40)
+    assert 8 < kept < 2 * steps / 1.5
+    assert len(evaluated) <= kept + 4  # the last two steps are out of line
+    monkeypatch.setattr(marching, "KEPT", 0)
+    assert marching.places(program, Grid(32, EXTENT), 40) == 2
+
+
+def test_a_program_of_many_stages_is_said_in_one_line():
+    stages = [Stage(duration=1e-3, load=LOAD, speed=0.1 * (-1) ** k) for k in range(50)]
+    plan = BEM(points=64, extent=EXTENT).plan(Scene(SPHERE, STANDARD, Program(stages=tuple(stages))))
+    assert plan.terms["motion"] == (
+        "Program(50 stages, 0.05 s, path 0.005 m, speed -0.1 to 0.1 m/s, load up to 0.5 N)"
+    )
+    assert "reversal" not in plan.left_out
+    assert "oscillation" in plan.left_out
+    said = solver(SCENES["program"]).plan(SCENES["program"]).left_out
+    assert said["reversal"] == "nothing is kept of what is left behind"
+
+
+def test_columns_of_a_printed_plan_stand_below_each_other_whatever_the_names():
+    plan = solver(SCENES["rest"]).plan(SCENES["rest"])
+    long = replace(plan, kernels=(Kernel("a name that is as long as it may be, and longer", "kernel", (1,)),) * 2)
+    (line,) = [line for line in str(long).splitlines() if "as long as it may be" in line]
+    assert "longer kernel, 1" in line
+    heading = str(plan).splitlines()
+    starts = {line.index("symbol,") for line in heading if "symbol, " in line}
+    assert len(starts) == 1
+
+
 def test_what_is_refused_has_no_plan():
     scene = replace(SCENES["plane"], roughness=replace(CELL, shortest=2e-6))
     with pytest.raises(Refused, match="less than two pixels"):
@@ -282,7 +353,7 @@ def test_what_is_refused_has_no_plan():
 
 def test_a_program_of_too_many_steps_is_said_before_it_is_marched():
     far = Program(stages=(Stage(duration=1.0, load=LOAD), Stage(duration=1e6, speed=1.0)))
-    with pytest.raises(SolveError, match="more than 1000000"):
+    with pytest.raises(SolveError, match=r"more than 1000000.* for its path: slide a shorter path"):
         BEM(points=64).plan(Scene(SPHERE, STANDARD, far))
 
 

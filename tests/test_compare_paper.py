@@ -302,6 +302,29 @@ def test_of_curves_that_were_pulled_apart_no_exponent_is_claimed():
     said = claims._exponent(loss, "friction", apart)
     assert "is not constant" in said.text
     assert (said.written, said.verdict) == ("undecided", "undecided")
+    assert claims._collapse(loss, "friction", apart).verdict == "undecided"
+
+
+def shifts_of(friction):
+    """Of four profiles that are up to a part in a hundred apart, everywhere alike."""
+    known = predicted.predict(parameters.LOSSES[2]).conditions
+    return shifts.Shifted.simulated("made up", friction[..., None] * np.linspace(0.99, 1.01, 4), -0.75, known, {})
+
+
+def test_collapse_and_exponent_have_a_verdict_each_and_the_second_needs_the_first():
+    loads, speeds, loss = np.array(parameters.FORCES), np.array(parameters.SPEEDS)[:, None], parameters.LOSSES[2]
+    bent = shifts_of((1 + loads * speeds**-0.75) ** -0.5)
+    assert claims._collapse(loss, "friction", bent).verdict == "holds"
+    assert claims._exponent(loss, "friction", bent).verdict == "holds"
+    # of another bend at every speed: shifts there are, that bring nothing together
+    unlike = shifts_of((1 + loads * speeds**-0.75) ** -np.linspace(0.2, 0.8, len(speeds))[:, None])
+    assert claims._collapse(loss, "friction", unlike).verdict == "fails"
+    assert claims._exponent(loss, "friction", unlike).written == "undecided"
+    straight = shifts_of((loads * speeds**-0.75) ** -0.5)
+    collapsed = claims._collapse(loss, "friction", straight)
+    assert (collapsed.verdict, straight.collapse.separable) == ("undecided", False)
+    assert "cannot be told from a vertical one" in collapsed.text
+    assert "taken for horizontal" in claims._exponent(loss, "friction", straight).text
 
 
 def write(path, rows, heading=""):

@@ -317,7 +317,7 @@ def test_the_last_panel_of_the_studies_counts_what_breaks(campaigned, campaigned
     wide, fast = data.regime.contact_over_period >= 1, data.xi > campaign.SLOW
     high = data.regime.height_over_depth > 0.1
     expected = {
-        "none": ~wide & ~fast & ~high,
+        "none of these": ~wide & ~fast & ~high,
         "h₀ > d/10 alone": ~wide & ~fast & high,
         "2a > L": wide & ~fast,
         f"ξ > {campaign.SLOW:g}": ~wide & fast,
@@ -325,7 +325,7 @@ def test_the_last_panel_of_the_studies_counts_what_breaks(campaigned, campaigned
     }
     for name, where in expected.items():
         assert len(found[name].get_offsets()) == where.sum() > 0
-        assert hollow(found[name]) == (name != "none")
+        assert hollow(found[name]) == (name != "none of these")
 
 
 def test_the_studies_say_slope_and_interval_of_the_points_where_the_conditions_hold(campaigned, campaigned_panels):
@@ -445,7 +445,7 @@ def test_shifted_curves_fall_onto_one_line_and_their_shifts_onto_the_power_of_th
     halves = [row["log_shift_error"] / np.log(10) for row in rows]
     assert [np.ptp(s[:, 1]) / 2 for s in segments] == pytest.approx(halves, rel=1e-9)
     for label, slope in (
-        ("slope -0.700 ± 0.020", -0.7),
+        ("exponent -0.700 ± 0.020", -0.7),
         ("expected -0.75", -0.75),
         ("every wave -0.7654", -0.7654),
     ):
@@ -460,8 +460,8 @@ def parted(expected=-0.75):
 
 def test_where_only_the_overlap_stops_the_shifts_the_curves_are_shifted_as_expected_and_called_undecided():
     _, after, by, _ = drawn(shifted_curves, [parted()]).axes
-    assert after.get_title(loc="right").replace("\n", " ") == "undecided: shifted as expected, misfit 5.00%"
-    assert "undecided" in [text.get_text() for text in by.texts]
+    assert by.get_title(loc="right") == "collapse undecided, shifted as expected: 5.00%"
+    assert "exponent undecided" in [text.get_text() for text in by.texts]
     assert not [c for c in by.collections if len(c.get_offsets()) == 28]
     assert not by.containers
     speeds = np.array(parameters.SPEEDS)
@@ -501,11 +501,11 @@ def test_the_caption_of_the_shifts_has_verdict_misfits_scatter_and_exponents():
     said = shifted_curves.caption([replace(lossy().whole, title="β = 0.5, whole friction")])
     for part in (
         "β = 0.5, whole friction (28 speeds, 280 points",
-        "holds; misfit 50.00%",
+        "collapse holds; misfit 50.00%",
         "1.23% shifted",
         "scatter 1.45%",
         "-0.700 ± 0.020",
-        "expected -0.75, which leaves misfit 5.00%, fails",
+        "shifted by the -0.75 that is expected, misfit 5.00%, beyond scatter",
     ):
         assert part in said
 

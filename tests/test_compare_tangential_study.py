@@ -68,7 +68,7 @@ def test_the_chapter_says_what_was_found_and_draws_it(outcomes):
     with style.applied():
         chapter = shear.chapter(outcomes)
     said = " ".join(chapter.text.split())
-    assert "u = 1.25 ± 0.00 times 3/2 μ d in 1D" in said
+    assert "u = 1.25 times 3/2 μ d in 1D" in said  # of bodies that are all alike
     assert {len(rows) for rows in chapter.tables.values()} == {8, len(shear.POINTS)}
     assert chapter.tables["Operator applications at half of 3/2 μ d"][0]["smooth: ratio"] == "2.0"
     (drawing,) = chapter.figures.values()

@@ -4,6 +4,7 @@ import csv
 import tomllib
 from dataclasses import fields
 from math import isnan, nan
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from scene import Layer, Program, Scene
 from scene.costs import COSTS, multiples
 from scene.terms import Lacking
 
+PAGE = Path(__file__).parent.parent / "docs" / "effects" / "effect-costs.csv"
 TITLES = [effect.title for effect in effects()]
 
 
@@ -54,7 +56,7 @@ def test_plans_know_the_costs_of_every_part_that_the_solver_has():
         BEM: (bem3d.plan.IN_THE_LADDER, bem3d.plan.EFFECTS),
         MDR: (mdr1d.plan.COUNTED, mdr1d.plan.EFFECTS),
     }
-    unmeasured = {"Measured", "Cylinder", "Wave"}  # no square of the ladder has them
+    unmeasured = {"Measured", "Cylinder", "Plane", "Wave"}  # the ladder has none of them, or too few
     for solver, (counted, table) in known.items():
         for kind, line in solver.terms.items():
             if kind.__name__ in unmeasured or issubclass(kind, counted):
@@ -75,8 +77,28 @@ def test_a_temperature_alone_costs_next_to_nothing_and_feedback_is_no_part_of_th
             assert 0.5 < multiples(table)[name]["applications"] < 1.5
 
 
+@pytest.mark.parametrize(("dimension", "table"), [("3D", bem3d.plan.EFFECTS), ("1D", mdr1d.plan.EFFECTS)])
+def test_what_plans_multiply_costs_with_was_measured_together_with_the_page(dimension, table):
+    with PAGE.open(encoding="utf-8", newline="") as file:
+        rows = {row["effect"]: row for row in csv.DictReader(file) if row["dimension"] == dimension}
+    for effect in effects():
+        for part in effect.parts:
+            row = rows[effect.title]
+            if row["reason"] or part in costs.COUNTED[dimension]:
+                assert part not in multiples(table)
+                continue
+            steps = 1.0 if row["time_steps"] == "nan" else float(row["time_steps"])
+            seconds = float(row["times"]) / steps
+            applications = float(row["applications"]) / float(rows[effect.over]["applications"]) / steps
+            # written to three digits
+            assert multiples(table)[part] == pytest.approx(
+                {"applications": applications, "seconds": seconds}, rel=5.01e-3
+            )
+
+
 def test_a_plan_says_to_what_tolerance_its_ladder_was_solved():
     assert f"to {TIGHT:g} " in bem3d.plan.LADDER.replace("1e-7", "1e-07")
+    assert bem3d.plan.TIGHT == TIGHT
 
 
 def outcomes(failed="layer", seconds=1.0):

@@ -144,15 +144,51 @@ def test_after_a_step_of_the_speed_friction_comes_to_that_of_the_new_one(speeds)
     assert result.normal_force == pytest.approx(steady.normal_force, rel=1e-3)  # of whole elements
 
 
+def approached(speed, approach, **settings):
+    motion = program({"duration": DEPTH / approach, "depth": DEPTH, "speed": speed})
+    return solved(motion, KELVIN, steps=200, **settings)
+
+
+# Places of the edges in their pixels.
+EXTENTS = np.linspace(1.0, 1.1, 5)
+
+
 @pytest.mark.parametrize(("speed", "approach"), [(0.0, 0.02), (0.02, 0.02), (0.3, 0.2), (3.0, 0.2)])
-def test_an_oblique_approach_on_a_kelvin_solid_is_the_closed_form(speed, approach):
-    motion, errors = program({"duration": DEPTH / approach, "depth": DEPTH, "speed": speed}), []
-    for extent in np.linspace(1.0, 1.1, 5):  # places of the edges in their pixels
-        result = solved(motion, KELVIN, points=600, extent=extent, steps=200)
-        force, friction = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)
-        errors.append((result.normal_force / force - 1, (result.friction_force - friction) / force))
+def test_the_force_of_an_oblique_approach_on_a_kelvin_solid_is_the_closed_form(speed, approach):
+    found = [approached(speed, approach, points=600, extent=extent).normal_force for extent in EXTENTS]
+    force, _ = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)
     # at the front of a dashpot an element carries its whole force at once: an edge is known to a pixel of 1/190
-    np.testing.assert_allclose(errors, 0, atol=3 / 380)
+    np.testing.assert_allclose(found, force, rtol=3 / 380)
+
+
+@pytest.mark.parametrize("points", [600, 2400])
+@pytest.mark.parametrize(("speed", "approach"), [(0.02, 0.02), (0.3, 0.2), (3.0, 0.2)])
+def test_friction_of_an_oblique_approach_is_the_closed_form_of_a_moment_ago(speed, approach, points):
+    for extent in EXTENTS:
+        result = approached(speed, approach, points=points, extent=extent)
+        # the mean over the last pixel slid is half a pixel late, and each of two edges is met up to one later
+        pixel, now = result.settings["pixel"], DEPTH / approach
+        earlier, latest = (
+            motions.oblique(1.0, KELVIN, speed, approach, time)[1] for time in (now - 2.5 * pixel / speed, now)
+        )
+        assert earlier < result.friction_force < latest
+
+
+def test_friction_of_an_approach_without_sliding_is_none():
+    result = approached(0.0, 0.02, points=600)
+    assert abs(result.friction_force) < ROUNDING * result.normal_force
+
+
+def test_friction_of_an_oblique_approach_converges_at_first_order_in_the_pixel():
+    counts, speed, approach = np.array([300, 1200, 4800]), 0.3, 0.2
+    exact = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)[1]
+    errors = [
+        1 - np.mean([approached(speed, approach, points=n, extent=e).friction_force for e in EXTENTS]) / exact
+        for n in counts
+    ]
+    # edges lie anywhere in their pixels, of which five places are an average
+    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.2)
+    assert errors[-1] < 5e-3
 
 
 WORKED = {

@@ -19,6 +19,7 @@ from ..outcome import Outcome
 from ..references import layer as reference
 from ..study import Task
 from .chapter import Chapter, Rows
+from .means import MEANING, mean
 
 NAME, TITLE = "layer", "A layer of finite thickness"
 SOLVER, SLIDING, ROUGH = BEM(points=128, tolerance=1e-7), BEM(points=64), BEM(points=128)
@@ -62,6 +63,8 @@ depends on the size of the contact, which grows slower on the layer (panels c, d
 τ_c a fifth of the shortest. On the layer bonded at ν = 1/2 friction under the same surfaces is {rough} times
 that on the half-space: a layer five times as thick as the shortest wave is a half-space to that wave, and is
 felt through the pressure alone.
+
+{meaning}
 """
 
 
@@ -224,13 +227,13 @@ def _friction(rubber, memory, over, outcome):
 
 
 def _means(outcomes) -> Rows:
-    """Friction of the rough sphere, with its standard error over the surfaces."""
+    """Friction of the rough sphere."""
     rows, tasks = [], _rough()
     for rubber in SLID:
         row = {"rubber": rubber.name}
         for over in ROUGH_OVER_F:
             values = [outcomes[tasks[rubber, over, k]].rows[0].friction_coefficient for k in range(SURFACES)]
-            row[f"μ at {over:g} F*"] = f"{np.mean(values):.4f} ± {np.std(values, ddof=1) / np.sqrt(SURFACES):.4f}"
+            row[f"μ at {over:g} F*"] = mean(values)
         rows.append(row)
     return rows
 
@@ -295,15 +298,15 @@ def _said(outcomes, found, slid):
         shortest=ROUGHNESS.shortest * 1e3,
         rms=ROUGHNESS.rms_height * 1e6,
         rough=", ".join(_compared(outcomes, at) for at in ROUGH_OVER_F),
+        meaning=MEANING,
     )
 
 
 def _compared(outcomes, over):
-    """Friction of the rough sphere over that on the half-space, surface by surface, with its standard error."""
+    """Friction of the rough sphere over that on the half-space, surface by surface."""
     tasks = _rough()
     on_film, on_half_space = (
         np.array([outcomes[tasks[rubber, over, seed]].rows[0].friction_coefficient for seed in range(SURFACES)])
         for rubber in (FILM, HALF_SPACE)
     )
-    ratios = on_film / on_half_space
-    return f"{ratios.mean():.3f} ± {ratios.std(ddof=1) / np.sqrt(SURFACES):.3f} at {over:g} F*"
+    return f"{mean(on_film / on_half_space)} at {over:g} F*"

@@ -16,11 +16,12 @@ from scene import Coulomb, Indent, Kelvin, Scene, Shear, Sphere
 
 from ..cases import shipped_cases
 from ..figures import effect_shear
-from ..metrics import Estimate, estimate
+from ..metrics import estimate
 from ..outcome import Outcome
 from ..references import tangential
 from ..study import Task
 from .chapter import Chapter, Rows
+from .means import half, mean
 
 NAME, TITLE = "shear", "Tangential loading and partial slip"
 DEPTH, FRICTION, NU = 4e-4, 0.5, 0.5
@@ -191,10 +192,10 @@ def _text(found):
         smooth_1d=found["smooth, 1D"].off(1.0),
         smooth_3d=found["smooth, 3D"].off(1.0),
         uncoupled=found[UNCOUPLED].off(1.0),
-        full_1d=_said(estimate(one.full)),
-        full_3d=_said(estimate(three.full)),
-        most_1d=_said(estimate(one.most)),
-        most_3d=_said(estimate(three.most)),
+        full_1d=mean(one.full),
+        full_3d=mean(three.full),
+        most_1d=mean(one.most),
+        most_3d=mean(three.most),
         most=float(tangential.displacement(0.9)),
         ratio=rough.rms_height / DEPTH,
         shape_1d=one.off(one.full),
@@ -205,11 +206,6 @@ def _text(found):
     )
 
 
-def _said(value: Estimate):
-    """A mean over bodies, and how far one of them is off it."""
-    return f"{value.mean:.2f} ± {value.deviation:.2f}"
-
-
 def _table(found) -> Rows:
     rows = []
     for share in SHARES[3::4]:
@@ -217,8 +213,7 @@ def _table(found) -> Rows:
         closed = float(tangential.force(min(share, 1.0)))
         row = {"u / (3/2 μ d)": f"{share:.2f}", "Cattaneo and Mindlin": f"{closed:.4f}"}
         for way, curve in found.items():
-            value = estimate(curve.force[k])
-            row[way] = f"{value.mean:.4f}" if value.count == 1 else f"{value.mean:.3f} ± {value.deviation:.3f}"
+            row[way] = mean(curve.force[k])
         rows.append(row)
     return rows
 
@@ -247,7 +242,7 @@ def _sheet(curve: Curve):
             "way": curve.way,
             "share": share,
             "force": value.mean,
-            "deviation": value.deviation,
+            "half_interval": half(value),
             "bodies": value.count,
             "full_slip": full.mean,
             "closed_form": float(tangential.force(min(share, 1.0))),

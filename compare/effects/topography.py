@@ -7,10 +7,9 @@ would give it. It stands in for a measured one.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from math import nan, sqrt
+from math import nan
 
 import numpy as np
-from scipy.stats import t as student
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
@@ -21,10 +20,12 @@ from scene.scales import elastic_contact
 from ..figures import effect_topography
 from ..metrics import Estimate, estimate, ratio
 from ..outcome import Outcome
+from ..resampling import student
 from ..study import Task
 from ..topography import Description, describe
 from ..wording import plus_minus
 from .chapter import Chapter, Rows
+from .means import LEVEL, half, written
 
 NAME, TITLE = "topography", "Measured topography"
 BODY = Scene(Sphere(radius=10e-3), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(depth=1e-4))
@@ -35,7 +36,6 @@ LOAD = 1.0  # [N]
 DEPTHS = (0.25, 0.5, 1.0, 2.0)  # over that of BODY
 SPEEDS = (0.03, 0.3, 3.0)  # [m/s]
 PLACES, LINES = 8, 100
-LEVEL = 0.95
 SMOOTH, SURFACES, MAPPED, ROWS = "smooth, 3D", "map, 3D", "line by π q C2D", "rows of the map"
 SOLVERS = {
     SMOOTH: BEM(points=128),
@@ -54,7 +54,7 @@ Three dimensions take {places} places of the map under the sphere. One dimension
 the MDR, C1D = π q C2D, which have the rms height and slope of the map and random phases, and {lines} of its rows.
 {found}
 
-Intervals are 95 % over places, lines and rows of this one map, which overlap: they say nothing of other maps of
+Intervals are over places, lines and rows of this one map, which overlap: they say nothing of other maps of
 the same surface."""
 
 
@@ -74,13 +74,6 @@ class Answer:
     def half(self) -> float:
         """Half of the interval of the mean; NaN of a single value."""
         return half(self.value)
-
-
-def half(value: Estimate) -> float:
-    """Half of the interval of a mean, 95 %."""
-    if value.count < 2:
-        return nan
-    return float(student.ppf((1 + LEVEL) / 2, value.count - 1)) * value.deviation / sqrt(value.count)
 
 
 @cache
@@ -170,7 +163,7 @@ def _ratio(found, three: Answer, way):
     one = next(each for each in found if (each.quantity, each.x, each.way) == (three.quantity, three.x, way))
     value, error = ratio(one.value, three.value)
     freedom = min(one.value.count, three.value.count) - 1
-    return value, error * float(student.ppf((1 + LEVEL) / 2, freedom)) if freedom > 0 else nan
+    return value, error * student(LEVEL, freedom) if freedom > 0 else nan
 
 
 def _table(found) -> Rows:
@@ -181,16 +174,10 @@ def _table(found) -> Rows:
         unit = "N" if three.quantity == "force" else ""
         rows.append(
             {"": f"{three.quantity} at {at}"}
-            | {way: _written(each, unit) for way, each in same.items()}
+            | {way: written(each.value, unit) for way, each in same.items()}
             | {f"{way}, over 3D": plus_minus(*_ratio(found, three, way)) for way in (MAPPED, ROWS)}
         )
     return rows
-
-
-def _written(each, unit):
-    if each.value.count == 1:
-        return f"{each.value.mean:.3g} {unit}".strip()
-    return plus_minus(each.value.mean, each.half, unit)
 
 
 def _sheet(each: Answer):

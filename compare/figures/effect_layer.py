@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from . import style
 
@@ -29,11 +30,11 @@ def figure(data) -> Figure:
             look = LOOKS[rubber]
             x, found, known = (np.array([row[name] for row in rows]) for name in ("x", "found", "known"))
             axes.plot(x, known, color=look["color"], linestyle=look["linestyle"])
-            axes.plot(x, found, color=look["color"], marker=look["marker"], linestyle="none", label=rubber)
+            axes.plot(x, found, color=look["color"], marker=look["marker"], linestyle="none")
     a.set(xscale="log", yscale="log", ylabel="$k$ / $E^*D$ [1]", title="(a)")
     b.set(xscale="log", ylabel="d ln $k$ / d ln $F$ [1]", title="(b)", ylim=(0.25, 0.75))
     for name, value in LIMITS.items():
-        b.axhline(value, color="0.6", linewidth=0.5)
+        b.axhline(value, color="0.6", linewidth=0.5, zorder=0)
         place = {"xycoords": b.get_yaxis_transform(), "textcoords": "offset points", "fontsize": 7}
         b.annotate(name, (1, value), xytext=(3, -2), **place)
     for quantity in sorted({row["quantity"] for row in data if row["quantity"].startswith("friction")}):
@@ -44,13 +45,14 @@ def figure(data) -> Figure:
             c.plot(x, friction, **LOOKS[rubber])
             if rubber != "half-space":
                 d.plot(x, friction / plain, **LOOKS[rubber])
-        c.annotate(rf"$v\tau_c$ = {memory} $D$", (x[0], friction[0]), xytext=(12, -11), textcoords="offset points",
+        place = (-2, 6) if friction[0] > 0.5 else (8, -5)  # beside a curve that rises, above a level one
+        c.annotate(rf"$v\tau_c$ = {memory} $D$", (x[0], friction[0]), xytext=place, textcoords="offset points",
                    fontsize=7)  # fmt: skip
         d.annotate(f"{memory} $D$", (x[-1], friction[-1] / plain[-1]), xytext=(4, -2), textcoords="offset points",
                    fontsize=7)  # fmt: skip
-    c.set(xscale="log", yscale="log", ylabel=r"$\mu R/v\bar\tau$ [1]", title="(c)")
+    c.set(xscale="log", yscale="log", ylim=(None, 2), ylabel=r"$\mu R/v\bar\tau$ [1]", title="(c)")
     d.set(xscale="log", ylabel=r"$\mu$ / $\mu$ of the half-space [1]", title="(d)")
-    a.legend()
+    a.legend(handles=[Line2D([], [], label=name, **LOOKS[name]) for name, _ in _curves(data, "stiffness")])
     for axes in (a, b, c, d):
         axes.axvline(1, color="0.8", linewidth=0.6, zorder=0)
         axes.set_xlabel("$F/F^*$ [1]")

@@ -2,17 +2,21 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MultipleLocator
 
 from . import style
 
 NAME = "effect-motions"
+THIN = 0.5
+STILL = 1e-9  # step of the path that is none [1]
 SOLVERS = {"1D": "MDR", "3D": "BEM"}
 PANELS = {
     "start": ("start from rest", "path / a [1]"),
     "steps": ("steps of the speed", "path / a [1]"),
-    "oscillation": ("oscillating load", "path / a = periods [1]"),
+    "oscillation": ("oscillating load", "path / a, periods [1]"),
     "oblique": ("oblique approach", "path / a [1]"),
-    "reversal": ("reversal, twice", "path / a [1]"),
+    "reversal": ("reversal, first cycle", "path / a [1]"),
     "mean": ("mean friction", "amplitude over load [1]"),
 }
 
@@ -33,12 +37,28 @@ def figure(data) -> Figure:
             if panel == "mean":
                 axes.plot(x, y, marker=style.MARKER[solver], linestyle="none", **look)
             else:
-                axes.plot(x, y, style.LINE[solver], **look)
+                chosen = _once(x) if panel == "reversal" else slice(None)
+                axes.plot(x[chosen], y[chosen], style.LINE[solver], **look)
                 _steady(axes, data, panel, dimension)
+        if panel == "oscillation":
+            axes.xaxis.set_major_locator(MultipleLocator(2))
         if panel == "mean":
             _second_order(axes, data)
-    drawing.axes[0].legend()
+    first = drawing.axes[0]
+    thin = Line2D([], [], color="0.5", linewidth=THIN, label="steady sliding")
+    first.legend(handles=[*first.get_legend_handles_labels()[0], thin])
     return drawing
+
+
+def _once(x):
+    """From the start through one cycle, until it comes back to its own way, where one fills gaps of the other."""
+    steps = np.diff(x)
+    moving = np.flatnonzero(np.abs(steps) > STILL)
+    turned = moving[1:][np.diff(np.sign(steps[moving])) != 0]
+    if len(turned) < 2:
+        return slice(None)
+    back = np.flatnonzero(x[turned[1] :] >= x[turned[0]] / 2)
+    return slice(0, turned[1] + back[0] + 1 if len(back) else None)
 
 
 def _values(data, panel, dimension):
@@ -52,13 +72,13 @@ def _steady(axes, data, panel, dimension):
         if speed > 1 and panel != "steps":
             continue
         for sign in (1, -1) if panel == "reversal" else (1,):
-            axes.axhline(sign * friction, color=style.COLOUR[SOLVERS[dimension]], linewidth=0.5, alpha=0.6)
+            axes.axhline(sign * friction, color=style.COLOUR[SOLVERS[dimension]], linewidth=THIN, alpha=0.6)
 
 
 def _second_order(axes, data):
     """In logarithms, with a line of slope two through the second amplitude of one dimension."""
     x, y = _values(data, "mean", "1D")
-    axes.set(xscale="log", yscale="log", ylabel="share missing [1]")
+    axes.set(xscale="log", yscale="log", ylabel="share of friction missing [1]")
     axes.plot(x, y[1] * (x / x[1]) ** 2, color="0.45", linewidth=0.8, label="square")
     axes.legend()
     style.decades(axes)

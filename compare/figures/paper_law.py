@@ -15,7 +15,7 @@ from . import style
 NAME = "paper-law"
 # Colour, tint, marker, its size and line of the shapes, in the order in which they come: the first, small and
 # dark, is drawn over the second.
-LOOKS = (("#0072B2", "#0072B2", "o", 2.6, "--"), ("#D55E00", "#F6C9A4", "s", 4.6, "-."))
+LOOKS = (("#000000", "#000000", "o", 2.6, "--"), ("#009E73", "#A6DCCB", "s", 4.6, "-."))
 
 
 def figure(laws: Sequence[Law]) -> Figure | None:
@@ -25,7 +25,7 @@ def figure(laws: Sequence[Law]) -> Figure | None:
     drawing = style.canvas(style.SINGLE, 5.0)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
     xi = np.geomspace(min(law.xi.min() for law in laws), max(law.xi.max() for law in laws), 201)
-    above.plot(xi, interpolation(xi), color="0.3", linewidth=0.9, label="Eq. 19, α = 1.5", zorder=1)
+    above.plot(xi, interpolation(xi), color="0.5", linewidth=0.9, label="Eq. 19, α = 1.5", zorder=1)
     below.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     for law, (colour, tint, marker, size, line) in zip(laws, LOOKS, strict=False):
         known, unit = np.isfinite(law.friction), interpolation(law.xi)

@@ -14,7 +14,7 @@ from . import style
 NAME = "paper-losses"
 SHOWN = (0, len(SPEEDS) // 2, len(SPEEDS) - 1)
 # Name, colour and marker of each form of Eq. 22.
-FORMS = ((SHORTEST, "#D55E00", "s"), (EVERY, "#0072B2", "o"), (WITH_SMOOTH, "#009E73", "^"))
+FORMS = ((SHORTEST, "#000000", "s"), (EVERY, "#CC79A7", "o"), (WITH_SMOOTH, "#009E73", "^"))
 LINES = ("-", "--", ":")
 
 
@@ -73,11 +73,12 @@ def sheets(found: Sequence[Lossy]) -> dict[str, list[dict]]:
 
 
 def exponents(lossy: Lossy) -> dict[str, float]:
-    """Of the shift as a power of the speed: expected, of each form, and simulated with its interval."""
+    """Of the shift as a power of the speed: expected, of each form, and simulated with its interval; NaN of curves
+    that do not collapse."""
     row = {"expected": lossy.whole.expected, **lossy.rough.laws, **lossy.whole.laws}
     for name, each in (("simulated", lossy.whole), ("simulated less smooth body", lossy.rough)):
-        row[name] = each.collapse.exponent if each.collapse.overlaps else np.nan
-        row[f"{name}, low"], row[f"{name}, high"] = each.exponent_interval
+        row[name] = each.exponent
+        row[f"{name}, low"], row[f"{name}, high"] = each.within
     return row
 
 

@@ -24,9 +24,9 @@ BETWEEN = Normalize(0, 1)
 MARKERS = ("o", "s", "^", "D", "v", "P")
 # What may break in the last panel, where the macroscopic slope is divided out: name, colour, marker, filled.
 BROKEN = (
-    ("none", "#0072B2", "o", True),
-    ("h₀ > d/10 alone", "#0072B2", "o", False),
-    ("2a > L", "#D55E00", "^", False),
+    ("none of these", "#56B4E9", "o", True),
+    ("h₀ > d/10 alone", "#56B4E9", "o", False),
+    ("2a > L", "#CC79A7", "^", False),
     (f"ξ > {SLOW:g}", "#009E73", "s", False),
     ("both", "#000000", "D", False),
 )
@@ -91,6 +91,8 @@ def caption(collapse: Collapse) -> str:
         if collapse.failed
         else ""
     )
+    flags = collapse.conditions.flags
+    both = "both do, " if np.any(known & ~(flags["2a < L"] | flags["xi << 1"])) else ""
     return (
         f"Slow friction on a rough cone in six studies, one parameter varied in each, {known.sum()} points of "
         f"{collapse.samples.shape[1]} profiles each (median standard error {scatter:.1%}, not drawn). (a) "
@@ -100,7 +102,7 @@ def caption(collapse: Collapse) -> str:
         "roughness, r. Eq. 17 leaves the macroscopic slope out; with it, Eq. 10 gives 1 + r² (line). (c) What "
         "is left once divided by it, against the rms height over the depth of the smooth contact; by which of the "
         f"other conditions break: the width 2a of that contact exceeds the longest wave L, ξ exceeds {SLOW:g}, "
-        "both do, or neither does and the rms height alone is not much less than the depth (right of the dotted "
+        f"{both}or neither does and the rms height alone is not much less than the depth (right of the dotted "
         f"line). {collapse.conditions.words} Large slopes leave a point filled: with heights, the slope of the "
         "cone and the load times any number, friction is times that number exactly, so that the same points "
         f"collapse at any slope. {fits}{failed}"

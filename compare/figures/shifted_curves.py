@@ -1,7 +1,6 @@
 """Friction against load at many speeds, its master curve, and the shifts that make it (paper, Figs. 5 to 7)."""
 
 from collections.abc import Sequence
-from textwrap import fill
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,10 +15,10 @@ from . import shades, style
 
 NAME = "shifted-curves"
 LOG10 = np.log(10)
-# Letters in a line of a title.
-TITLE = 34
+# What a misfit is beside the scatter, by its verdict.
+SCATTER = {"holds": "within scatter", "fails": "beyond scatter", "undecided": "of unknown scatter"}
 # Lines of what forms of Eq. 22 have for a shift, in the order in which they come.
-LAWS = (("#009E73", ":"), ("#0072B2", "-."))
+LAWS = (("#009E73", ":"), ("#CC79A7", "-."))
 
 
 def figure(found: Sequence[Shifted]) -> Figure | None:
@@ -36,11 +35,11 @@ def figure(found: Sequence[Shifted]) -> Figure | None:
         _curves(row[0], each, [curve.log_load for curve in result.curves], colours)
         _curves(row[1], each, _abscissae(each), colours)
         _shifts(row[2], each, colours)
-        row[0].set_title(fill(each.title, TITLE))
-        row[1].set_title(fill(_verdict(each), TITLE), loc="right", fontsize=7, fontweight="normal")
+        row[0].set_title(each.title)
+        row[2].set_title(_verdict(each), loc="right", fontsize=7, fontweight="normal")
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]", ylim=row[0].get_ylim())
-        row[2].set(xlabel="speed [m/s]", ylabel=r"log$_{10}$ of the shift [1]")
+        row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
         for axes in row:
             style.decades(axes)
         for axis in (row[0].yaxis, row[1].yaxis, row[1].xaxis):
@@ -93,8 +92,10 @@ def caption(found: Sequence[Shifted]) -> str:
     return (
         "Friction against normal force, a curve for each speed, by colour; the curves shifted along the force "
         "so as to come closest to one curve while neighbours overlap (Eq. 23); and the common logarithm of the "
-        f"shift, p(v) over that of the reference speed, with standard errors, {parted}. Misfits are rms of ln μ, "
-        f"the scatter is the rms standard error of ln μ. {' '.join(map(_said, found))}"
+        f"shift, p(v) over that of the reference speed, with standard errors, {parted}. Shifts of curves that do "
+        "not collapse are hollow and have no exponent; straight parallel lines cannot tell horizontal from "
+        "vertical shifts, and theirs are taken for horizontal. Misfits are rms of ln μ, the scatter is the rms "
+        f"standard error of ln μ. {' '.join(map(_said, found))}"
     )
 
 
@@ -114,9 +115,10 @@ def _parted(each):
 def _verdict(each):
     result = each.collapse
     if not _parted(each):
-        return f"{result.verdict}: misfit {result.after.rms:.2%}"
-    misfit = f", misfit {each.predicted.rms:.2%}" if np.isfinite(each.predicted.rms) else ""
-    return f"undecided: shifted as expected{misfit}"
+        why = ", straight lines" if result.overlaps and not result.separable else ""
+        return f"collapse {result.verdict}{why}: misfit {result.after.rms:.2%}"
+    misfit = f": {each.predicted.rms:.2%}" if np.isfinite(each.predicted.rms) else ""
+    return f"collapse undecided, shifted as expected{misfit}"
 
 
 def _said(each):
@@ -126,16 +128,17 @@ def _said(each):
     expected = ""
     if each.expected is not None:
         rms = each.predicted.rms
-        left = f"misfit {rms:.2%}, {each.predicted.verdict}" if np.isfinite(rms) else "curves that do not overlap"
-        expected = f"; expected {each.expected:.3g}, which leaves {left}"
-    fitted = plus_minus(result.exponent, each.exponent_error) if result.overlaps else "undecided"
+        left = f"misfit {rms:.2%}, {SCATTER[each.predicted.verdict]}" if np.isfinite(rms) else "no overlap"
+        expected = f"; shifted by the {each.expected:.3g} that is expected, {left}"
+    fitted = plus_minus(each.exponent, each.exponent_error)
     # Of a user's own table; simulated points share their profiles, and an expectation says what they are.
     vertical = f" {explain_vertical(each.vertical)}" if each.expected is None else ""
     laws = "".join(f"; of Eq. 22, {name}, {_power(power)}" for name, power in each.laws.items())
     return (
         f"{each.title} ({len(result.curves)} speeds, {_points(result)} points, reference {reference}): "
-        f"{result.verdict}; misfit {result.before.rms:.2%} as they are, {result.after.rms:.2%} shifted, scatter "
-        f"{scatter}; exponent of the speed {fitted}{laws}{expected}; {explain(result)}{vertical}{_broken(each)}"
+        f"collapse {result.verdict}; misfit {result.before.rms:.2%} as they are, {result.after.rms:.2%} shifted, "
+        f"scatter {scatter}; exponent of the speed {fitted}{laws}{expected}; {explain(result)}{vertical}"
+        f"{_broken(each)}"
     )
 
 
@@ -170,25 +173,25 @@ def _curves(axes: Axes, each, abscissae, colours):
 
 
 def _shifts(axes, each, colours):
-    """Filled where the fit decides, hollow where it leaves no overlap; none where something else is expected."""
+    """Filled where curves collapse, hollow where they do not or part; none where something else is expected."""
     result = each.collapse
     shifts, errors = result.shifts / LOG10, result.shift_errors / LOG10
     if result.overlaps:
         axes.errorbar(result.speeds, shifts, yerr=np.nan_to_num(errors), fmt="none", ecolor=colours, capsize=0)
     if not _parted(each):
-        inside = colours if result.overlaps else "white"
+        inside = colours if each.decided else "white"
         axes.scatter(result.speeds, shifts, s=10, facecolors=inside, edgecolors=colours, linewidths=0.9, zorder=2)
     decades = np.log10(result.speeds / result.speeds[result.reference])
-    if result.overlaps:
-        fitted = plus_minus(result.exponent, each.exponent_error)
+    if each.decided:
+        fitted = plus_minus(each.exponent, each.exponent_error)
         axes.plot(
             result.speeds,
-            result.exponent * decades,
+            each.exponent * decades,
             "-",
             color="0.6",
             linewidth=0.9,
             zorder=1,
-            label=f"slope {fitted}",
+            label=f"exponent {fitted}",
         )
     if each.expected is not None:
         axes.plot(
@@ -209,5 +212,5 @@ def _shifts(axes, each, colours):
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.5 * (high - low))
         axes.legend(loc="upper right", fontsize=6, borderaxespad=0.1, handlelength=1.5)
-    if _parted(each):
-        axes.text(0.03, 0.05, "undecided", transform=axes.transAxes, fontsize=7)
+    if not each.decided:
+        axes.text(0.03, 0.05, "exponent undecided", transform=axes.transAxes, fontsize=7)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from math import isfinite, nan
+from math import isfinite, sqrt
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from .law import Law
 from .parameters import Loss
 from .predicted import CONSTANT, STIFFNESS
 from .reproduction import Reproduction
-from .shifts import Shifted
+from .shifts import STRAIGHT, Shifted
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,7 @@ class Claim:
     expected, tolerance : the number, and how far from it still counts as it, absolute
     value, low, high : measured, with its interval of 95 %; NaN where it cannot be had
     text : how it was measured, and what a deviation means
+    undecidable : why there is no verdict whatever the number; empty if there may be one
     """
 
     name: str
@@ -35,11 +36,12 @@ class Claim:
     low: float
     high: float
     text: str
+    undecidable: str = ""
 
     @property
     def verdict(self) -> str:
         """holds, fails or undecided, from the interval."""
-        return verdict(self.expected, self.tolerance, self.low, self.high)
+        return "undecided" if self.undecidable else verdict(self.expected, self.tolerance, self.low, self.high)
 
     @property
     def row(self) -> dict:
@@ -53,6 +55,8 @@ class Claim:
             return "undecided"
         if not (isfinite(self.low) and isfinite(self.high)):
             return f"{self.value:.4g}, interval undecided"
+        if self.low == self.high:
+            return f"{self.value:.4g}"
         return f"{self.value:.4g} ({self.low:.4g} to {self.high:.4g})"
 
 
@@ -166,23 +170,64 @@ def _slopes(steepness) -> str:
 def _shifts(found) -> Iterator[Claim]:
     for lossy in found.losses:
         for name, shifted in (("friction", lossy.whole), ("friction less that of the smooth body", lossy.rough)):
+            yield _collapse(lossy.loss, name, shifted)
             yield _exponent(lossy.loss, name, shifted)
 
 
-def _exponent(loss: Loss, name: str, shifted: Shifted) -> Claim:
-    collapse = shifted.collapse
-    low, high = shifted.exponent_interval
+def _collapse(loss: Loss, name: str, shifted: Shifted) -> Claim:
+    """Whether horizontal shifts bring the curves onto one, by what they still miss over their scatter."""
+    found, asked = shifted.collapse, f"horizontal shifts bring {name} onto one curve"
+    missed = sqrt(found.after.chi_square)
+    why = "the curves only part" if not found.overlaps else "" if found.separable else STRAIGHT
     return Claim(
-        name=f"Fig. 7, shift of {name} as a power of the speed, loss ~ frequency^{loss.exponent:g}, "
-        f"tau = {loss.relaxation_time:g} s",
+        name=f"Fig. 7, {asked}, {_of(loss)}: what is missed over the scatter",
         figure=f"shifted-curves{loss.suffix}",
-        expected=shifted.expected,
-        tolerance=0.05 * abs(shifted.expected),
-        value=collapse.exponent if collapse.overlaps else nan,
+        expected=0.0,
+        tolerance=sqrt(1 + 2 * sqrt(2 / found.after.freedom)),
+        value=missed,
+        low=missed,
+        high=missed,
+        text=f"Eq. 23. Shifted, the curves miss one another by {found.after.rms:.1%}, and points scatter by "
+        f"{found.scatter:.1%}; counted is the root of chi square per degree of freedom, which may exceed one by "
+        f"two standard deviations.{f' Undecided: {why}.' if why else ''}",
+        undecidable=why,
+    )
+
+
+def _exponent(loss: Loss, name: str, shifted: Shifted) -> Claim:
+    """The power of the speed in those shifts, which the collapse has to give a meaning first."""
+    low, high = shifted.within
+    expected, tolerance = shifted.expected, 0.05 * abs(shifted.expected)
+    return Claim(
+        name=f"Fig. 7, exponent of the shift of {name} against the speed, {_of(loss)}",
+        figure=f"shifted-curves{loss.suffix}",
+        expected=expected,
+        tolerance=tolerance,
+        value=shifted.exponent,
         low=low,
         high=high,
-        text=f"Eq. 23: horizontal shifts that collapse the curves: {collapse.verdict}. They miss one another by "
-        f"{collapse.after.rms:.1%} with the scatter of the points at {collapse.scatter:.1%}. {_modulus(shifted)}",
+        text=f"{_meant(shifted)} {_modulus(shifted)}",
+    )
+
+
+def _of(loss: Loss) -> str:
+    return f"loss ~ frequency^{loss.exponent:g}, tau = {loss.relaxation_time:g} s"
+
+
+def _meant(shifted: Shifted) -> str:
+    """What the exponent is, and whether what is expected lies within its interval."""
+    if not shifted.collapse.overlaps:
+        return "The misfit only falls as the curves are pulled apart: no shift has an exponent."
+    if not shifted.decided:
+        return "The curves do not collapse: their shifts mean nothing, and have no exponent."
+    taken = "" if shifted.collapse.separable else f"Shifts are taken for horizontal, of {STRAIGHT}. "
+    low, high = shifted.within
+    if not (isfinite(low) and isfinite(high)):
+        return f"{taken}Its interval cannot be had."
+    inside = "within" if low <= shifted.expected <= high else "outside"
+    return (
+        f"{taken}The interval is of the sampling of profiles; {shifted.expected:g} itself lies {inside} it, and "
+        "what is up to 5 % off it counts as it."
     )
 
 

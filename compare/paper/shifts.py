@@ -25,6 +25,10 @@ from .conditions import Conditions
 from .parameters import Loss
 from .predicted import EVERY, SHORTEST, WITH_SMOOTH, Predicted, predict
 
+# Misfit of ln mu up to which the curves of a law, which have no scatter, are one: as well as Eq. 19 is followed.
+ONE = 0.01
+STRAIGHT = "straight parallel lines: a horizontal shift cannot be told from a vertical one"
+
 
 @dataclass(frozen=True)
 class Shifted:
@@ -40,7 +44,8 @@ class Shifted:
     vertical : what vertical shifts achieve beside the horizontal ones; None where points are too few for both, or
         not independent, as simulated ones on the same profiles
     conditions : of the points of each curve; empty where they are not known
-    laws : exponents that the forms of Eq. 22 for such friction have of their own, by name
+    laws : exponents that the forms of Eq. 22 for such friction have of their own, by name; NaN of one whose curves
+        do not collapse
     """
 
     title: str
@@ -52,6 +57,24 @@ class Shifted:
     vertical: Vertical | None = None
     conditions: tuple[Conditions, ...] = ()
     laws: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def decided(self) -> bool:
+        """Whether the shifts mean anything: not of curves that they do not bring onto one, nor of those that part.
+
+        Straight parallel lines do come onto one; their shifts are taken for horizontal.
+        """
+        return self.collapse.overlaps and self.collapse.verdict != "fails"
+
+    @property
+    def exponent(self) -> float:
+        """Of the shifts as a power of the speed; NaN where they mean nothing."""
+        return self.collapse.exponent if self.decided else nan
+
+    @property
+    def within(self) -> tuple[float, float]:
+        """Its interval of 95 %; NaN where the shifts mean nothing."""
+        return self.exponent_interval if self.decided else (nan, nan)
 
     @classmethod
     def measured(cls, title: str, curves: Sequence[Curve]) -> "Shifted":
@@ -159,9 +182,9 @@ def collect(loss: Loss, found: Sequence[Task], outcomes: Mapping[AnyTask, Outcom
 
 
 def _own_exponent(friction):
-    """Of the shifts that bring curves of a law (speeds, loads) closest to one; NaN where they part."""
+    """Of the shifts that bring curves of a law (speeds, loads) onto one; NaN where none do."""
     found = mastercurve.collapse(_curves(friction[:, :, None]))
-    return found.exponent if found.overlaps else nan
+    return found.exponent if found.overlaps and found.after.rms <= ONE else nan
 
 
 def _curves(friction):

@@ -74,7 +74,11 @@ def of_load(shape: Axisymmetric, layer: Layer, modulus, poisson_ratio, load) -> 
 
 
 def remainder(t, base, poisson_ratio):
-    """1 - M(t) for t > 0 of any shape."""
+    """1 - M(t) for t > 0 of any shape.
+
+    The algebra of three dimensions, which waves are hindered, written again: no witness of it. That is what was
+    published, by others, of contacts on layers, which `of_load` has to meet.
+    """
     gone = np.exp(-2 * np.asarray(t, float))
     if base == "frictionless":
         return 2 * (1 + 2 * t - gone) * gone / (1 - gone**2 + 4 * t * gone)

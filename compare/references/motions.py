@@ -45,7 +45,8 @@ def oblique(radius, kelvin, speed, approach, time):
     [s] after it
 
     With c = d - x^2/R an element carries f = c + tau c' as long as that is positive and it has landed, c >= 0:
-    in front up to x = -sqrt(R d), behind up to there or to where f falls to zero. MDR gives both without error.
+    in front up to x = -sqrt(R d), behind up to there or to where f falls to zero. That is the foundation itself: a
+    solver of it is off by its pixel alone.
     """
     tau, depth = kelvin.relaxation_time, approach * time
     front = sqrt(radius * depth)
