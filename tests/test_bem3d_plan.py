@@ -193,7 +193,6 @@ def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
         ("layer", 256),
         ("shear", 256),
         ("shear-plane", 256),
-        ("topography", 256),
     ],
 )
 def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
