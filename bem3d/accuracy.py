@@ -11,16 +11,19 @@ from functools import cache
 from math import inf, pi, sqrt
 from numbers import Real
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from scipy.fft import next_fast_len
 
-from scene import Cylinder, Measured, Plane, Program, Refused, Result, Scene, Shear, SolveError, Solver
+from scene import Cylinder, Measured, Plane, Program, Refused, Result, Scene, Shear, SolveError
 from scene.scales import elastic_contact
 
 from .problem import row_width
 from .sliding import Flow
+
+if TYPE_CHECKING:
+    from .solver import BEM
 
 LADDER = Path(__file__).with_name("ladder.csv")
 BANDS = ("rest", "slow", "middle", "fast")
@@ -69,7 +72,7 @@ class Choice:
     """
 
     scene: Scene
-    solver: Solver
+    solver: "BEM"
     wanted: Mapping[str, float]
     expected: Mapping[str, float]
     resolution: float
@@ -97,9 +100,14 @@ class Choice:
 class Answer(Protocol):
     """What two answers are compared by: a Result, or numbers of one."""
 
-    friction_coefficient: float
-    normal_force: float
-    depth: float
+    @property
+    def friction_coefficient(self) -> float: ...
+
+    @property
+    def normal_force(self) -> float: ...
+
+    @property
+    def depth(self) -> float: ...
 
 
 def apart(scene: Scene, name: str, one: Answer, other: Answer) -> float:
@@ -118,7 +126,7 @@ def apart(scene: Scene, name: str, one: Answer, other: Answer) -> float:
     return abs(values[0] / values[1] - 1)
 
 
-def choose(solver: Solver, scene: Scene, wanted: Mapping[str, float]) -> Choice:
+def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
     """The least points and the loosest tolerance that keep every wanted error, by the ladder.
 
     solver : everything else that is set. Raises ValueError for what cannot be promised, Refused and SolveError as
@@ -161,10 +169,11 @@ def resolution(scene: Scene, measures: Mapping[str, float]) -> float:
 
 def band(scene: Scene) -> str:
     """How fast a scene slides: the length of its memory over the shortest length that its contact has to show."""
-    flow = Flow.of(scene.solid, scene.motion.speed)
+    flow, rough = Flow.of(scene.solid, scene.motion.speed), scene.roughness
     if flow.at_rest:
         return "rest"
-    shortest = scene.roughness.shortest if _body(scene) == "rough" else elastic_contact(scene).radius
+    smooth = rough is None or rough.flat
+    shortest: Any = elastic_contact(scene).radius if smooth else rough.shortest
     memory = flow.memory / shortest
     return "slow" if memory < SLOW else "middle" if memory < FAST else "fast"
 
@@ -182,7 +191,7 @@ def ladder() -> Mapping[tuple[str, str, str], np.ndarray]:
     Quantities: friction; pressing, of depth or load alike; and `COSTS`, of which there are points a side and what
     a solve takes: processor seconds, operator applications.
     """
-    rungs = {}
+    rungs: dict[tuple[str, str, str], list[tuple[float, float]]] = {}
     with LADDER.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             kind = row["body"], row["band"], row["quantity"]

@@ -75,7 +75,8 @@ def solve(
     pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
     gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
     lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
-    most, marked, tried = ROUNDS + max(heights.shape), *xp.zeros((2, *heights.shape), bool)
+    most = ROUNDS + max(heights.shape)
+    marked, tried = xp.zeros((2, *heights.shape), bool)
     for rounds in range(1, most + 1):
         contact = pressure > 0
         if not contact.any():

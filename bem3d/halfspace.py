@@ -46,7 +46,8 @@ class HalfSpace:
     def gain(self, grid: Grid) -> FreeConvolution:
         """Pressure -> slope of the displacement as the difference between the pixels on both sides."""
         wider = replace(grid, points=grid.points + 2)  # a column more at each end
-        kernel = self._flowing(wider, 0.0, *self._seen(grid), 0.0)[: grid.rows]
+        shares, lengths = self._seen(grid)
+        kernel = self._flowing(wider, 0.0, shares, lengths, 0.0)[: grid.rows]
         return self._convolution((kernel[:, 3:-1] - kernel[:, 1:-3]) / 2)
 
     def _seen(self, grid):

@@ -19,7 +19,7 @@ def marched(solver, scene, started) -> Result:
     grid = _grid(solver, problem, program)
     window.check_waves(scene, grid)
     window.check_layer(scene, grid)
-    history = march(problem, program, grid, solver.tolerance, solver.steps)
+    history = march(problem, program, grid, solver.tolerance, solver.steps, solver.frames)
     _check(grid, history)
     points = grid.points * grid.rows
     return Result(
@@ -53,8 +53,16 @@ def marched(solver, scene, started) -> Result:
             "y": grid.y,
             "pressure": history.pressure,
             "gap": history.gap,
+            **_frames(history),
         },
     )
+
+
+def _frames(history):
+    """With shifts from where the grid is at the end."""
+    if not history.frames:
+        return {}
+    return {**history.frames, "frame_shift": history.frames["frame_shift"] - history.offset}
 
 
 def _check(grid, history):

@@ -94,12 +94,13 @@ def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[st
     radius : of the contact [m]; without one that of a contact that fills the grid
     """
     radius = grid.extent / 2 / MARGIN if radius is None else radius
-    if Layered.of(scene.layer, scene.solid.poisson_ratio).falsified(grid.pixel, radius) <= FALSIFIED:
+    layer, poisson_ratio = scene.layer, scene.solid.poisson_ratio
+    if layer is None or Layered.of(layer, poisson_ratio).falsified(grid.pixel, radius) <= FALSIFIED:
         return []
     return [
-        f"layer.thickness = {scene.layer.thickness:g} m of nu = {scene.solid.poisson_ratio:.15g} is too thin for "
+        f"layer.thickness = {layer.thickness:g} m of nu = {poisson_ratio:.15g} is too thin for "
         f"pixels of {grid.pixel:g} m: a layer that hardly yields to an even pressure has to be resolved; "
-        + _remedy(scene.layer, scene.solid.poisson_ratio, grid, radius)
+        + _remedy(layer, poisson_ratio, grid, radius)
     ]
 
 

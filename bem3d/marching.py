@@ -8,6 +8,7 @@ they are smooth, and friction, which is all delay, keeps its digits however shor
 The window is attached to the material and is shifted by whole pixels as the indenter moves on.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -15,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from scene import Plane, Program, SolveError
+from scene.instants import Frames
 
 from . import contact
 from .grid import Grid
@@ -43,6 +45,7 @@ class History:
     residual, rounds : of each contact, see `contact`
     pressure, gap : in the last step (ny, nx)
     offset : by which the pixels' centres then are downstream of those of the grid
+    frames : fields at instants asked for, (F,) and (F, ny, nx); empty where none are
     """
 
     time: np.ndarray
@@ -58,6 +61,7 @@ class History:
     pressure: np.ndarray
     gap: np.ndarray
     offset: float
+    frames: Mapping[str, np.ndarray]
 
     @property
     def friction_by_work(self) -> np.ndarray:
@@ -66,34 +70,45 @@ class History:
         return np.where(moving, self.power / np.where(moving, self.speed, 1.0), np.nan)
 
 
-def march(problem: Problem, program: Program, grid: Grid, tolerance: float, steps: int) -> History:
+def march(
+    problem: Problem, program: Program, grid: Grid, tolerance: float, steps: int, instants: int = 0
+) -> History:
     """Through a program on one grid.
 
     problem : the same scene with the motion `program.held`
     tolerance : of each contact, see `contact`
     steps : of the whole program, see `timeline`
+    instants : at which the contact is kept, see `scene.instants`
 
     Raises SolveError where there are too many steps, a contact does not converge or it reaches the grid's edge.
     """
     times = timeline(program, grid.pixel, steps)
+    frames = Frames((times[1:] + times[:-1]) / 2, program.duration, instants)
     body = _Body(problem, grid, places(program, grid, steps))
     material, press = _material(problem, program, grid), _Press(problem, program, grid)
     touch, rows = _Touch(np.zeros(grid.shape)), []
     turns = program.turns
-    for start, end in pairwise(times):
+    for k, (start, end) in enumerate(pairwise(times)):
         middle, step = (start + end) / 2, end - start
         seen = material.creep.collocation(step)
         if seen > YIELDING * step and (start in turns or end in turns):
             seen = step  # the pressure jumps: seen earlier, the surface would be thrown off the indenter by then
         guess = np.roll(touch.pressure, material.follow(program.path(middle), start), axis=1)
-        heights = body.heights(material.offset(program.path(start + seen))) + material.remembered(seen)
+        at = material.offset(program.path(start + seen))
+        heights = body.heights(at) + material.remembered(seen)
         compliance = material.creep.compliance(seen)
         touch = press(heights, compliance, guess, tolerance, start + seen, middle)
+        if k in frames:
+            displacement = heights - body.heights(at) + touch.displaced(heights)
+            pressure = problem.flow.modulus * touch.pressure
+            frames.keep(
+                time=start + seen, depth=touch.depth, shift=at, pressure=pressure, displacement=displacement
+            )
         slopes = body.slopes(material.offset(program.path(middle)))
         work = material.crept(step, touch.pressure, touch.displaced(heights) / compliance)
         rows.append((start + seen, *touch.sums(slopes), work / step))
     press.count()
-    return _history(problem, program, grid, times, np.array(rows), touch, material)
+    return _history(problem, program, grid, times, np.array(rows), touch, material, frames)
 
 
 def _material(problem, program, grid):
@@ -241,7 +256,7 @@ class _Press:
             )
 
 
-def _history(problem, program, grid, times, rows, touch, material):
+def _history(problem, program, grid, times, rows, touch, material, frames):
     """In SI units."""
     seen, depth, pressure, traction, count, violation, rounds, power = rows.T
     middle, force = (times[1:] + times[:-1]) / 2, problem.flow.modulus * grid.patch
@@ -260,6 +275,7 @@ def _history(problem, program, grid, times, rows, touch, material):
         pressure=problem.flow.modulus * touch.pressure,
         gap=touch.gap,
         offset=float(material.offset(program.path(middle[-1]))),
+        frames=frames.handed_over(),
     )
 
 

@@ -77,6 +77,7 @@ class _March:
         self.steps = len(timeline(program, self.grid.pixel, solver.steps)) - 1
         self.modes = len(scene.solid.retardation()[2])
         self.places = min(places(program, self.grid, solver.steps), 2 * self.steps)
+        self.frames = min(solver.frames, self.steps)
         repeats = isinstance(scene.indenter, Plane)
         self.sheets = [] if repeats or not self.modes else wider_grids(self.grid, program.span)
         # Path on which what is left behind is kept [m].
@@ -90,6 +91,8 @@ class _March:
         """What it holds beside the contact of a step."""
         yield Array("modes in the window", (self.modes, *self.grid.shape))
         yield Array("heights and slopes at places within a pixel", (self.places, *self.grid.shape))
+        if self.frames:
+            yield Array("pressure and displacement at instants", (3, self.frames, *self.grid.shape))
         for k, sheet in enumerate(self.sheets, 1):
             yield Array(f"modes on sheet {k}", (self.modes, *sheet.shape))
             yield from product(engine, f"response, sheet {k}", sheet.shape, padded(engine, sheet.shape), real=True)

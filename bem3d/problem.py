@@ -1,6 +1,8 @@
 """One scene put on grids: heights and operators for each, and the way from a coarse grid to a fine one."""
 
 from dataclasses import replace
+from math import nan
+from typing import Any
 
 import numpy as np
 
@@ -62,11 +64,13 @@ class Problem:
         # A single row costs nothing, and what it is solved to is beyond single precision.
         self.engine = engine if self.width is None else replace(engine, precision="double")
         self.flow = Flow.of(scene.solid, scene.motion.speed)
-        self.medium = self.bare = _medium(scene.indenter, self.flow, self.engine)
+        self.medium: Any = _medium(scene.indenter, self.flow, self.engine)
+        self.bare = self.medium
         for term in self._terms:
             self.medium = term.medium(self.medium, scene)
         self.work, self.transforms = 0, 0
-        self._cut_off, self._surface = None, None
+        self._cut_off: float | None = None
+        self._surface: RoughSurface | None = None
 
     @property
     def width(self) -> float | None:
@@ -96,8 +100,9 @@ class Problem:
         return self.scene.indenter.shortest if isinstance(self.scene.indenter, Measured) else None
 
     def points_per_wave(self, grid: Grid) -> float:
-        """Of the shortest."""
-        return float(self.shortest(grid) / grid.pixel)
+        """Of the shortest; nan if there is none."""
+        shortest = self.shortest(grid)
+        return nan if shortest is None else float(shortest / grid.pixel)
 
     def heights(self, grid: Grid, surface: RoughSurface | None, shift: float = 0.0) -> np.ndarray:
         """z [m] of indenter and roughness, `shift` [m] behind the pixels' centres."""

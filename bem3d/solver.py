@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 from scene import Cylinder, Plane, Program, Result, Scene, SolveError
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
-from scene.quantities import CLOSED, Positive, Whole
+from scene.quantities import CLOSED, Length, Positive, Whole
 from scene.terms import Table, surrounded, terms_of
 
 from . import accuracy, window
@@ -43,6 +43,7 @@ class BEM:
         of the largest displacement as noise in the gap; single rows are always solved in double
     transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
+    frames : instants of a Program, alike apart, at which the contact is kept in the fields
 
     Result.friction_force joins three estimates from one pressure, of which each has its strength: by traction, the
     pressure times the indenter's slope; by loss, the energy lost per length slid; and by curvature, the first
@@ -50,6 +51,13 @@ class BEM:
     elastic contact has some friction by traction on a coarse grid and none by loss; a fast Kelvin contact,
     singular at its edge, loses digits by loss alone. Curvature counts where the contact trails by less than a
     quarter of a pixel: loss comes from short waves there, of which edges on a grid leave little.
+
+    >>> from bem3d import BEM
+    >>> from scene import Kelvin, Scene, Slide, Sphere
+    >>> solid = Kelvin(modulus=1e6, relaxation_time=1e-3)
+    >>> answer = BEM(points=64).solve(Scene(Sphere(radius=10e-3), solid, Slide(speed=0.1, load=1.0)))
+    >>> print(f"{1e3 * answer.depth:.3f} mm, {answer.friction_coefficient:.4f}")
+    0.152 mm, 0.0095
 
     Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
     preconditioner too (half where it transforms along x alone), both in equivalents of the finest grid.
@@ -68,7 +76,10 @@ class BEM:
     depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
     leaves nothing in contact, as is its gap. Path, speed and the friction that opposes them are below zero
     backwards. Its measures are of the last step; of friction by_traction and by_work alone, the second NaN at
-    rest; rounds of all steps; and time_steps; no curvature_by_pressure.
+    rest; rounds of all steps; and time_steps; no curvature_by_pressure. With `frames` also, at the steps nearest
+    to these instants, the last of them at the end: frame_time [s], frame_depth [m], NaN where nothing presses,
+    frame_shift [m], by which the points are then downstream of x, (F,); frame_pressure [Pa] and frame_displacement
+    [m] of the surface into the elastomer (F, M, N). Time, depth and shift are those at which the gap is measured.
 
     With Coulomb friction in the interface, in sliding: measures friction_in_elastomer, friction_in_interface [N],
     which together are the friction. Under a Shear: friction_force is the tangential force; measures
@@ -82,12 +93,13 @@ class BEM:
     terms: ClassVar[Table] = TERMS
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
-    extent: Positive | None = None
+    extent: Length | None = None
     tolerance: Annotated[Positive, Field(ge=1e-12, le=1e-2)] = 1e-5
     threads: Annotated[Whole, Field(ge=1)] = 1
     precision: Literal["double", "single"] = "double"
     transforms: Library = "ducc0"
     steps: Annotated[Whole, Field(ge=1, le=10**6)] = 200
+    frames: Annotated[Whole, Field(ge=0, le=10**4)] = 0
 
     @model_validator(mode="after")
     def _within_precision(self):

@@ -8,6 +8,7 @@ component, along x, or two; A is symmetric and positive definite. Everything may
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -76,7 +77,7 @@ def solve(
         at_limit = length >= limits_there * (1 - ROUNDING)
         direction = q / xp.where(length > 0, length, 1.0)
         held = force is not None and (rounds > 1 or displacement is None)
-        drawn = _level(image, direction, at_limit, xp) if held else displacement
+        drawn: Any = _level(image, direction, at_limit, xp) if held else displacement
         slip = drawn * along_x - image
         forward = (direction * slip).sum(axis=0)
         slipping = at_limit & (forward > 0)

@@ -1,6 +1,8 @@
 """What boundary elements do about one part of a scene."""
 
-from scene import Result, terms
+from typing import Any
+
+from scene import Result, Scene, terms
 
 from .grid import Grid
 
@@ -8,7 +10,7 @@ from .grid import Grid
 class Term(terms.Term):
     """A part of a scene as boundary elements take it up."""
 
-    def medium(self, medium, scene):
+    def medium(self, medium: Any, scene: Scene) -> Any:
         """The response of the elastomer, as changed by the part: what `HalfSpace`, `Cell` and `Line` offer."""
         return medium
 

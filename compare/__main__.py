@@ -1,17 +1,21 @@
-"""The command `crosscheck`."""
+"""The command `crosscheck`: it asks, prints what was found, and says mistakes; `compare.run` does the rest."""
 
-import signal
-from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
 from pathlib import Path
-from textwrap import fill
 from typing import Annotated, Any
 
 import typer
 
-app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False)
+from .console import (
+    FAILED,
+    MISTAKE,
+    conducted,
+    interrupts_said,
+    listed,
+    mistakes_said,
+    printed,
+)
 
-FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
+app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False)
 
 
 def _version(wanted: bool) -> None:
@@ -30,39 +34,98 @@ def crosscheck(
 
 
 Workers = Annotated[int | None, typer.Option(min=1, help="Processes; as many as processors if absent.")]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a dask scheduler, as tcp://host:8786, whose workers then solve.")
+]
+
+
+@app.command("list")
+def ready() -> None:
+    """List the ready scenes and studies, to begin with."""
+    from .library import ready
+
+    for kind, ask in (("scene", "crosscheck run NAME"), ("study", "crosscheck study NAME")):
+        typer.echo(f"{'Scenes' if kind == 'scene' else 'Studies'}, {ask}:\n")
+        listed({name: each for name, each in ready().items() if each.kind == kind})
+        typer.echo()
+    typer.echo("`crosscheck new NAME` writes one into a file of your own.")
+
+
+@app.command()
+def new(
+    name: Annotated[str, typer.Argument(help="A ready scene or study, see `crosscheck list`.")],
+    file: Annotated[Path | None, typer.Argument(help="Where to; NAME.toml if absent. Never overwritten.")] = None,
+) -> None:
+    """Write a ready scene or study into a file, to be changed."""
+    from .library import ready, write
+
+    path = file or Path(f"{name}.toml")
+    with mistakes_said():
+        from .naming import known
+
+        kinds = ready()
+        known("NAME", name, kinds)
+        try:
+            write(name, path)
+        except FileExistsError as error:
+            raise FileExistsError(
+                f"{path} is there already, and nothing is overwritten: name another FILE"
+            ) from error
+    typer.echo(f"{path}: crosscheck {'run' if kinds[name].kind == 'scene' else 'study'} {path}")
+
+
+@app.command()
+def schema(
+    kind: Annotated[str, typer.Argument(help="scene or study.")] = "scene",
+    output: Annotated[Path | None, typer.Option(help="File; printed if absent.")] = None,
+) -> None:
+    """Write the JSON schema of scenes or of studies, for editors that complete and check TOML."""
+    import json
+
+    from .naming import known
+    from .schema import schema
+    from .store import write
+
+    with mistakes_said(f"--output {output}"):
+        known("KIND", kind, ("scene", "study"))
+        text = json.dumps(schema(kind), indent=1, ensure_ascii=False)
+        if output is None:
+            typer.echo(text)
+            return
+        write(output, lambda file: file.write(f"{text}\n".encode()))
 
 
 @app.command()
 def run(
     scene: Annotated[
-        Path | None, typer.Argument(help="Scene as TOML; without it, the paper's sphere and cone.")
+        str | None,
+        typer.Argument(help="Scene as TOML, or the name of a ready one; without it, the paper's sphere and cone."),
     ] = None,
     output: Annotated[Path, typer.Option(help="Folder of the report and of what has been solved.")] = Path(
         "crosscheck-report"
     ),
     workers: Workers = None,
+    scheduler: Scheduler = None,
 ) -> None:
     """Solve a scene in one and in three dimensions, compare, and write a report."""
-    from .run import crosscheck_cases, make_folders, named_cases
+    with mistakes_said(f"--output {output}"):
+        from .jobs import asking
 
-    with _mistakes_said(output):
-        cases = named_cases(scene)
-        make_folders(output, cases)
-    with _interrupts_said():
-        crosscheck_cases(cases, output, workers)
+        job = asking.cases(scene)
+    conducted(job, output, workers, scheduler)
 
 
 @app.command()
 def plan(
-    scene: Annotated[Path, typer.Argument(help="Scene as TOML, with or without [mdr] and [bem].")],
+    scene: Annotated[str, typer.Argument(help="Scene as TOML, with or without [mdr] and [bem], or a ready one.")],
 ) -> None:
     """Say what would be simulated of a scene, what that costs, and what is left out; status 2 if no solver can."""
-    from .planning import feasible, plans
+    from .planning import plans
 
-    with _mistakes_said(scene):
+    with mistakes_said():
         found = plans(scene)
-    typer.echo("\n\n".join(map(str, found.values())))
-    if not feasible(found):
+    typer.echo(str(found))
+    if not found.feasible:
         raise typer.Exit(MISTAKE)
 
 
@@ -73,15 +136,12 @@ def paper(
     ),
     profiles: Annotated[int, typer.Option(min=3, help="Rough profiles averaged; as published, 200.")] = 200,
     workers: Workers = None,
+    scheduler: Scheduler = None,
 ) -> None:
     """Simulate the paper again in one dimension: its figures, its parameter studies, its claims."""
-    from .paper.report import PAGE
-    from .run import make_folders, reproduce
+    from .jobs import asking
 
-    with _mistakes_said(output):
-        make_folders(output, page=PAGE)
-    with _interrupts_said():
-        reproduce(profiles, output, workers)
+    conducted(asking.paper(profiles), output, workers, scheduler)
 
 
 @app.command()
@@ -90,10 +150,12 @@ def mastercurve(
     output: Annotated[Path, typer.Option(help="Folder of the figure and its tables.")] = Path("mastercurve"),
 ) -> None:
     """Shift measured curves of friction against load onto one, and say whether that works."""
-    from .run import shift_measured
+    from .run import shift
 
-    with _mistakes_said(output):
-        shift_measured(table, output)
+    with mistakes_said(f"--output {output}"):
+        found = shift(table, output)
+    printed(found)
+    typer.echo(f"\nFigure and tables: {output.resolve()}")
 
 
 @app.command()
@@ -112,7 +174,7 @@ def topography(
     output: Annotated[Path, typer.Option(help="Folder of the figure and its tables.")] = Path("topography"),
 ) -> None:
     """Describe a measured map of heights: size, slopes, spectra, and the self-affine law in them."""
-    from .run import describe_topography
+    from .run import describe
 
     stated: dict[str, Any] = {"repeat": repeat, "peaks": peaks}
     if level:
@@ -121,13 +183,17 @@ def topography(
         stated["pixel"] = pixel[0] if len(pixel) == 1 else tuple(pixel)
     if unit:
         stated["unit"] = unit
-    with _mistakes_said(output):
-        describe_topography(file, stated, output)
+    with mistakes_said(f"--output {output}"):
+        found = describe(file, output, **stated)
+    printed(found)
+    typer.echo(f"\nFigure and tables: {output.resolve()}")
 
 
 @app.command()
 def study(
-    name: Annotated[str | None, typer.Argument(help="Study; without it, they are listed.")] = None,
+    name: Annotated[
+        str | None, typer.Argument(help="Study, or a file with one of your own; without it, they are listed.")
+    ] = None,
     size: Annotated[
         str, typer.Option(help="quick (minutes), standard (up to an hour) or paper (up to a day).")
     ] = "quick",
@@ -135,19 +201,20 @@ def study(
         "crosscheck-study"
     ),
     workers: Workers = None,
+    scheduler: Scheduler = None,
 ) -> None:
     """Ask the claims of the paper of many contacts in one and in three dimensions, and write a page."""
-    from .run import SIZES, STUDIES, conduct_study, make_folders
-
     if name is None:
-        _listed(STUDIES)
+        from .studies.catalogue import STUDIES
+
+        listed(STUDIES)
         typer.echo("`crosscheck study NAME` solves one, in minutes; --size says how much of it.")
         return
-    _known((name, "NAME", STUDIES), (size, "--size", SIZES))
-    with _mistakes_said(output):
-        make_folders(output, [f"{name}-{size}"])
-    with _interrupts_said():
-        conduct_study(name, size, output, workers)
+    with mistakes_said(f"--output {output}"):
+        from .jobs import asking
+
+        job = asking.study(name, size)
+    conducted(job, output, workers, scheduler)
 
 
 @app.command()
@@ -160,21 +227,23 @@ def workprecision(
         "crosscheck-workprecision"
     ),
     workers: Workers = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(help="Address of a dask scheduler for what is not timed; what is, is solved here."),
+    ] = None,
 ) -> None:
     """Measure what accuracy costs in time, in one and in three dimensions, and write a page."""
-    from .run import INQUIRIES, conduct_workprecision, make_folders
-    from .workprecision.diagram import SIZES
-    from .workprecision.report import PAGE
-
     if name is None:
-        _listed(INQUIRIES)
+        from .workprecision.catalogue import INQUIRIES
+
+        listed(INQUIRIES)
         typer.echo("`crosscheck workprecision NAME` measures one, in about a minute; --size full does it in full.")
         return
-    _known((name, "NAME", [*INQUIRIES, "all"]), (size, "--size", SIZES))
-    with _mistakes_said(output):
-        make_folders(output, page=PAGE)
-    with _interrupts_said():
-        conduct_workprecision(list(INQUIRIES) if name == "all" else [name], size, output, workers)
+    with mistakes_said(f"--output {output}"):
+        from .jobs import asking
+
+        job = asking.costs([name], size)
+    conducted(job, output, workers, scheduler)
 
 
 @app.command()
@@ -184,18 +253,16 @@ def stability(
         "crosscheck-stability"
     ),
     workers: Workers = None,
+    scheduler: Scheduler = None,
 ) -> None:
     """Solve the named hard cases, and say whether each keeps its law; status 1 if any does not."""
-    from .run import examine_stability, make_folders
-    from .stability.hardcase import SIZES
-    from .stability.report import PAGE
+    with mistakes_said(f"--output {output}"):
+        from .jobs import asking
+        from .jobs.hardcases import broken
 
-    _known((size, "--size", SIZES))
-    with _mistakes_said(output):
-        make_folders(output, page=PAGE)
-    with _interrupts_said():
-        broken = examine_stability(size, output, workers)
-    if broken:
+        job = asking.hardcases(size)
+    found = conducted(job, output, workers, scheduler)
+    if broken(found.judged):
         raise typer.Exit(FAILED)
 
 
@@ -207,79 +274,81 @@ def regress(
     update: Annotated[bool, typer.Option("--update", help="Store what has moved.")] = False,
     output: Annotated[Path, typer.Option(help="Folder of what has been solved.")] = Path("crosscheck-regress"),
     workers: Workers = None,
+    scheduler: Scheduler = None,
 ) -> None:
     """Say whether the accuracy of one dimension has moved from what is stored; status 1 if it has."""
-    from .accuracy import shipped
-    from .regression import SHIPPED, read_baseline, read_or_begin, rewrite, wrong
-    from .run import make_folders, remeasure
+    with mistakes_said(f"--output {output}"):
+        from .jobs import asking
+        from .regression import SHIPPED, rewrite
 
-    path, quantities = baseline or SHIPPED, shipped()
-    with _mistakes_said(output):
-        stored = (read_or_begin if update else read_baseline)(path, quantities)
-        make_folders(output)
-    with _interrupts_said():
-        found = remeasure(quantities, stored, output, workers)
-        left = rewrite(path, found) if update else wrong(found)
+        job = asking.baseline(baseline, beginning=update)
+    changes = conducted(job, output, workers, scheduler).judged
+    left = changes.wrong
     if update:
-        typer.echo(f"Baseline: {path}")
+        with interrupts_said():
+            left = rewrite(baseline or SHIPPED, changes)
+        typer.echo(f"Baseline: {baseline or SHIPPED}")
     if left:
         raise typer.Exit(FAILED)
 
 
-def _listed(offered: Mapping[str, Any]) -> None:
-    """What can be named, each with its title and what it is about."""
-    for name, each in offered.items():
-        typer.echo(f"{name:12s}{each.title}")
-        typer.echo(fill(each.about, 79, initial_indent=12 * " ", subsequent_indent=12 * " "))
+@app.command()
+def figures(
+    folder: Annotated[Path, typer.Argument(help="That run, study, paper or another command left.")],
+    journal: Annotated[str, typer.Option(help="Whose columns and least sizes; without it, no one's.")] = "default",
+    style: Annotated[
+        str | None, typer.Option(help="A style of matplotlib of your own: a .mplstyle file, or a name.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option(help="Where to; `figures` in FOLDER if absent.")] = None,
+) -> None:
+    """Make every figure again, for a journal or in a style, from what is stored; nothing is solved."""
+    with mistakes_said(f"--output {output or folder}"):
+        from .redrawing import redraw
+
+        found = redraw(folder, journal, style, output, typer.echo)
+    typer.echo(found.summary)
 
 
-def _known(*choices: tuple[str, str, Collection[str]]) -> None:
-    """End with a mistake where something is given, under the name of its option, that is not known."""
-    for given, option, known in choices:
-        if given not in known:
-            typer.echo(f"crosscheck: {option} = {given}: allowed are {', '.join(known)}", err=True)
-            raise typer.Exit(MISTAKE)
+@app.command()
+def export(
+    path: Annotated[Path, typer.Argument(help="A file of results, or a folder that a command left.")],
+    to: Annotated[str, typer.Option(help="csv or latex.")] = "csv",
+    output: Annotated[Path, typer.Option(help="Folder of the tables.")] = Path("crosscheck-tables"),
+) -> None:
+    """Write what is stored as tables: CSV with units, or LaTeX with booktabs."""
+    with mistakes_said(f"--output {output}"):
+        from .naming import known
+        from .tables import export
+
+        known("--to", to, ("csv", "latex"))
+        written = export(path, output, to)
+    for each in written:
+        typer.echo(f"  {each}")
+    typer.echo(f"\n{len(written)} tables: {output.resolve()}")
 
 
-@contextmanager
-def _mistakes_said(output: Path) -> Iterator[None]:
-    """Before anything is solved: a mistake in the input, or a folder that cannot be written."""
-    from scene import Refused
-    from scene.reading import InvalidInput
+@app.command()
+def animate(
+    scene: Annotated[str, typer.Argument(help="Scene as TOML, or the name of a ready one.")],
+    output: Annotated[
+        Path | None, typer.Option(help="File, .gif or (where ffmpeg is there) .mp4; SCENE.gif if absent.")
+    ] = None,
+    solved: Annotated[Path, typer.Option(help="Folder of what has been solved.")] = Path("crosscheck-animation"),
+    workers: Workers = None,
+) -> None:
+    """Solve a scene in time and draw it as it moves, in one and in three dimensions."""
+    path = output or Path(f"{Path(scene).stem}.gif")
+    with mistakes_said(f"--output {path}"), interrupts_said():
+        from scene import SolveError
 
-    _interrupt_on("SIGTERM", "SIGHUP")
-    try:
-        yield
-    except (InvalidInput, Refused) as mistake:
-        typer.echo(f"crosscheck: {mistake}", err=True)
-        raise typer.Exit(MISTAKE) from mistake
-    except OSError as error:
-        typer.echo(f"crosscheck: --output {output}: {_said(error)}", err=True)
-        raise typer.Exit(MISTAKE) from error
+        from .run import animate
 
-
-@contextmanager
-def _interrupts_said() -> Iterator[None]:
-    """While tasks are solved: an interrupt, or a disk that is full."""
-    try:
-        yield
-    except KeyboardInterrupt as interrupt:
-        typer.echo("Interrupted. What is solved is kept: the same command resumes from there.", err=True)
-        raise typer.Exit(INTERRUPTED) from interrupt
-    except OSError as error:
-        typer.echo(f"crosscheck: {_said(error)}. What is solved and stored is kept.", err=True)
-        raise typer.Exit(FAILED) from error
-
-
-def _interrupt_on(*names: str) -> None:
-    """Let signals do what Ctrl-C does, unless they are ignored, as by nohup."""
-    for number in (getattr(signal, name) for name in names if hasattr(signal, name)):
-        if signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, signal.default_int_handler)
-
-
-def _said(error: OSError) -> str:
-    return f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        try:
+            animate(scene, path, solved, workers, progress=True)
+        except SolveError as error:
+            typer.echo(f"crosscheck: {error}", err=True)
+            raise typer.Exit(FAILED) from error
+    typer.echo(f"Animation: {path.resolve()}")
 
 
 def main() -> None:

@@ -9,6 +9,7 @@ from mdr1d import MDR, draw, equations
 from mdr1d.ensemble import solve_profiles
 from scene import (
     Indent,
+    Kelvin,
     PowerLaw,
     Program,
     Scene,
@@ -31,7 +32,10 @@ SPACE, LINE = BEM(points=128, tolerance=1e-7), MDR(points=2000)
 RADIUS, TIME = 1e-3, 1e-3
 SHAPES = parameters.SHAPES
 QUARTIC = PowerLaw(coefficient=5e7, exponent=4.0)
-SOLIDS = {"Kelvin": parameters.SOLID, "standard linear": StandardLinearSolid(1e6, 1e7, TIME)}
+SOLIDS: dict[str, Kelvin | StandardLinearSolid] = {
+    "Kelvin": parameters.SOLID,
+    "standard linear": StandardLinearSolid(1e6, 1e7, TIME),
+}
 PROFILES, SURFACES, PAPER_PROFILES = 20, 8, 50
 # Tolerances, each with its reason; measured by solving everything again in those ways.
 ROUNDING = 1e-8, "rounding alone: 1D is exact on its grid, loads are met to 1e-10"
@@ -80,6 +84,10 @@ class Profiles:
             return Row(reason="no depth carries the load")
         load = self.scene.motion.load
         return Row(load, depth, load * friction, applications=sweeps)
+
+    def failed(self, reason: str) -> Outcome:
+        """A row a profile, each with the reason."""
+        return Outcome((Row(reason=reason),) * self.profiles)
 
     def fits(self, outcome: Outcome) -> bool:
         """A row a profile."""

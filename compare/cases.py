@@ -15,7 +15,7 @@ from scene import Coulomb, Heating, Indent, Layer, Refused, Scene, Slide
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.protocol import refuse
-from scene.quantities import CLOSED, Positive, Whole
+from scene.quantities import CLOSED, Positive, Speed, Whole
 from scene.reading import read
 from scene.rheology import Elastomer
 from scene.roughness import Roughness
@@ -25,7 +25,7 @@ from scene.temperature import Temperature
 
 Count = Annotated[Whole, Field(ge=1)]
 Factors = Annotated[tuple[Positive, ...], Field(min_length=1)]
-Speeds = Annotated[tuple[Positive, ...], Field(min_length=1)]
+Speeds = Annotated[tuple[Speed, ...], Field(min_length=1)]
 
 
 def _distinct(study):
@@ -81,9 +81,9 @@ class Case:
     """The content of a case file. A file that holds a scene and nothing else is a case.
 
     title, notes : for the report; each note says how the case departs from the paper
-    indenter, elastomer, motion and, where they are there, roughness, layer, temperature, heating, interface : the
-        scene
-    study, bem, mdr : what is varied, and the settings of the two solvers
+    indenter, elastomer, motion, roughness, layer, temperature, heating, interface : of the scene
+    study : what is varied around it
+    bem, mdr : settings of the solvers in three dimensions and in one
     """
 
     title: str = ""

@@ -22,6 +22,10 @@ def mean_lag(elastomer):
     """Lag [s] by which a slowly driven elastomer trails its relaxed answer: sum_k J_k lambda_k / J(infinity).
 
     The relaxation time of a Kelvin body; retardation less relaxation time of a standard linear solid.
+
+    >>> from scene import StandardLinearSolid
+    >>> mean_lag(StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=4.0, relaxation_time=2.0))
+    6.0
     """
     instantaneous, compliances, times = elastomer.retardation()
     return float(compliances @ times / (instantaneous + compliances.sum()))

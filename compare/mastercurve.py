@@ -76,7 +76,8 @@ def collapse(curves: Sequence[Curve]) -> Collapse:
         raise ValueError(f"{len(curves)} curves with too few points for {unknowns} unknowns: add loads or speeds")
     lower, upper = bounds(curves)
     speeds = np.array([curve.speed for curve in curves])
-    fit, best = _freed(*best_of_starts(Fit(curves, DEGREE), np.diff(np.log(speeds)), lower, upper), lower, upper)
+    started, least = best_of_starts(Fit(curves, DEGREE), np.diff(np.log(speeds)), lower, upper)
+    fit, best = _freed(started, least, lower, upper)
     overlaps = inside(best.x, lower, upper)
     certain = fit.known and overlaps
     covariance = _covariance(fit, best)

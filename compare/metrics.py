@@ -7,7 +7,8 @@ from math import hypot, nan, sqrt
 import numpy as np
 
 from .outcome import Outcome, Row
-from .study import Point, Task
+from .store import Task as AnyTask
+from .study import Point
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,7 @@ class Record:
         return flat | {"surfaces": self.normal_force.count}
 
 
-def records(points: Sequence[Point], outcomes: Mapping[Task, Outcome]) -> list[Record]:
+def records(points: Sequence[Point], outcomes: Mapping[AnyTask, Outcome]) -> list[Record]:
     """Every point averaged over its surfaces."""
     return [_record(point, [row for task in point.tasks for row in outcomes[task].rows]) for point in points]
 

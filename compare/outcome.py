@@ -42,8 +42,9 @@ class Outcome:
 
 def row(result: Result) -> Row:
     """The numbers of a result, as plain Python numbers."""
+    numbers: dict[str, Any] = {name: float(getattr(result, name)) for name in NUMBERS}
     return Row(
-        **{name: float(getattr(result, name)) for name in NUMBERS},
+        **numbers,
         measures={name: float(value) for name, value in result.measures.items()},
         settings={name: _plain(value) for name, value in result.settings.items()},
     )

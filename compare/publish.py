@@ -6,70 +6,114 @@ import io
 import json
 import os
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.metadata import version
+from operator import methodcaller
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import jinja2
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from .figures import style
+from .figures.curves import unlisted
+from .figures.journals import journal as find_journal
 from .store import finite, write
 
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba", "matplotlib", "pydantic")
-DOTS_PER_INCH = 220
+DOTS_PER_INCH = 300
+# What is said of a file, without the date: the same numbers give the same file.
+FORMS: Mapping[str, Mapping[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {}}
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """One figure on a page: name, caption, its PNG as base64, and its width [inch]."""
+    """One figure on a page.
+
+    name, caption : of the figure
+    image : its PNG as base64; inches : its width
+    sheets : names of its tables, as they lie beside it without .csv
+    """
 
     name: str
     caption: str
     image: str
     inches: float
+    sheets: tuple[str, ...] = ()
 
 
-def draw(folder: Path, module: ModuleType, data: Any, suffix: str = "") -> Drawn | None:
-    """Write the figure of a module as PDF and PNG, its tables as CSV; None if there is nothing to show.
+@contextmanager
+def look(
+    journal: str = "default",
+    sheet: str | os.PathLike | Mapping[str, Any] | None = None,
+    colours: Mapping[str, str] | None = None,
+) -> Iterator[None]:
+    """All figures drawn inside are made for a journal, in a style of one's own.
+
+    journal : a name of figures.journals.JOURNALS
+    sheet, colours : as of figures.style.Look
+    ValueError where there is no such journal, style, solver or colour.
+    """
+    with style.chosen(style.Look(find_journal(journal), sheet, colours or {})):
+        yield
+
+
+def draw(
+    folder: Path, module: ModuleType, data: Any, suffix: str = "", forms: Sequence[str] = tuple(FORMS)
+) -> Drawn | None:
+    """Write the figure of a module as PDF, SVG and PNG, its tables as CSV; None if there is nothing to show.
+
+    Curves that no table has are those of NAME-drawn.csv, as they stand on the axes. Raises InvalidInput where the
+    look has text too large for the figure.
 
     suffix : of all names, where one module draws several figures into the folder
+    forms : of the files to write, of those three
     """
     name = module.NAME + suffix
-    with style.applied():
+    with style.applied(), style.fitting(name):
         drawing = module.figure(data)
         if drawing is None:
             return None
-        image = save(folder, name, drawing)
-    for sheet, content in module.sheets(data).items():
+        image = save(folder, name, drawing, forms)
+    tables = dict(module.sheets(data))
+    if drawn := unlisted(drawing, tables):
+        tables[f"{module.NAME}-drawn"] = drawn
+    for sheet, content in tables.items():
         write_csv(folder / f"{sheet}{suffix}.csv", content)
     encoded = base64.b64encode(image).decode()
-    return Drawn(name, module.caption(data), encoded, drawing.get_figwidth())
+    names = tuple(f"{sheet}{suffix}" for sheet in tables)
+    return Drawn(name, module.caption(data), encoded, float(drawing.get_figwidth()), names)
 
 
-def save(folder: Path, name: str, drawing: Figure) -> bytes:
-    """Write a figure as PDF and PNG, the style applied; returns the PNG."""
-    image = io.BytesIO()
-    drawing.savefig(image, format="png", dpi=DOTS_PER_INCH)
-    # Both files in one layout, which takes as long to find as to draw.
+def save(folder: Path, name: str, drawing: Figure, forms: Sequence[str] = tuple(FORMS)) -> bytes:
+    """Write a figure in some forms, the style applied; returns the PNG."""
+    image = _rendered(drawing, "png")
+    # All files in one layout, which takes as long to find as to draw.
     drawing.set_layout_engine("none")
-    write(folder / f"{name}.png", lambda file: file.write(image.getvalue()))
-    # Without the date the same numbers give the same file.
-    write(
-        folder / f"{name}.pdf",
-        lambda f: drawing.savefig(f, format="pdf", metadata={"CreationDate": None}, dpi=DOTS_PER_INCH),
-    )
-    return image.getvalue()
+    for form in forms:
+        content = image if form == "png" else _rendered(drawing, form)
+        write(folder / f"{name}.{form}", methodcaller("write", content))
+    return image
+
+
+def _rendered(drawing, form):
+    """The bytes of a file. Vector files hold images, if any, at the resolution of the PNG."""
+    file = io.BytesIO()
+    with rc_context({"savefig.bbox": None}):  # of the width of the journal, whatever a style of one's own says
+        drawing.savefig(file, format=form, dpi=DOTS_PER_INCH, metadata=dict(FORMS[form]))
+    return file.getvalue()
 
 
 def write_csv(path: Path, content: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:
     """Write rows as dictionaries, or columns of equal length; every digit is written."""
     if isinstance(content, Mapping):
-        names, rows = list(content), zip(*(np.asarray(c).tolist() for c in content.values()), strict=True)
+        names = list(content)
+        rows: Iterable[Sequence[Any]] = zip(*(np.asarray(c).tolist() for c in content.values()), strict=True)
     else:
         names = list(content[0]) if content else []
         rows = ([_number(row[name]) for name in names] for row in content)

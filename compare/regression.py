@@ -13,6 +13,7 @@ from pathlib import Path
 
 from pydantic.dataclasses import dataclass as validated
 
+from scene import markup
 from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
@@ -45,10 +46,10 @@ class Change:
 
     @property
     def moved(self) -> float:
-        """Relative to the stored value; infinite where that is zero, and the value is not."""
+        """Relative to the stored value; infinite where that is zero, and the value is not, or one is missing."""
         if self.value == self.stored:
             return 0.0
-        return (self.value - self.stored) / abs(self.stored) if self.stored else inf
+        return inf if self.value is None or not self.stored else (self.value - self.stored) / abs(self.stored)
 
     @property
     def of_tolerance(self) -> float:
@@ -65,6 +66,26 @@ class Change:
         if self.stored is None:
             return "new"
         return "moved" if self.of_tolerance > 1 else "unchanged"
+
+
+class Changes(list[Change]):
+    """Every quantity of the collection or of the baseline, by name. Printed, it says what has moved."""
+
+    @property
+    def wrong(self) -> list[Change]:
+        """What asks for somebody's attention."""
+        return wrong(self)
+
+    def __str__(self) -> str:
+        return said(self)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (each.name, each.verdict, *map(_shown, (each.stored, each.value)), _why(each)) for each in self.wrong
+        ]
+        count = f"{len(self) - len(rows)} of {len(self)} quantities within their tolerances."
+        told = markup.table(rows, ("quantity", "verdict", "stored", "today", "why")) if rows else ""
+        return told + markup.paragraph(count)
 
 
 def read_baseline(path: Path, quantities: Iterable[Quantity]) -> dict[str, float]:
@@ -98,13 +119,13 @@ def write_baseline(path: Path, values: Mapping[str, float]) -> None:
 
 def changes(
     quantities: Sequence[Quantity], stored: Mapping[str, float], outcomes: Mapping[Task, Outcome]
-) -> list[Change]:
+) -> Changes:
     """Every quantity of the collection or of the baseline, by name. Raises ValueError if two share a name."""
     named = {quantity.name: quantity for quantity in quantities}
     if len(named) < len(quantities):
         names = [quantity.name for quantity in quantities]
         raise ValueError(f"two quantities are called {next(n for n in names if names.count(n) > 1)!r}")
-    found = []
+    found = Changes()
     for name in sorted(named.keys() | stored.keys()):
         quantity, before = named.get(name), stored.get(name)
         try:
@@ -128,7 +149,7 @@ def rewrite(path: Path, found: Iterable[Change]) -> list[Change]:
     found = list(found)
     values = {change.name: change.stored for change in found if change.stored is not None}
     for change in found:
-        if change.verdict in ("moved", "new"):
+        if change.value is not None and change.verdict in ("moved", "new"):
             values[change.name] = change.value
         elif change.verdict == "gone":
             del values[change.name]
@@ -140,7 +161,7 @@ def rewrite(path: Path, found: Iterable[Change]) -> list[Change]:
 
 def said(found: Sequence[Change]) -> str:
     """A table of what has moved, what is wrong otherwise, and how many have not."""
-    by = {verdict: [] for verdict in ("moved", "failed", "new", "gone", "unchanged")}
+    by: dict[str, list[Change]] = {verdict: [] for verdict in ("moved", "failed", "new", "gone", "unchanged")}
     for change in found:
         by[change.verdict].append(change)
     lines = _table(sorted(by["moved"], key=lambda change: -change.of_tolerance))
@@ -168,6 +189,16 @@ def _table(moved):
         ]
     reasons = (f"tolerance {c.quantity.tolerance:g}: {c.quantity.reason}" for c in moved)
     return lines + list(dict.fromkeys(reasons))
+
+
+def _shown(value):
+    return "" if value is None else f"{value:.{DIGITS}g}"
+
+
+def _why(change):
+    if change.verdict == "moved":
+        return f"{change.of_tolerance:.3g} tolerances; {change.quantity.meaning}"
+    return change.failure or ""
 
 
 def measure(

@@ -7,7 +7,7 @@ is inside as often as stated from three surfaces on; percentiles of resampled su
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot, inf, nan, sqrt
-from typing import Protocol, Self
+from typing import Generic, Protocol, Self, TypeVar
 
 import numpy as np
 from scipy import stats
@@ -28,19 +28,22 @@ class Grouped(Protocol):
         """The same without some surfaces."""
 
 
+Value = TypeVar("Value", float, np.ndarray)
+
+
 @dataclass(frozen=True)
-class Estimated:
+class Estimated(Generic[Value]):
     """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
 
     freedom : degrees of freedom of the error
     """
 
-    value: float | np.ndarray
-    error: float | np.ndarray
-    freedom: float
+    value: Value
+    error: Value
+    freedom: float | np.ndarray
 
     @classmethod
-    def exact(cls, value: float | np.ndarray) -> Self:
+    def exact(cls, value: Value) -> Self:
         """Of a body without random surfaces."""
         return cls(value, value * 0.0, inf)
 
@@ -202,7 +205,7 @@ def _deviations(without, sizes):
     return weight.reshape(-1, *(1,) * (without.ndim - 1)) * (without - middle)
 
 
-def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated:
+def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated[np.ndarray]:
     """Ratio of the means over the surfaces of both, the last axis, which share them; errors to first order.
 
     Surfaces with a NaN are left out where they have it. Errors are NaN with fewer than two surfaces; where none is
@@ -236,6 +239,6 @@ def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def student(level: float, freedom: float) -> float:
+def student(level: float, freedom: float | np.ndarray) -> float:
     """By how many standard errors either end of an interval lies off, as often inside as stated."""
     return stats.t.ppf((1 + level) / 2, freedom)

@@ -1,216 +1,216 @@
-"""One run of the command: cases in, report out."""
+"""What the command does, as functions: each solves what its folder has not, judges, writes, and prints nothing.
 
-import errno
-import os
-import tempfile
-from collections.abc import Iterable, Mapping, Sequence
-from math import nan
+What a function returns says itself what was found: printed, it is what the command prints; in a notebook, tables
+and figures. Interrupted, the same call resumes. As worker processes are started, a script calls them under
+`if __name__ == "__main__":`.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
-from rich.console import Console
+from .asked import Asked, case_of, make_folders
+from .jobs import asking
+from .jobs.job import SOLVED, Found, Job, answer, solve
+from .manifest import NAME as MANIFEST
+from .sweep import Progress, Swept
 
-from scene import SolveError, Topography
-from scene.reading import InvalidInput, mistakes
-
-from .cases import Case, read_case, shipped_cases
-from .figures import shifted_curves, topography
-from .paper import reproduction
-from .paper.claims import claims
-from .paper.measured import read_measured
-from .paper.report import write_paper
-from .progress import watch
-from .publish import draw
-from .quantity import Quantity
-from .regression import Change, changes, measure, said
-from .report import MANIFEST, PAGE, slug, write_report
-from .stability import report as stability
-from .store import Store
-from .studies.catalogue import SIZES, STUDIES
-from .studies.judgement import judge_study
-from .studies.report import failures, write_study
-from .studies.series import tasks as study_tasks
-from .studies.tableau import columns
-from .studies.wording import line
-from .study import points, tasks
-from .sweep import sweep
-from .topography import describe, described
-from .verdict import judge
-from .wording import explain, explain_vertical, plus_minus
-from .workprecision.catalogue import INQUIRIES
-from .workprecision.report import chapter, write_workprecision
-
-SOLVED = "solved"
+REPORT, STUDY, PAPER, COSTS = (
+    "crosscheck-report",
+    "crosscheck-study",
+    "crosscheck-paper",
+    "crosscheck-workprecision",
+)
+STABILITY, REGRESS, SHIFTED, DESCRIBED = "crosscheck-stability", "crosscheck-regress", "mastercurve", "topography"
+ANIMATED = "crosscheck-animation"
 
 
-def named_cases(path: Path | None) -> dict[str, Case]:
-    """The case of a file, by the file's name, or the shipped ones. Raises InvalidInput, Refused."""
-    try:
-        cases = shipped_cases() if path is None else {path.stem: read_case(path)}
-        for case in cases.values():
-            points(case)
-    except (ArithmeticError, SolveError, ValidationError) as error:
-        # The file is valid; what follows from it is not.
-        raise InvalidInput(f"{path}: its numbers are so far apart that the contact leaves their range") from error
-    return cases
+def crosscheck(
+    scene: Asked | Mapping[str, Asked] | None = None,
+    folder: str | Path = REPORT,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Solve scenes in one and in three dimensions, compare, and write a report; `judged` has a Judgement a case.
 
+    scene : a Scene or a Case, the path of one, the name of a ready one, or several by name; the paper's sphere and
+        cone if absent
+    folder : of the report and of what has been solved
+    workers : processes; as many as processors if absent
+    scheduler : address of a scheduler of dask.distributed, which has the workers then
+    progress : whether the terminal says how far it is, or who is told instead, see compare.sweep.Progress
 
-def make_folders(folder: Path, names: Iterable[str] = (), page: str = PAGE) -> None:
-    """Make every folder that is going to be written into. Raises OSError, before anything is solved.
-
-    names : of cases, each of which has a folder of its own; page : the name of the page
+    Raises InvalidInput, Refused before anything is solved.
     """
-    for below in (folder, folder / SOLVED, *(folder / slug(name) for name in names)):
-        below.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=below):
-            pass
-    for path in (folder / page, folder / MANIFEST):
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    return conducted(asking.cases(scene), folder, workers, scheduler, progress)
 
 
-def crosscheck_cases(cases: Mapping[str, Case], folder: Path, workers: int | None) -> None:
-    """Solve, judge and report cases, telling on the console how far it is and what came out."""
-    console = Console(highlight=False, soft_wrap=True)
-    found = {name: points(case) for name, case in cases.items()}
-    everything = [point for those in found.values() for point in those]
-    with watch(console) as progress:
-        swept = sweep(tasks(everything), Store(folder / SOLVED), workers, progress)
-    console.print(f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; writing the report")
-    judged = {name: judge(case, found[name], swept) for name, case in cases.items()}
-    page = write_report(folder, judged, swept)
-    for name, judgement in judged.items():
-        console.print(f"\n{judgement.case.title or name}", markup=False, style="bold")
-        for number in judgement.numbers:
-            console.print(f"  {number.name}: {number.written}", markup=False)
-        if judgement.failures:
-            console.print(f"  {len(judgement.failures)} solves failed; the report says why")
-    console.print(f"\nReport: {page.resolve()}", markup=False)
+def conduct(
+    study: Any,
+    size: str = "quick",
+    folder: str | Path = STUDY,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Ask the claims of the paper of many contacts, and write a page; `judged` is a JudgedStudy.
 
+    study : the name of one, or the path of a file
+    size : quick (minutes), standard (up to an hour) or paper (up to a day)
+    folder, workers, scheduler, progress : as of crosscheck
 
-def reproduce(profiles: int, folder: Path, workers: int | None) -> None:
-    """Solve everything that the figures of the paper need, and write its page."""
-    console = Console(highlight=False, soft_wrap=True)
-    size = reproduction.Size.of(profiles)
-    with watch(console) as progress:
-        swept = sweep(reproduction.tasks(size), Store(folder / SOLVED), workers, progress)
-    console.print(
-        f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; drawing the figures"
-    )
-    found = reproduction.collect(size, swept.outcomes)
-    judged = claims(found)
-    page = write_paper(folder, found, judged, swept)
-    for claim in judged:
-        console.print(f"  {claim.verdict:9s}  {claim.name}: {claim.written}", markup=False)
-    if found.failed:
-        console.print(f"  {found.failed} solves failed and are left out")
-    console.print(f"\nPage: {page.resolve()}", markup=False)
-
-
-def remeasure(
-    quantities: Sequence[Quantity], stored: Mapping[str, float], folder: Path, workers: int | None
-) -> list[Change]:
-    """Measure quantities again, and tell which have moved from what is stored."""
-    console = Console(highlight=False, soft_wrap=True)
-    with watch(console) as progress:
-        swept = measure(quantities, folder / SOLVED, workers, progress)
-    console.print(f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s")
-    found = changes(quantities, stored, swept.outcomes)
-    console.print(f"\n{said(found)}", markup=False)
-    return found
-
-
-def shift_measured(path: Path, folder: Path) -> None:
-    """Shift the curves of a user's own table onto one, and write the figure and its tables."""
-    console = Console(highlight=False, soft_wrap=True)
-    shifted = read_measured(path)
-    folder.mkdir(parents=True, exist_ok=True)
-    draw(folder, shifted_curves, [shifted], suffix=f"-{slug(path.stem)}")
-    collapse = shifted.collapse
-    console.print(f"horizontal shifts onto one curve: {collapse.verdict}")
-    console.print(f"  {explain(collapse)}")
-    console.print(f"  misfit {collapse.after.rms:.2%}, without shifts {collapse.before.rms:.2%}")
-    exponent = collapse.exponent if collapse.overlaps else nan
-    console.print(f"  shift ~ v^p, p = {plus_minus(exponent, shifted.exponent_error)}")
-    console.print(f"  {explain_vertical(shifted.vertical)}", markup=False)
-    if shifted.vertical:
-        console.print(f"  vertical shifts alone leave a misfit of {shifted.vertical.alone.rms:.2%}")
-    console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
-
-
-def describe_topography(path: Path, stated: Mapping[str, Any], folder: Path) -> None:
-    """Describe a measured map, and write the figure of its spectra and its tables. Raises InvalidInput.
-
-    stated : the other fields of a scene's `Topography`
+    Raises InvalidInput, Refused.
     """
-    console = Console(highlight=False, soft_wrap=True)
-    content = {"file": str(path), **stated}
-    adapter = TypeAdapter(Topography)
-    try:
-        found = describe(adapter.validate_python(content))
-    except ValidationError as error:
-        raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
-    except ValueError as error:
-        raise InvalidInput(f"{path}: {error}") from error
-    folder.mkdir(parents=True, exist_ok=True)
-    draw(folder, topography, found, suffix=f"-{slug(path.stem)}")
-    for sentence in described(found):
-        console.print(sentence, markup=False)
-    console.print(f"\nFigure and tables: {folder.resolve()}", markup=False)
+    return conducted(asking.study(study, size), folder, workers, scheduler, progress)
 
 
-def conduct_workprecision(names: Sequence[str], size: str, folder: Path, workers: int | None) -> None:
-    """Measure what accuracy costs, and write the page. What is timed is solved alone, after all else."""
-    console = Console(highlight=False, soft_wrap=True)
-    store, inquiries = Store(folder / SOLVED), [INQUIRIES[name] for name in names]
-    with watch(console) as progress:
-        known = sweep([task for each in inquiries for task in each.untimed(size)], store, workers, progress)
-    with watch(console) as progress:
-        timed = sweep([task for each in inquiries for task in each.timed(size)], store, 1, progress, tasks_each=1)
-    swept = known.joined(timed)
-    console.print(
-        f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; drawing the figures"
-    )
-    chapters = [chapter(folder, each, each.judge(size, swept.outcomes)) for each in inquiries]
-    page = write_workprecision(folder, chapters, size, swept)
-    for each in chapters:
-        console.print(f"\n{each.title}", markup=False, style="bold")
-        console.print(f"  {each.advice}", markup=False)
-    console.print(f"\nPage: {page.resolve()}", markup=False)
+def reproduce(
+    profiles: int = 200,
+    folder: str | Path = PAPER,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Simulate the paper again in one dimension, and write a page; `judged` has its data and its claims.
+
+    profiles : averaged, at least 3; as published, 200
+    folder, workers, scheduler, progress : as of crosscheck
+    """
+    return conducted(asking.paper(profiles), folder, workers, scheduler, progress)
 
 
-def examine_stability(size: str, folder: Path, workers: int | None) -> int:
-    """Solve the collection of hard cases, write its table, and tell what is broken. Returns how many are."""
-    console = Console(highlight=False, soft_wrap=True)
-    with watch(console) as progress:
-        found = stability.conduct(size, folder, folder / SOLVED, workers, progress)
-    verdicts = [record.verdict for record in found]
-    console.print(", ".join(f"{verdict} {verdicts.count(verdict)}" for verdict in stability.VERDICTS))
-    broken = [record for record in found if record.verdict == stability.BROKEN]
-    for record in broken:
-        console.print(
-            f"  {record.name}: {record.what} {record.found:.2g}, allowed {record.allowed:.2g}", markup=False
-        )
-        console.print(f"    {record.law} {record.message}", markup=False)
-    console.print(f"\nTable: {(folder / stability.PAGE).resolve()}", markup=False)
-    return len(broken)
+def weigh(
+    *names: str,
+    size: str = "quick",
+    folder: str | Path = COSTS,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Measure what accuracy costs in time, and write a page; `judged` has what each diagram found, by name.
+
+    names : of diagrams, all of them if absent; size : quick or full
+    folder, workers, scheduler, progress : as of crosscheck; what is timed is solved on this machine, alone
+    """
+    return conducted(asking.costs(names, size), folder, workers, scheduler, progress)
 
 
-def conduct_study(name: str, size: str, folder: Path, workers: int | None) -> None:
-    """Solve a study that comes with the package, judge it, and write its page."""
-    console = Console(highlight=False, soft_wrap=True)
-    series = STUDIES[name].series(SIZES[size])
-    with watch(console) as progress:
-        solving = [task for each in series for task in study_tasks(each)]
-        swept = sweep(solving, Store(folder / SOLVED), workers, progress)
-    console.print(f"{swept.solved} tasks solved, {swept.reused} reused, {swept.seconds:.0f} s; judging")
-    judged = judge_study(name, size, series, swept.outcomes)
-    page = write_study(folder / slug(f"{name}-{size}"), judged, swept)
-    for column in columns(judged):
-        console.print(f"\n{column.title}", markup=False, style="bold")
-        for finding in column.findings:
-            console.print(f"  {line(finding)}", markup=False)
-    if failed := sum(len(failures(each)) for each in judged.series):
-        console.print(f"\n{failed} solves failed; the page says why")
-    console.print(f"\nPage: {page.resolve()}", markup=False)
+def examine(
+    size: str = "small",
+    folder: str | Path = STABILITY,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Solve the named hard cases, each with its law, and write a table; `judged` has a Record a case.
+
+    size : small or large
+    folder, workers, scheduler, progress : as of crosscheck
+    """
+    return conducted(asking.hardcases(size), folder, workers, scheduler, progress)
+
+
+def regress(
+    baseline: str | Path | None = None,
+    quantities: Sequence[Any] | None = None,
+    folder: str | Path = REGRESS,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Hold quantities against stored ones; `judged` has every Change, `judged.wrong` those that ask for a look.
+
+    baseline : a file of stored values; those of the package if absent
+    quantities : that are measured; those of the package if absent
+    folder, workers, scheduler, progress : as of crosscheck
+
+    For a test of your own, `check` raises AssertionError, and `update` stores. Raises InvalidInput.
+    """
+    return conducted(asking.baseline(baseline, quantities), folder, workers, scheduler, progress)
+
+
+def shift(table: str | Path, folder: str | Path = SHIFTED) -> Found:
+    """Shift measured curves of friction onto one; `judged` is a Shifted.
+
+    table : CSV of friction mu, normal force F_N [N] and speed v [m/s]
+    folder : of the figure and its tables
+
+    Raises InvalidInput.
+    """
+    from .jobs.tables import Mastercurve
+
+    return conducted(Mastercurve(Path(table)), folder)
+
+
+def describe(file: str | Path, folder: str | Path = DESCRIBED, **stated: Any) -> Found:
+    """Describe a measured map of heights: size, slopes, spectra; `judged` is a Description.
+
+    stated : the other fields of scene.Topography, as pixel=1e-6, unit="um"
+    folder : of the figure and its tables
+
+    Raises InvalidInput.
+    """
+    from .jobs.tables import Map
+
+    return conducted(Map(Path(file), stated), folder)
+
+
+def animate(
+    scene: Asked,
+    path: str | Path,
+    folder: str | Path = ANIMATED,
+    workers: int | None = None,
+    progress: Progress | bool = False,
+    **settings: Any,
+) -> Path:
+    """Draw a scene as it moves in time, in one and in three dimensions side by side; returns the path.
+
+    scene : as of crosscheck, one
+    path : of a .gif, or of an .mp4 where ffmpeg is there
+    folder : of what has been solved: the picture is made again from it
+    workers, progress : as of crosscheck
+    settings : mdr, bem, frames, seconds, as of compare.animation.animate
+
+    Raises InvalidInput, Refused, and SolveError where a march fails.
+    """
+    from .animation import animate as animated
+    from .store import Store
+
+    case = case_of(scene)
+    with _watched(progress)() as told:
+        return animated(case, path, store=Store(Path(folder) / SOLVED), workers=workers, progress=told, **settings)
+
+
+def prepared(job: Job, folder: Path) -> None:
+    """Make every folder that a job writes into. Raises OSError, before anything is solved."""
+    below = (SOLVED,) if job.rounds else ()
+    place = f"{job.place}/" if job.place else ""
+    make_folders(folder, (*below, *job.folders), [f"{place}{name}" for name in (*job.files, MANIFEST)])
+
+
+def conducted(
+    job: Job,
+    folder: str | Path,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | bool = False,
+) -> Found:
+    """Do a job from its question to its page."""
+    folder = Path(folder)
+    if not job.rounds:  # what is read may be wrong, and then nothing is written
+        job.judged(Swept({}, 0, 0, 0.0))
+    prepared(job, folder)
+    return answer(job, folder, solve(job, folder, workers, scheduler, _watched(progress)))
+
+
+def _watched(progress: Progress | bool) -> Callable[[], AbstractContextManager[Any]]:
+    """What a sweep tells, and whom."""
+    if progress is True:
+        from rich.console import Console
+
+        from .progress import watch
+
+        return lambda: watch(Console(highlight=False, soft_wrap=True))
+    return lambda: nullcontext(progress or None)

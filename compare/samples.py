@@ -60,9 +60,10 @@ class Samples:
             raise ValueError("no surface has an answer at every point")
         load, friction = load[..., surfaces], friction[..., surfaces]
         left = [np.delete(np.arange(surfaces.sum()), group) for group in groups(surfaces.sum())]
-        for kept in [slice(None), *(part for part in left if part.size)]:
+        parts: list[slice | np.ndarray] = [slice(None), *(part for part in left if part.size)]
+        for part in parts:
             for force in (load, friction):
-                points &= np.where(points, force[..., kept].mean(axis=2), 0) > 0
+                points &= np.where(points, force[..., part].mean(axis=2), 0) > 0
         speeds = points.sum(axis=1) > 1
         kept = np.where(points[..., None], [load, friction], nan)[:, speeds]
         if self.load.ndim == 2:

@@ -3,41 +3,58 @@
 import hashlib
 import json
 import os
+import platform
+import re
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
-from math import nan
+from math import isfinite
 from pathlib import Path
 from typing import IO, Any, Protocol
 
-import numpy as np
+from .outcome import Outcome
 
-from .outcome import NUMBERS, Outcome, Row
-
+TRACE = ".fault.txt"  # of how a task broke, behind its key
+DAY = 86400.0  # as long no write takes
+# Of a file that is being written: that of the file, machine and process, and some letters.
+TEMPORARY = re.compile(r"\..+\.([0-9a-f]{8})-([1-9][0-9]*)\.[a-z0-9_]{8}")
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
 
 
 class Task(Protocol):
-    """What one worker solves in one go; equal tasks have equal answers.
+    """What one worker solves in one go; equal tasks have equal answers."""
 
-    label : short description for people
-    work : rough cost, in units that are the same for all tasks; orders them and tells how far they are
-    question : everything that the answer depends on but for code, as JSON can hold it
-    packages : whose code the answer depends on
-    keeps_fields : whether the outcome has fields
-    """
+    @property
+    def label(self) -> str:
+        """Short description for people."""
 
-    label: str
-    work: float
-    question: Mapping[str, Any]
-    packages: Sequence[str]
-    keeps_fields: bool
+    @property
+    def work(self) -> float:
+        """Rough cost, in units that are the same for all tasks; orders them and tells how far they are."""
+
+    @property
+    def question(self) -> Mapping[str, Any]:
+        """Everything that the answer depends on but for code, as JSON can hold it."""
+
+    @property
+    def packages(self) -> Sequence[str]:
+        """Whose code the answer depends on."""
+
+    @property
+    def keeps_fields(self) -> bool:
+        """Whether the outcome has fields."""
 
     def solve(self) -> Outcome:
         """The answer."""
+
+    def failed(self, reason: str) -> Outcome:
+        """What stands for an answer where there is none: as much, all NaN, with the reason in its rows."""
 
     def fits(self, outcome: Outcome) -> bool:
         """Whether a stored outcome is whole."""
@@ -45,24 +62,22 @@ class Task(Protocol):
 
 def code_digest(folder: Path) -> str:
     """Digest of every Python source below a folder, or of one file: names and content."""
-    paths = sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]
+    sources = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*.py")}
     whole = hashlib.sha256()
-    for path in paths:
-        name = str(path.relative_to(folder)) if folder.is_dir() else path.name
-        whole.update(f"{name}\0{path.stat().st_size}\0".encode())
-        whole.update(path.read_bytes())
+    for name, path in sorted(sources.items() if folder.is_dir() else [(folder.name, folder)]):
+        content = path.read_bytes()
+        whole.update(f"{name}\0{len(content)}\0".encode())
+        whole.update(content)
     return whole.hexdigest()
 
 
 def key(task: Task) -> str:
-    """Name of a task's file: digest of its question, of the code that answers it, and of versions."""
-    everything = {
-        "question": task.question,
-        "code": [_package_digest(package) for package in task.packages],
-        "versions": _versions(),
-    }
-    canonical = json.dumps(everything, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(canonical.encode()).hexdigest()
+    """Name of a task's file: digest of its question, then of the code that answers it and of versions."""
+    return _named_by(canonical(task.question), task)
+
+
+def _named_by(text, task):
+    return f"{_digest(text)}-{_code_digest(tuple(task.packages))}"
 
 
 @dataclass(frozen=True)
@@ -72,41 +87,173 @@ class Store:
     folder: Path
 
     def get(self, task: Task) -> Outcome | None:
-        """The stored outcome of a task, or None: also for a task that keeps fields that are not there."""
-        numbers, fields = self._path(task, "json"), self._path(task, "npz")
-        try:
-            content = json.loads(numbers.read_text(encoding="utf-8"))
-            rows = tuple(_row_from_json(entry) for entry in content["rows"])
-            outcome = Outcome(rows, _read_fields(fields) if task.keeps_fields else {})
-            return outcome if task.fits(outcome) else None
-        # A damaged archive raises nearly anything, from zlib.error to RuntimeError.
-        except Exception:
-            return None
+        """The stored outcome of a task by this code, or None: also for a task that keeps fields not there."""
+        text = canonical(task.question)  # takes a third of the time that reading takes: once
+        return self._own(task, text)
 
     def put(self, task: Task, outcome: Outcome) -> None:
-        """Write an outcome, fields first: the numbers alone say that a task is done."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        if outcome.fields or task.keeps_fields:
-            write(self._path(task, "npz"), lambda file: np.savez_compressed(file, **outcome.fields))
-        content = {"task": task.label, "rows": [_row_to_json(entry) for entry in outcome.rows]}
-        text = json.dumps(content, indent=1, allow_nan=False)
-        write(self._path(task, "json"), lambda file: file.write(text.encode()))
+        """Write an outcome.
 
-    def _path(self, task, suffix):
-        return self.folder / f"{key(task)}.{suffix}"
+        Raises OSError, which names the file; ValueError, TypeError for what no file can hold.
+        """
+        from .taskfile import written
+
+        question = task.question
+        text = canonical(question)
+        about = {"title": task.label, "source": "mdr-bem-crosscheck", **_code_texts(tuple(task.packages))}
+        content = written(outcome, question, text, about, task.keeps_fields)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        _tidy(self.folder)
+        write(self._path(task, text), lambda file: file.write(content))
+
+    def recall(self, task: Task) -> Outcome | None:
+        """The outcome of a question by whatever code answered it, this one first, then the newest; or None."""
+        return self.recalled([task]).get(task)
+
+    def recalled(self, tasks: Iterable[Task]) -> dict[Task, Outcome]:
+        """As `recall`, of those that there is an outcome of; the folder is listed once."""
+        known = defaultdict(list)
+        for path in self.folder.glob("*-*.nc"):
+            known[path.name.partition("-")[0]].append(path)
+        found = {}
+        for task in tasks:
+            text = canonical(task.question)
+            outcome = self._own(task, text)
+            if outcome is None:
+                others = [_read(path, task, text) for path in known[_digest(text)]]
+                _, outcome = max(others, key=lambda other: other[0], default=NONE)
+            if outcome is not None:
+                found[task] = outcome
+        return found
+
+    def holds(self, task: Task) -> bool:
+        """Whether there is a file of a task by this code, which is not read for it."""
+        return self._path(task, canonical(task.question)).exists()
+
+    def traces(self, task: Task) -> list[Path]:
+        """Where it is told how a task broke, by whatever code, and was not solved since by the same."""
+        return sorted(self.folder.glob(f"{_digest(canonical(task.question))}-*{TRACE}"))
+
+    def trace(self, name: str) -> Path:
+        """Where it is told how the task of a key broke."""
+        return self.folder / f"{name}{TRACE}"
+
+    def _own(self, task, text):
+        _, outcome = _read(self._path(task, text), task, text)
+        return outcome
+
+    def _path(self, task, text):
+        return self.folder / f"{_named_by(text, task)}.nc"
+
+
+NONE = "", None
+
+
+def _read(path, task, text):
+    """When it was written, as text that sorts, and the outcome; "" and None where there is none that fits."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return NONE
+    from .taskfile import read
+
+    try:
+        written, outcome = read(content, text, task.keeps_fields)
+        return (written, outcome) if task.fits(outcome) else NONE
+    # What something else has written under this name raises nearly anything.
+    except Exception:
+        return NONE
 
 
 def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
-    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
+
+    Raises OSError, which names the file.
+    """
     try:
-        with os.fdopen(handle, "wb") as file:
-            fill(file)
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        os.unlink(name)
-        raise
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.{_machine()}-{os.getpid()}.")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                fill(file)
+            os.chmod(name, 0o644)
+            os.replace(name, path)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(name)
+            raise
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+@cache
+def _tidy(folder: Path) -> None:
+    """Clear a folder of what processes left that ended while they wrote; once a process."""
+    for path in folder.glob(".*"):
+        if left := TEMPORARY.fullmatch(path.name):
+            with suppress(OSError):
+                if _ended(*left.groups()) or time.time() - path.stat().st_mtime > DAY:
+                    path.unlink()
+
+
+def _machine():
+    """As the name of a temporary file tells it."""
+    return _digest(platform.node())[:8]
+
+
+def _ended(machine, process):
+    """Whether it is a process of this machine and has ended; of others nothing is known."""
+    if os.name != "posix" or machine != _machine():
+        return False
+    try:
+        os.kill(int(process), 0)
+    except ProcessLookupError:
+        return True
+    except PermissionError:
+        pass
+    return False
+
+
+def canonical(value: Any) -> str:
+    """JSON that is the same for equal values on every platform; numbers that JSON lacks are named."""
+    try:
+        return _json(value)
+    except ValueError:
+        return _json(_named(value))
+
+
+def _json(value):
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _named(value):
+    if isinstance(value, float) and not isfinite(value):
+        return {"not finite": repr(value)}
+    if isinstance(value, Mapping):
+        return {name: _named(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_named(entry) for entry in value]
+    return value
+
+
+def _digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def code_of(packages: Sequence[str]) -> dict[str, dict[str, str]]:
+    """Digests of the code of packages, and versions."""
+    return {"code": {name: _package_digest(name) for name in packages}, "versions": _versions()}
+
+
+@cache
+def _code_digest(packages):
+    return _digest(canonical(code_of(packages)))
+
+
+@cache
+def _code_texts(packages):
+    return {name: canonical(value) for name, value in code_of(packages).items()}
 
 
 @cache
@@ -123,33 +270,6 @@ def _package_digest(package):
     )
 
 
-def _row_to_json(entry):
-    """NaN and infinities are no JSON: they are stored as null, and come back as NaN."""
-    content = asdict(entry)
-    content["measures"] = {name: finite(value) for name, value in entry.measures.items()}
-    content["settings"] = {name: finite(value) for name, value in entry.settings.items()}
-    return content | {name: finite(content[name]) for name in NUMBERS}
-
-
 def finite(value):
     """A value as JSON can hold it: None for NaN and infinities."""
-    return None if isinstance(value, float) and not np.isfinite(value) else value
-
-
-def _row_from_json(content):
-    numbers = {name: _number(content[name]) for name in NUMBERS}
-    measures = {name: _number(value) for name, value in content["measures"].items()}
-    return Row(**numbers, measures=measures, settings=dict(content["settings"]), reason=content["reason"])
-
-
-def _number(value):
-    if value is None:
-        return nan
-    if not isinstance(value, int | float) or not np.isfinite(value):
-        raise ValueError(f"{value!r} is no number that was stored")
-    return float(value)
-
-
-def _read_fields(path):
-    with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-        return {name: archive[name] for name in archive.files}
+    return None if isinstance(value, float) and not isfinite(value) else value

@@ -6,7 +6,7 @@ from math import nan
 
 from pydantic import TypeAdapter
 
-from scene import EmptyContact, Indent, Program, Scene, SolveError, Solver
+from scene import EmptyContact, Indent, Program, Scene, SelfAffine, Slide, SolveError, Solver, Topography
 from scene.motion import UNITS
 from scene.protocol import refuse
 from scene.scales import elastic_contact
@@ -76,6 +76,10 @@ class Task:
                 fields = dict(result.fields)
             rows.append(row(result))
         return Outcome(tuple(rows), fields)
+
+    def failed(self, reason: str) -> Outcome:
+        """A row a scene, each with the reason."""
+        return Outcome((Row(reason=reason),) * len(self.scenes))
 
     def fits(self, outcome: Outcome) -> bool:
         """A row a scene."""
@@ -183,20 +187,20 @@ def _moved(scene: Scene, speed: float, factor: float = 1.0) -> Scene:
     motion = scene.motion
     load = motion.load and motion.load * factor
     depth = motion.depth and motion.depth * factor
-    return replace(scene, motion=replace(motion, speed=speed, load=load, depth=depth))
+    return replace(scene, motion=Slide(speed=speed, load=load, depth=depth))
 
 
 def _both(case: Case, kind: str, scene: Scene) -> Iterator[Point]:
     """The same point in one dimension, all its profiles in one task, and in three, one task a surface."""
     plan = case.plan()
-    yield Point(kind, (_task(case, case.mdr, _drawn(scene, plan.profiles)),))
-    yield Point(kind, tuple(_task(case, case.bem, (drawn,)) for drawn in _drawn(scene, plan.surfaces)))
+    yield Point(kind, (_task(case, case.mdr, surfaces_of(scene, plan.profiles)),))
+    yield Point(kind, tuple(_task(case, case.bem, (drawn,)) for drawn in surfaces_of(scene, plan.surfaces)))
 
 
-def _drawn(scene: Scene, count: int) -> tuple[Scene, ...]:
-    """The scene with seeds seed, seed + 1, ...; a smooth body has one surface."""
+def surfaces_of(scene: Scene, count: int) -> tuple[Scene, ...]:
+    """The scene with seeds seed, seed + 1, ...; a body that is smooth or has plain waves has one surface."""
     rough = scene.roughness
-    if rough is None:
+    if not isinstance(rough, SelfAffine | Topography):
         return (scene,)
     return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + k)) for k in range(count))
 

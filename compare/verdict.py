@@ -1,7 +1,7 @@
 """The judgement of a case: the few numbers that matter, each with its error and what it means."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot, nan
 
 import numpy as np
@@ -57,14 +57,19 @@ class Judgement:
     seconds : processor time [s] of all solves by solver's name, those of earlier runs included
     """
 
-    case: Case
-    table: tuple[Record, ...]
-    collapses: Mapping[str, Collapse]
+    case: Case = field(repr=False)
+    table: tuple[Record, ...] = field(repr=False)
+    collapses: Mapping[str, Collapse] = field(repr=False)
     numbers: tuple[Number, ...]
-    checks: tuple[Number, ...]
-    fields: Mapping[str, Mapping[str, np.ndarray]]
+    checks: tuple[Number, ...] = field(repr=False)
+    fields: Mapping[str, Mapping[str, np.ndarray]] = field(repr=False)
     failures: tuple[tuple[str, str], ...]
     seconds: Mapping[str, float]
+
+    def _repr_html_(self) -> str:
+        from .report import fragment
+
+        return fragment(self)
 
 
 def judge(case: Case, points: Sequence[Point], swept: Swept) -> Judgement:

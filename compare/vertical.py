@@ -70,8 +70,8 @@ def vertical_shifts(result: Collapse) -> Vertical:
         from_increments(values, covariance[part, part], result.reference)
         for values, part in ((best.x, slice(count)), (levels, slice(count, 2 * count)))
     )
-    exponent, exponent_error = power_of_speed(logs, *raised, result.reference)
-    horizontal_exponent, horizontal_error = power_of_speed(logs, *horizontal, result.reference)
+    exponent, exponent_error = power_of_speed(logs, raised[0], raised[1], result.reference)
+    horizontal_exponent, horizontal_error = power_of_speed(logs, horizontal[0], horizontal[1], result.reference)
     gain = (without - 2 * best.cost) / count / reduced if reduced else nan
     return Vertical(
         shifts=raised[0],

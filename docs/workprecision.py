@@ -16,10 +16,10 @@ from tables import table
 import bem3d.accuracy
 from compare.progress import watch
 from compare.publish import machine, versions, write_csv, write_text
-from compare.run import INQUIRIES
 from compare.store import Store
 from compare.sweep import sweep
 from compare.workprecision import ladder, promises
+from compare.workprecision.catalogue import INQUIRIES
 from compare.workprecision.report import Chapter, chapter
 
 FOLDER = Path(__file__).with_suffix("")

@@ -66,7 +66,7 @@ class Sums(NamedTuple):
     drive : int g' f dt, the impulse along the flow [m s]
     work, heat : done on the elements, and lost in them [m^2]
     stored : in them at the end [m^2]
-    count : of those that touch then
+    touching : of those that touch then
     """
 
     force: float
@@ -75,7 +75,7 @@ class Sums(NamedTuple):
     work: float
     heat: float
     stored: float
-    count: int
+    touching: int
 
 
 @compiled
@@ -202,7 +202,9 @@ def _leave(u, y, solid, r):
     for k in range(y.size):
         for j in range(r.size):
             r[j] -= solid.exchange[k, j] * solid.moduli[k] * y[k]
-    np.maximum(r, 0.0, r)
+    for j in range(r.size):
+        if r[j] < 0.0:
+            r[j] = 0.0
 
 
 @compiled

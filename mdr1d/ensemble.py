@@ -8,6 +8,7 @@ period.
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from math import nan, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -66,7 +67,8 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
         _check_resolved(scene.roughness, count)
     members: dict[tuple, list[int]] = {}
     for i, (scene, count) in enumerate(zip(scenes, points, strict=True)):
-        unit = replace(scene.roughness, rms_height=1.0, seed=0)
+        rough: Any = scene.roughness
+        unit = replace(rough, rms_height=1.0, seed=0)
         members.setdefault((unit, count, scene.indenter.exponent), []).append(i)
     series = [
         (indices, family_of(unit, count), _Series([scenes[i] for i in indices], count))

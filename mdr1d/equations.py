@@ -25,7 +25,13 @@ _QUADRATURE = 1e-12
 
 
 def contact_radius(load, modulus, c, n):
-    """a [m] of the smooth relaxed contact, a^(n+1) = F_N (n+1) / (8 G_0 c n), Eq. 16."""
+    """a [m] of the smooth relaxed contact, a^(n+1) = F_N (n+1) / (8 G_0 c n), Eq. 16.
+
+    A sphere of R = 10 mm, c = 1/R and n = 2, under 1 N on G_0 = 1 MPa:
+
+    >>> round(contact_radius(load=1.0, modulus=1e6, c=100.0, n=2), 6)
+    0.001233
+    """
     positive(load=load, modulus=modulus, c=c)
     between(1, 100, n=n)
     return (load * (n + 1) / (8 * modulus * c * n)) ** (1 / (n + 1))

@@ -272,4 +272,4 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     touching = np.empty(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))
     sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
-    return Contact(*sums, displacement, touching, pushed)
+    return Contact._make((*sums, displacement, touching, pushed))

@@ -49,6 +49,7 @@ def marched(solver, scene: Scene, reduced: Scene, started: float) -> Result:
             "profile": history.heights,
             "displacement": history.displacement,
             "contact": history.touching,
+            **history.frames,
         },
     )
 
@@ -65,7 +66,7 @@ def _followed(solver, scene):
     while True:
         layout = lay_out(held, solver.points, extent, solver.spectrum)
         body = map_profile(held, layout, solver.spectrum)
-        history = march(scene.motion, body, modes, modulus, solver.steps)
+        history = march(scene.motion, body, modes, modulus, solver.steps, solver.frames)
         marches += 1
         free = solver.extent is None and scene.roughness is None
         extent = drawn_closer(layout, 2 * history.reach, history.reach) if free else None

@@ -27,7 +27,7 @@ def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact,
     Returns the approach past the first touch [m], the contact and the number of sweeps. Raises SolveError if the
     contact leaves the grid or there is none.
     """
-    depth = scene.motion.depth
+    depth = scene.motion.greatest
     if depth > body.rim:
         raise _too_short(scene, body)
     # Heights from the first touch on: a light contact keeps its digits.
@@ -49,7 +49,7 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
     known to carry less and more than the load, and halves that bracket where a step leaves it. Raises SolveError
     if the contact leaves the grid or the load is not met to a relative 1e-10.
     """
-    load = scene.motion.load / scene.solid.indentation_modulus
+    load = scene.motion.greatest / scene.solid.indentation_modulus
     heights = body.heights - body.lowest
     most = body.rim - body.lowest
     if most <= 0:
@@ -58,7 +58,8 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
     surely = max(greatest_depth(scene, body.surface) - body.lowest, elastic_contact(scene).depth)
     approach = min(surely, most)
     lower, upper = 0.0, inf
-    best, sweeps = (inf, approach, None), 0
+    best: tuple[float, float, Contact | None] = inf, approach, None
+    sweeps = 0
     while sweeps < _MOST_SWEEPS and lower < approach < upper:
         contact = sweep(heights, body.pixel, approach)
         sweeps += 1
@@ -71,14 +72,14 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
         if misfit <= AIM or (stalled and best[0] <= ACCEPTED):
             break
         approach, lower, upper = nearer(approach, contact.force, contact.stiffness, load, lower, upper, most)
-    misfit, approach, contact = best
-    if not misfit <= ACCEPTED:
+    misfit, approach, found = best
+    if found is None or not misfit <= ACCEPTED:
         raise SolveError(
-            f"motion.load = {scene.motion.load:g} is met only to a relative {misfit:.1e} after {sweeps} sweeps: "
-            "the lengths of the scene differ by more than rounding allows; prescribe the depth"
+            f"motion.load = {scene.motion.greatest:g} is met only to a relative {misfit:.1e} after {sweeps} "
+            "sweeps: the lengths of the scene differ by more than rounding allows; prescribe the depth"
         )
-    _check_range(contact)
-    return approach, contact, sweeps
+    _check_range(found)
+    return approach, found, sweeps
 
 
 def _check_range(contact: Contact) -> None:

@@ -1,13 +1,17 @@
 """The rough line of a scene, by whatever its roughness is."""
 
 from scene import Topography
-from scene.roughness import SelfAffine
+from scene.roughness import Roughness, SelfAffine
 
 from . import surface, topography
 from .surface import Spectrum, Surface
 
 
-def draw(roughness: SelfAffine | Topography, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
-    """Draw one period of the rough line on so many nodes, from its seed."""
-    one = topography if isinstance(roughness, Topography) else surface
-    return one.draw(roughness, nodes, spectrum)
+def draw(roughness: Roughness, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
+    """Draw one period of the rough line on so many nodes, from its seed. Raises TypeError for what has no line."""
+    match roughness:
+        case Topography():
+            return topography.draw(roughness, nodes, spectrum)
+        case SelfAffine():
+            return surface.draw(roughness, nodes, spectrum)
+    raise TypeError(f"roughness = {type(roughness).__name__}: no line stands for it")

@@ -7,12 +7,14 @@ the depth is followed by chords: what is done and lost in it is of second order 
 but for that of a dashpot, which is half a step late. A prescribed load is met once a step.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import expm1
 
 import numpy as np
 
 from scene import Program, SolveError
+from scene.instants import Frames
 
 from .elements import Solid, State, Sums, advance, sinking
 from .indentation import ACCEPTED
@@ -38,6 +40,7 @@ class History:
     misfit : of the load, the greatest of all steps [m^2]
     reach : farthest from the axis that an element touched at the end of a step [m]
     x, heights, displacement, touching : of the elements at the end (N,), x from the axis of the indenter
+    frames : fields at instants asked for, (F,) and (F, N); empty where none are
     """
 
     time: np.ndarray
@@ -56,19 +59,22 @@ class History:
     heights: np.ndarray
     displacement: np.ndarray
     touching: np.ndarray
+    frames: Mapping[str, np.ndarray]
 
 
-def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: int) -> History:
+def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: int, instants: int = 0) -> History:
     """Through a program on one profile.
 
     modulus : relaxed, of the foundation [Pa]
     steps : of the whole program, see `timeline`
+    instants : at which the elements are kept, see `scene.instants`
 
     Raises SolveError where there are too many steps, the contact leaves the grid, or rounding spoils the answer.
     """
     line, row = timeline(program, body.pixel, steps), (_Returning if program.reverses else _Row)(body, modes)
     by_depth = program.pressed_by == "depth"
     press = _Depth(program) if by_depth else _Load(program, modes, modulus * body.pixel)
+    frames = Frames(line.times[1:], program.duration, instants)
     depth = 0.0 if by_depth else body.lowest
     work = row.press_at_once(depth)
     rows, misfit, reach, lost = [], 0.0, 0.0, 0.0
@@ -78,13 +84,22 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
         sums = row.advance(depth, rate, duration)
         depth += rate * duration
         _check_inside(row, body, depth, line.times[k + 1])
+        if k in frames:
+            frames.keep(
+                time=line.times[k + 1],
+                depth=depth,
+                x=row.x,
+                profile=row.heights,
+                displacement=row.displacement(depth),
+                contact=row.state.touching,
+            )
         misfit, reach = max(misfit, abs(missed)), max(reach, row.reach)
         work, lost = work + sums.work, lost + sums.heat
-        rows.append((depth, sums.force, -sums.drive / duration, sums.count, work, lost, sums.stored))
+        rows.append((depth, sums.force, -sums.drive / duration, sums.touching, work, lost, sums.stored))
     if not by_depth:
         _check_met(misfit * body.pixel * modulus / program.greatest)
-    depths, *sums = np.array(rows).T
-    force, friction, length, work, dissipated, stored = body.pixel * np.array(sums)
+    depths, *totals = np.array(rows).T
+    force, friction, length, work, dissipated, stored = body.pixel * np.array(totals)
     _check_balanced(work, dissipated, stored)
     return History(
         time=line.times[1:],
@@ -103,6 +118,7 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
         heights=row.heights,
         displacement=row.displacement(depth),
         touching=row.state.touching,
+        frames=frames.handed_over(),
     )
 
 

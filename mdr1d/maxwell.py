@@ -308,7 +308,9 @@ def _sweep(
         if not touches:
             last = i * pixel + begin + width
             _leave(start + rate * width, moduli, y, exchange, left)
-            np.maximum(left, 0.0, left)
+            for j in range(q):
+                if left[j] < 0.0:
+                    left[j] = 0.0
             stiffness += _firmness(stretch, shift, moduli, lengths, exchange, part, shift_left)
             u = 0.0
             for j in range(q):
@@ -356,4 +358,4 @@ def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float)
         touching,
         pushed,
     )
-    return Contact(*sums, displacement, touching, pushed)
+    return Contact._make((*sums, displacement, touching, pushed))

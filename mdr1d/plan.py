@@ -82,6 +82,8 @@ def _arrays(solver, scene, layout, steps):
         yield Array("states of the elements", (nodes - 1, states))
         yield Array("profile, its slopes, and rates", (12, nodes))
         yield Array("history", (3 * 14, steps))
+        if solver.frames:
+            yield Array("elements at instants", (4, min(solver.frames, steps), nodes - 1))
         if scene.motion.reverses:
             passed = ceil(scene.motion.span / layout.pixel)
             yield Array("elements left behind", (passed, len(modes.compliances) + PIECE))

@@ -134,7 +134,7 @@ def check_resolved(body: Profile, span: float) -> None:
 def map_profile(scene: Scene, grid: Grid, spectrum: Spectrum = "mapped") -> Profile:
     """Map the indenter to its one-dimensional profile and add the rough line, repeated as far as the grid goes."""
     heights = _macroscopic(scene.indenter, grid.x)
-    if grid.period is None:
+    if grid.period is None or scene.roughness is None:
         rim = min(heights[0], heights[-1])
         return Profile(grid.x, heights, grid.pixel, float(heights.min()), float(rim), None)
     surface = draw(scene.roughness, grid.period, spectrum)
@@ -161,4 +161,4 @@ def _extremes(surface: Surface | None):
 def _well_resolved(rough, spectrum) -> Surface:
     """The surface on 16 nodes a shortest wave: its extremes are those of any grid, to within the margin."""
     band = band_of(rough, spectrum)
-    return draw(rough, ceil(16 * band.period / band.shortest), spectrum)
+    return draw(rough, ceil(16 * band.waves), spectrum)

@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 from scene import Program, Result, Scene
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
-from scene.quantities import CLOSED, Positive, Whole
+from scene.quantities import CLOSED, Length, Whole
 from scene.terms import Table, surrounded, terms_of
 
 from .foundation import sweep
@@ -38,11 +38,19 @@ class MDR:
         "as-given", its meridian c |x|^n; the paper leaves open which
     spectrum : of the rough line, "mapped", C_1D = pi q C_2D, or "line-scan", that of a cut of the rough surface
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
+    frames : instants of a Program, alike apart, at which the contact is kept in the fields
 
     Solves any elastomer, at rest with its relaxed modulus, in steady sliding and in time. The contact is exact on
     a profile that is linear between nodes; against a smooth shape the error is of second order in the pixel.
     Result.residual is the relative misfit of a prescribed load, at most 1e-10, and zero at a prescribed depth;
     Result.applications counts sweeps along the profile.
+
+    >>> from mdr1d import MDR
+    >>> from scene import Kelvin, Scene, Slide, Sphere
+    >>> solid = Kelvin(modulus=1e6, relaxation_time=1e-3)
+    >>> answer = MDR(points=2000).solve(Scene(Sphere(radius=10e-3), solid, Slide(speed=0.1, load=1.0)))
+    >>> print(f"{1e3 * answer.depth:.3f} mm, {answer.friction_coefficient:.4f}")
+    0.152 mm, 0.0188
 
     Result.measures: pixel, contact_length [m], contact_fraction (of the span from the first to the last contact),
     points_across_contact (pixels in that span), rms_slope_contact (of the profile over the real contact),
@@ -68,15 +76,18 @@ class MDR:
     Without load the depth is that at which the indenter just touches. Result.measures: of the above pixel,
     contact_length, contact_fraction, points_across_contact; stiffness, dF_N over d(depth) of a sudden step,
     infinite with a dashpot; time_steps. Result.residual is the misfit of the load over the greatest one.
+    With `frames` also, at the ends of the steps nearest to these instants: frame_time [s], frame_depth [m] (F,);
+    frame_x, frame_profile, frame_displacement [m] and frame_contact (bool) of the elements (F, N).
     """
 
     terms: ClassVar[Table] = TERMS
 
     points: Annotated[Whole, Field(ge=8, le=2**25)] = 5000
-    extent: Positive | None = None
+    extent: Length | None = None
     shape: Literal["mapped", "as-given"] = "mapped"
     spectrum: Spectrum = "mapped"
     steps: Annotated[Whole, Field(ge=1, le=10**6)] = 200
+    frames: Annotated[Whole, Field(ge=0, le=10**4)] = 0
 
     @property
     def name(self) -> str:
@@ -214,7 +225,7 @@ def _too_broad(band: Band) -> list[str]:
 
 def _unresolved(band: Band, layout: Grid, points: int) -> list[str]:
     """What is wrong with the grid for the roughness."""
-    if layout.period < band.nodes:
+    if layout.period is None or layout.period < band.nodes:
         shortest = "" if band.shortest is None else f", shortest = {band.shortest:g},"
         enough = ceil(band.nodes * layout.extent / band.period)
         return [

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import ceil, floor, hypot, pi, sqrt
+from math import ceil, floor, hypot, nan, pi, sqrt
 from typing import Literal
 
 import numpy as np
 from scipy.fft import irfft
 
 from scene import Topography
-from scene.roughness import SelfAffine
+from scene.roughness import Roughness, SelfAffine
 
 # Of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
 Spectrum = Literal["mapped", "line-scan"]
@@ -32,14 +32,19 @@ class Band:
     shortest: float | None
 
     @property
+    def waves(self) -> float:
+        """Of the shortest in a period; nan where the nodes are the cut-off."""
+        return nan if self.shortest is None else self.period / self.shortest
+
+    @property
     def nodes(self) -> int:
         """In a period that the shortest wave asks for, two of them to a wave."""
         if self.shortest is None:
             return _LEAST_NODES
-        return ceil(2 * self.period / self.shortest * (1 - 1e-12))
+        return ceil(2 * self.waves * (1 - 1e-12))
 
 
-def band_of(roughness: SelfAffine | Topography, spectrum: Spectrum = "mapped") -> Band:
+def band_of(roughness: Roughness, spectrum: Spectrum = "mapped") -> Band:
     """Of a line that stands for a scene's roughness.
 
     A measured map has waves in all directions, the shortest of them across its pixels' corners; its rows have

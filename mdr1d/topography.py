@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from math import pi, sqrt
+from math import nan, pi, sqrt
 
 import numpy as np
 
 from scene import Scene, Topography
 
-from .surface import Band, LineFamily, Surface, band_of
+from .surface import Band, LineFamily, Spectrum, Surface, band_of
 from .term import Term
 
 
@@ -27,13 +27,13 @@ def amplitudes(topography: Topography) -> np.ndarray:
     of its own. Their sum is the mean square of the map.
     """
     band = band_of(topography, "mapped")
-    count = round(band.period / band.shortest)
+    count = round(band.waves)
     edges = np.append(0.0, np.arange(1, count + 1) + 0.5) * 2 * pi / band.period
     edges[-1] = np.inf
     return sqrt(2) * topography.waves.binned(edges)
 
 
-def draw(topography: Topography, nodes: int, spectrum: str) -> Surface:
+def draw(topography: Topography, nodes: int, spectrum: Spectrum) -> Surface:
     """One period of a line on so many nodes, from the seed of the topography: of its phases, or of the row."""
     band = band_of(topography, spectrum)
     if spectrum == "line-scan":
@@ -46,7 +46,7 @@ def _mapped(topography, nodes):
     """Once for all seeds."""
     band, waves = band_of(topography, "mapped"), amplitudes(topography)
     waves.setflags(write=False)
-    return LineFamily(waves, False, nodes, band.period / nodes, band.shortest)
+    return LineFamily(waves, False, nodes, band.period / nodes, band.shortest or nan)
 
 
 def _row(topography: Topography, nodes: int, band: Band) -> Surface:
@@ -61,4 +61,4 @@ def _row(topography: Topography, nodes: int, band: Band) -> Surface:
     if 2 * found.size == nodes:
         spread[-1] = found[-1].real
     heights = np.fft.irfft(spread, n=nodes, norm="forward")
-    return Surface(heights, band.period / nodes, np.abs(found), band.shortest)
+    return Surface(heights, band.period / nodes, np.abs(found), band.shortest or nan)

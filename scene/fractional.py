@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
 from .modes import Relaxation
-from .quantities import CLOSED, Finite, Positive
+from .quantities import CLOSED, AngularFrequency, Finite, Pressure, Time
 from .viscoelastic import PoissonRatio, Solid
 
 _MOST_DECADES = 30
@@ -36,11 +36,11 @@ class Fractional(Solid):
     the range G'' soon falls as omega and G' tends to the static modulus; above it G' tends to a finite glassy one.
     """
 
-    modulus: Positive
-    relaxation_time: Positive
+    modulus: Pressure
+    relaxation_time: Time
     exponent: Annotated[Finite, Field(gt=0, lt=1)]
-    lowest_frequency: Positive
-    highest_frequency: Positive
+    lowest_frequency: AngularFrequency
+    highest_frequency: AngularFrequency
     tolerance: Annotated[Finite, Field(ge=1e-10, le=0.1)] = 1e-3
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["fractional"] = Field(default="fractional", repr=False)

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, Positive
+from .quantities import CLOSED, Conductivity
 
 
 def temperature_rise(friction, modulus, length, speed, conductivity):
@@ -32,5 +32,5 @@ class Heating:
     temperature [K] and heating_solves, how many it took; Result.applications and Result.seconds are of all.
     """
 
-    conductivity: Positive
+    conductivity: Conductivity
     feedback: Literal["average", "flash"] | None = None

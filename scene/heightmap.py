@@ -5,15 +5,14 @@ from dataclasses import dataclass as plain
 from dataclasses import field
 from numbers import Real
 from sys import float_info
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, InstanceOf, PlainSerializer, model_validator
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, InstanceOf, PlainSerializer, model_validator
 from pydantic.dataclasses import dataclass
-from pydantic_core import ArgsKwargs
 
-from .heightfile import read_heights
-from .quantities import CLOSED, Positive
+from .heightfile import UNITS, read_heights
+from .quantities import CLOSED, METRE, Length, by_name
 
 LEAST = 4  # pixels a side: what a cubic between pixels takes
 # Of the largest height: what is left of a plane once the plane is taken off.
@@ -33,6 +32,11 @@ class HeightMap:
 
     shape: tuple[int, int]
     digest: str = field(repr=False)
+
+    if TYPE_CHECKING:
+
+        @property
+        def heights(self) -> np.ndarray: ...
 
     def __init__(self, heights):
         if np.ma.is_masked(heights):
@@ -78,6 +82,11 @@ def _both_ways(pixel):
         pixel = pixel.tolist()
     if isinstance(pixel, list | tuple) and len(pixel) == 2:
         return pixel
+    if isinstance(pixel, str):
+        try:
+            pixel = METRE.value(pixel)
+        except ValueError as error:
+            raise ValueError(f"{error}; or two of them, along x and y") from None
     if isinstance(pixel, bool) or not isinstance(pixel, Real) or not 0 < pixel <= float_info.max:
         raise ValueError("Input should be the side of a pixel, greater than 0 [m], or two of them, along x and y")
     return pixel, pixel
@@ -92,22 +101,29 @@ def _alike(pixel):
     return pixel
 
 
-def by_name(given: Any) -> dict[str, Any] | None:
-    """What is stated for the fields of a dataclass, in Python or in a table; None of anything else."""
-    if isinstance(given, ArgsKwargs):
-        return None if given.args else given.kwargs or {}
-    return given if isinstance(given, dict) else None
-
-
 Heights = Annotated[
     InstanceOf[HeightMap],
-    BeforeValidator(_as_map),
+    BeforeValidator(_as_map, json_schema_input_type=list[list[float]]),
     PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest}),
 ]
-Pixel = Annotated[tuple[Positive, Positive], BeforeValidator(_both_ways), AfterValidator(_alike)]
+Pixel = Annotated[
+    tuple[Length, Length],
+    BeforeValidator(_both_ways, json_schema_input_type=Length | tuple[Length, Length]),
+    AfterValidator(_alike),
+]
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
+def _or_file(schema: dict[str, Any]) -> None:
+    """In JSON schema: a file in place of heights."""
+    schema["properties"] |= {"file": {"type": "string"}, "unit": {"enum": list(UNITS)}}
+    del schema["required"]
+    schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", "pixel"]}]
+
+
+MAPPED = ConfigDict(**CLOSED, json_schema_extra=_or_file)
+
+
+@dataclass(frozen=True, config=MAPPED, kw_only=True)
 class Scanned:
     """What was measured.
 

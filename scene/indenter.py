@@ -1,21 +1,27 @@
 """Rigid macroscopic shapes: height z(x, y) >= 0 [m] above the lowest point, and its slope along x."""
 
 from math import gamma, pi, sqrt, tan
-from typing import Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from .measured import Measured
-from .quantities import CLOSED, Finite, Positive
+from .quantities import CLOSED, Angle, Finite, Length, Positive, UnitOfOthers
 
 
 class Axisymmetric:
     """A body of revolution z = coefficient * r**exponent, r = sqrt(x^2 + y^2)."""
 
-    coefficient: float
-    exponent: float
+    if TYPE_CHECKING:
+
+        @property
+        def coefficient(self) -> float: ...
+
+        @property
+        def exponent(self) -> float: ...
+
     pressed_by: ClassVar[tuple[str, ...]] = ("load", "depth")
 
     def height(self, x, y):
@@ -47,7 +53,7 @@ class Axisymmetric:
 class Sphere(Axisymmetric):
     """Sphere near its apex, as the paraboloid z = r^2 / (2 radius). radius [m]."""
 
-    radius: Positive
+    radius: Length
     type: Literal["sphere"] = Field(default="sphere", repr=False)
 
     @property
@@ -63,7 +69,7 @@ class Sphere(Axisymmetric):
 class Cone(Axisymmetric):
     """Cone z = r tan(angle). angle: between the flank and the flat surface [rad], 0 to pi/2."""
 
-    angle: Annotated[Positive, Field(lt=pi / 2)]
+    angle: Annotated[Angle, Field(lt=pi / 2)]
     type: Literal["cone"] = Field(default="cone", repr=False)
 
     @property
@@ -79,7 +85,7 @@ class Cone(Axisymmetric):
 class PowerLaw(Axisymmetric):
     """Body of revolution z = coefficient * r**exponent. coefficient [m^(1-exponent)], exponent 1 to 100."""
 
-    coefficient: Positive
+    coefficient: Annotated[Positive, UnitOfOthers("m^(1-exponent)")]
     exponent: Annotated[Finite, Field(ge=1, le=100)]
     type: Literal["power-law"] = Field(default="power-law", repr=False)
 
@@ -93,7 +99,7 @@ class Cylinder:
     """
 
     pressed_by: ClassVar[tuple[str, ...]] = ("line_load",)
-    radius: Positive
+    radius: Length
     type: Literal["cylinder"] = Field(default="cylinder", repr=False)
 
     def height(self, x, y):

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, Positive
+from .quantities import CLOSED, Length
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -15,5 +15,5 @@ class Layer:
     base : "bonded", the lower side does not move, or "frictionless", it slides along the base and is not lifted
     """
 
-    thickness: Positive
+    thickness: Length
     base: Literal["bonded", "frictionless"] = "bonded"

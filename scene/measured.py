@@ -7,11 +7,10 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightmap import Scanned, levelled
-from .quantities import CLOSED
+from .heightmap import MAPPED, Scanned, levelled
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
+@dataclass(frozen=True, config=MAPPED, kw_only=True)
 class Measured(Scanned):
     """A body by a map of its surface: z = 0 at the lowest pixel, x = y = 0 in the middle of the map.
 

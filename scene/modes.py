@@ -92,7 +92,8 @@ class Retardation:
         times, fluidity = zeros(poles, weights, 0.0)
         equilibrium = 1 / (self.instantaneous + float(self.compliances.sum()))
         viscosity = 0.0 if self.instantaneous else 1 / float((self.compliances / self.times).sum())
-        return Relaxation(equilibrium, *_fixed(1 / (times * fluidity), times), viscosity)
+        moduli, times = _fixed(1 / (times * fluidity), times)
+        return Relaxation(equilibrium, moduli, times, viscosity)
 
 
 def _decay(t, times, rise=False):

@@ -1,15 +1,39 @@
 """How the indenter moves: to rest, sliding steadily, sheared or by a program, and what presses it."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 from pydantic.dataclasses import dataclass
 
 from .oscillation import ROUNDING, Oscillation
-from .quantities import CLOSED, Finite, NonNegative, Positive
+from .quantities import (
+    CLOSED,
+    METRE,
+    NEWTON,
+    NEWTON_PER_METRE,
+    PASCAL,
+    Force,
+    ForceOrZero,
+    Frequency,
+    Length,
+    LengthOrZero,
+    LineLoad,
+    LineLoadOrZero,
+    NonNegative,
+    Pressure,
+    PressureOrZero,
+    SpeedOrZero,
+    Time,
+    UnitOfOthers,
+    Velocity,
+)
 
-UNITS = {"load": "N", "depth": "m", "line_load": "N/m", "pressure": "Pa", "gap": "m"}
+PRESSES = {"load": NEWTON, "depth": METRE, "line_load": NEWTON_PER_METRE, "pressure": PASCAL, "gap": METRE}
+UNITS = {name: unit.symbol for name, unit in PRESSES.items()}
+
+OF_WHAT_PRESSES = UnitOfOthers("the unit of what presses, stated in this stage for a string", ("0.3 N", "2 um"))
+TANGENTIAL = UnitOfOthers("N, or N/m of a cylinder", ("0.3 N", "10 N/m"))
 
 
 class _Pressed:
@@ -43,16 +67,22 @@ class Indent(_Pressed):
     gap [m] of a plane: one of them.
     """
 
-    load: Positive | None = None
-    depth: Positive | None = None
-    line_load: Positive | None = None
-    pressure: Positive | None = None
-    gap: Positive | None = None
+    load: Force | None = None
+    depth: Length | None = None
+    line_load: LineLoad | None = None
+    pressure: Pressure | None = None
+    gap: Length | None = None
     type: Literal["indent"] = Field(default="indent", repr=False)
 
     @property
     def speed(self) -> float:
         return 0.0
+
+
+def pressed(by: str, value: float) -> Indent:
+    """At rest under a value of what is named, one of `UNITS`."""
+    given: dict[str, Any] = {by: value}
+    return Indent(**given)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -63,12 +93,12 @@ class Slide(_Pressed):
     and an interface with friction slips.
     """
 
-    speed: NonNegative
-    load: Positive | None = None
-    depth: Positive | None = None
-    line_load: Positive | None = None
-    pressure: Positive | None = None
-    gap: Positive | None = None
+    speed: SpeedOrZero
+    load: Force | None = None
+    depth: Length | None = None
+    line_load: LineLoad | None = None
+    pressure: Pressure | None = None
+    gap: Length | None = None
     type: Literal["slide"] = Field(default="slide", repr=False)
 
 
@@ -80,14 +110,20 @@ class Shear(_Pressed):
     force : tangential [N], less than coefficient * F_N; per length of a cylinder [N/m], on one cell of a plane
     """
 
-    displacement: NonNegative | None = None
-    force: NonNegative | None = None
-    load: Positive | None = None
-    depth: Positive | None = None
-    line_load: Positive | None = None
-    pressure: Positive | None = None
-    gap: Positive | None = None
+    load: Force | None = None
+    depth: Length | None = None
+    line_load: LineLoad | None = None
+    pressure: Pressure | None = None
+    gap: Length | None = None
+    displacement: LengthOrZero | None = None
+    force: Annotated[NonNegative, TANGENTIAL] | None = None
     type: Literal["shear"] = Field(default="shear", repr=False)
+
+    @field_validator("force", mode="before")
+    @classmethod
+    def _force_in_its_unit(cls, force, info: ValidationInfo):
+        across = info.data.get("line_load") is not None
+        return (NEWTON_PER_METRE if across else NEWTON).value(force) if isinstance(force, str) else force
 
     @model_validator(mode="after")
     def _drawn_by_one(self):
@@ -108,17 +144,24 @@ class Stage:
     load [N], depth [m], line_load [N/m] or pressure [Pa] at the end of the stage, ramped linearly from that at its
     start; absent, it is held.
     amplitude, in the same unit, and frequency [Hz], both or none: amplitude * sin(2 pi frequency t) is added from
-    the start of the stage on, for any number of periods; the next one starts from what is reached.
+    the start of the stage on, for any number of periods; the next one starts from what is reached. Written with a
+    unit it needs what presses stated in the same stage.
     """
 
-    duration: Positive
-    speed: Finite = 0.0
-    load: NonNegative | None = None
-    depth: NonNegative | None = None
-    line_load: NonNegative | None = None
-    pressure: NonNegative | None = None
-    amplitude: NonNegative | None = None
-    frequency: Positive | None = None
+    duration: Time
+    speed: Velocity = 0.0
+    load: ForceOrZero | None = None
+    depth: LengthOrZero | None = None
+    line_load: LineLoadOrZero | None = None
+    pressure: PressureOrZero | None = None
+    amplitude: Annotated[NonNegative, OF_WHAT_PRESSES] | None = None
+    frequency: Frequency | None = None
+
+    @field_validator("amplitude", mode="before")
+    @classmethod
+    def _amplitude_in_its_unit(cls, amplitude, info: ValidationInfo):
+        pressing = [unit for name, unit in PRESSES.items() if info.data.get(name) is not None]
+        return pressing[0].value(amplitude) if pressing and isinstance(amplitude, str) else amplitude
 
     @model_validator(mode="after")
     def _swings_at_a_frequency(self):
@@ -141,7 +184,8 @@ class Stage:
     @property
     def oscillation(self) -> Oscillation | None:
         """What is added to the ramp; None without an amplitude."""
-        return Oscillation(self.amplitude, self.frequency, self.duration) if self.amplitude else None
+        amplitude, frequency = self.amplitude, self.frequency
+        return Oscillation(amplitude, frequency, self.duration) if amplitude and frequency else None
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -151,6 +195,11 @@ class Program:
     One quantity is prescribed throughout, never below zero. Surfaces separate at zero load, and where the indenter
     is lifted faster than the elastomer recovers. A mean gap has no zero to start from: a Plane is pressed by its
     pressure.
+
+    >>> from scene import Program, Stage
+    >>> program = Program(stages=(Stage(duration=1.0, load=2.0), Stage(duration=3.0, speed=-0.1)))
+    >>> print(f"{program.prescribed(0.5):g} N, {program.path(3.5):g} m, {program.reverses}")
+    1 N, -0.25 m, True
     """
 
     stages: Annotated[tuple[Stage, ...], Field(min_length=1)]
@@ -192,7 +241,7 @@ class Program:
     @property
     def held(self) -> Indent:
         """The greatest load or depth held for ever."""
-        return Indent(**{self.pressed_by: self.greatest})
+        return pressed(self.pressed_by, self.greatest)
 
     @property
     def duration(self) -> float:

@@ -7,6 +7,7 @@ from typing import Any
 
 from .costs import Expected
 from .heightmap import Scanned
+from .markup import table
 from .motion import UNITS, Program
 from .scene import Scene
 
@@ -117,6 +118,24 @@ class Plan:
 
     def __str__(self) -> str:
         return "\n".join([f"{self.solver}, {self.settings}", *self._lines()])
+
+    def _repr_html_(self) -> str:
+        groups = {
+            "simulated": self.terms,
+            "method": {"": self.method},
+            "grids": dict.fromkeys(self.grids, ""),
+            "doubtful": dict.fromkeys(self.doubts, ""),
+            "kernels": {kernel.name: kernel for kernel in self.kernels},
+            "modes": {"": self.modes},
+            "steps in time": {"": self.steps or "none"},
+            f"memory, {size(self.memory)}": {array.name: array for array in self.arrays},
+            "expected": {"applications": self.applications, "seconds": self.seconds},
+            "left out": self.left_out,
+        }
+        rows = [(title, name, said) for title, group in groups.items() for name, said in group.items()]
+        # A group is named once.
+        named = [("" if k and rows[k - 1][0] == row[0] else row[0], *row[1:]) for k, row in enumerate(rows)]
+        return table(named, title=f"{self.solver}, {self.settings}")
 
     def _lines(self) -> Iterator[str]:
         yield from _table("simulated", self.terms)

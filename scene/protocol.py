@@ -1,7 +1,8 @@
 """What a solver is, and the two ways in which it may decline to answer."""
 
 from contextlib import contextmanager
-from typing import Protocol
+from dataclasses import Field
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -22,7 +23,9 @@ class EmptyContact(SolveError):
 
 
 class Solver(Protocol):
-    """A frozen settings object that answers scenes."""
+    """A frozen settings object that answers scenes: a dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     @property
     def name(self) -> str:

@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from .markup import table
 from .scene import Scene
+from .vocabulary import FIELDS, MEASURES, NUMBERS
 
 
 @dataclass(frozen=True)
@@ -42,3 +44,19 @@ class Result:
     def friction_coefficient(self) -> float:
         """mu = F_x / F_N; NaN where nothing is pressed."""
         return self.friction_force / self.normal_force if self.normal_force else float("nan")
+
+    def _repr_html_(self) -> str:
+        kind, words = self.scene.indenter.type, {**NUMBERS, **MEASURES}
+        rows = [(name, getattr(self, name), words[name].unit_under(kind), words[name].text) for name in NUMBERS]
+        rows.insert(
+            3, ("friction_coefficient", self.friction_coefficient, "1", "Friction force over normal force.")
+        )
+        for name, value in self.measures.items():
+            known = words.get(name)
+            rows.append((name, float(value), known.unit_under(kind) if known else "", known.text if known else ""))
+        for name, values in self.fields.items():
+            known = FIELDS.get(name)
+            shape = f"array {' x '.join(map(str, values.shape))}"
+            rows.append((name, shape, known.unit_under(kind) if known else "", known.text if known else ""))
+        settings = ", ".join(f"{name} = {value}" for name, value in self.settings.items())
+        return table(rows, ("name", "value", "unit", "meaning"), f"{self.solver}, {settings}")

@@ -7,18 +7,20 @@ from pydantic.dataclasses import dataclass
 
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
-from .quantities import CLOSED, NonNegative, Positive
+from .quantities import CLOSED, Compliance, ComplianceOrZero, Pressure, Time
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
 
-Values = Annotated[tuple[Positive, ...], Field(min_length=1)]
+Pressures = Annotated[tuple[Pressure, ...], Field(min_length=1)]
+Compliances = Annotated[tuple[Compliance, ...], Field(min_length=1)]
+Times = Annotated[tuple[Time, ...], Field(min_length=1)]
 
 
 @dataclass(frozen=True, config=CLOSED)
 class Elastic(Solid):
     """Elastic solid. modulus: shear modulus [Pa]."""
 
-    modulus: Positive
+    modulus: Pressure
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["elastic"] = Field(default="elastic", repr=False)
 
@@ -34,8 +36,8 @@ class Kelvin(Solid):
     relaxation_time : viscosity over modulus [s]
     """
 
-    modulus: Positive
-    relaxation_time: Positive
+    modulus: Pressure
+    relaxation_time: Time
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin"] = Field(default="kelvin", repr=False)
 
@@ -49,11 +51,16 @@ class StandardLinearSolid(Linear):
 
     rubbery_modulus, glassy_modulus : shear moduli [Pa], rubbery < glassy
     relaxation_time : of the modulus at constant strain [s]; the retardation time is longer by glassy / rubbery
+
+    >>> from scene import StandardLinearSolid
+    >>> solid = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-3)
+    >>> print(f"{solid.complex_modulus(1e3):.2e} Pa")
+    5.50e+06+4.50e+06j Pa
     """
 
-    rubbery_modulus: Positive
-    glassy_modulus: Positive
-    relaxation_time: Positive
+    rubbery_modulus: Pressure
+    glassy_modulus: Pressure
+    relaxation_time: Time
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["standard-linear-solid"] = Field(default="standard-linear-solid", repr=False)
 
@@ -78,9 +85,9 @@ class Prony(Solid):
     moduli, relaxation_times : of each Maxwell branch [Pa], [s]; one or more, equally many
     """
 
-    equilibrium_modulus: Positive
-    moduli: Values
-    relaxation_times: Values
+    equilibrium_modulus: Pressure
+    moduli: Pressures
+    relaxation_times: Times
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["prony"] = Field(default="prony", repr=False)
 
@@ -103,9 +110,9 @@ class KelvinChain(Solid):
     compliances, retardation_times : of each element [1/Pa], [s]; one or more, equally many
     """
 
-    instantaneous_compliance: NonNegative
-    compliances: Values
-    retardation_times: Values
+    instantaneous_compliance: ComplianceOrZero
+    compliances: Compliances
+    retardation_times: Times
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin-chain"] = Field(default="kelvin-chain", repr=False)
 

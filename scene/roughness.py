@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, Finite, NonNegative, Positive, Whole
+from .quantities import CLOSED, Finite, Length, LengthOrZero, Whole
 from .topography import Topography
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -21,7 +21,7 @@ def _has_wave_number(wavelength):
     return wavelength
 
 
-Wavelength = Annotated[Positive, AfterValidator(_has_wave_number)]
+Wavelength = Annotated[Length, AfterValidator(_has_wave_number)]
 
 # Enough for directions over seven decades of wave numbers, to 1e-12.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(28)
@@ -55,7 +55,7 @@ class SelfAffine:
     """
 
     hurst: Annotated[Finite, Field(ge=0, le=1)]
-    rms_height: NonNegative
+    rms_height: LengthOrZero
     longest: Wavelength
     shortest: Wavelength | None = None
     rolloff: Wavelength | None = None
@@ -129,7 +129,13 @@ class SelfAffine:
         return seen_above_lower - seen_above_upper
 
     def rms_slope(self, q_max) -> float:
-        """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m]."""
+        """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m].
+
+        >>> from scene import SelfAffine
+        >>> rough = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=1e-5, seed=1)
+        >>> round(rough.rms_slope(rough.q_max(pixel=1e-6)), 3)
+        0.029
+        """
         ratio = self._moment(3, self.q_min, q_max) / self._moment(1, self.q_min, q_max)
         return self.rms_height * self.q_rolloff * sqrt(ratio)
 
@@ -158,7 +164,7 @@ class SelfAffine:
 class Wave:
     """One wave along the sliding direction, h = amplitude cos(2 pi x / wavelength). amplitude, wavelength [m]."""
 
-    amplitude: NonNegative
+    amplitude: LengthOrZero
     wavelength: Wavelength
     type: Literal["wave"] = Field(default="wave", repr=False)
 
@@ -191,7 +197,8 @@ class Wave:
 class CrossedWaves(Wave):
     """Two crossed waves, h = amplitude cos(2 pi x / wavelength) cos(2 pi y / wavelength)."""
 
-    type: Literal["crossed-waves"] = Field(default="crossed-waves", repr=False)
+    # A name in files is of one type alone, that of a subtype another one.
+    type: Literal["crossed-waves"] = Field(default="crossed-waves", repr=False)  # type: ignore[assignment]
 
     @property
     def rms_height(self) -> float:

@@ -30,7 +30,8 @@ def elastic_contact(scene: Scene) -> ElasticContact:
         return _line_contact(shape.radius, motion.line_load, scene.solid.indentation_modulus)
     n, g = shape.exponent, shape.mdr_coefficient
     stiffness = 2 * n / (n + 1) * scene.solid.indentation_modulus * g
-    radius = (motion.depth / g) ** (1 / n) if motion.load is None else (motion.load / stiffness) ** (1 / (n + 1))
+    given = motion.greatest
+    radius = (given / g) ** (1 / n) if motion.load is None else (given / stiffness) ** (1 / (n + 1))
     depth = g * radius**n
     _check_finite(stiffness=stiffness, radius=radius, depth=depth)
     return ElasticContact(radius, depth, stiffness * radius ** (n + 1))

@@ -54,6 +54,14 @@ class Scene:
     heating : Heating; absent, friction heats nothing
 
     What is absent costs nothing: a solver looks at `parts` alone.
+
+    >>> from scene import Kelvin, Scene, Slide, Sphere
+    >>> rubber = Kelvin(modulus="1 MPa", relaxation_time="1 ms")
+    >>> scene = Scene(Sphere(radius="10 mm"), rubber, Slide(speed="0.1 m/s", load="1 N"))
+    >>> scene.indenter
+    Sphere(radius=0.01)
+    >>> list(scene.parts)
+    ['indenter', 'elastomer', 'motion']
     """
 
     indenter: Indenter

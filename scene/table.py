@@ -4,16 +4,18 @@ import re
 from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
+from typing import Annotated
 
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, Positive
+from .quantities import CLOSED, Positive, Pressure, UnitOfOthers
 
 COLUMNS = ("frequency", "storage", "loss")
 _LEAST_FREQUENCIES = 4
 _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
-Column = tuple[Positive, ...]
+Frequencies = tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...]
+Moduli = tuple[Pressure, ...]
 
 
 @dataclass(frozen=True, config=CLOSED, repr=False)
@@ -23,9 +25,9 @@ class Table:
     In any order; a frequency may stand there more than once, and then each of its rows counts.
     """
 
-    frequency: Column
-    storage: Column
-    loss: Column
+    frequency: Frequencies
+    storage: Moduli
+    loss: Moduli
 
     @model_validator(mode="after")
     def _rows(self):
@@ -66,7 +68,8 @@ def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[t
         raise ValueError(f"{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ValueError(f"{path}: not a text file in UTF-8") from error
-    heading, rows = [], []
+    heading: list[str] = []
+    rows: list[tuple[float, ...]] = []
     for number, line in enumerate(text.splitlines(), start=1):
         cells = _SEPARATOR.split(line.partition("#")[0].strip())
         if cells == [""]:

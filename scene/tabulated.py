@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .modes import Relaxation
-from .quantities import CLOSED, Finite, Positive
+from .quantities import CLOSED, Finite, Pressure
 from .table import COLUMNS, Table, columns
 from .viscoelastic import PoissonRatio, Solid
 
@@ -46,10 +46,10 @@ class Tabulated(Solid):
     leaves the modulus at rest open.
     """
 
-    table: Annotated[Table, BeforeValidator(_read_if_path)]
+    table: Annotated[Table, BeforeValidator(_read_if_path, json_schema_input_type=str | Table)]
     frequency_unit: Literal["rad/s", "Hz"]
     kind: Literal["shear", "tensile"]
-    equilibrium_modulus: Positive | None = None
+    equilibrium_modulus: Pressure | None = None
     tolerance: Annotated[Finite, Field(gt=0, lt=1)] = 0.1
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["tabulated"] = Field(default="tabulated", repr=False)

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .modes import Relaxation, Retardation
-from .quantities import CLOSED, Positive
+from .quantities import CLOSED, AbsoluteTemperature, MolarEnergy, Positive, TemperatureDifference
 from .viscoelastic import Linear
 
 GAS_CONSTANT = 8.314462618  # [J/(mol K)], CODATA 2018
@@ -50,12 +50,16 @@ class WLF(_Law):
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
     c1, c2 : constants at T_r [1], [K]; T lies above T_r - c2, where times are infinite
+
+    >>> from scene import WLF
+    >>> round(WLF(temperature=310, reference=300, c1=8.86, c2=101.6).log_shift, 4)
+    -1.828
     """
 
-    temperature: Positive
-    reference: Positive
+    temperature: AbsoluteTemperature
+    reference: AbsoluteTemperature
     c1: Positive
-    c2: Positive
+    c2: TemperatureDifference
     type: Literal["wlf"] = Field(default="wlf", repr=False)
 
     @model_validator(mode="after")
@@ -82,9 +86,9 @@ class Arrhenius(_Law):
     activation_energy : [J/mol]
     """
 
-    temperature: Positive
-    reference: Positive
-    activation_energy: Positive
+    temperature: AbsoluteTemperature
+    reference: AbsoluteTemperature
+    activation_energy: MolarEnergy
     type: Literal["arrhenius"] = Field(default="arrhenius", repr=False)
 
     _in_range = model_validator(mode="after")(_within_range)

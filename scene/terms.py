@@ -64,7 +64,7 @@ def lacking(why: str) -> Callable[[str, Any], Lacking]:
 UNKNOWN = lacking("this solver has no term for it; leave it out, or take a solver that has one")
 
 
-def terms_of(table: Table, scene: Scene) -> list[Term]:
+def terms_of(table: Table, scene: Scene) -> list[Any]:
     """The terms of the parts that are present, in the order of the scene's fields."""
     return [_line(table, type(part))(field, part) for field, part in scene.parts.items()]
 

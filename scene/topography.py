@@ -9,8 +9,8 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightmap import Scanned, by_name, levelled
-from .quantities import CLOSED, Positive, Whole
+from .heightmap import MAPPED, Scanned, levelled
+from .quantities import Length, Whole, by_name
 from .waves import MOST_WAVES, Waves
 
 # Of a quotient of lengths.
@@ -19,7 +19,7 @@ ROUNDING = 1e-12
 _KEPT = 4
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
+@dataclass(frozen=True, config=MAPPED, kw_only=True)
 class Topography(Scanned):
     """Roughness that was measured, of zero mean, around the indenter's axis.
 
@@ -38,7 +38,7 @@ class Topography(Scanned):
 
     level: Literal["mean", "tilt", "curvature"] = "tilt"
     repeat: Literal["mirror", "periodic"] = "mirror"
-    shortest_kept: Positive | None = None
+    shortest_kept: Length | None = None
     seed: Annotated[Whole, Field(ge=0)] = 0
     type: Literal["topography"] = Field(default="topography", repr=False)
 
@@ -93,8 +93,8 @@ class Topography(Scanned):
         counts = (columns - 1, rows - 1) if self.repeat == "mirror" else (columns // 2, rows // 2)
         if self.shortest_kept is None:
             return counts
-        kept = (int(side / self.shortest_kept * (1 + ROUNDING)) for side in self.sides)
-        return tuple(map(min, counts, kept))
+        along_x, along_y = (int(side / self.shortest_kept * (1 + ROUNDING)) for side in self.sides)
+        return min(counts[0], along_x), min(counts[1], along_y)
 
     @property
     def shortest(self) -> float:
@@ -161,8 +161,8 @@ def _waves(topography: Topography) -> Waves:
     if topography.crowded is not None:
         raise ValueError(f"roughness = Topography has {topography.crowded}")
     build = _mirrored if topography.repeat == "mirror" else _periodic
-    steps = (2 * pi / side for side in topography.sides)
-    waves = Waves(*steps, build(topography.relief, *topography.tops))
+    step_x, step_y = (2 * pi / side for side in topography.sides)
+    waves = Waves(step_x, step_y, build(topography.relief, *topography.tops))
     if topography.shortest_kept is None:
         return waves
     return waves.below(2 * pi / topography.shortest_kept * (1 + ROUNDING))

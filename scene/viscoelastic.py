@@ -4,7 +4,7 @@ Time convention exp(i omega t): G(omega) = G'(omega) + i G''(omega), both >= 0 f
 """
 
 from functools import lru_cache
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
@@ -20,7 +20,13 @@ class Linear:
     A solid is frozen and states `modes` in one of the two forms; the other is converted exactly, once.
     """
 
-    poisson_ratio: float
+    if TYPE_CHECKING:
+
+        @property
+        def poisson_ratio(self) -> float: ...
+
+        @property
+        def glassy_modulus(self) -> float: ...
 
     def modes(self) -> Relaxation | Retardation:
         """The one statement from which everything else is derived."""

@@ -21,6 +21,9 @@ DOORS = {
     "numba": {"bem3d/kernels.py", "mdr1d/foundation.py"},  # one a package: neither solver imports the other
     "tomllib": {"scene/reading.py"},
     "SurfaceTopography": {"scene/heightfile.py"},
+    "pint": {"scene/units.py"},
+    "h5py": {"compare/netcdf.py"},
+    "distributed": {"compare/pools/cluster.py"},
 }
 FILES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 

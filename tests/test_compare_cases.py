@@ -7,8 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from compare.__main__ import app
+from compare.asked import named_cases
 from compare.cases import read_case, shipped_cases
-from compare.run import named_cases
 from compare.study import points
 from scene import Cone, Coulomb, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
 from scene.reading import InvalidInput

@@ -10,15 +10,20 @@ import time
 
 import pytest
 from test_compare_cases import SCENE
+from typer.testing import CliRunner
+
+from compare.__main__ import app
+from compare.jobs import asking
+from compare.library import ready
 
 TINY = (
     SCENE
     + """
 [study]
 speeds = [0.1, 1.0]
-pressing = [0.5, 1.0, 2.0, 4.0]
-load_speeds = [0.1, 0.3]
-depths = [0.5, 1.0]
+pressing = [0.5, 2.0]
+load_speeds = [0.1]
+depths = [1.0]
 surfaces = 2
 profiles = 2
 [bem]
@@ -48,6 +53,35 @@ def study(presses):
 
 if __name__ == "__main__":
     STUDIES.update(collapse=study((5.0, 10.0)), hurst=study((5.0, 10.0, 20.0)))
+    main()
+"""
+# The paper at fewer speeds, loads and parameters.
+PAPER = """
+from compare.paper import parameters
+
+parameters.SPEEDS, parameters.FORCES = parameters.SPEEDS[::5], parameters.FORCES[::5]
+
+from compare.__main__ import main
+from compare.paper.campaign import Campaign
+from compare.paper.reproduction import Size
+
+Size.of = classmethod(lambda cls, profiles: cls(Campaign(4, parameters.HURST[:3], profiles), profiles, profiles))
+if __name__ == "__main__":
+    main()
+"""
+# Solvers with a fault.
+FAULTY = """
+from bem3d import BEM
+from compare.__main__ import main
+from mdr1d import MDR
+
+
+def solve(solver, scene):
+    raise ZeroDivisionError("a fault")
+
+
+BEM.solve = MDR.solve = solve
+if __name__ == "__main__":
     main()
 """
 # A machine under load starts processes slowly.
@@ -94,14 +128,14 @@ def folder(tmp_path):
 def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     process = start(folder, "run", "tiny.toml", "--workers", "1")
     solved = folder / "crosscheck-report" / "solved"
-    wait_for(lambda: len(list(solved.glob("*.json"))) >= 3)
+    wait_for(lambda: len(list(solved.glob("*.nc"))) >= 3)
     # As from a keyboard: every process of the run gets it.
     os.killpg(process.pid, signal.SIGINT)
     status, _, complained = finish(process)
     assert status == 130
     assert "resumes" in complained
     assert "Traceback" not in complained
-    kept = len(list(solved.glob("*.json")))
+    kept = len(list(solved.glob("*.nc")))
 
     status, said, complained = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
     assert (status, complained) == (0, "")
@@ -111,13 +145,16 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert str(folder / "crosscheck-report" / "report.html") in said
     assert "tends to 2" in said
     assert "1D / 3D friction at the scene's own point" in said
-    assert (folder / "crosscheck-report" / "tiny" / "collapse.pdf").exists()
+    assert (folder / "crosscheck-report" / "tiny" / "friction-speed.pdf").exists()
     manifest = json.loads((folder / "crosscheck-report" / "manifest.json").read_text())
     assert manifest["tasks"] == {"solved": now, "reused": reused}
 
 
 def test_the_paper_is_simulated_and_judged(folder):
-    status, said, complained = finish(start(folder, "paper", "--profiles", "3", "--workers", "2"))
+    (folder / "smaller.py").write_text(PAPER)
+    smaller = {"program": ("smaller.py",)}
+    asked = start(folder, "paper", "--profiles", "3", "--workers", "2", **smaller)
+    status, said, complained = finish(asked)
     assert (status, complained) == (0, "")
     assert "Eq. 17" in said
     page = folder / "crosscheck-paper" / "paper.html"
@@ -126,9 +163,20 @@ def test_the_paper_is_simulated_and_judged(folder):
     manifest = json.loads((folder / "crosscheck-paper" / "manifest.json").read_text())
     assert {claim["verdict"] for claim in manifest["claims"]} <= {"holds", "fails", "undecided"}
     text = page.read_text()
-    assert all(f'id="{claim["figure"]}"' in text for claim in manifest["claims"])
+    places = set(re.findall(r'id="([^"]*)"', text))
+    assert {f"figure-{claim['figure'].replace('.', '-')}" for claim in manifest["claims"]} <= places
+    assert set(re.findall(r'href="#([^"]+)"', text)) <= places
     assert "seeds in the manifest" not in text  # it has none
     assert re.search(r"pydantic [\d.]+\. ", text)
+    status, said, complained = finish(
+        start(folder, "figures", "crosscheck-paper", "--journal", "nature", **smaller)
+    )
+    assert (status, complained) == (0, "")
+    assert "paper-law" in said
+    drawn = folder / "crosscheck-paper" / "figures"
+    assert {path.name for path in drawn.glob("*.pdf")} == {
+        path.name for path in (folder / "crosscheck-paper").glob("*.pdf")
+    }
 
 
 def test_a_users_table_is_shifted(folder):
@@ -146,6 +194,45 @@ def test_a_users_table_is_shifted(folder):
     assert "ball.csv, line 1: 2 columns" in complained
 
 
+def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(folder):
+    (folder / "faulty.py").write_text(FAULTY)
+    status, said, complained = finish(start(folder, "run", "tiny.toml", program=("faulty.py",)))
+    assert status == 1
+    broke, of = map(int, re.search(r"(\d+) tasks of (\d+) broke", complained).groups())
+    traces = list((folder / "crosscheck-report" / "solved").glob("*.fault.txt"))
+    assert len(traces) == broke <= of
+    assert "ZeroDivisionError: a fault" in complained
+    assert str(traces[0].parent) in complained
+    assert "Traceback" not in complained
+    assert said.index("tasks solved") < said.index("Writing the report")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "two-shapes"], "is a ready study, and no scene: crosscheck study two-shapes"),
+        (["run", "study.toml"], "is a study, and no scene: crosscheck study study.toml"),
+        (["study", "hertz"], "is a ready scene, and no study: crosscheck run hertz"),
+        (["study", "scene.toml"], "is a scene, and no study: crosscheck run scene.toml"),
+        (["run", "."], "is a folder, and no scene"),
+        (["run", "scene.toml", "--output", "scene.toml"], "scene.toml: is a file, and no folder"),
+        (["run", "thin-layer"], "crosscheck plan says what each solver makes of it"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_what_is_asked_of_the_wrong_command_is_told_of_the_right_one(tmp_path, monkeypatch, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.toml").write_text(ready()["quick-start"].text)
+    (tmp_path / "study.toml").write_text(ready()["two-shapes"].text)
+    answer = ask(*arguments)
+    assert (answer.exit_code, "Traceback" in answer.output) == (2, False)
+    assert message in answer.stderr
+
+
+def test_a_ready_study_is_found_by_its_name():
+    assert asking.study("two-shapes", "quick").study.title == "Two shapes of one roughness"
+
+
 def counts(said):
     return tuple(map(int, re.search(r"(\d+) tasks solved, (\d+) reused", said).groups()))
 
@@ -155,11 +242,11 @@ def test_an_interrupted_study_resumes_and_another_shares_what_is_solved(folder):
     ask = {"program": ("studies.py", "study")}
     process = start(folder, "collapse", "--workers", "1", **ask)
     solved = folder / "crosscheck-study" / "solved"
-    wait_for(lambda: len(list(solved.glob("*.json"))) >= 3)
+    wait_for(lambda: len(list(solved.glob("*.nc"))) >= 3)
     process.send_signal(signal.SIGTERM)
     status, _, complained = finish(process)
     assert (status, "resumes" in complained, "Traceback" in complained) == (130, True, False)
-    kept = sorted(solved.glob("*.json"))
+    kept = sorted(solved.glob("*.nc"))
     kept[0].write_text("{")
 
     status, said, complained = finish(start(folder, "collapse", "--workers", "2", **ask))
@@ -190,7 +277,7 @@ def test_studies_are_listed_and_mistakes_are_said_before_anything_is_solved(fold
     (folder / "file").touch()
     for arguments, message in (
         (["collaps"], "NAME = collaps: allowed are collapse, "),
-        (["collapse", "--size", "big"], "--size = big: allowed are quick, "),
+        (["collapse", "--size", "big"], "size = big: allowed are quick, "),
         (["collapse", "--output", "file"], "crosscheck: --output file: "),
     ):
         status, said, complained = finish(start(folder, "study", *arguments))
@@ -208,8 +295,8 @@ def test_what_accuracy_costs_is_listed_and_mistakes_are_said_before_anything_is_
         assert re.search(rf"^{name} +[A-Z]", said, re.MULTILINE)
     for arguments, message in (
         (["workprecision", "model"], "NAME = model: allowed are models, "),
-        (["workprecision", "models", "--size", "large"], "--size = large: allowed are quick, full"),
-        (["stability", "--size", "full"], "--size = full: allowed are small, large"),
+        (["workprecision", "models", "--size", "large"], "size = large: allowed are quick, full"),
+        (["stability", "--size", "full"], "size = full: allowed are small, large"),
     ):
         status, said, complained = finish(start(folder, *arguments))
         assert (status, said) == (2, "")
@@ -221,18 +308,83 @@ def test_what_accuracy_costs_is_listed_and_mistakes_are_said_before_anything_is_
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")
-    wait_for(lambda: any((folder / "crosscheck-report" / "solved").glob("*.json")))
+    wait_for(lambda: any((folder / "crosscheck-report" / "solved").glob("*.nc")))
     process.send_signal(number)
     # The output ends when the last process that holds it has ended.
     assert finish(process)[0] == status
 
 
-def test_help_and_version_are_quick_and_load_nothing_heavy(folder):
-    code = "import sys, compare.__main__; print({'numpy', 'scipy', 'matplotlib'} & set(sys.modules))"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout.strip() == "set()"
-    status, said, _ = finish(start(folder, "--version"))
-    assert status == 0
-    assert re.fullmatch(r"\d+\.\d+\.\d+\n", said)
-    status, said, _ = finish(start(folder, "--help"))
-    assert status == 0
-    assert "run" in said
+def ask(*arguments):
+    """In this process, for what solves nothing."""
+    return CliRunner().invoke(app, list(map(str, arguments)))
+
+
+def test_ready_scenes_and_studies_are_listed_copied_and_never_overwrite(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    listed = ask("list")
+    assert listed.exit_code == 0
+    for name in ready():
+        assert re.search(rf"^{name} +[A-Z]", listed.output, re.MULTILINE)
+    copied = ask("new", "quick-start")
+    assert copied.exit_code == 0
+    assert "crosscheck run quick-start.toml" in copied.output
+    assert (tmp_path / "quick-start.toml").read_text() == ready()["quick-start"].text
+    (tmp_path / "quick-start.toml").write_text("mine")
+    again = ask("new", "quick-start")
+    assert again.exit_code == 2
+    assert "is there already, and nothing is overwritten" in again.stderr
+    assert (tmp_path / "quick-start.toml").read_text() == "mine"
+    unknown = ask("new", "quick-strat")
+    assert unknown.exit_code == 2
+    assert unknown.stderr.strip().endswith("did you mean quick-start?")
+
+
+@pytest.mark.parametrize("kind", ["scene", "study"])
+def test_the_schema_is_printed_or_written(tmp_path, kind):
+    printed = ask("schema", kind)
+    assert printed.exit_code == 0
+    path = tmp_path / "schema.json"
+    assert ask("schema", kind, "--output", path).exit_code == 0
+    assert json.loads(path.read_text()) == json.loads(printed.output)
+    assert "$schema" in json.loads(printed.output)
+    assert ask("schema", "scenes").exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "nowhere.toml"], "nowhere.toml: no such file, and no ready scene"),
+        (["plan", "quick-strat"], "did you mean quick-start?"),
+        (["study", "colapse"], "NAME = colapse: allowed are collapse, "),
+        (["study", "mine.toml"], "mine.toml: "),
+        (["figures", "nowhere"], "nowhere: no such folder"),
+        (["figures", "."], "no manifest.json here"),
+        (["export", ".", "--to", "word"], "--to = word: allowed are csv, latex"),
+        (["export", "nowhere"], "nowhere"),
+        (["mastercurve", "nowhere.csv"], "nowhere.csv"),
+        (["topography", "nowhere.npy"], "nowhere.npy"),
+        (["regress", "--baseline", "nowhere.toml"], "nowhere.toml"),
+        (["animate", "nowhere.toml"], "nowhere.toml"),
+        (["animate", "quick-start", "--output", "film.avi"], "film.avi"),
+        (["run", "quick-start", "--output", "mine.toml"], "--output mine.toml: "),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_a_mistake_is_one_clear_line_and_status_2(tmp_path, monkeypatch, arguments, message):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text('titel = "a mistake"\n')
+    answer = ask(*arguments)
+    assert answer.exit_code == 2, answer.exception
+    assert message in answer.stderr
+    assert "Traceback" not in answer.output
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.toml"]
+
+
+def test_a_fault_keeps_its_traceback(monkeypatch):
+    def broken():
+        raise ValueError("a fault")
+
+    monkeypatch.setattr("compare.library.ready", broken)
+    answer = ask("new", "quick-start")
+    assert isinstance(answer.exception, ValueError)
+    assert answer.exit_code == 1

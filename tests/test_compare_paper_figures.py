@@ -284,7 +284,9 @@ def test_the_sketch_is_the_closed_form_of_a_kelvin_solid():
     assert (u + memory * slope)[inside].min() > 0
     assert m * paper_sketch.TRAILING + memory * m == pytest.approx(1, rel=ROUNDING)
     assert u[x < paper_sketch.LEADING] == pytest.approx(0, abs=0)
-    plates = [line for line in right.lines if line.get_linewidth() == 1.8]
+    plates = [
+        line for line in right.lines if line.get_linewidth() == pytest.approx(1.6 * style.LINES["lines.linewidth"])
+    ]
     tops = np.array([-line.get_ydata()[0] for line in plates])
     np.testing.assert_allclose(tops, paper_sketch.displacement(paper_sketch.ELEMENTS), rtol=ROUNDING)
 

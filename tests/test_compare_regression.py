@@ -12,7 +12,7 @@ from test_compare_sweep import loads
 from typer.testing import CliRunner
 
 import compare.__main__ as command
-from compare import accuracy
+from compare import accuracy, console
 from compare.outcome import Outcome, Row
 from compare.quantity import LEAST, Quantity
 from compare.regression import (
@@ -230,7 +230,7 @@ def test_a_test_of_ones_own_passes_until_something_moves(tmp_path):
 @pytest.fixture
 def regress(tmp_path, monkeypatch):
     """The command on a collection of its own: status and what it says."""
-    monkeypatch.setattr(command, "_interrupt_on", lambda *names: None)
+    monkeypatch.setattr(console, "interrupt_on", lambda *names: None)
     path, folder = tmp_path / "baseline.toml", tmp_path / "out"
 
     def run(quantities, *arguments):

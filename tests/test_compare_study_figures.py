@@ -392,11 +392,13 @@ def test_effects_stand_at_their_tolerances_and_beyond_the_end_as_arrows(whole):
     found = marks(axes)
     inside = [one for one in findings() if abs(one.effect) <= study_effects.END]
     for one in inside:
-        colour = study_effects.LOOK[one.dimension]["color"]
+        with style.applied():
+            colour = style.COLOUR[study_effects.SOLVER[one.dimension]]
         assert any(abs(x - one.effect) < 1e-9 and c == colour for x, _, c, _, _ in found)
     assert [x for x, _, _, marker, _ in found if marker == ">"] == [study_effects.END]
-    thick = [line for line in axes.lines if line.get_linewidth() == 2.2]
-    thin = [line for line in axes.lines if line.get_linewidth() == 0.7 and len(line.get_xdata()) == 2]
+    with style.applied():
+        widths = [style.width(times) for times in (2.0, 0.65)]
+    thick, thin = ([line for line in axes.lines if line.get_linewidth() == width] for width in widths)
     known = [one for one in findings() if np.isfinite(one.value)]
     assert len(thick) == len(known)
     assert len(thin) == len(known) - 1  # one has no error of discretisation

@@ -34,15 +34,18 @@ class Page(HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.ids, self.links, self.images, self.text, self.open = [], [], [], "", []
+        self.ids, self.links, self.saved, self.images, self.text, self.open = [], [], [], [], "", []
         self.feed(text)
         self.close()
 
     def handle_starttag(self, tag, attributes):
-        assert tag not in ("script", "link", "iframe")
+        assert tag not in ("link", "iframe")
         found = dict(attributes)
         self.ids += [found["id"]] if "id" in found else []
-        self.links += [found["href"]] if "href" in found else []
+        if "download" in found:
+            self.saved.append(found["href"])
+        elif "href" in found:
+            self.links.append(found["href"])
         self.images += [found["src"]] if "src" in found else []
         if tag not in ("meta", "img", "br"):
             self.open.append(tag)
@@ -51,7 +54,7 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data):
-        if "style" not in self.open:
+        if not {"style", "script"} & set(self.open):
             self.text += data
 
     @property
@@ -86,25 +89,27 @@ def page(folder):
     return Page((folder / "study.html").read_text(encoding="utf-8"))
 
 
-def test_no_link_leads_nowhere(folder, page):
+def test_no_link_leads_nowhere_and_every_file_is_inside(folder, page):
     assert len(page.ids) == len(set(page.ids))
-    anchors = [link[1:] for link in page.links if link.startswith("#")]
-    files = [link for link in page.links if not link.startswith("#")]
-    assert set(anchors) <= set(page.ids)
-    assert {"the-sphere-study-levels", "rest-study-depth"} <= set(anchors)
-    for link in files:
-        assert (folder / unquote(link)).is_file(), link
-    assert {"findings.csv", "manifest.json", "the-sphere/points.csv", "the-sphere/failed.csv"} <= set(files)
-    assert not any(":" in link for link in page.links)
+    assert {link[1:] for link in page.links} <= set(page.ids)
+    assert all(link.startswith("#") for link in page.links)
+    assert {"figure-the-sphere-study-levels", "figure-rest-study-depth"} <= {link[1:] for link in page.links} | {
+        each for each in page.ids if each.startswith("figure-rest")
+    }
+    inside = {unquote(link.removeprefix("data:text/csv;charset=utf-8,")) for link in page.saved}
+    beside = {path.read_text(encoding="utf-8") for path in folder.rglob("*.csv")}
+    assert inside == beside
 
 
-def test_a_finding_links_to_its_figure_and_its_numbers(page):
+def test_a_finding_links_to_its_row_its_figure_and_its_numbers(whole, page):
     links = Counter(page.links)
     levels = sum(each.figure == "study-levels" for each in findings())
-    # at rest no such figure is drawn: its findings lead to the table of all
-    assert links["#the-sphere-study-levels"] == links["the-sphere/study-levels.csv"] - 1 == levels
-    assert "rest/study-levels.csv" not in links
-    assert links["findings.csv"] > 1
+    # at rest no such figure is drawn: its findings lead to the table of its points
+    assert links["#figure-the-sphere-study-levels"] == levels
+    assert links["#data-the-sphere-study-levels"] == levels + 1
+    assert "#data-rest-study-levels" not in links
+    every = len(tableau.every(whole))
+    assert all(links[f"#data-findings.{row}"] == 1 for row in range(1, every + 1))
 
 
 def test_every_claim_stands_with_its_verdict_and_both_errors(whole, page):
@@ -122,9 +127,11 @@ def test_every_claim_stands_with_its_verdict_and_both_errors(whole, page):
             for each in column.findings
         }
     )
-    found = sum(page.text.count(f"{verdict} (CSV)") for verdict in tableau.VERDICTS)
-    assert found == len(tableau.every(whole))
-    assert sum(page.words.count(f" {verdict} {n} of ") for verdict in tableau.VERDICTS for n in (1, 2)) == groups
+    found = sum(page.words.count(f"{verdict} (data)") for verdict in tableau.VERDICTS)
+    # that of all series has no figure, and points are those of a series
+    assert "figure-study-family" not in page.ids
+    assert found == len(tableau.every(whole)) - len(whole.findings)
+    assert sum(page.words.count(f"{verdict} {n} of ") for verdict in tableau.VERDICTS for n in (1, 2)) == groups
 
 
 def test_the_number_of_verdicts_is_counted_and_what_chance_makes_of_it(whole, page):
@@ -135,7 +142,7 @@ def test_the_number_of_verdicts_is_counted_and_what_chance_makes_of_it(whole, pa
 
 
 def test_titles_and_reasons_are_text_never_markup(folder, page):
-    assert page.words.startswith("A <question> & more? A <question> & more? About.")
+    assert page.words.startswith("A <question> & more? Skip to the summary A <question> & more? About.")
     for said in (TITLE, "A note & a half.", "it would not <converge>", "nothing known <b>", "no <overlap>"):
         assert said in page.words
     assert "<converge>" not in (folder / "study.html").read_text(encoding="utf-8")
@@ -158,12 +165,11 @@ def test_the_page_says_where_the_points_of_each_dimensionality_lie(whole, page):
 
 def test_images_are_inside_and_beside(folder, page):
     assert len(page.images) > 5
-    files = [path.read_bytes() for path in folder.rglob("*.png")]
-    assert len(files) == len(page.images)
-    for image in page.images:
-        head, content = image.split(",", 1)
-        assert head == "data:image/png;base64"
-        assert base64.b64decode(content) in files
+    shapes = sorted(path.read_bytes()[16:24] for path in folder.rglob("*.png"))
+    inside = [image.split(",", 1) for image in page.images]
+    assert {head for head, _ in inside} == {"data:image/png;base64"}
+    # the same pictures with fewer colours: of the same width and height
+    assert sorted(base64.b64decode(content)[16:24] for _, content in inside) == shapes
 
 
 def rows(path):
@@ -219,7 +225,7 @@ def test_one_series_alone_links_verdicts_without_counting_series(tmp_path):
     data = study(replace(resting(), findings=findings()[:1]))
     page = Page(report.write_study(tmp_path, data, SWEPT).read_text(encoding="utf-8"))
     assert "holds 1 of 1" not in page.words
-    assert "#rest" in page.links
+    assert "#series-rest" in page.links
     assert "All series together" in page.words  # the figure of verdicts
 
 

@@ -1,16 +1,26 @@
 """Tasks are solved once, in parallel, and one that fails takes no other with it."""
 
+import io
 import os
 import signal
+import subprocess
+import sys
+import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from pydantic.dataclasses import dataclass
 
+from compare.outcome import Outcome, Row
+from compare.pools.local import ONE_THREAD, STILLBORN, Local
+from compare.progress import Bar, Lines, duration, watch
+from compare.sharing import Sharing
 from compare.store import Store
 from compare.study import Task
-from compare.sweep import ONE_THREAD, sweep
+from compare.sweep import TRIES, sweep
+from compare.timeleft import TimeLeft
 from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
@@ -18,10 +28,17 @@ SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), In
 
 @dataclass(frozen=True)
 class Stand:
-    """Answers at once; gives up above a load, and breaks above a higher one."""
+    """Answers at once, leaving a mark; gives up above a load, breaks above a higher one, dies above the highest.
+
+    dies : how often a worker dies of it; it answers then
+    """
 
     gives_up_above: float = 100.0
     breaks_above: float = 1000.0
+    dies_above: float = 10000.0
+    dies: int = 99
+    marks: str = ""
+    seconds: float = 0.0
     name: str = "stand"
 
     def refusals(self, scene):
@@ -29,6 +46,13 @@ class Stand:
 
     def solve(self, scene):
         load = scene.motion.load
+        time.sleep(self.seconds)
+        if self.marks:
+            Path(self.marks, f"{load:g}-{time.monotonic_ns()}-{os.getpid()}").touch()
+        if load > self.dies_above and len(list(Path(self.marks).glob(f"{load:g}-*"))) <= self.dies:
+            os.kill(os.getpid(), signal.SIGKILL)
+        if load > self.dies_above:
+            load = self.gives_up_above
         if load > self.breaks_above:
             raise ZeroDivisionError("a fault in the solver")
         if load > self.gives_up_above:
@@ -44,19 +68,26 @@ def loads(*values, solver=None):
 
 class Heard:
     def __init__(self):
-        self.said = []
+        self.said_lines = []
+        self.heard = []
 
-    def planned(self, tasks):
-        self.said.append(("planned", [task.work for task in tasks]))
+    def planned(self, tasks, reused):
+        self.heard.append(("planned", [task.work for task in tasks], reused))
 
     def started(self, task):
-        self.said.append(("started", task.work))
+        self.heard.append(("started", task.work))
 
     def finished(self, task, outcome):
-        self.said.append(("finished", task.work))
+        self.heard.append(("finished", task.work))
+
+    def found(self, task):
+        self.heard.append(("found", task.work))
+
+    def said(self, line):
+        self.said_lines.append(line)
 
     def interrupted(self):
-        self.said.append(("interrupted", None))
+        self.heard.append(("interrupted", None))
 
 
 def test_what_the_store_has_is_not_solved_again(tmp_path):
@@ -86,14 +117,177 @@ def test_a_failed_solve_is_a_row_of_nan_with_its_reason_and_the_rest_go_on(tmp_p
     assert (again.solved, again.reused) == (0, 3)
 
 
-def test_a_fault_is_raised_and_what_was_finished_stays(tmp_path):
-    with pytest.raises(ZeroDivisionError, match="a fault in the solver"):
-        sweep(loads(5.0, 4.0, 3.0, solver=Stand(breaks_above=3.5)), Store(tmp_path), workers=1)
-    with pytest.raises(ZeroDivisionError):
-        sweep([*loads(5.0), *loads(2000.0, 1.0)], Store(tmp_path), workers=1)
-    assert Store(tmp_path).get(loads(5.0)[0]) is None
-    sweep(loads(5.0), Store(tmp_path), workers=1)
-    assert Store(tmp_path).get(loads(5.0)[0]) is not None
+def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_it_again(tmp_path):
+    tasks = loads(2000.0, 5.0, 1.0)
+    heard = Heard()
+    swept = sweep(tasks, Store(tmp_path), workers=1, progress=heard)
+    (broken,) = swept.outcomes[tasks[0]].rows
+    assert broken.reason == "ZeroDivisionError: a fault in the solver"
+    assert np.isnan(broken.normal_force)
+    assert swept.faults == {tasks[0]: broken.reason}
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [5.0, 1.0]
+    assert len(heard.heard) == 1 + 2 * len(tasks)
+    (note,) = tmp_path.glob("*.fault.txt")
+    text = note.read_text()
+    assert tasks[0].label in text
+    assert "Traceback" in text
+    assert text.endswith("\nZeroDivisionError: a fault in the solver\n")
+    again = sweep(tasks, Store(tmp_path), workers=1)
+    assert (again.solved, again.reused, list(again.faults)) == (1, 2, tasks[:1])
+
+
+def test_a_mended_task_takes_the_note_of_its_fault_away(tmp_path, monkeypatch):
+    (task,) = loads(20000.0, solver=Stand(marks=str(tmp_path), dies=TRIES))
+    assert task in sweep([task], Store(tmp_path / "solved"), workers=1).faults
+    assert len(list((tmp_path / "solved").glob("*.fault.txt"))) == 1
+    swept = sweep([task], Store(tmp_path / "solved"), workers=1)
+    assert (swept.solved, swept.faults) == (1, {})
+    assert not list((tmp_path / "solved").glob("*.fault.txt"))
+
+
+@dataclass(frozen=True)
+class Odd:
+    """A task of one load that goes wrong in its own way."""
+
+    way: str
+    work: float = 1.0
+    label: str = "odd"
+    keeps_fields: bool = False
+    packages: tuple[str, ...] = ("scene",)
+
+    @property
+    def question(self):
+        return {"odd": self.way}
+
+    def __reduce__(self):
+        if self.way == "cannot be sent":
+            raise TypeError("cannot pickle it")
+        return type(self), (self.way,)
+
+    def solve(self):
+        if self.way == "memory":
+            raise MemoryError
+        if self.way == "leaves":
+            sys.exit(3)
+        if self.way == "cannot come back":
+            return Outcome((Row(settings={"what": lambda: None}),))
+        return Outcome(() if self.way == "not whole" else (Row(1.0),))
+
+    def failed(self, reason):
+        return Outcome((Row(reason=reason),))
+
+    def fits(self, outcome):
+        return len(outcome.rows) == 1
+
+
+def test_a_task_may_fail_in_any_way(tmp_path):
+    ways = {
+        "memory": "MemoryError",
+        "leaves": "SystemExit: 3",
+        "cannot be sent": "TypeError: cannot pickle it",
+        "cannot come back": "Can't pickle",
+        "not whole": "ValueError: what it gave is not whole: 0 rows, fields []",
+    }
+    tasks = [Odd(way) for way in (*ways, "none")]
+    swept = sweep(tasks, Store(tmp_path), workers=1)
+    for task, reason in zip(tasks, ways.values(), strict=False):
+        assert reason in swept.faults[task]
+        assert swept.outcomes[task].rows[0].reason == swept.faults[task]
+    assert swept.outcomes[tasks[-1]].rows[0].reason is None
+    assert (len(swept.faults), Store(tmp_path).get(tasks[-1]) is not None) == (len(ways), True)
+
+
+@pytest.mark.parametrize("deaths", [1, TRIES])
+def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_handed_out_again(tmp_path, deaths):
+    solver = Stand(marks=str(tmp_path), dies=deaths, seconds=0.1)
+    tasks = loads(20000.0, 4.0, 3.0, 2.0, 1.0, solver=solver)
+    heard = Heard()
+    swept = sweep(tasks, Store(tmp_path / "solved"), workers=2, progress=heard)
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [4.0, 3.0, 2.0, 1.0]
+    assert all(len(list(tmp_path.glob(f"{load}-*"))) == 1 for load in (4, 3, 2, 1))
+    assert len(list(tmp_path.glob("20000-*"))) == min(deaths + 1, TRIES)
+    assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
+    assert len(heard.said_lines) == min(deaths, TRIES - 1)
+    assert "SIGKILL" in heard.said_lines[0]
+    (row,) = swept.outcomes[tasks[0]].rows
+    if deaths < TRIES:
+        assert row.normal_force == 100.0
+    else:
+        assert row.reason == "handed out 3 times; its worker ended by SIGKILL, as when memory runs out"
+        assert swept.faults == {tasks[0]: row.reason}
+
+
+def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypatch):
+    monkeypatch.setattr("compare.pools.local._work", id)  # what a worker does fails
+    started = []
+    start = Local._start
+    monkeypatch.setattr(Local, "_start", lambda self: started.append(0) or start(self))
+    with pytest.raises(ChildProcessError, match="3 worker processes ended as they started, the last by status 1"):
+        sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
+    assert len(started) == STILLBORN
+
+
+TWIN = """
+import sys
+from pathlib import Path
+from test_compare_sweep import Stand, loads
+from compare.store import Store
+from compare.sweep import sweep
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(folder), seconds=0.05))
+    swept = sweep(tasks, Store(folder / "solved"), workers=1)
+    print(swept.solved, swept.reused, *(swept.outcomes[task].rows[0].normal_force for task in tasks))
+"""
+
+
+def test_two_sweeps_at_once_share_the_work(tmp_path):
+    (tmp_path / "twin.py").write_text(TWIN)
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
+    command = [sys.executable, str(tmp_path / "twin.py"), str(tmp_path)]
+    both = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) for _ in range(2)]
+    said = [list(map(float, process.communicate(timeout=120)[0].split())) for process in both]
+    (solved, reused, *first), (solved_too, reused_too, *second) = said
+    assert first == second == [float(load) for load in range(1, 13)]
+    assert solved + solved_too == 12
+    assert solved + reused == solved_too + reused_too == 12
+    assert len(list(tmp_path.glob("*-*"))) == 12  # a mark a solve
+
+
+def test_what_another_sweep_stores_meanwhile_is_not_solved_again(tmp_path):
+    store = Store(tmp_path)
+
+    class Helped(Heard):
+        """Somebody else solves the shortest while the longest is under way."""
+
+        def started(self, task):
+            super().started(task)
+            if task.work == 3.0:
+                store.put(loads(1.0)[0], Outcome((Row(77.0),)))
+
+    heard = Helped()
+    swept = sweep(loads(1.0, 3.0, 2.0), store, workers=1, progress=heard)
+    assert (swept.solved, swept.reused) == (2, 1)
+    assert heard.heard[-1] == ("found", 1.0)
+    assert swept.outcomes[loads(1.0)[0]].rows[0].normal_force == 77.0
+
+
+def test_what_is_taken_is_given_back_when_its_process_ends(tmp_path):
+    code = (
+        "import sys; from pathlib import Path; from compare.sharing import Sharing; "
+        "s = Sharing(Path(sys.argv[1])); s.__enter__(); print(s.take('a'), flush=True); sys.stdin.read()"
+    )
+    other = subprocess.Popen(
+        [sys.executable, "-c", code, str(tmp_path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    with other, Sharing(tmp_path) as sharing:
+        assert other.stdout.readline() == "True\n"
+        assert not sharing.take("a")
+        assert sharing.take("b")
+        other.kill()
+        other.wait()
+        assert sharing.take("a")
 
 
 def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, monkeypatch):
@@ -111,7 +305,7 @@ def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
     heard = Heard()
     sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
     steps = [(step, work) for work in (3.0, 2.0, 1.0) for step in ("started", "finished")]
-    assert heard.said == [("planned", [3.0, 2.0, 1.0]), *steps]
+    assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
 
 
 def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path):
@@ -123,7 +317,7 @@ def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path)
     heard = Impatient()
     with pytest.raises(KeyboardInterrupt):
         sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
-    assert heard.said[1:] == [("started", 3.0), ("finished", 3.0)]
+    assert heard.heard[1:] == [("started", 3.0), ("finished", 3.0)]
     again = sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1)
     assert (again.solved, again.reused) == (2, 1)
 
@@ -158,8 +352,8 @@ def test_one_interrupt_waits_for_what_is_under_way_and_two_do_not(tmp_path, pres
     heard = Impatient()
     with pytest.raises(KeyboardInterrupt):
         sweep(loads(1.0, 2.0), Store(tmp_path), workers=1, progress=heard)
-    assert len(list(tmp_path.iterdir())) == stored
-    assert [work for step, work in heard.said if step == "started"] == [2.0]
+    assert sum(Store(tmp_path).get(task) is not None for task in loads(1.0, 2.0)) == stored
+    assert [work for step, work, *_ in heard.heard if step == "started"] == [2.0]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
@@ -167,3 +361,125 @@ def test_a_task_keeps_the_fields_of_its_first_scene_only():
     scenes = tuple(replace(SCENE, motion=Indent(load=load)) for load in (3.0, 4.0))
     assert Task(Stand(), scenes, keeps_fields=True).solve().fields == {"x": [3.0]}
     assert Task(Stand(), scenes).solve().fields == {}
+
+
+class Clock:
+    """Seconds that pass when they are told to."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def play(tasks, seconds_of, workers, clock, left):
+    """Tasks solved by workers in the time that each takes; when each ended, and how long was left then."""
+    queue, running, told = list(tasks), {}, []
+    while queue or running:
+        while queue and len(running) < workers:
+            task = queue.pop(0)
+            running[task] = clock.now + seconds_of(task)
+            left.started(task)
+        task = min(running, key=running.get)
+        clock.now = running.pop(task)
+        left.finished(task)
+        told.append((clock.now, left.seconds()))
+    return told
+
+
+def test_the_time_left_is_known_once_something_has_ended_however_unequal_the_tasks():
+    # A tenth: of the whole, between the sum of the rest shared evenly, and how the last tasks really fall.
+    tasks = loads(*(1.5**k for k in range(20, 0, -1)))
+    for workers in (1, 2, 4):
+        clock = Clock()
+        left = TimeLeft(tasks, clock)
+        assert left.seconds() is None
+        told = play(tasks, lambda task: 3 * task.work, workers, clock, left)
+        assert max(abs(now + seconds - clock.now) for now, seconds in told) < 0.1 * clock.now
+        assert told[-1] == (clock.now, 0.0)
+
+
+def test_the_time_left_knows_that_kinds_of_tasks_take_different_times_for_the_same_work():
+    slow, quick = loads(8.0, 4.0), loads(6.0, 5.0, solver=Stand(name="quick"))
+    clock = Clock()
+    left = TimeLeft([*slow, *quick], clock)
+    for task, seconds in ((slow[0], 80.0), (quick[0], 6.0)):
+        left.started(task)
+        clock.now += seconds
+        left.finished(task)
+    assert left.seconds() == pytest.approx(4.0 * 10 + 5.0 * 1)
+    left.started(slow[1])
+    clock.now += 30.0
+    assert left.seconds() == pytest.approx(10.0 + 5.0)
+    clock.now += 30.0  # longer than expected: it is about to end
+    assert left.seconds() == pytest.approx(5.0)
+    left.found(quick[1])
+    assert left.seconds() == 0.0
+
+
+def test_many_workers_do_not_make_the_longest_task_shorter():
+    tasks = loads(1.0, 100.0, 1.0001, 1.0002)
+    clock = Clock()
+    left = TimeLeft(tasks, clock)
+    for task in tasks[:3]:
+        left.started(task)
+    clock.now = 2.0
+    left.finished(tasks[0])
+    assert left.seconds() == pytest.approx(198.0)
+
+
+def lines(terminal=False):
+    from rich.console import Console
+
+    return Console(file=io.StringIO(), force_terminal=terminal, width=100, highlight=False)
+
+
+def test_lines_tell_time_left_failures_and_what_was_reused():
+    console, clock = lines(), Clock()
+    tasks = loads(4.0, 2.0, 1.0)
+    with Lines(console, clock) as told:
+        told.planned(tasks, 5)
+        for task, row in zip(tasks[:2], (Row(1.0), Row(reason="too much")), strict=True):
+            told.started(task)
+            clock.now += 2 * task.work
+            told.finished(task, Outcome((row,)))
+        told.said("a worker ended")
+        told.found(tasks[2])
+    assert console.file.getvalue().splitlines() == [
+        "3 tasks to solve, 5 reused",
+        f"1/3, 6 s left, solved {tasks[0].label}",
+        "a worker ended",
+        "2 tasks solved, 6 reused, 1 failed, 12 s",
+    ]
+
+
+def test_a_sweep_that_has_nothing_to_solve_tells_nothing(tmp_path):
+    console = lines()
+    with Lines(console) as told:
+        told.planned([], 5)
+    assert console.file.getvalue() == ""
+
+
+def test_a_bar_tells_the_same_on_a_terminal():
+    console, clock = lines(terminal=True), Clock()
+    tasks = loads(4.0, 2.0)
+    assert isinstance(watch(console), Bar)
+    assert isinstance(watch(lines()), Lines)
+    with Bar(console, clock) as told:
+        told.planned(tasks, 5)
+        told.started(tasks[0])
+        clock.now = 400.0
+        told.finished(tasks[0], Outcome((Row(reason="too much"),)))
+        told.started(tasks[1])
+        told.bar.refresh()
+    said = console.file.getvalue()
+    assert "1/2, 1 failed" in said
+    assert "3 min 20 s left" in said
+    assert "67 %" in said
+    assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
+
+
+def test_durations_are_said_as_people_say_them():
+    said = [duration(seconds) for seconds in (None, 0.2, 59.4, 59.6, 3599.0, 3600.0, 90061.0)]
+    assert said == ["?", "0 s", "59 s", "1 min 00 s", "59 min 59 s", "1 h 00 min", "25 h 01 min"]

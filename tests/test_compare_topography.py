@@ -235,10 +235,13 @@ def test_the_command_describes_a_map(tmp_path):
     for line in expected:
         assert line in told.output
     assert {path.name for path in out.iterdir()} == {
+        "manifest.json",
         "topography-map.pdf",
+        "topography-map.svg",
         "topography-map.png",
         "topography-map.csv",
         "topography-rows-map.csv",
+        "topography-drawn-map.csv",
     }
     table = np.genfromtxt(out / "topography-map.csv", delimiter=",", names=True)
     np.testing.assert_allclose(table["density_2d"], rings_of(map_).density, rtol=1e-6)

@@ -270,6 +270,7 @@ def test_the_figure_draws_what_it_is_given(tmp_path):
         "workprecision-costs.csv",
         "workprecision-costs-laws.csv",
         "workprecision-costs-forecasts.csv",
+        "workprecision-costs-drawn.csv",
     }
     rows = (tmp_path / "workprecision-costs.csv").read_text().splitlines()
     assert len(rows) == 1 + sum(len(bill.x) for bill in costed.bills.values())

@@ -320,7 +320,7 @@ def test_figures_are_drawn_of_whatever_came_with_their_tables(how, tmp_path):
     assert "Rough ones" in drawn.caption
     drawn = publish.draw(tmp_path, workprecision_surfaces, found[1:])
     assert "nan" not in drawn.caption
-    written = {path.name for path in tmp_path.glob("*.csv")}
+    written = {path.name for path in tmp_path.glob("*.csv") if not path.stem.endswith("-drawn")}
     assert written == {
         "workprecision-models-answers.csv",
         "workprecision-models-rungs.csv",

@@ -199,6 +199,8 @@ def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name)
 @pytest.mark.parametrize("value", [*NEVER, 0], ids=repr)
 def test_settings_that_can_be_no_value_are_named(solver, value):
     for field in fields(solver):
+        if field.name == "frames" and value == 0:
+            continue  # none are kept
         with pytest.raises(ValidationError) as caught:
             replace(solver, **{field.name: value})
         assert caught.value.errors()[0]["loc"][0] == field.name

@@ -28,15 +28,17 @@ class Chapter:
 
 
 class Study(Protocol):
-    """A module of this package.
+    """A module of this package."""
 
-    NAME, TITLE : short name of files, and heading of the chapter
-    """
+    @property
+    def NAME(self) -> str:
+        """Short name, of files."""
 
-    NAME: str
-    TITLE: str
+    @property
+    def TITLE(self) -> str:
+        """Heading of the chapter."""
 
-    def tasks(self) -> list[Task]:
+    def tasks(self) -> Sequence[Task]:
         """Everything that is solved, through the sweep and the store."""
 
     def chapter(self, outcomes: Mapping[Task, Outcome]) -> Chapter:

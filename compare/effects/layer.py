@@ -17,6 +17,7 @@ from ..exact import mean_lag
 from ..figures import effect_layer
 from ..outcome import Outcome
 from ..references import layer as reference
+from ..store import Task as AnyTask
 from ..study import Task
 from .chapter import Chapter, Rows
 from .means import MEANING, mean
@@ -118,7 +119,7 @@ def tasks() -> list[Task]:
     return [*pairs, *at_force, *_slid().values(), *_rough().values()]
 
 
-def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
+def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     """What becomes of both sides of F*."""
     found = [_stiffness(rubber, force, outcomes) for rubber in RUBBERS for force in FORCES]
     slid = [_friction(*asked, outcomes[task]) for asked, task in _slid().items()]
@@ -147,7 +148,7 @@ def _sliding(rubber, memory, over, roughness=None):
     return Scene(SPHERE, _solid(rubber), motion, roughness, rubber.layer())
 
 
-def _slid():
+def _slid() -> dict[tuple[Rubber, float, float], Task]:
     """By rubber, memory and load over F*."""
     return {
         (rubber, memory, over): Task(SLIDING, (_sliding(rubber, memory * THICKNESS, over),), work=10.0)

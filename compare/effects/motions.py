@@ -17,6 +17,7 @@ from scene.scales import elastic_contact
 from ..figures import effect_motions
 from ..outcome import Outcome
 from ..references import motions as exact
+from ..store import Task as AnyTask
 from ..study import Task
 from .chapter import Chapter, Rows
 from .track import NEAR, Track, harmonic
@@ -86,7 +87,7 @@ def tasks() -> list[Task]:
     return [task for kind in kinds for task in kind.values()]
 
 
-def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
+def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     """What friction does in each motion."""
     every = {by: _answered(outcomes, by) for by in (WHOLE, HALF)}
     tracks, steady = every[WHOLE]

@@ -19,6 +19,7 @@ from ..figures import effect_shear
 from ..metrics import estimate
 from ..outcome import Outcome
 from ..references import tangential
+from ..store import Task as AnyTask
 from ..study import Task
 from .chapter import Chapter, Rows
 from .means import half, mean
@@ -148,7 +149,7 @@ def _asked(solver, scenes):
     return Task(solver, scenes, work=len(scenes) * each)
 
 
-def curves(outcomes: Mapping[Task, Outcome]) -> dict[str, Curve]:
+def curves(outcomes: Mapping[AnyTask, Outcome]) -> dict[str, Curve]:
     """By the kind of body."""
     found = {}
     for way in SOLVERS:
@@ -166,7 +167,7 @@ def _sticking(row):
     return next((row.measures[name] for name in ("stick_area", "stick_length") if name in row.measures), np.nan)
 
 
-def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
+def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     """What came of smooth and rough bodies."""
     found = curves(outcomes)
     drawn = [row for curve in found.values() for row in _sheet(curve)]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..figures import effect_temperature
 from ..outcome import Outcome
+from ..store import Task as AnyTask
 from ..study import Task
 from .chapter import Chapter, Rows
 from .warmcontacts import (
@@ -64,7 +65,7 @@ def tasks() -> list[Task]:
     return every()
 
 
-def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
+def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     """What temperature and heat do to friction in both dimensionalities."""
     found = points(outcomes)
     rows = [vars(point) | {"reduced_speed": point.reduced_speed} for point in found]

@@ -21,6 +21,7 @@ from ..figures import effect_topography
 from ..metrics import Estimate, estimate, ratio
 from ..outcome import Outcome
 from ..resampling import student
+from ..store import Task as AnyTask
 from ..study import Task
 from ..topography import Description, describe
 from ..wording import plus_minus
@@ -86,7 +87,7 @@ def patch() -> Topography:
     at = np.arange(PIXELS) * PIXEL
     heights = RoughSurface.of(rough, rough.q_max(PIXEL)).heights(at, at)
     tilted = heights + 2e-3 * at[None, :] - 1e-3 * at[:, None]
-    return Topography(heights=tilted, pixel=PIXEL, shortest_kept=SHORTEST)
+    return Topography(heights=tilted, pixel=(PIXEL, PIXEL), shortest_kept=SHORTEST)
 
 
 def tasks() -> list[Task]:
@@ -106,7 +107,7 @@ def _task(way, motion):
     return Task(SOLVERS[way], scenes, work=len(scenes) * (1e6 if SOLVERS[way].name == "BEM" else 1e4))
 
 
-def answers(outcomes: Mapping[Task, Outcome]) -> list[Answer]:
+def answers(outcomes: Mapping[AnyTask, Outcome]) -> list[Answer]:
     """Means over places, lines and rows; failed ones are left out."""
     found = []
     for motion in _motions():
@@ -119,7 +120,7 @@ def answers(outcomes: Mapping[Task, Outcome]) -> list[Answer]:
     return found
 
 
-def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
+def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     """What becomes of force and friction in each way."""
     found, described = answers(outcomes), describe(patch())
     drawn = [_sheet(each) for each in found]

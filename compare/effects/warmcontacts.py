@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from math import isfinite, nan
+from typing import Literal
 
 import numpy as np
 
@@ -13,9 +14,10 @@ from scene import WLF, Coulomb, Fractional, Heating, Scene, SelfAffine, Slide, S
 from scene.temperature import UNIVERSAL
 
 from ..outcome import Outcome, Row
+from ..store import Task as AnyTask
 from ..study import Task
 
-SOLVERS = {"1D": MDR(points=1000), "3D": BEM(points=64)}
+SOLVERS: dict[str, MDR | BEM] = {"1D": MDR(points=1000), "3D": BEM(points=64)}
 GLASS, ROOM = 223.0, 296.0  # [K]: where the rubber turns to glass, and where its moduli are stated
 # The universal law, whose constants are stated at the glass transition, from room temperature.
 C2 = UNIVERSAL["c2"] + ROOM - GLASS
@@ -39,7 +41,7 @@ RUBBING = Coulomb(0.5)
 FINE = SelfAffine(hurst=0.8, rms_height=1e-7, longest=20e-3, shortest=4e-3)
 CONTACTS = ((1.0, 1e-2), (10.0, 1e-2), (100.0, 3e-3), (100.0, 1e-2), (100.0, 2e-2))  # [N], [m/s]
 CONDUCTIVITIES = {"steel": 20.0, "polymer": 0.2}  # [W/(m K)]
-FEEDBACKS = (None, "average", "flash")
+FEEDBACKS: tuple[Literal["average", "flash"] | None, ...] = (None, "average", "flash")
 
 # A rubber that is glassy where it slides fast: friction falls with the speed, and grows with the temperature.
 STIFF = StandardLinearSolid(MODULUS, 100 * MODULUS, 0.05)
@@ -125,7 +127,7 @@ def _task(solver, scene):
     return Task(solver, (scene,), work=solves * (1e6 if solver.name == "BEM" else 1e4))
 
 
-def points(outcomes: Mapping[Task, Outcome]) -> list[Point]:
+def points(outcomes: Mapping[AnyTask, Outcome]) -> list[Point]:
     """Everything that was solved; what failed is NaN."""
     return [
         _point(panel, dimension, scene, outcomes[_task(solver, scene)].rows[0])

@@ -2,11 +2,13 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.typing import HashableList
 
 from ..mastercurve import misfit_at, shifted
 from ..verdict import DIMENSIONS, Judgement, predicted_exponent
 from ..wording import explain
 from . import style
+from .lettering import clear
 
 NAME = "collapse"
 COLUMNS = {"solved": "as solved", "predicted": "by Eq. 23", "fitted": "best shifts"}
@@ -16,14 +18,18 @@ def figure(judgement: Judgement) -> Figure | None:
     """Rows: 1D, 3D. Columns: as solved, as Eq. 23 predicts, best shifts; those at right. None without a fit."""
     if not judgement.collapses:
         return None
-    drawing = style.canvas(style.DOUBLE, 4.2)
-    rows = [[f"{solver} {column}" for column in COLUMNS] + ["shift"] for solver in DIMENSIONS]
+    drawing = style.canvas("double", 4.2)
+    rows: list[HashableList[str]] = [
+        [*(f"{solver} {column}" for column in COLUMNS), "shift"] for solver in DIMENSIONS
+    ]
     axes = drawing.subplot_mosaic(rows, width_ratios=(1, 1, 1, 1.15))
     slope = predicted_exponent(judgement.case)
     for solver, dimension in DIMENSIONS.items():
         result = judgement.collapses.get(solver)
         for column, title in COLUMNS.items():
             panel = axes[f"{solver} {column}"]
+            if column != "solved":
+                panel.sharey(axes[f"{solver} solved"])
             panel.set(title=f"{dimension}, {title}", xscale="log", yscale="log", xlabel="shifted force [N]")
             if result:
                 _curves(panel, solver, result, *_shifted(result, column, slope))
@@ -31,10 +37,11 @@ def figure(judgement: Judgement) -> Figure | None:
         first = axes[f"{solver} solved"]
         first.set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         if result:
-            first.legend(fontsize=6, loc="lower left", handlelength=2)
+            first.legend(fontsize=style.tiny(), loc="lower left", handlelength=2)
     _shifts(axes["shift"], judgement, slope)
     for panel in axes.values():
         style.decades(panel)
+    clear(drawing, list(axes.values()))
     return drawing
 
 
@@ -100,13 +107,13 @@ def _curves(axes, solver, result, abscissae, misfit):
             yerr=np.nan_to_num(mu * curve.error),
             color=shades[index],
             marker=style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
-            markersize=3.2,
+            markersize=style.mark(0.8),
             linestyle=style.SERIES_LINES[index % len(style.SERIES_LINES)],
-            linewidth=0.8,
+            linewidth=style.width(0.7),
             label=f"{curve.speed:.3g} m/s",
         )
     text = f"misfit {misfit.rms:.1%}" if np.isfinite(misfit.rms) else "no overlap"
-    axes.text(0.97, 0.93, text, transform=axes.transAxes, fontsize=6.5, ha="right")
+    axes.text(0.97, 0.93, text, transform=axes.transAxes, fontsize=style.small(), ha="right")
 
 
 def _range(judgement):
@@ -125,12 +132,18 @@ def _shifts(axes, judgement, slope):
             yerr=result.shift_errors if np.isfinite(result.shift_errors).all() else None,
             color=style.COLOUR[solver],
             marker=style.MARKER[solver],
-            markerfacecolor=style.COLOUR[solver] if result.overlaps else "white",
+            markerfacecolor=style.COLOUR[solver] if result.overlaps else style.paper(),
             linestyle="none",
             label=DIMENSIONS[solver] + (f": {result.exponent:.2f}" if result.overlaps else ": undecided"),
         )
     speeds, reference = result.speeds, result.speeds[result.reference]
     line = slope * np.log(speeds / reference)
-    axes.plot(speeds, line, "-", color="0.45", linewidth=0.9, label=f"Eq. 23: {slope:.4g}")
+    axes.plot(speeds, line, "-", color=style.grey(0.45), linewidth=style.width(0.8), label=f"Eq. 23: {slope:.4g}")
     axes.set(xscale="log", xlabel="speed [m/s]", ylabel="ln p(v) / p(reference) [1]", title="best shifts")
-    axes.legend(title="exponent of v", title_fontsize=6.5, loc="upper right", fontsize=6.5, handlelength=1.6)
+    axes.legend(
+        title="exponent of v",
+        title_fontsize=style.small(),
+        loc="upper right",
+        fontsize=style.small(),
+        handlelength=1.6,
+    )

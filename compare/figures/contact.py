@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from scene.scales import elastic_contact
 
 from ..verdict import Judgement
-from . import style
+from . import materials, style
 
 NAME = "contact"
 
@@ -15,14 +15,14 @@ def figure(judgement: Judgement) -> Figure | None:
     """Left: rigid profile and surface of the elastomer. Right: contact pressure. None without either's fields."""
     if not {"MDR", "BEM"} <= judgement.fields.keys():
         return None
-    drawing = style.canvas(style.DOUBLE, 2.9)
+    drawing = style.canvas("double", 2.9)
     left, right = drawing.subplots(1, 2, width_ratios=(1.25, 1))
     radius = elastic_contact(judgement.case.scene).radius * 1e3
     _profile(left, judgement.fields["MDR"], radius)
     flow = "elastomer flows →" if judgement.case.slides else "elastomer"
     for axes in (left, right):
-        axes.text(0.03, 0.03, flow, transform=axes.transAxes, fontsize=7)
-    left.text(0.5, 0.9, "rigid indenter", transform=left.transAxes, fontsize=7, ha="center")
+        axes.text(0.03, 0.03, flow, transform=axes.transAxes, fontsize=style.small())
+    left.text(0.5, 0.9, "rigid indenter", transform=left.transAxes, fontsize=style.small(), ha="center")
     _map(drawing, right, judgement.fields["BEM"], radius)
     return drawing
 
@@ -54,7 +54,7 @@ def caption(judgement: Judgement) -> str:
         else f" One surface, seed {judgement.case.roughness.seed}, drawn by "
     )
     seed += "each solver in its own dimension from the same spectrum." if seed else ""
-    pressed = f"{motion.load:g} N" if motion.load is not None else f"{motion.depth * 1e6:g} µm"
+    pressed = f"{motion.load:g} N" if motion.load is not None else f"{motion.greatest * 1e6:g} µm"
     moved = f", sliding at {motion.speed:g} m/s" if motion.speed else ", at rest"
     return (
         f"The contact at {pressed}{moved}. Left: rigid indenter and surface of the elastomer in one dimension, "
@@ -74,11 +74,18 @@ def _profile(axes, line, radius):
     shown = np.abs(x) < 2.2 * radius
     top = 1.15 * np.abs(surface[shown]).max() * 0.6
     bottom = 1.25 * min(surface[shown].min(), body[shown].min())
-    axes.fill_between(x, surface, bottom, color="#E8DFC8", linewidth=0)
-    axes.fill_between(x, body, top, color="#9A9A9A", linewidth=0)
-    axes.plot(x, surface, color="#6B5B2E", linewidth=0.7)
+    axes.fill_between(x, surface, bottom, color=materials.elastomer(), linewidth=0)
+    axes.fill_between(x, body, top, color=materials.indenter(), linewidth=0)
+    axes.plot(x, surface, color=materials.surface(), linewidth=style.width(0.65))
     touched = np.where(line["contact"], surface, np.nan)
-    axes.plot(x, touched, color=style.COLOUR["MDR"], linewidth=2.2, label="real contact", solid_capstyle="butt")
+    axes.plot(
+        x,
+        touched,
+        color=style.COLOUR["MDR"],
+        linewidth=style.width(2),
+        label="real contact",
+        solid_capstyle="butt",
+    )
     axes.set(xlim=(x[shown].min(), x[shown].max()), ylim=(bottom, top), xlabel="x [mm]", ylabel="height [µm]")
     axes.legend(loc="lower right", handlelength=1.4)
     axes.set_title("1D: profile")
@@ -100,11 +107,13 @@ def _map(drawing, axes, plane, radius):
         interpolation="nearest",
     )
     angle = np.linspace(0, 2 * np.pi, 181)
-    axes.plot(radius * np.cos(angle), radius * np.sin(angle), "--", color="0.3", linewidth=0.7)
+    axes.plot(
+        radius * np.cos(angle), radius * np.sin(angle), "--", color=style.grey(0.3), linewidth=style.width(0.65)
+    )
     side = 1.08 * max(radius, np.abs(np.broadcast_to(x, touched.shape))[~touched.mask].max(initial=0.0))
     side = max(side, 1.08 * np.abs(np.broadcast_to(y[:, None], touched.shape))[~touched.mask].max(initial=0.0))
     axes.set(xlim=(-side, side), ylim=(-1.12 * side, side), xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
     bar = drawing.colorbar(image, ax=axes, extend="max", shrink=0.9)
     bar.set_label("pressure [MPa]")
-    bar.outline.set_linewidth(0.5)
+    bar.outline.set_linewidth(style.width(0.45))
     axes.set_title("3D: pressure")

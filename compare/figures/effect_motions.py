@@ -6,9 +6,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MultipleLocator
 
 from . import style
+from .lettering import clear
 
 NAME = "effect-motions"
-THIN = 0.5
+THIN = 0.45  # of the width of curves
 STILL = 1e-9  # step of the path that is none [1]
 SOLVERS = {"1D": "MDR", "3D": "BEM"}
 PANELS = {
@@ -26,7 +27,7 @@ def figure(data) -> Figure:
 
     data : rows of panel, dimension ("1D", "3D"), x, y; the panel "steady" has the friction of speeds x
     """
-    drawing = style.canvas(style.DOUBLE, 4.4)
+    drawing = style.canvas("double", 4.4)
     for letter, axes, (panel, (title, label)) in zip(
         "abcdef", drawing.subplots(2, 3).flat, PANELS.items(), strict=True
     ):
@@ -45,8 +46,9 @@ def figure(data) -> Figure:
         if panel == "mean":
             _second_order(axes, data)
     first = drawing.axes[0]
-    thin = Line2D([], [], color="0.5", linewidth=THIN, label="steady sliding")
+    thin = Line2D([], [], color=style.grey(0.5), linewidth=style.width(THIN), label="steady sliding")
     first.legend(handles=[*first.get_legend_handles_labels()[0], thin])
+    clear(drawing, drawing.axes)
     return drawing
 
 
@@ -72,13 +74,15 @@ def _steady(axes, data, panel, dimension):
         if speed > 1 and panel != "steps":
             continue
         for sign in (1, -1) if panel == "reversal" else (1,):
-            axes.axhline(sign * friction, color=style.COLOUR[SOLVERS[dimension]], linewidth=THIN, alpha=0.6)
+            axes.axhline(
+                sign * friction, color=style.COLOUR[SOLVERS[dimension]], linewidth=style.width(THIN), alpha=0.6
+            )
 
 
 def _second_order(axes, data):
     """In logarithms, with a line of slope two through the second amplitude of one dimension."""
     x, y = _values(data, "mean", "1D")
     axes.set(xscale="log", yscale="log", ylabel="share of friction missing [1]")
-    axes.plot(x, y[1] * (x / x[1]) ** 2, color="0.45", linewidth=0.8, label="square")
+    axes.plot(x, y[1] * (x / x[1]) ** 2, color=style.grey(0.45), linewidth=style.width(0.7), label="square")
     axes.legend()
     style.decades(axes)

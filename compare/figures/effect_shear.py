@@ -4,15 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from . import style
+from .lettering import clear
 
 NAME = "effect-shear"
-HOLLOW = {"linestyle": "none", "markerfacecolor": "white"}
-LOOKS = {
-    "smooth, 1D": {"color": style.COLOUR["MDR"], "marker": style.MARKER["MDR"], **HOLLOW},
-    "smooth, 3D": {"color": style.COLOUR["BEM"], "marker": style.MARKER["BEM"], **HOLLOW},
-    "rough, 1D": {"color": style.COLOUR["MDR"], "marker": "", "linestyle": style.LINE["MDR"]},
-    "rough, 3D": {"color": style.COLOUR["BEM"], "marker": "", "linestyle": style.LINE["BEM"]},
-}
+WAYS = {"smooth, 1D": "MDR", "smooth, 3D": "BEM", "rough, 1D": "MDR", "rough, 3D": "BEM"}
 EVERY, FIRST = 4, {"smooth, 1D": 1, "smooth, 3D": 3}  # of the points of smooth bodies those that are drawn
 
 
@@ -22,9 +17,10 @@ def figure(data) -> Figure:
     data : rows of way, share (of that of the smooth sphere), force, half_interval (of its mean), full_slip (a
         share), closed_form, and superposed, the force by two normal contacts of the body itself
     """
-    drawing = style.canvas(style.DOUBLE, 2.9)
+    drawing = style.canvas("double", 2.9)
     left, right = drawing.subplots(1, 2, sharey=True)
-    for way, look in LOOKS.items():
+    for way in WAYS:
+        look = _look(way)
         rows = [row for row in data if row["way"] == way]
         share, force, half, full = (
             np.array([row[name] for row in rows], float)
@@ -41,9 +37,23 @@ def figure(data) -> Figure:
             left.plot(share, superposed, linestyle="none", marker="x", color=look["color"], label=label)
     closed = sorted({(row["share"], row["closed_form"]) for row in data})
     for axes, label in ((left, r"$u\,/\,(3/2)\,\mu d$ [1]"), (right, r"$u\,/\,u_{\max}$, each its own [1]")):
-        axes.plot(*np.transpose([(0.0, 0.0), *closed]), color="black", linewidth=0.8, label="Cattaneo and Mindlin")
+        axes.plot(
+            *np.transpose([(0.0, 0.0), *closed]),
+            color=style.ink(),
+            linewidth=style.width(0.7),
+            label="Cattaneo and Mindlin",
+        )
         axes.set(xlabel=label, xlim=(0, None), ylim=(0, 1.03))
     left.set(ylabel=r"$F_x\,/\,\mu F_N$ [1]", title="(a)")
     right.set(title="(b)", xlim=(0, 1.25))
     left.legend(loc="lower right")
+    clear(drawing, (left,))
     return drawing
+
+
+def _look(way):
+    """Hollow markers of smooth bodies, lines of rough ones."""
+    solver = WAYS[way]
+    smooth = {"marker": style.MARKER[solver], "linestyle": "none", "markerfacecolor": style.paper()}
+    rough = {"marker": "", "linestyle": style.LINE[solver]}
+    return {"color": style.COLOUR[solver]} | (smooth if way.startswith("smooth") else rough)

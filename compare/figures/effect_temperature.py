@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from . import style
+from .lettering import clear
 
 NAME = "effect-temperature"
 SOLVER = {"1D": "MDR", "3D": "BEM"}
@@ -21,7 +22,7 @@ def figure(data: Sequence[Mapping[str, object]]) -> Figure:
     data : rows of panel ("temperature", "warmer", "speed"), dimension, temperature [K], speed [m/s], reduced_speed
         [m/s], feedback, friction [1], average_heating [K]
     """
-    drawing = style.canvas(style.DOUBLE, 4.8)
+    drawing = style.canvas("double", 4.8)
     (apart, together), (warmer, heated) = drawing.subplots(2, 2)
     _at_temperatures(apart, data, "speed")
     _at_temperatures(together, data, "reduced_speed")
@@ -39,6 +40,7 @@ def figure(data: Sequence[Mapping[str, object]]) -> Figure:
         style.decades(axes)
     for axes in (warmer, heated):
         axes.legend()
+    clear(drawing, drawing.axes)
     return drawing
 
 
@@ -58,7 +60,9 @@ def _at_temperatures(axes: Axes, data, speed):
         for temperature, shade, marker in zip(temperatures, shades, style.SERIES_MARKERS, strict=False):
             x, mu = _values(_chosen(data, "temperature", dimension, temperature=temperature), speed, "friction")
             label = f"{dimension}, {temperature:g} K"
-            axes.plot(x, mu, style.LINE[solver], color=shade, marker=marker, markersize=3, label=label)
+            axes.plot(
+                x, mu, style.LINE[solver], color=shade, marker=marker, markersize=style.mark(0.75), label=label
+            )
 
 
 def _steady(axes: Axes, data):
@@ -71,12 +75,12 @@ def _steady(axes: Axes, data):
         )
     low, high = axes.get_xlim()
     ends = np.array([max(low, 0.1), high])
-    axes.plot(ends, ends, ":", color="0.3", linewidth=0.9, label="steady")
+    axes.plot(ends, ends, ":", color=style.grey(0.3), linewidth=style.width(0.8), label="steady")
 
 
 def _over_speed(axes: Axes, data):
     for dimension, solver in SOLVER.items():
-        for feedback, filled, said in (("", "white", "not heated"), ("average", None, "heated")):
+        for feedback, filled, said in (("", style.paper(), "not heated"), ("average", None, "heated")):
             speed, mu = _values(_chosen(data, "speed", dimension, feedback=feedback), "speed", "friction")
             colour = style.COLOUR[solver]
             axes.plot(

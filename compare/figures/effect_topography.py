@@ -4,14 +4,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from . import style
+from .lettering import clear
 
 NAME = "effect-topography"
-LOOKS = {
-    "smooth, 3D": {"color": "0.5", "linestyle": "-"},
-    "map, 3D": {"color": style.COLOUR["BEM"], "marker": style.MARKER["BEM"], "linestyle": "--"},
-    "line by π q C2D": {"color": style.COLOUR["MDR"], "marker": style.MARKER["MDR"], "linestyle": "-"},
-    "rows of the map": {"color": "#009E73", "marker": "^", "linestyle": ":"},
-}
+WAYS = ("smooth, 3D", "map, 3D", "line by π q C2D", "rows of the map")
 # Factor by which points are drawn aside, so that bars do not cover one another.
 ASIDE = {"map, 3D": 1.0, "line by π q C2D": 1.025, "rows of the map": 0.975}
 
@@ -22,10 +18,10 @@ def figure(data) -> Figure:
     data : rows of quantity ("force", "friction"), x, way, mean, half_interval, and unit, what means are drawn
         over; those with an interval are drawn up to 2.5 % aside of their x
     """
-    drawing = style.canvas(style.DOUBLE, 2.7)
+    drawing = style.canvas("double", 2.7)
     left, right = drawing.subplots(1, 2)
     for axes, quantity, scale in ((left, "force", 1e6), (right, "friction", 1.0)):
-        for way, look in LOOKS.items():
+        for way, look in zip(WAYS, _looks(), strict=True):
             rows = [row for row in data if row["quantity"] == quantity and row["way"] == way]
             x, mean, half, unit = (
                 np.array([row[name] for row in rows], float) for name in ("x", "mean", "half_interval", "unit")
@@ -39,4 +35,15 @@ def figure(data) -> Figure:
     left.legend()
     for axes in (left, right):
         style.decades(axes)
+    clear(drawing, (left,))
     return drawing
+
+
+def _looks():
+    """Of the ways, in their order."""
+    return (
+        {"color": style.grey(0.5), "linestyle": "-"},
+        {"color": style.COLOUR["BEM"], "marker": style.MARKER["BEM"], "linestyle": "--"},
+        {"color": style.COLOUR["MDR"], "marker": style.MARKER["MDR"], "linestyle": "-"},
+        {"color": "#009E73", "marker": "^", "linestyle": ":"},
+    )

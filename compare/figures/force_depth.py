@@ -1,5 +1,7 @@
 """Normal force against depth at rest, rough and smooth, and how far one dimension is from three."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -15,30 +17,32 @@ def figure(judgement: Judgement) -> Figure | None:
     table = judgement.table
     if not metrics.pairs(table, "force-depth"):
         return None
-    drawing = style.canvas(style.SINGLE, 3.9)
+    drawing = style.canvas("single", 3.9)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     above.set(ylabel="normal force [N]", xscale="log", yscale="log")
     style.span(above, [r.depth * 1e6 for r in table if r.kind == "force-depth"])
     exact = metrics.select(table, "force-depth", "exact", True)
     if exact:
-        above.plot([r.depth * 1e6 for r in exact], [r.normal_force.mean for r in exact], "-", color="0.45", lw=0.9,
-                   label="smooth, closed form")  # fmt: skip
+        known = [r.normal_force.mean for r in exact]
+        above.plot([r.depth * 1e6 for r in exact], known, "-", color=style.grey(0.45),
+                   linewidth=style.width(0.8), label="smooth, closed form")  # fmt: skip
     for solver in ("MDR", "BEM"):
         for smooth in (True, False):
             curve = metrics.select(table, "force-depth", solver, smooth)
             if not curve:
                 continue
-            body = {"markerfacecolor": "white", "linestyle": "none"} if smooth else {}
+            body: dict[str, Any] = {"markerfacecolor": style.paper(), "linestyle": "none"} if smooth else {}
             label = f"{style.LABEL[solver]}, {'smooth' if smooth else 'rough'}"
             if smooth and solver == "BEM":
-                body |= {"markersize": 6.5, "zorder": 1}
+                body |= {"markersize": style.mark(1.6), "zorder": 1}
             style.line(above, [r.depth * 1e6 for r in curve], [r.normal_force for r in curve], solver,
                        label=label, **body)  # fmt: skip
     _deviation(below, table)
     below.set(xlabel="depth [µm]", ylabel="1D / 3D - 1 [%]")
-    above.legend()
+    style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 2)
     for axes in (above, below):
         style.decades(axes)
+
     return drawing
 
 
@@ -76,12 +80,22 @@ def _scale(axes, depths, values, errors):
     low, high = low - margin, high + margin
     axes.set_ylim(low, high)
     for edge, marker, beyond in ((low, "v", values - errors < low), (high, "^", values + errors > high)):
-        axes.plot(depths[beyond], np.full(beyond.sum(), edge), marker, color="black", markersize=4, clip_on=False)
+        axes.plot(
+            depths[beyond],
+            np.full(beyond.sum(), edge),
+            marker,
+            color=style.ink(),
+            markersize=style.mark(),
+            clip_on=False,
+        )
 
 
 def _deviation(axes, table):
-    axes.axhline(0, color="0.6", linewidth=0.6)
-    for smooth, look in ((False, {"color": "black", "marker": "o"}), (True, {"color": "0.45", "marker": "D"})):
+    axes.axhline(0, color=style.grey(0.6), linewidth=style.width(0.55))
+    for smooth, look in (
+        (False, {"color": style.ink(), "marker": "o"}),
+        (True, {"color": style.grey(0.45), "marker": "D"}),
+    ):
         pairs = metrics.pairs(table, "force-depth", smooth)
         if not pairs:
             continue

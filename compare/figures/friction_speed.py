@@ -9,6 +9,7 @@ from .. import metrics
 from ..verdict import Judgement
 from . import style
 from .force_depth import averaged
+from .lettering import clear
 
 NAME = "friction-speed"
 LAW = (
@@ -22,7 +23,7 @@ def figure(judgement: Judgement) -> Figure | None:
     pairs = metrics.pairs(judgement.table, "speed")
     if not pairs:
         return None
-    drawing = style.canvas(style.SINGLE, 3.9)
+    drawing = style.canvas("single", 3.9)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
     above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     style.span(above, [a.speed for a, _ in pairs])
@@ -36,13 +37,14 @@ def figure(judgement: Judgement) -> Figure | None:
     above.legend()
     ratios = [metrics.ratio(a.friction_coefficient, b.friction_coefficient) for a, b in pairs]
     errors = np.nan_to_num([error for _, error in ratios])
-    below.axhline(1, color="0.6", linewidth=0.6)
+    below.axhline(1, color=style.grey(0.6), linewidth=style.width(0.55))
     below.errorbar(
-        [a.speed for a, _ in pairs], [value for value, _ in ratios], yerr=errors, color="black", marker="o"
+        [a.speed for a, _ in pairs], [value for value, _ in ratios], yerr=errors, color=style.ink(), marker="o"
     )
     below.set(xlabel="speed [m/s]", ylabel="1D / 3D [1]", ylim=(0, None))
     for axes in (above, below):
         style.decades(axes)
+    clear(drawing, (above,))
     return drawing
 
 
@@ -54,7 +56,7 @@ def sheets(judgement: Judgement):
 def caption(judgement: Judgement) -> str:
     """What the figure shows."""
     motion = judgement.case.motion
-    held = f"load of {motion.load:g} N" if motion.load is not None else f"depth of {motion.depth * 1e6:g} µm"
+    held = f"load of {motion.load:g} N" if motion.load is not None else f"depth of {motion.greatest * 1e6:g} µm"
     paper = "" if judgement.case.roughness is None else f" Dotted: {LAW}"
     return (
         f"Coefficient of friction against speed at a {held}; below, the ratio of one dimension to three with its "
@@ -79,4 +81,4 @@ def _paper(axes, judgement, records):
         return
     speed = np.geomspace(records[0].speed, records[-1].speed, 101)
     mu = law(judgement, records[0].load, speed, rms_slope)
-    axes.plot(speed, mu, ":", color="0.3", linewidth=1.0, label="Eq. 19, roughness alone")
+    axes.plot(speed, mu, ":", color=style.grey(0.3), linewidth=style.width(0.9), label="Eq. 19, roughness alone")

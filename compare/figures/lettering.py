@@ -1,4 +1,4 @@
-"""Letters of panels, and short texts beside points of a drawn curve, where they cover nothing."""
+"""Letters of panels, short texts beside points of a curve, and legends, where they cover nothing."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -7,7 +7,11 @@ from string import ascii_lowercase
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
+from matplotlib.typing import ColorType
+
+from . import style
 
 # Around a point, where its text may stand: shift [points] and alignment.
 PLACES = (
@@ -28,6 +32,8 @@ PLACES = (
 )
 # Half of what a marker and a line take, and how closely lines are followed [points].
 MARKER, LINE, PITCH = 2.2, 0.5, 1.5
+# Between legends and curves [points], and how often room is made for legends: curves beyond the limits come in.
+ROOM, PASSES = 3.0, 5
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,7 @@ class Letter:
 
     text: str
     point: tuple[float, float]
-    colour: str = "black"
+    colour: ColorType | None = None
     needed: bool = True
 
 
@@ -70,7 +76,7 @@ def _placed(axes, letter, size, avoided, inside):
             xytext=(across, up),
             textcoords="offset points",
             fontsize=size,
-            color=letter.colour,
+            color=letter.colour or style.ink(),
             ha=horizontal,
             va=vertical,
         )
@@ -110,3 +116,72 @@ def _around(axes, at, half):
 
 def _scale(axes):
     return axes.figure.dpi / 72
+
+
+def covered(axes: Axes, room: float = 0.0) -> int:
+    """How many places of curves, of which one is looked at every few points, the legend of the axes lies over.
+
+    room : around the legend [points]; the figure has to be laid out
+    """
+    legend = axes.get_legend()
+    if legend is None:
+        return 0
+    box, inside = legend.get_window_extent().padded(room * _scale(axes)), axes.get_window_extent()
+    return sum(box.overlaps(each) and inside.overlaps(each) for each in (*_lines(axes), *_markers(axes)))
+
+
+def clear(drawing: Figure, panels: Sequence[Axes] | np.ndarray) -> None:
+    """Widen the vertical axes of panels whose legend lies over curves until it does not.
+
+    Where the legend stands above, room is made above, else below; limits and scales have to be final otherwise.
+    """
+    drawing.draw_without_rendering()
+    for axes in panels:
+        _settle(axes)
+    for _ in range(PASSES):
+        drawing.draw_without_rendering()
+        crowded = [axes for axes in panels if covered(axes, ROOM)]
+        if not crowded:
+            return
+        for axes in crowded:
+            _widen(axes)
+
+
+def _settle(axes):
+    """Leave the legend, if any, in the place that was found for it, of nine."""
+    if (legend := axes.get_legend()) is None:
+        return
+    box, inside = legend.get_window_extent(), axes.get_window_extent()
+    across = _side(box.x0 - inside.x0, inside.x1 - box.x1)
+    up = _side(box.y0 - inside.y0, inside.y1 - box.y1)
+    place = f"{('lower', 'center', 'upper')[up]} {('left', 'center', 'right')[across]}"
+    legend.set_loc("center" if place == "center center" else place)
+
+
+def _side(before, behind):
+    """At the beginning, in the middle or at the end, by the gaps on both sides."""
+    return 0 if before < behind / 2 else 2 if behind < before / 2 else 1
+
+
+def _widen(axes):
+    legend, inside = axes.get_legend(), axes.get_window_extent()
+    box = legend.get_window_extent()
+    above, right = box.y0 + box.y1 > inside.y0 + inside.y1, box.x0 + box.x1 > inside.x0 + inside.x1
+    legend.set_loc(f"{'upper' if above else 'lower'} {'right' if right else 'left'}")
+    margin = 2 * ROOM * _scale(axes)
+    places = [
+        each
+        for each in (*_lines(axes), *_markers(axes))
+        if box.x0 - margin < each.x1 and each.x0 < box.x1 + margin
+    ]
+    # What curves take of the height of the panel, over what the legend leaves them.
+    free = inside.height - box.height - margin
+    if above:
+        taken = (max(min(each.y1, inside.y1) for each in places) - inside.y0) / free
+    else:
+        taken = (inside.y1 - min(max(each.y0, inside.y0) for each in places)) / free
+    scale = axes.yaxis.get_transform()
+    low, high = scale.transform(np.array(axes.get_ylim(), float))
+    ends = (low, low + taken * (high - low)) if above else (high - taken * (high - low), high)
+    axes.set_ylim(*scale.inverted().transform(np.array(ends)))
+    style.decades(axes)

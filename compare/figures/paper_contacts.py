@@ -13,7 +13,7 @@ from scene import Cone, Regime
 from scene.regime import SMALL_SLOPE
 
 from ..paper.contacts import Configuration
-from . import style
+from . import materials, style
 
 NAME = "paper-contacts"
 # Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].
@@ -30,25 +30,27 @@ def figure(contacts: Mapping[str, Configuration]) -> Figure | None:
     solved = _solved(contacts)
     if not solved:
         return None
-    drawing = style.canvas(style.DOUBLE, 4.4)
+    drawing = style.canvas("double", 4.4)
     panels = drawing.subplots(2, len(solved), squeeze=False)
     for (above, below), letter, (shape, at) in zip(panels.T, "ab", solved.items(), strict=False):
         heights = _heights(at)
         whole, close = SHOWN * at.relaxed.radius * np.array([-1, 1]), _close_up(at)
         for axes, limits, name, width in (
-            (above, whole, f"({letter}) rough {shape}", 0.9),
-            (below, close, "close-up", 1.4),
+            (above, whole, f"({letter}) rough {shape}", 0.8),
+            (below, close, "close-up", 1.3),
         ):
             _frame(axes, limits, *heights)
             _bodies(axes, *heights, width)
             _scale(axes)
             axes.set_title(name)
-        above.axhline(0, color="0.3", linewidth=0.7, linestyle=(0, (5, 3)), zorder=1)
+        above.axhline(0, color=style.grey(0.3), linewidth=style.width(0.65), linestyle=(0, (5, 3)), zorder=1)
         (left, right), (bottom, top) = below.get_xlim(), below.get_ylim()
-        above.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, linewidth=0.9, zorder=5))
-        above.text(0.5, 0.9, "rigid indenter", transform=above.transAxes, ha="center", fontsize=7)
-        above.text(0.03, 0.05, "elastomer flows →", transform=above.transAxes, fontsize=7)
-    drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+        above.add_patch(
+            Rectangle((left, bottom), right - left, top - bottom, fill=False, linewidth=style.width(0.8), zorder=5)
+        )
+        above.text(0.5, 0.9, "rigid indenter", transform=above.transAxes, ha="center", fontsize=style.small())
+        above.text(0.03, 0.05, "elastomer flows →", transform=above.transAxes, fontsize=style.small())
+    style.legend(drawing, panels[0, 0].get_legend_handles_labels()[0], "outside lower center", 3)
     return drawing
 
 
@@ -108,7 +110,7 @@ def _broken(row):
     return f"Of the conditions of the laws it breaks {', '.join(broken) or 'none'}."
 
 
-def _heights(at):
+def _heights(at: Configuration) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """x, rigid profile and surface [m] above the undeformed surface, and where they touch."""
     fields = at.fields
     return fields["x"], fields["profile"] - at.row.depth, -fields["displacement"], fields["contact"]
@@ -144,26 +146,28 @@ def _scale(axes):
     corner = right - 0.04 * (right - left), bottom + 0.07 * (top - bottom)
     x = [corner[0] - length * 1e3, corner[0], corner[0]]
     y = [corner[1], corner[1], corner[1] + length * 1e6]
-    axes.plot(x, y, color="black", linewidth=1.1, zorder=5, gid="scale", solid_capstyle="butt")
+    axes.plot(x, y, color=style.ink(), linewidth=style.width(), zorder=5, gid="scale", solid_capstyle="butt")
     said = f"{length * 1e6:g} µm"
-    axes.text(x[0] - 0.012 * (right - left), corner[1], said, ha="right", va="center", fontsize=7, zorder=5)
+    axes.text(
+        x[0] - 0.012 * (right - left), corner[1], said, ha="right", va="center", fontsize=style.small(), zorder=5
+    )
 
 
 def _bodies(axes, x, body, surface, contact, width):
     x, body, surface = x * 1e3, body * 1e6, surface * 1e6
     bottom, top = axes.get_ylim()
-    axes.fill_between(x, np.maximum(surface, bottom), bottom, color="#E8DFC8", linewidth=0)
-    axes.fill_between(x, np.minimum(body, top), top, color="#B5B5B5", linewidth=0)
-    axes.plot(x, body, color="0.35", linewidth=0.5, label="rigid profile")
-    axes.plot(x, surface, color="#6B5B2E", linewidth=0.8, label="surface of the elastomer")
+    axes.fill_between(x, np.maximum(surface, bottom), bottom, color=materials.elastomer(), linewidth=0)
+    axes.fill_between(x, np.minimum(body, top), top, color=materials.indenter(), linewidth=0)
+    axes.plot(x, body, color=style.ink(), linewidth=style.width(0.45), label="rigid profile")
+    axes.plot(x, surface, color=materials.surface(), linewidth=style.width(0.7), label="surface of the elastomer")
     # A marker, too, since contact may be at one node.
     axes.plot(
         x,
         np.where(contact, surface, np.nan),
         color=style.COLOUR["MDR"],
-        linewidth=width,
+        linewidth=style.width(width),
         marker="o",
-        markersize=width,
+        markersize=style.width(width),
         markeredgewidth=0,
         label="real contact",
         solid_capstyle="round",

@@ -11,41 +11,63 @@ from scene.regime import SMALL_SLOPE
 from ..paper.law import Law
 from ..wording import plus_minus
 from . import style
+from .lettering import clear
 
 NAME = "paper-law"
-# Colour, tint, marker, its size and line of the shapes, in the order in which they come: the first, small and
-# dark, is drawn over the second.
-LOOKS = (("#000000", "#000000", "o", 2.6, "--"), ("#009E73", "#A6DCCB", "s", 4.6, "-."))
+# Marker, its size and line of the shapes, in the order in which they come: the first, small and dark, is drawn
+# over the second.
+LOOKS = (("o", 0.65, "--"), ("s", 1.15, "-."))
 
 
 def figure(laws: Sequence[Law]) -> Figure | None:
     """Above: mu-tilde with Eq. 19. Below: its deviation from Eq. 19 with alpha = 1.5. None without any."""
     if not laws:
         return None
-    drawing = style.canvas(style.SINGLE, 5.0)
+    drawing = style.canvas("single", 5.0)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
     xi = np.geomspace(min(law.xi.min() for law in laws), max(law.xi.max() for law in laws), 201)
-    above.plot(xi, interpolation(xi), color="0.5", linewidth=0.9, label="Eq. 19, α = 1.5", zorder=1)
-    below.axhline(0, color="0.6", linewidth=0.5, zorder=0)
-    for law, (colour, tint, marker, size, line) in zip(laws, LOOKS, strict=False):
+    above.plot(
+        xi, interpolation(xi), color=style.grey(0.5), linewidth=style.width(0.8), label="Eq. 19, α = 1.5", zorder=1
+    )
+    below.axhline(0, color=style.grey(0.6), linewidth=style.width(0.45), zorder=0)
+    for law, (colour, tint), (marker, size, line) in zip(laws, _colours(), LOOKS, strict=False):
         known, unit = np.isfinite(law.friction), interpolation(law.xi)
-        inside = tint if law.conditions.holds.all() else "white"
-        look = {"color": colour, "marker": marker, "linestyle": "none", "markersize": size, "elinewidth": 0.8}
-        look |= {"markerfacecolor": inside, "markeredgewidth": 0.8, "zorder": 3 - size / 10}
+        inside = tint if law.conditions.holds.all() else style.paper()
+        look = {
+            "color": colour,
+            "marker": marker,
+            "linestyle": "none",
+            "markersize": style.mark(size),
+            "elinewidth": style.width(0.7),
+        }
+        look |= {"markerfacecolor": inside, "markeredgewidth": style.width(0.7), "zorder": 3 - size / 2}
         above.errorbar(law.xi[known], law.friction[known], yerr=law.error[known], label=_best(law), **look)
         below.errorbar(law.xi[known], 100 * law.deviation[known], yerr=100 * (law.error / unit)[known], **look)
         best, planes = interpolation(xi, law.alpha) / interpolation(xi) - 1, law.planes / unit - 1
-        below.plot(xi, 100 * best, line, color=colour, linewidth=0.9, zorder=1, label=f"{law.shape}, best α")
-        below.plot(law.xi, 100 * planes, ":", color=colour, linewidth=1.1, zorder=1, label=f"{law.shape}, planes")
+        below.plot(
+            xi, 100 * best, line, color=colour, linewidth=style.width(0.8), zorder=1, label=f"{law.shape}, best α"
+        )
+        below.plot(
+            law.xi,
+            100 * planes,
+            ":",
+            color=colour,
+            linewidth=style.width(),
+            zorder=1,
+            label=f"{law.shape}, planes",
+        )
     style.span(above, xi)
     above.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}$ [1]")
     above.legend(loc="lower right")
     slopes = ", ".join(f"{slope:.2g}" for slope in _slopes(laws))
-    above.text(0.03, 0.95, f"rms slope {slopes}", transform=above.transAxes, va="top", fontsize=7)
+    above.text(0.03, 0.95, f"rms slope {slopes}", transform=above.transAxes, va="top", fontsize=style.small())
     below.set(xlabel=r"$\xi$ [1]", ylabel="deviation from Eq. 19,\nα = 1.5 [%]")
-    below.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
+    labels = below.get_legend_handles_labels()[1]
+    columns = style.columns(labels, 0.8 * drawing.get_figwidth(), 2)
+    below.legend(ncols=columns, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
     for axes in (above, below):
         style.decades(axes)
+    clear(drawing, (above,))
     return drawing
 
 
@@ -97,6 +119,11 @@ def caption(laws: Sequence[Law]) -> str:
         "place of the contact taken for a rough plane pressed as deep as it is there, without the slope of the "
         f"shape; the places of a cone differ more in depth. {' '.join(map(_said, laws))}{outside}"
     )
+
+
+def _colours():
+    """Of the shapes: of lines and edges, and of the inside of markers."""
+    return (style.ink(), style.ink()), ("#009E73", "#A6DCCB")
 
 
 def _slopes(laws):

@@ -13,8 +13,8 @@ from . import style
 
 NAME = "paper-losses"
 SHOWN = (0, len(SPEEDS) // 2, len(SPEEDS) - 1)
-# Name, colour and marker of each form of Eq. 22.
-FORMS = ((SHORTEST, "#000000", "s"), (EVERY, "#CC79A7", "o"), (WITH_SMOOTH, "#009E73", "^"))
+# Markers of the forms of Eq. 22.
+FORMS = {SHORTEST: "s", EVERY: "o", WITH_SMOOTH: "^"}
 LINES = ("-", "--", ":")
 
 
@@ -23,18 +23,25 @@ def figure(found: Sequence[Lossy]) -> Figure | None:
     if not found:
         return None
     rows = -(-len(found) // 2)
-    drawing = style.canvas(style.DOUBLE, 0.7 + 2.3 * rows)
+    drawing = style.canvas("double", 0.7 + 2.3 * rows)
     panels = drawing.subplots(rows, 2, sharex=True, sharey="row", squeeze=False)
     for axes, lossy in zip(panels.flat, found, strict=False):
         holds = lossy.predicted.conditions.holds
-        for name, colour, marker in FORMS:
+        for name, colour, marker in _forms():
             off = 100 * _deviations(lossy)[name]
             for speed, line in zip(SHOWN, LINES, strict=True):
-                axes.plot(FORCES, off[speed], line, color=colour, linewidth=0.9)
-                for at, inside in ((holds[speed], colour), (~holds[speed], "white")):
-                    look = {"facecolors": inside, "edgecolors": colour, "linewidths": 0.8, "zorder": 2.5}
-                    axes.scatter(np.array(FORCES)[at], off[speed][at], s=10, marker=marker, **look)
-        axes.axhline(0, color="0.3", linewidth=0.7, zorder=0)
+                axes.plot(FORCES, off[speed], line, color=colour, linewidth=style.width(0.8))
+                for at, inside in ((holds[speed], colour), (~holds[speed], style.paper())):
+                    look = {
+                        "facecolors": inside,
+                        "edgecolors": colour,
+                        "linewidths": style.width(0.7),
+                        "zorder": 2.5,
+                    }
+                    axes.scatter(
+                        np.array(FORCES)[at], off[speed][at], s=style.mark(0.8) ** 2, marker=marker, **look
+                    )
+        axes.axhline(0, color=style.grey(0.3), linewidth=style.width(0.65), zorder=0)
         axes.set(xscale="log", title=lossy.loss.symbols)
         style.span(axes, FORCES)
         style.decades(axes)
@@ -51,7 +58,8 @@ def figure(found: Sequence[Lossy]) -> Figure | None:
 def sheets(found: Sequence[Lossy]) -> dict[str, list[dict]]:
     """Friction at every speed and load: simulated, of the smooth body, of each form; and exponents of the "
     "shifts."""
-    points, shifts = [], []
+    points: list[dict] = []
+    shifts: list[dict] = []
     for lossy in found:
         simulated, forms, conditions = simulation(lossy), lossy.forms, lossy.predicted.conditions.columns
         rubber = {"loss_exponent": lossy.loss.exponent, "relaxation_time": lossy.loss.relaxation_time}
@@ -72,7 +80,7 @@ def sheets(found: Sequence[Lossy]) -> dict[str, list[dict]]:
     return {NAME: points, f"{NAME}-shifts": shifts} if points else {}
 
 
-def exponents(lossy: Lossy) -> dict[str, float]:
+def exponents(lossy: Lossy) -> dict[str, float | None]:
     """Of the shift as a power of the speed: expected, of each form, and simulated with its interval; NaN of curves
     that do not collapse."""
     row = {"expected": lossy.whole.expected, **lossy.rough.laws, **lossy.whole.laws}
@@ -141,13 +149,19 @@ def _said(lossy):
     )
 
 
+def _forms():
+    """Name, colour and marker of each."""
+    return zip(FORMS, (style.ink(), "#CC79A7", "#009E73"), FORMS.values(), strict=True)
+
+
 def _legend(drawing):
     forms = [
-        Line2D([], [], color=colour, marker=marker, markersize=3, label=name) for name, colour, marker in FORMS
+        Line2D([], [], color=colour, marker=marker, markersize=style.mark(0.75), label=name)
+        for name, colour, marker in _forms()
     ]
     speeds = [
-        Line2D([], [], color="0.2", linestyle=line, label=f"{SPEEDS[speed]:.2g} m/s")
+        Line2D([], [], color=style.grey(0.2), linestyle=line, label=f"{SPEEDS[speed]:.2g} m/s")
         for speed, line in zip(SHOWN, LINES, strict=True)
     ]
     pairs = [handle for pair in zip(forms, speeds, strict=True) for handle in pair]
-    drawing.legend(handles=pairs, loc="outside lower center", ncols=3)
+    style.legend(drawing, pairs, "outside lower center", 3)

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import style
+from . import materials, style
 
 NAME = "paper-sketch"
 # The cone g = SLOPE |x| at the depth 1 in units of the depth, and the memory of the elastomer, l = v tau.
@@ -12,12 +12,11 @@ SLOPE, MEMORY = 0.5, 1.0
 LEADING, TRAILING = -1 / SLOPE, 1 / SLOPE - MEMORY
 ELEMENTS = np.arange(-2.5, 4.5, 0.5)
 FLOOR, TOP = -2.6, 0.9
-RUBBER, BODY, LINE = "#E8DFC8", "#B5B5B5", "#6B5B2E"
 
 
 def figure(_: None = None) -> Figure:
     """Left: depth, ends of contact, speed. Right: springs and dashpots. Needs no data."""
-    drawing = style.canvas(style.DOUBLE, 2.6)
+    drawing = style.canvas("double", 2.6)
     left, right = drawing.subplots(1, 2)
     for axes, title in ((left, "(a) contact on the large scale"), (right, "(b) model of the elastomer")):
         axes.set(xlim=(-3.6, 5.1), ylim=(FLOOR - 0.25, TOP + 0.15), title=title)
@@ -54,64 +53,76 @@ def displacement(x):
 
 def _indenter(axes: Axes):
     x = np.array([-(1 + TOP), 0, 1 + TOP]) / SLOPE
-    axes.fill_between(x, SLOPE * np.abs(x) - 1, TOP, color=BODY, linewidth=0)
-    axes.plot(x, SLOPE * np.abs(x) - 1, color="0.25", linewidth=1.1)
-    axes.text(0, 0.55, "rigid indenter", ha="center", fontsize=7)
+    axes.fill_between(x, SLOPE * np.abs(x) - 1, TOP, color=materials.indenter(), linewidth=0)
+    axes.plot(x, SLOPE * np.abs(x) - 1, color=style.grey(0.25), linewidth=style.width())
+    axes.text(0, 0.55, "rigid indenter", ha="center", fontsize=style.small())
     _arrow(axes, (0.5, 0.33), (-0.5, 0.33), "->")
-    axes.text(0, 0.05, "$v$", ha="center", fontsize=8)
+    axes.text(0, 0.05, "$v$", ha="center", fontsize=style.size())
 
 
 def _large_scale(axes):
     x = np.linspace(-3.6, 5.1, 871)
-    axes.fill_between(x, -displacement(x), FLOOR, color=RUBBER, linewidth=0)
-    axes.plot(x, -displacement(x), color=LINE, linewidth=1.1)
+    axes.fill_between(x, -displacement(x), FLOOR, color=materials.elastomer(), linewidth=0)
+    axes.plot(x, -displacement(x), color=materials.surface(), linewidth=style.width())
     touched = np.linspace(LEADING, TRAILING, 101)
-    axes.plot(touched, -displacement(touched), color=style.COLOUR["MDR"], linewidth=2.4, solid_capstyle="butt")
-    axes.axhline(0, color="0.3", linewidth=0.7, linestyle=(0, (5, 3)), zorder=1)
+    axes.plot(
+        touched,
+        -displacement(touched),
+        color=style.COLOUR["MDR"],
+        linewidth=style.width(2.2),
+        solid_capstyle="butt",
+    )
+    axes.axhline(0, color=style.grey(0.3), linewidth=style.width(0.65), linestyle=(0, (5, 3)), zorder=1)
     for end, name in ((LEADING, r"$-a_{\mathrm{1}}$"), (TRAILING, r"$a_{\mathrm{2}}$")):
-        axes.plot([end, end], [-displacement(end), -1.55], color="0.3", linewidth=0.6, linestyle=":")
-        axes.text(end, -1.62, name, ha="center", va="top", fontsize=8)
-    axes.text(0, -1.62, "0", ha="center", va="top", fontsize=8)
-    axes.plot([0, 0], [-1, -1.55], color="0.3", linewidth=0.6, linestyle=":")
+        axes.plot(
+            [end, end],
+            [-displacement(end), -1.55],
+            color=style.grey(0.3),
+            linewidth=style.width(0.55),
+            linestyle=":",
+        )
+        axes.text(end, -1.62, name, ha="center", va="top", fontsize=style.size())
+    axes.text(0, -1.62, "0", ha="center", va="top", fontsize=style.size())
+    axes.plot([0, 0], [-1, -1.55], color=style.grey(0.3), linewidth=style.width(0.55), linestyle=":")
     _arrow(axes, (LEADING, -1.5), (TRAILING, -1.5), "<->")
-    axes.text(LEADING / 2, -1.47, "contact", ha="center", va="bottom", fontsize=7)
-    axes.plot([0, 4.1], [-1, -1], color="0.3", linewidth=0.6, linestyle=":")
+    axes.text(LEADING / 2, -1.47, "contact", ha="center", va="bottom", fontsize=style.small())
+    axes.plot([0, 4.1], [-1, -1], color=style.grey(0.3), linewidth=style.width(0.55), linestyle=":")
     _arrow(axes, (3.9, 0), (3.9, -1), "<->")
-    axes.text(4.05, -0.5, "$d$", va="center", fontsize=8)
-    axes.text(-3.2, -2.25, "elastomer flows →", fontsize=7)
+    axes.text(4.05, -0.5, "$d$", va="center", fontsize=style.size())
+    axes.text(-3.2, -2.25, "elastomer flows →", fontsize=style.small())
 
 
 def _elements(axes):
     touched = (LEADING < ELEMENTS) & (ELEMENTS <= TRAILING)
     for x, held in zip(ELEMENTS, touched, strict=True):
-        _element(axes, x, -float(displacement(x)), "black" if held else "0.62")
+        _element(axes, x, -float(displacement(x)), style.ink() if held else style.grey(0.62))
     axes.fill_between(
         [ELEMENTS[0] - 0.3, ELEMENTS[-1] + 0.3],
         FLOOR,
         FLOOR - 0.18,
-        facecolor="white",
-        edgecolor="0.3",
+        facecolor=style.paper(),
+        edgecolor=style.grey(0.3),
         hatch="/////",
-        linewidth=0.6,
+        linewidth=style.width(0.55),
     )
     for x, name, side in (
         (ELEMENTS[0] - 0.25, r"$4G\Delta x$", "right"),
         (ELEMENTS[-1] + 0.25, r"$4\eta\Delta x$", "left"),
     ):
-        axes.text(x, FLOOR + 0.45 * -FLOOR, name, ha=side, va="center", fontsize=8)
+        axes.text(x, FLOOR + 0.45 * -FLOOR, name, ha=side, va="center", fontsize=style.size())
     first, second = ELEMENTS[-3], ELEMENTS[-2]
     for x in (first, second):
-        axes.plot([x, x], [0.05, 0.34], color="0.3", linewidth=0.6)
+        axes.plot([x, x], [0.05, 0.34], color=style.grey(0.3), linewidth=style.width(0.55))
     _arrow(axes, (first - 0.35, 0.24), (first, 0.24), "->")
     _arrow(axes, (second + 0.35, 0.24), (second, 0.24), "->")
-    axes.text((first + second) / 2, 0.4, r"$\Delta x$", ha="center", fontsize=8)
+    axes.text((first + second) / 2, 0.4, r"$\Delta x$", ha="center", fontsize=style.size())
 
 
 def _element(axes, x, top, colour):
     """Spring and dashpot side by side from the base to a plate at the top."""
-    look = {"color": colour, "linewidth": 0.8, "solid_capstyle": "round"}
+    look = {"color": colour, "linewidth": style.width(0.7), "solid_capstyle": "round"}
     spring, dashpot, low = x - 0.1, x + 0.1, FLOOR + 0.25
-    axes.plot([x - 0.14, x + 0.14], [top, top], **(look | {"linewidth": 1.8}))
+    axes.plot([x - 0.14, x + 0.14], [top, top], **(look | {"linewidth": style.width(1.6)}))
     coils = np.linspace(low, top - 0.25, 13)
     zigzag = np.concatenate([[0], np.tile([-0.07, 0.07], 5), [-0.07], [0]])
     axes.plot([spring, *(spring + zigzag), spring], [FLOOR, *coils, top], **look)
@@ -124,4 +135,6 @@ def _element(axes, x, top, colour):
 
 def _arrow(axes, start, end, kind):
     """An arrow with its tip at the end; <-> has two."""
-    axes.annotate("", end, start, arrowprops={"arrowstyle": kind, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
+    axes.annotate(
+        "", end, start, arrowprops={"arrowstyle": kind, "linewidth": style.width(0.7), "shrinkA": 0, "shrinkB": 0}
+    )

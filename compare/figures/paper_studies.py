@@ -16,19 +16,21 @@ from scene.regime import MUCH_LESS_HEIGHT
 from ..paper.campaign import SLOW, Collapse, Line, line
 from ..paper.parameters import STUDIES
 from . import style
+from .lettering import clear
 
 NAME = "paper-studies"
 # Of the Hurst exponent; without the yellow end, which is lost on white.
 SHADES = LinearSegmentedColormap.from_list("hurst", colormaps["viridis"](np.linspace(0, 0.88, 256)))
 BETWEEN = Normalize(0, 1)
 MARKERS = ("o", "s", "^", "D", "v", "P")
-# What may break in the last panel, where the macroscopic slope is divided out: name, colour, marker, filled.
+# What may break in the last panel, where the macroscopic slope is divided out: name, colour, marker, filled. What
+# breaks both is drawn in ink.
 BROKEN = (
     ("none of these", "#56B4E9", "o", True),
     ("h₀ > d/10 alone", "#56B4E9", "o", False),
     ("2a > L", "#CC79A7", "^", False),
     (f"ξ > {SLOW:g}", "#009E73", "s", False),
-    ("both", "#000000", "D", False),
+    ("both", None, "D", False),
 )
 
 
@@ -36,7 +38,7 @@ def figure(collapse: Collapse) -> Figure | None:
     """Left: mu-tilde. Right: over xi, against the macroscopic slope; and without its part. None without points."""
     if not np.isfinite(collapse.friction).any():
         return None
-    drawing = style.canvas(style.DOUBLE, 4.3)
+    drawing = style.canvas("double", 4.3)
     axes = drawing.subplot_mosaic([["law", "slope"], ["law", "rest"]], width_ratios=(1.1, 1))
     _law(axes["law"], collapse)
     _slope(axes["slope"], collapse)
@@ -45,10 +47,11 @@ def figure(collapse: Collapse) -> Figure | None:
         style.decades(panel)
     inside = axes["law"].inset_axes((0.53, 0.14, 0.43, 0.022))
     bar = drawing.colorbar(ScalarMappable(BETWEEN, SHADES), cax=inside, orientation="horizontal")
-    bar.set_label("Hurst exponent [1], also of (b)", labelpad=1, fontsize=7)
-    bar.ax.tick_params(labelsize=6, length=2, pad=1)
-    bar.outline.set_linewidth(0.5)
+    bar.set_label("Hurst exponent [1], also of (b)", labelpad=1, fontsize=style.small())
+    bar.ax.tick_params(labelsize=style.tiny(), length=2, pad=1)
+    bar.outline.set_linewidth(style.width(0.45))
     _legend(drawing)
+    clear(drawing, list(axes.values()))
     return drawing
 
 
@@ -140,11 +143,11 @@ def _points(axes: Axes, collapse, x, y):
             axes.scatter(
                 x[at],
                 y[at],
-                s=9,
+                s=style.mark(0.75) ** 2,
                 marker=marker,
                 facecolors=inside,
                 edgecolors=colours,
-                linewidths=0.35,
+                linewidths=style.width(0.3),
                 rasterized=True,
                 zorder=3 if filled else 2,
             )
@@ -153,8 +156,18 @@ def _points(axes: Axes, collapse, x, y):
 def _law(axes, collapse):
     _points(axes, collapse, collapse.xi, collapse.friction)
     xi = np.geomspace(collapse.xi.min(), collapse.xi.max(), 101)
-    axes.plot(xi, xi, color="black", linewidth=0.6, zorder=1, label=r"Eq. 17, $\tilde{\mu} = \xi$")
-    axes.plot(xi, interpolation(xi), "--", color="0.35", linewidth=0.6, zorder=1, label="Eq. 19, α = 1.5")
+    axes.plot(
+        xi, xi, color=style.ink(), linewidth=style.width(0.55), zorder=1, label=r"Eq. 17, $\tilde{\mu} = \xi$"
+    )
+    axes.plot(
+        xi,
+        interpolation(xi),
+        "--",
+        color=style.grey(0.35),
+        linewidth=style.width(0.55),
+        zorder=1,
+        label="Eq. 19, α = 1.5",
+    )
     axes.set(xscale="log", yscale="log", xlabel=r"$\xi$ [1]", ylabel=r"$\tilde{\mu}$ [1]", title="(a)")
     style.span(axes, collapse.xi)
     axes.legend(loc="upper left", bbox_to_anchor=(0, 0.99))
@@ -162,16 +175,16 @@ def _law(axes, collapse):
     if isfinite(fit.slope):
         low, high = fit.slope_interval
         text = f"filled: slope {fit.slope:.3f} ({low:.3f} to {high:.3f})"
-        axes.text(0.98, 0.23, text, transform=axes.transAxes, ha="right", fontsize=7)
+        axes.text(0.98, 0.23, text, transform=axes.transAxes, ha="right", fontsize=style.small())
 
 
 def _slope(axes, collapse):
     ratio, measured = collapse.regime.macro_over_rough, collapse.friction / collapse.xi
     _points(axes, collapse, ratio, measured)
     r = np.geomspace(ratio.min(), ratio.max(), 201)
-    axes.plot(r, 1 + r**2, color="black", linewidth=0.8, zorder=4, label="1 + r²")
+    axes.plot(r, 1 + r**2, color=style.ink(), linewidth=style.width(0.7), zorder=4, label="1 + r²")
     axes.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}/\xi$ [1]", title="(b)")
-    axes.set_xlabel("macroscopic slope / roughness slope, r [1]")
+    axes.set_xlabel("rms slope, smooth over rough, r [1]")
     style.span(axes, ratio)
     axes.legend(loc="upper left")
 
@@ -189,25 +202,48 @@ def _rest(axes, collapse):
     for number, (name, colour, marker, filled) in enumerate(BROKEN):
         at = (kind == number) & np.isfinite(rest)
         if at.any():
-            look = {"facecolors": colour if filled else "none", "edgecolors": colour, "linewidths": 0.5}
-            axes.scatter(ratio[at], rest[at], s=9, marker=marker, label=name, rasterized=True, **look)
-    axes.axhline(1, color="black", linewidth=0.8, zorder=0)
-    axes.axvline(MUCH_LESS_HEIGHT, color="0.4", linewidth=0.8, linestyle=":", zorder=0)
+            colour = colour or style.ink()
+            look = {
+                "facecolors": colour if filled else "none",
+                "edgecolors": colour,
+                "linewidths": style.width(0.45),
+            }
+            axes.scatter(
+                ratio[at], rest[at], s=style.mark(0.75) ** 2, marker=marker, label=name, rasterized=True, **look
+            )
+    axes.axhline(1, color=style.ink(), linewidth=style.width(0.7), zorder=0)
+    axes.axvline(MUCH_LESS_HEIGHT, color=style.grey(0.4), linewidth=style.width(0.7), linestyle=":", zorder=0)
     axes.set(
         xscale="log", xlabel="rms height / depth [1]", ylabel=r"$\tilde{\mu}/(\xi\,(1 + r^2))$ [1]", title="(c)"
     )
     style.span(axes, ratio)
-    axes.legend(loc="lower left", handletextpad=0.2, title="broken", title_fontsize=7, alignment="left")
+    axes.legend(
+        loc="lower left", handletextpad=0.2, title="broken", title_fontsize=style.small(), alignment="left"
+    )
 
 
 def _legend(drawing):
     handles = [
-        Line2D([], [], linestyle="none", marker=marker, color="0.3", markersize=4, label=study.name)
+        Line2D(
+            [],
+            [],
+            linestyle="none",
+            marker=marker,
+            color=style.grey(0.3),
+            markersize=style.mark(),
+            label=study.name,
+        )
         for marker, study in zip(MARKERS, STUDIES, strict=True)
     ]
     handles.append(
         Line2D(
-            [], [], linestyle="none", marker="o", color="0.3", markerfacecolor="none", label="a condition breaks"
+            [],
+            [],
+            linestyle="none",
+            marker="o",
+            color=style.grey(0.3),
+            markerfacecolor="none",
+            label="a condition breaks",
         )
     )
-    drawing.legend(handles=handles, loc="outside lower center", ncols=7, handletextpad=0.1, columnspacing=1.0)
+    style.legend(drawing, handles, "outside lower center", 7, handletextpad=0.1, columnspacing=1.0)

@@ -1,6 +1,7 @@
 """Many curves in one panel: a shade for each speed, or for each load or depth, and the bar that says which."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -16,17 +17,22 @@ SPEED = LinearSegmentedColormap.from_list("speed", colormaps["plasma"](np.linspa
 PRESS = LinearSegmentedColormap.from_list("press", colormaps["viridis"](np.linspace(0, 0.88, 256)))
 
 
-def between(values: Sequence[float]) -> LogNorm:
+def between(values: Sequence[float] | np.ndarray) -> LogNorm:
     """The scale of shades for positive values; one alone lies in its middle."""
     low, high = min(values), max(values)
     return LogNorm(low, high) if high > low else LogNorm(low / 2, 2 * high)
 
 
 def bar(
-    drawing: Figure | SubFigure, panels: Sequence[Axes], shades: Colormap, scale: LogNorm, label: str, **place
+    drawing: Figure | SubFigure,
+    panels: Sequence[Axes] | np.ndarray,
+    shades: Colormap,
+    scale: LogNorm,
+    label: str,
+    **place: Any,
 ) -> None:
     """Beside or below some panels."""
     drawn = drawing.colorbar(ScalarMappable(scale, shades), ax=panels, **place)
     style.decades(drawn.ax)
     drawn.set_label(label)
-    drawn.outline.set_linewidth(0.5)
+    drawn.outline.set_linewidth(style.width(0.45))

@@ -12,6 +12,7 @@ from ..paper.predicted import STIFFNESS
 from ..paper.shifts import Shifted
 from ..wording import explain, explain_vertical, plus_minus
 from . import shades, style
+from .lettering import clear
 
 NAME = "shifted-curves"
 LOG10 = np.log(10)
@@ -25,20 +26,21 @@ def figure(found: Sequence[Shifted]) -> Figure | None:
     """A row for each set of curves: as they are, shifted, and the shifts. None without any."""
     if not found:
         return None
-    drawing = style.canvas(style.DOUBLE, 0.55 + 2.1 * len(found))
+    drawing = style.canvas("double", 0.55 + 2.1 * len(found))
     panels = drawing.subplots(len(found), 3, squeeze=False)
     every = np.concatenate([each.collapse.speeds for each in found])
     between = shades.between(every)
     for row, each in zip(panels, found, strict=True):
         result = each.collapse
         colours = shades.SPEED(between(result.speeds))
+        row[1].sharey(row[0])
         _curves(row[0], each, [curve.log_load for curve in result.curves], colours)
         _curves(row[1], each, _abscissae(each), colours)
         _shifts(row[2], each, colours)
         row[0].set_title(each.title)
-        row[2].set_title(_verdict(each), loc="right", fontsize=7, fontweight="normal")
+        row[2].set_title(_verdict(each), loc="right", fontsize=style.small(), fontweight="normal")
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
-        row[1].set(xlabel="shifted normal force [N]", ylim=row[0].get_ylim())
+        row[1].set(xlabel="shifted normal force [N]")
         row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
         for axes in row:
             style.decades(axes)
@@ -46,12 +48,14 @@ def figure(found: Sequence[Shifted]) -> Figure | None:
             axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / len(found)}
     shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
+    clear(drawing, panels[:, 2])
     return drawing
 
 
 def sheets(found: Sequence[Shifted]) -> dict[str, list[dict]]:
     """Points with their shifts, and the shifts of each set."""
-    points, shifts = [], []
+    points: list[dict] = []
+    shifts: list[dict] = []
     for each in found:
         result = each.collapse
         conditions = [at.columns for at in each.conditions] or [{}] * len(result.curves)
@@ -165,10 +169,26 @@ def _curves(axes: Axes, each, abscissae, colours):
     for index, (curve, x, colour) in enumerate(zip(each.collapse.curves, abscissae, colours, strict=True)):
         mu = np.exp(curve.log_friction)
         error = np.nan_to_num(mu * curve.error)
-        axes.errorbar(np.exp(x), mu, yerr=error, color=colour, linewidth=0.5, elinewidth=0.5, capsize=0)
+        axes.errorbar(
+            np.exp(x),
+            mu,
+            yerr=error,
+            color=colour,
+            linewidth=style.width(0.45),
+            elinewidth=style.width(0.45),
+            capsize=0,
+        )
         holds = each.conditions[index].holds if each.conditions else np.ones(mu.size, bool)
-        for at, inside in ((holds, colour), (~holds, "white")):
-            axes.scatter(np.exp(x)[at], mu[at], s=4, c=[inside], edgecolors=[colour], linewidths=0.4, zorder=2.5)
+        for at, inside in ((holds, colour), (~holds, style.paper())):
+            axes.scatter(
+                np.exp(x)[at],
+                mu[at],
+                s=style.mark(0.5) ** 2,
+                c=[inside],
+                edgecolors=[colour],
+                linewidths=style.width(0.35),
+                zorder=2.5,
+            )
     axes.set(xscale="log", yscale="log")
 
 
@@ -179,8 +199,16 @@ def _shifts(axes, each, colours):
     if result.overlaps:
         axes.errorbar(result.speeds, shifts, yerr=np.nan_to_num(errors), fmt="none", ecolor=colours, capsize=0)
     if not _parted(each):
-        inside = colours if each.decided else "white"
-        axes.scatter(result.speeds, shifts, s=10, facecolors=inside, edgecolors=colours, linewidths=0.9, zorder=2)
+        inside = colours if each.decided else style.paper()
+        axes.scatter(
+            result.speeds,
+            shifts,
+            s=style.mark(0.8) ** 2,
+            facecolors=inside,
+            edgecolors=colours,
+            linewidths=style.width(0.8),
+            zorder=2,
+        )
     decades = np.log10(result.speeds / result.speeds[result.reference])
     if each.decided:
         fitted = plus_minus(each.exponent, each.exponent_error)
@@ -188,8 +216,8 @@ def _shifts(axes, each, colours):
             result.speeds,
             each.exponent * decades,
             "-",
-            color="0.6",
-            linewidth=0.9,
+            color=style.grey(0.6),
+            linewidth=style.width(0.8),
             zorder=1,
             label=f"exponent {fitted}",
         )
@@ -198,19 +226,27 @@ def _shifts(axes, each, colours):
             result.speeds,
             each.expected * decades,
             "--",
-            color="black",
-            linewidth=0.9,
+            color=style.ink(),
+            linewidth=style.width(0.8),
             zorder=3,
             label=f"expected {each.expected:.3g}",
         )
     for (name, power), (colour, line) in zip(each.laws.items(), LAWS, strict=False):
         if np.isfinite(power):
             label = f"{name} {power:.4f}"
-            axes.plot(result.speeds, power * decades, line, color=colour, linewidth=0.9, zorder=4, label=label)
+            axes.plot(
+                result.speeds,
+                power * decades,
+                line,
+                color=colour,
+                linewidth=style.width(0.8),
+                zorder=4,
+                label=label,
+            )
     axes.set(xscale="log")
     if axes.get_legend_handles_labels()[0]:
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.5 * (high - low))
-        axes.legend(loc="upper right", fontsize=6, borderaxespad=0.1, handlelength=1.5)
+        axes.legend(loc="upper right", fontsize=style.tiny(), borderaxespad=0.1, handlelength=1.5)
     if not each.decided:
-        axes.text(0.03, 0.05, "exponent undecided", transform=axes.transAxes, fontsize=7)
+        axes.text(0.03, 0.05, "exponent undecided", transform=axes.transAxes, fontsize=style.small())

@@ -1,5 +1,7 @@
 """Friction of the smooth body from slow to fast, and the ratio of one dimension to three, which tends to 2."""
 
+from math import nan
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -8,6 +10,7 @@ from scene.scales import elastic_contact
 from .. import exact, metrics
 from ..verdict import DIMENSIONS, Judgement, smooth_speed
 from . import style
+from .lettering import clear
 
 NAME = "smooth-limit"
 
@@ -17,7 +20,7 @@ def figure(judgement: Judgement) -> Figure | None:
     pairs = metrics.pairs(judgement.table, "smooth")
     if not pairs:
         return None
-    drawing = style.canvas(style.SINGLE, 3.9)
+    drawing = style.canvas("single", 3.9)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
     above.set(xscale="log", yscale="log", ylabel=r"$\mu$ / slope at the edge [1]")
     slope = exact.edge_slope(judgement.case.indenter, elastic_contact(judgement.case.scene).radius)
@@ -30,25 +33,39 @@ def figure(judgement: Judgement) -> Figure | None:
     # Straight through the slow half, where the first order in the speed is meant to hold.
     slow = np.array([min(x), 0.5])
     for (solver, dimension), limit in zip(DIMENSIONS.items(), _limits(judgement), strict=True):
-        above.plot(slow, limit * slow / slope, style.LINE[solver], color=style.COLOUR[solver], linewidth=0.8,
-                   label=f"{dimension} limit")  # fmt: skip
+        above.plot(slow, limit * slow / slope, style.LINE[solver], color=style.COLOUR[solver],
+                   linewidth=style.width(0.7), label=f"{dimension} limit")  # fmt: skip
     ratios = [metrics.ratio(a.friction_coefficient, b.friction_coefficient)[0] for a, b in pairs]
-    below.axhline(2, color="0.45", linewidth=0.9, linestyle="-")
-    below.annotate("2, derived", (max(x), 2), xytext=(0, 2), textcoords="offset points", ha="right", fontsize=7)
-    below.plot(x, ratios, color="black", marker="o")
+    below.axhline(2, color=style.grey(0.45), linewidth=style.width(0.8), linestyle="-")
+    below.annotate(
+        "2, derived", (max(x), 2), xytext=(0, 2), textcoords="offset points", ha="right", fontsize=style.small()
+    )
+    below.plot(x, ratios, color=style.ink(), marker="o")
     below.set(
         xlabel=r"$v\tau / a$ [1]", ylabel="1D / 3D [1]", ylim=(min(0.9, *ratios) - 0.1, max(2.2, *ratios) + 0.1)
     )
     above.legend()
     for axes in (above, below):
         style.decades(axes)
+    clear(drawing, (above,))
     return drawing
 
 
 def sheets(judgement: Judgement):
-    """Every point of the figure."""
+    """Every point of the figure, and friction by the closed form of first order in the speed."""
     rows = [record for record in judgement.table if record.kind == "smooth"]
-    return {NAME: [{"v_tau_over_a": smooth_speed(judgement.case, r)} | r.columns for r in rows]} if rows else {}
+    if not rows:
+        return {}
+    limits = dict(zip(DIMENSIONS, _limits(judgement), strict=True))
+    speeds = [smooth_speed(judgement.case, record) for record in rows]
+    return {
+        NAME: [
+            {"v_tau_over_a": speed}
+            | record.columns
+            | {"friction_coefficient_low_speed": limits[record.solver] * speed if record.solver in limits else nan}
+            for speed, record in zip(speeds, rows, strict=True)
+        ]
+    }
 
 
 def caption(judgement: Judgement) -> str:

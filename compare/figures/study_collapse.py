@@ -1,7 +1,5 @@
 """Friction of one series against load, its curves shifted onto one, and what they then still miss."""
 
-import textwrap
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,6 +12,7 @@ from ..studies.question import TOLERANCE
 from ..studies.series import ROUGH
 from ..verdict import DIMENSIONS
 from . import shades, style
+from .lettering import clear
 
 NAME = "study-collapse"
 # Of a rough body in one dimension and in three; the marker tells them apart where colour is speed.
@@ -28,7 +27,7 @@ def figure(judged: JudgedSeries) -> Figure | None:
         return None
     fitted = {solver for solver, found in judged.shiftings.items() if found.horizontal.curve}
     rows = (1, 1, 0.7) if fitted else (1, 1)
-    drawing = style.canvas(style.DOUBLE, 1.1 + 2.15 * sum(rows))
+    drawing = style.canvas("double", 1.1 + 2.15 * sum(rows))
     panels = drawing.subplots(len(rows), 2, sharey="row", height_ratios=rows)
     scale = shades.between(judged.solved.series.speeds)
     for column, solver in zip(panels.T, DIMENSIONS, strict=True):
@@ -48,12 +47,13 @@ def figure(judged: JudgedSeries) -> Figure | None:
         style.decades(axes)
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.02}
     shades.bar(drawing, panels, shades.SPEED, scale, "speed [m/s]", **place)
+    clear(drawing, panels[1])
     return drawing
 
 
 def sheets(judged: JudgedSeries) -> dict[str, list[dict]]:
     """Every point that was shifted, and how far it is off the common curve."""
-    points = []
+    points: list[dict] = []
     for solver, found in judged.shiftings.items():
         for index, curve in enumerate(found.curves):
             shifted = curve.log_load + found.horizontal.horizontal.value[index]
@@ -109,19 +109,26 @@ def _shifted(panels, judged, solver, scale):
     below.sharex(above)
     found: Shifting = judged.shiftings[solver]
     fit = found.horizontal
-    below.axhspan(-100 * TOLERANCE, 100 * TOLERANCE, color="0.9", linewidth=0)
-    below.axhline(0, color="black", linewidth=0.7)
+    below.axhspan(-100 * TOLERANCE, 100 * TOLERANCE, color=style.grey(0.9), linewidth=0)
+    below.axhline(0, color=style.ink(), linewidth=style.width(0.65))
     for index, curve in enumerate(found.curves):
         x, colour = curve.log_load + fit.horizontal.value[index], shades.SPEED(scale(curve.speed))
         mu = np.exp(curve.log_friction)
         _curve(above, np.exp(x), mu, mu * curve.error, solver, colour, linestyle="none")
         off = 100 * _off(fit, x, curve.log_friction)
-        _curve(below, np.exp(x), off, 100 * curve.error, solver, colour, linewidth=0.6)
+        _curve(below, np.exp(x), off, 100 * curve.error, solver, colour, linewidth=style.width(0.55))
     x = np.linspace(*fit.curve.domain, 201)
-    above.plot(np.exp(x), np.exp(fit.curve(x)), color="black", linewidth=0.9, zorder=1, label="common curve")
+    above.plot(
+        np.exp(x),
+        np.exp(fit.curve(x)),
+        color=style.ink(),
+        linewidth=style.width(0.8),
+        zorder=1,
+        label="common curve",
+    )
     _law(above, judged, solver, found.speeds[len(found.speeds) // 2])
     above.legend(loc="lower left")
-    below.set_title(f"δ = {_within(fit)}", loc="right", fontsize=7, fontweight="normal")
+    below.set_title(f"δ = {_within(fit)}", loc="right", fontsize=style.small(), fontweight="normal")
 
 
 def _as_predicted(axes, judged, solver, scale):
@@ -134,8 +141,10 @@ def _as_predicted(axes, judged, solver, scale):
         _curve(axes, x, y, error, solver, shades.SPEED(scale(speed)))
     _law(axes, judged, solver, middle)
     reason = found.horizontal.reason if found else "too few points"
-    said = textwrap.fill(f"Shifted by p(v), as no shifts are fitted: {reason}.", 44)
-    axes.legend(loc="lower left", title=said, title_fontsize=6.5, alignment="left")
+    said = style.fill(
+        f"Shifted by p(v), as no shifts are fitted: {reason}.", 0.38 * style.across("double"), style.small()
+    )
+    axes.legend(loc="lower left", title=said, title_fontsize=style.small(), alignment="left")
 
 
 def _predicted(judged, solver, reference):
@@ -152,7 +161,7 @@ def _law(axes, judged, solver, reference):
     known = np.isfinite(load) & np.isfinite(law)
     order = np.argsort(load[known])
     x, mu = load[known][order], law[known][order]
-    axes.plot(x, mu, "--", color="0.5", linewidth=1.1, zorder=1, label="Eq. 19 with p(v)")
+    axes.plot(x, mu, "--", color=style.grey(0.5), linewidth=style.width(), zorder=1, label="Eq. 19 with p(v)")
 
 
 def _off(fit: Alignment, log_shifted, log_friction):
@@ -185,5 +194,14 @@ def _left_out(found):
 
 
 def _curve(axes, x, y, error, solver, colour, **other):
-    look = LOOK[solver] | {"linewidth": 0.8, "markersize": 3, "elinewidth": 0.7, "capsize": 0} | other
+    look = (
+        LOOK[solver]
+        | {
+            "linewidth": style.width(0.7),
+            "markersize": style.mark(0.75),
+            "elinewidth": style.width(0.65),
+            "capsize": 0,
+        }
+        | other
+    )
     axes.errorbar(x, y, yerr=np.nan_to_num(error), color=colour, **look)

@@ -11,6 +11,7 @@ from ..studies.points import mean_of, mean_ratio, quotient
 from ..studies.series import REST, SMOOTH_REST, Series, Solved
 from ..verdict import DIMENSIONS
 from . import style
+from .lettering import clear
 
 NAME = "study-depth"
 # Neighbouring markers are drawn apart by this factor of the load or depth, either way.
@@ -20,9 +21,9 @@ APART = 1.02
 def figure(judged: JudgedSeries) -> Figure | None:
     """All, less the smooth closed form, 1D less 3D, and stiffness. None without rough bodies at rest."""
     solved = judged.solved
-    if any(solved(solver, REST) is None for solver in DIMENSIONS):
+    if any(solved.get(solver, REST) is None for solver in DIMENSIONS):
         return None
-    drawing = style.canvas(style.DOUBLE, 4.9)
+    drawing = style.canvas("double", 4.9)
     panels = drawing.subplots(2, 2)
     whole, deviation, difference, stiff = panels.flat
     _whole(whole, solved)
@@ -32,13 +33,14 @@ def figure(judged: JudgedSeries) -> Figure | None:
     for axes, letter in zip(panels.flat, "abcd", strict=True):
         axes.set_title(f"({letter})")
         style.decades(axes)
+    clear(drawing, panels.flat)
     return drawing
 
 
 def sheets(judged: JudgedSeries) -> dict[str, list[dict]]:
     """Every press of both dimensionalities, and stiffness between neighbours."""
     solved, points, secants = judged.solved, [], []
-    if any(solved(solver, REST) is None for solver in DIMENSIONS):
+    if any(solved.get(solver, REST) is None for solver in DIMENSIONS):
         return {}
     load, depth = closed_forms(solved.series)
     differences = difference(solved, REST)
@@ -122,7 +124,12 @@ def _whole(axes: Axes, solved):
     load, depth = closed_forms(series)
     x, known, scale = (load, depth, 1e6) if series.pressed_by == "load" else (depth, load, 1.0)
     axes.plot(
-        _scaled(series, x), scale * known, color="0.45", linewidth=0.9, zorder=1, label="smooth, closed form"
+        _scaled(series, x),
+        scale * known,
+        color=style.grey(0.45),
+        linewidth=style.width(0.8),
+        zorder=1,
+        label="smooth, closed form",
     )
     for index, solver in enumerate(DIMENSIONS):
         numbers = measured(solved, solver, REST)
@@ -145,9 +152,9 @@ def _deviation(axes, solved):
         if series.pressed_by == "load"
         else (load, load / 100, "force less the smooth one [%]")
     )
-    axes.axhline(0, color="0.45", linewidth=0.9, zorder=1)
+    axes.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
     for index, solver in enumerate(DIMENSIONS):
-        for body, look in ((SMOOTH_REST, {"markerfacecolor": "white", "linestyle": "none"}), (REST, {})):
+        for body, look in ((SMOOTH_REST, {"markerfacecolor": style.paper(), "linestyle": "none"}), (REST, {})):
             numbers = measured(solved, solver, body)
             left = Estimated((numbers.value - known) / unit, numbers.error / unit, numbers.freedom)
             name = "rough" if body == REST else "smooth"
@@ -159,10 +166,13 @@ def _deviation(axes, solved):
 
 def _difference(axes, solved):
     series = solved.series
-    axes.axhline(0, color="0.45", linewidth=0.9, zorder=1)
+    axes.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
     for body, look in (
-        (SMOOTH_REST, {"color": "0.5", "marker": "D", "linestyle": ":", "markerfacecolor": "white"}),
-        (REST, {"color": "black", "marker": "o", "linestyle": "-"}),
+        (
+            SMOOTH_REST,
+            {"color": style.grey(0.5), "marker": "D", "linestyle": ":", "markerfacecolor": style.paper()},
+        ),
+        (REST, {"color": style.ink(), "marker": "o", "linestyle": "-"}),
     ):
         numbers = _times(difference(solved, body), 100)
         _bars(axes, _presses(series, 0.5), numbers, "exact", label="rough" if body == REST else "smooth", **look)
@@ -176,7 +186,9 @@ def _stiffness(axes, solved):
     load, depth = closed_forms(solved.series)
     if load.size > 1:
         x, k = np.sqrt(load[1:] * load[:-1]), np.diff(load) / np.diff(depth)
-        axes.plot(x, 1e-3 * k, color="0.45", linewidth=0.9, zorder=1, label="smooth, closed form")
+        axes.plot(
+            x, 1e-3 * k, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1, label="smooth, closed form"
+        )
         for solver in DIMENSIONS:
             x, k = between_presses(solved, solver), stiffness(solved, solver)
             _bars(axes, x, _times(k, 1e-3), solver, label=f"{DIMENSIONS[solver]}, rough")
@@ -189,7 +201,9 @@ def _bars(axes, x, numbers: Estimated, solver, **look):
     low, high = numbers.interval()
     bars = np.nan_to_num(np.abs([numbers.value - low, high - numbers.value]))
     kept = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": style.LINE[solver]}
-    axes.errorbar(x, numbers.value, yerr=bars, **kept | {"linewidth": 0.8, "markersize": 3.5} | look)
+    axes.errorbar(
+        x, numbers.value, yerr=bars, **kept | {"linewidth": style.width(0.7), "markersize": style.mark(0.9)} | look
+    )
 
 
 def _times(numbers, factor):

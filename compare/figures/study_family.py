@@ -22,21 +22,22 @@ def figure(judged: JudgedStudy) -> Figure | None:
     if not found:
         return None
     most = max(map(len, found.values()))
-    drawing = style.canvas(style.DOUBLE, 0.3 + len(found) * (2.6 + 0.16 * -(-most // 2)))
-    for band, (shape, members) in zip(np.ravel(drawing.subfigures(len(found), 1)), found.items(), strict=True):
+    drawing = style.canvas("double", 0.3 + len(found) * (2.6 + 0.16 * -(-most // 2)))
+    bands = drawing.subfigures(len(found), 1, squeeze=False)[:, 0]
+    for band, (shape, members) in zip(bands, found.items(), strict=True):
         panels = band.subplots(1, 2, sharex=True, sharey=True)
         for axes, solver in zip(panels, DIMENSIONS, strict=True):
             _points(axes, members, solver)
             axes.set(xlabel=r"$\xi$ [1]", title=f"{style.LABEL[solver]}, {shape}")
             style.decades(axes)
         panels[0].set_ylabel(r"friction over its plateau [1]")
-        band.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=6.5)
+        style.legend(band, panels[0].get_legend_handles_labels()[0], "outside lower center", 2)
     return drawing
 
 
 def sheets(judged: JudgedStudy) -> dict[str, list[dict]]:
     """Every point."""
-    rows = []
+    rows: list[dict] = []
     for members in families(judged.series).values():
         for solver, dimension in DIMENSIONS.items():
             for each, xi, mu, error in _reduced(members, solver):
@@ -81,10 +82,10 @@ def _points(axes: Axes, members, solver):
             yerr=np.nan_to_num(error),
             color=shades.PRESS(index / max(1, len(members) - 1)),
             marker=style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
-            markersize=3,
+            markersize=style.mark(0.75),
             markerfacecolor="none" if index >= len(style.SERIES_MARKERS) else None,
             linestyle="none",
-            elinewidth=0.6,
+            elinewidth=style.width(0.55),
             capsize=0,
             label=each.solved.series.title,
         )
@@ -92,5 +93,7 @@ def _points(axes: Axes, members, solver):
     found = np.concatenate(everywhere)
     if found.size:
         xi = np.geomspace(found.min(), found.max(), 101)
-        axes.plot(xi, interpolation(xi), "-", color="black", linewidth=0.9, zorder=1, label="Eq. 19")
+        axes.plot(
+            xi, interpolation(xi), "-", color=style.ink(), linewidth=style.width(0.8), zorder=1, label="Eq. 19"
+        )
     axes.set(xscale="log", yscale="log")

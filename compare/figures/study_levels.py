@@ -1,6 +1,7 @@
 """Friction of one series against speed, and 1D over 3D, with what theory has for either."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -26,8 +27,8 @@ def figure(judged: JudgedSeries) -> Figure | None:
     """Above: friction at three loads or depths. Below: 1D over 3D, rough and smooth. None unless it slides."""
     if not judged.laws:
         return None
-    drawing = style.canvas(style.DOUBLE, 5.2)
-    above, below = drawing.subfigures(2, 1, height_ratios=(1.15, 1))
+    drawing = style.canvas("double", 5.2)
+    above, below = drawing.subfigures(2, 1, squeeze=False, height_ratios=(1.15, 1))[:, 0]
     presses = judged.solved.series.presses
     chosen = sorted({0, len(presses) // 2, len(presses) - 1})
     levels = above.subplots(1, len(chosen), sharey=True, sharex=True, squeeze=False)[0]
@@ -36,7 +37,7 @@ def figure(judged: JudgedSeries) -> Figure | None:
         _level(axes, judged, place)
         axes.set(xlabel="speed [m/s]", title=_pressed(judged, presses[place]))
     _room(levels[0], judged, chosen)
-    above.legend(*levels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5, handlelength=2.4)
+    style.legend(above, levels[0].get_legend_handles_labels()[0], "outside lower center", 5)
     ratios = below.subplots(1, 2, sharey=True)
     _ratios(below, ratios, judged)
     for axes in (*levels, *ratios):
@@ -97,7 +98,7 @@ def _level(axes: Axes, judged, place):
         mu, smooth = (friction(judged.solved, solver, body) for body in (ROUGH, SMOOTH))
         colour, dimension = style.COLOUR[solver], DIMENSIONS[solver]
         # Dashes of one lie in the gaps of the other: the laws of both may coincide.
-        law = {"color": colour, "alpha": 0.5, "linewidth": 1.2}
+        law: dict[str, Any] = {"color": colour, "alpha": 0.5, "linewidth": style.width(1.1)}
         axes.plot(
             speeds,
             laws.law[:, place],
@@ -114,14 +115,21 @@ def _level(axes: Axes, judged, place):
             color=colour,
             marker=style.MARKER[solver],
             linestyle=style.LINE[solver],
-            markersize=3.5,
+            markersize=style.mark(0.9),
             label=f"{dimension}, rough",
         )
         axes.plot(
-            speeds, smooth.value[:, place], linestyle=style.LINE[solver], color=colour, linewidth=0.6,
-            alpha=0.8, label=f"{dimension}, smooth",
+            speeds, smooth.value[:, place], linestyle=style.LINE[solver], color=colour,
+            linewidth=style.width(0.55), alpha=0.8, label=f"{dimension}, smooth",
         )  # fmt: skip
-        axes.plot(speeds, laws.slow[:, place], ":", color=colour, linewidth=1.2, label=f"{dimension}, low speed")
+        axes.plot(
+            speeds,
+            laws.slow[:, place],
+            linestyle=(0, (1, 1.6 + 1.6 * index)),
+            color=colour,
+            linewidth=style.width(1.1),
+            label=f"{dimension}, low speed",
+        )
 
 
 def _room(axes, judged, chosen):
@@ -151,7 +159,13 @@ def _ratios(drawing, panels: Sequence[Axes], judged):
     for axes, body, memory, name in zip(panels, (ROUGH, SMOOTH), MEMORIES, names, strict=True):
         over, x = _ratio(judged, body), ratio(judged.solved, "BEM", memory)
         for level in (1, 2):
-            axes.axhline(level, color="0.6", linewidth=0.7, linestyle="-" if level == 1 else ":", zorder=0)
+            axes.axhline(
+                level,
+                color=style.grey(0.6),
+                linewidth=style.width(0.65),
+                linestyle="-" if level == 1 else ":",
+                zorder=0,
+            )
         for j, press in enumerate(series.presses):
             axes.errorbar(
                 x[:, j],
@@ -159,9 +173,9 @@ def _ratios(drawing, panels: Sequence[Axes], judged):
                 yerr=np.nan_to_num(over.error[:, j]),
                 color=shades.PRESS(scale(unit * press)),
                 marker=style.SERIES_MARKERS[j % len(style.SERIES_MARKERS)],
-                markersize=3,
-                linewidth=0.7,
-                elinewidth=0.7,
+                markersize=style.mark(0.75),
+                linewidth=style.width(0.65),
+                elinewidth=style.width(0.65),
             )
         axes.set(xscale="log", xlabel=name, title=body)
         axes.set_ylim(bottom=0)

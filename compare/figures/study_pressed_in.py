@@ -14,6 +14,7 @@ from ..studies.points import mean_of, quotient
 from ..studies.series import ROUGH, SMOOTH
 from ..verdict import DIMENSIONS
 from . import shades, style
+from .lettering import clear
 
 NAME = "study-pressed-in"
 # Markers of neighbouring rates are drawn apart by this factor of the depth.
@@ -25,7 +26,7 @@ def figure(judged: JudgedSeries) -> Figure | None:
     series = judged.solved.series
     if not isinstance(series.scene.motion, Program) or not series.speeds:
         return None
-    drawing = style.canvas(style.DOUBLE, 3.2)
+    drawing = style.canvas("double", 3.2)
     one, three, ratio = drawing.subplots(1, 3)
     three.sharey(one)
     scale = shades.between(series.speeds)
@@ -40,6 +41,7 @@ def figure(judged: JudgedSeries) -> Figure | None:
     one.legend()
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.05, "pad": 0.02}
     shades.bar(drawing, (one, three, ratio), shades.SPEED, scale, "rate of indentation [m/s]", **place)
+    clear(drawing, (one,))
     return drawing
 
 
@@ -97,22 +99,31 @@ def _forces(axes: Axes, judged, solver, scale):
         colour = shades.SPEED(scale(rate))
         _bars(axes, depths, rough, i, color=colour, marker=style.MARKER[solver], linestyle=style.LINE[solver],
               label="rough" if i == 0 else None)  # fmt: skip
-        axes.plot(depths, smooth.value[i], color=colour, linewidth=0.6, label="smooth" if i == 0 else None)
+        axes.plot(
+            depths, smooth.value[i], color=colour, linewidth=style.width(0.55), label="smooth" if i == 0 else None
+        )
         if judged.closed is not None:
             known = "smooth, closed form" if i == 0 else None
-            axes.plot(depths, judged.closed[i], "+", color=style.COLOUR["exact"], markersize=5, label=known)
+            axes.plot(
+                depths,
+                judged.closed[i],
+                "+",
+                color=style.COLOUR["exact"],
+                markersize=style.mark(1.25),
+                label=known,
+            )
     axes.set(yscale="log", title=style.LABEL[solver])
 
 
 def _ratios(axes, judged, scale):
     depths = 1e6 * np.array(judged.solved.series.presses)
     rough, smooth = (ratio_of(judged, body) for body in (ROUGH, SMOOTH))
-    axes.axhline(0, color="0.45", linewidth=0.9, zorder=1)
+    axes.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
     for i, rate in enumerate(judged.solved.series.speeds):
         colour = shades.SPEED(scale(rate))
         over = Estimated(100 * (rough.value - 1), 100 * rough.error, rough.freedom)
         _bars(axes, depths, over, i, color=colour, marker="D", linestyle="-")
-        axes.plot(depths, 100 * (smooth.value[i] - 1), color=colour, linewidth=0.6)
+        axes.plot(depths, 100 * (smooth.value[i] - 1), color=colour, linewidth=style.width(0.55))
     axes.set(ylabel="force 1D / 3D - 1 [%]", title="1D over 3D")
 
 
@@ -120,4 +131,4 @@ def _bars(axes, x, numbers: Estimated, i, **look):
     low, high = numbers.interval()
     bars = np.nan_to_num(np.abs([numbers.value - low, high - numbers.value]))[:, i]
     x = x * APART ** (i - (len(numbers.value) - 1) / 2)
-    axes.errorbar(x, numbers.value[i], yerr=bars, linewidth=0.8, markersize=3.5, **look)
+    axes.errorbar(x, numbers.value[i], yerr=bars, linewidth=style.width(0.7), markersize=style.mark(0.9), **look)

@@ -10,6 +10,7 @@ from ..studies.question import TOLERANCE
 from ..studies.shiftclaims import inseparable
 from ..verdict import DIMENSIONS
 from . import style
+from .lettering import clear
 
 NAME = "study-shifts"
 # Neighbouring markers are drawn apart by this factor of the speed, either way.
@@ -20,7 +21,7 @@ def figure(judged: JudgedSeries) -> Figure | None:
     """Left: b_v. Middle: b_v less what theory has. Right: c_v. None without curves that could be shifted."""
     if not judged.shiftings:
         return None
-    drawing = style.canvas(style.DOUBLE, 2.7)
+    drawing = style.canvas("double", 2.7)
     left, middle, right = drawing.subplots(1, 3)
     for index, (solver, found) in enumerate(judged.shiftings.items()):
         expected, apart = predicted(judged, solver), APART ** (2 * index - 1)
@@ -30,10 +31,18 @@ def figure(judged: JudgedSeries) -> Figure | None:
             _draw(axes, found.speeds * apart, numbers, solver)
         look = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": "none"}
         left.plot([], [], label=f"{DIMENSIONS[solver]}, {_power(found)}", **look)
-    left.plot(found.speeds, expected, "-", color="0.45", linewidth=0.9, zorder=1, label="theory, ln p(v)")
-    middle.axhline(0, color="0.45", linewidth=0.9, zorder=1)
-    right.axhspan(-TOLERANCE, TOLERANCE, color="0.9", linewidth=0, zorder=0)
-    right.axhline(0, color="0.45", linewidth=0.9, zorder=1)
+    left.plot(
+        found.speeds,
+        expected,
+        "-",
+        color=style.grey(0.45),
+        linewidth=style.width(0.8),
+        zorder=1,
+        label="theory, ln p(v)",
+    )
+    middle.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
+    right.axhspan(-TOLERANCE, TOLERANCE, color=style.grey(0.9), linewidth=0, zorder=0)
+    right.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
     left.set(ylabel="horizontal shift $b_v$ [1]", title="(a)")
     middle.set(ylabel="$b_v$ less ln p(v) [1]", title="(b)")
     right.set(ylabel="vertical shift $c_v$, both fitted [1]", title="(c)")
@@ -42,6 +51,7 @@ def figure(judged: JudgedSeries) -> Figure | None:
         axes.set(xscale="log", xlabel="speed [m/s]")
         style.span(axes, judged.solved.series.speeds)
         style.decades(axes)
+    clear(drawing, (left,))
     return drawing
 
 

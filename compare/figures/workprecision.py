@@ -13,7 +13,7 @@ from matplotlib.ticker import LogLocator
 
 from ..workprecision.contest import Climbed, Judged, Quantity
 from ..workprecision.listing import orders, rungs
-from ..workprecision.wording import digits, seconds, share
+from ..workprecision.wording import digits, share
 from . import style
 from .lettering import Letter, letter, write
 
@@ -30,10 +30,6 @@ BESIDE = (
     {"color": "#E69F00", "marker": "P", "linestyle": (0, (3, 1))},
     {"color": "0.45", "marker": "x", "linestyle": (0, (1, 3))},
 )
-# Letters that fit across a legend, and what the line before a label takes of them.
-ACROSS, SAMPLE = 125, 9
-# Of the settings written at the points [points].
-SIZE = 5.5
 
 
 @dataclass(frozen=True)
@@ -79,15 +75,15 @@ def figure(found: Sequence[Judged]) -> Figure | None:
         return None
     columns = min(COLUMNS, len(drawn)) if len(drawn) != 4 else 2
     rows = ceil(len(drawn) / columns)
-    drawing = style.canvas(style.DOUBLE, rows * HEIGHT + 0.6)
+    drawing = style.canvas("double", rows * HEIGHT + 0.6)
     looks, all_axes = _looks(found), []
     for k, panel in enumerate(drawn):
         axes = drawing.add_subplot(rows, columns, k + 1)
-        axes.set_title(f"({letter(k)}) {panel.title}", fontsize=6.3)
+        style.head(axes, f"({letter(k)}) {panel.title}", columns)
         _panel(axes, panel, looks)
-        axes.set_xlabel("processor time")
+        axes.set_xlabel("processor time [s]")
         if k % columns == 0:
-            axes.set_ylabel("relative error")
+            axes.set_ylabel("relative error [1]")
         all_axes.append(axes)
     _legend(drawing, drawn, looks)
     drawing.draw_without_rendering()
@@ -132,9 +128,9 @@ def _looks(found) -> Mapping[str, Mapping[str, Any]]:
     for solver, labels in solvers.items():
         start = style.SERIES_MARKERS.index(style.MARKER.get(solver, "o"))
         for k, (label, colour) in enumerate(zip(labels, style.shades(solver, max(len(labels), 2)), strict=False)):
-            colour = style.COLOUR[solver] if k == 0 else colour if k > 1 else style.shades(solver, 2)[0]
+            own = style.COLOUR[solver] if k == 0 else colour if k > 1 else style.shades(solver, 2)[0]
             looks[label] = {
-                "color": colour,
+                "color": own,
                 "marker": style.SERIES_MARKERS[(start + 2 * k) % len(style.SERIES_MARKERS)],
                 "linestyle": style.SERIES_LINES[k % len(style.SERIES_LINES)],
             }
@@ -153,13 +149,13 @@ def _panel(axes: Axes, panel, looks):
         marker = look.pop("marker")
         axes.plot(climbed.processor, errors, **look)
         hollow = errors <= panel.reference_error if quantity.by != "indicator" else np.zeros(len(errors), bool)
-        for part, face in ((hollow, "white"), (~hollow, look["color"])):
+        for part, face in ((hollow, style.paper()), (~hollow, look["color"])):
             axes.plot(
                 climbed.processor[part],
                 errors[part],
                 linestyle="none",
                 marker=marker,
-                markersize=3.8,
+                markersize=style.mark(),
                 color=look["color"],
                 markerfacecolor=face,
                 zorder=3,
@@ -169,7 +165,7 @@ def _panel(axes: Axes, panel, looks):
         return
     _room(axes, panel)
     if panel.reference_error > 0:
-        axes.axhspan(axes.get_ylim()[0], panel.reference_error, color="0.9", zorder=0, linewidth=0)
+        axes.axhspan(axes.get_ylim()[0], panel.reference_error, color=style.grey(0.9), zorder=0, linewidth=0)
     for climbed in panel.judged.climbed:
         _guide(axes, panel, climbed)
     _failed(axes, panel)
@@ -177,7 +173,9 @@ def _panel(axes: Axes, panel, looks):
 
 def _look(panel, climbed, quantity, looks):
     k = panel.estimates.index(quantity)
-    return looks[climbed.ladder.label] if k == 0 else {**BESIDE[(k - 1) % len(BESIDE)], "linewidth": 0.8}
+    return (
+        looks[climbed.ladder.label] if k == 0 else {**BESIDE[(k - 1) % len(BESIDE)], "linewidth": style.width(0.7)}
+    )
 
 
 def _room(axes, panel):
@@ -195,7 +193,6 @@ def _room(axes, panel):
     axes.set_xlim(low / room, high * room)
     style.decades(axes)
     axes.xaxis.set_major_locator(LogLocator(subs=_ticks(high / low)))
-    axes.xaxis.set_major_formatter(lambda value, _: seconds(value))
 
 
 def _ticks(span):
@@ -206,7 +203,7 @@ def _ticks(span):
 def _guide(axes, panel, climbed):
     if (power := _power(panel, climbed)) is not None:
         x, y, _ = power
-        axes.plot(x, y, color="0.3", linestyle=(0, (1, 1.5)), linewidth=0.8, zorder=1)
+        axes.plot(x, y, color=style.grey(0.3), linestyle=(0, (1, 1.5)), linewidth=style.width(0.7), zorder=1)
 
 
 def _power(panel, climbed):
@@ -227,7 +224,9 @@ def _failed(axes, panel):
     ]
     if failed:
         said = f"failed: {', '.join(failed)}"
-        axes.text(0.02, 0.02, said, transform=axes.transAxes, fontsize=5.5, color="0.3", va="bottom")
+        axes.text(
+            0.02, 0.02, said, transform=axes.transAxes, fontsize=style.tiny(), color=style.grey(0.3), va="bottom"
+        )
 
 
 def _write(axes: Axes, panel):
@@ -242,8 +241,8 @@ def _write(axes: Axes, panel):
     for climbed in panel.judged.climbed:
         if (power := _power(panel, climbed)) is not None:
             x, y, order = power
-            powers.append(Letter(f"$n^{{-{order:.1f}}}$", (x[-1], y[-1]), "0.35", needed=False))
-    write(axes, settings + powers, SIZE)
+            powers.append(Letter(f"$n^{{-{order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35), needed=False))
+    write(axes, settings + powers, style.tiny())
 
 
 def _points(climbed, quantity):
@@ -256,13 +255,14 @@ def _points(climbed, quantity):
 
 
 def _legend(drawing, drawn, looks):
-    entries = {label: Line2D([], [], **look, label=label, markersize=3.8) for label, look in looks.items()}
+    entries = {
+        label: Line2D([], [], **look, label=label, markersize=style.mark()) for label, look in looks.items()
+    }
     for panel in drawn:
         for k, quantity in enumerate(panel.estimates[1:]):
             look = BESIDE[k % len(BESIDE)]
             entries.setdefault(
-                quantity.by, Line2D([], [], **look, label=quantity.by, markersize=3.8, linewidth=0.8)
+                quantity.by,
+                Line2D([], [], **look, label=quantity.by, markersize=style.mark(), linewidth=style.width(0.7)),
             )
-    longest = max(len(label) for label in entries)
-    columns = max(1, min(len(entries), ACROSS // (longest + SAMPLE)))
-    drawing.legend(handles=list(entries.values()), loc="outside lower center", ncols=columns)
+    style.legend(drawing, list(entries.values()), "outside lower center", len(entries))

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -48,13 +49,13 @@ def figure(costed: Costed) -> Figure | None:
     by_points = _along(costed, "points")
     if not by_points:
         return None
-    drawing = style.canvas(style.DOUBLE, 7.6)
+    drawing = style.canvas("double", 7.6)
     panels = drawing.subplots(3, 2)
     times, applications, memory, counts, speeds, contact = panels.flat
     _against_points(times, by_points, "processor", "processor time [s]")
     _forecasts(times, costed, "time", "processor")
     deep = {name: bill for name, bill in by_points.items() if bill.dimension == "3D"}
-    _against_points(applications, deep, "applications", "operator applications")
+    _against_points(applications, deep, "applications", "operator applications [1]")
     _against_points(memory, by_points, "memory", "memory [GiB]", 1 / GIBIBYTE)
     _machines(memory)
     _forecasts(memory, costed, "memory", "memory", 1 / GIBIBYTE)
@@ -65,7 +66,7 @@ def figure(costed: Costed) -> Figure | None:
         axes.set_title(f"({letter})")
         style.decades(axes)
     _shares(contact)
-    drawing.legend(*times.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    style.legend(drawing, times.get_legend_handles_labels()[0], "outside upper center", 3)
     return drawing
 
 
@@ -102,8 +103,8 @@ def _along(costed, setting) -> dict[str, Bill]:
 def _look(name, bill):
     marker, line = LOOKS[name]
     colour = style.COLOUR[bill.solver]
-    face = colour if name in FILLED else "white"
-    return {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": 3.8}, line
+    face = colour if name in FILLED else style.paper()
+    return {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": style.mark()}, line
 
 
 def _against_points(axes: Axes, bills, cost, label, times=1.0):
@@ -116,8 +117,10 @@ def _against_points(axes: Axes, bills, cost, label, times=1.0):
         axes.plot(bill.x[shown], values[shown], linestyle="none", label=name_of(bill), zorder=3, **points)
         if isinstance(law, Law):
             x = np.geomspace(law.lowest, law.highest, 60)
-            axes.plot(x, times * law.at(x), color=points["color"], linestyle=line, linewidth=0.9, zorder=2)
-    axes.set(xscale="log", yscale="log", xlabel=AXES["points"].label, ylabel=label)
+            axes.plot(
+                x, times * law.at(x), color=points["color"], linestyle=line, linewidth=style.width(0.8), zorder=2
+            )
+    axes.set(xscale="log", yscale="log", xlabel=f"{AXES['points'].label} [1]", ylabel=label)
 
 
 def _forecasts(axes: Axes, costed, what, cost, times=1.0):
@@ -129,23 +132,25 @@ def _forecasts(axes: Axes, costed, what, cost, times=1.0):
     for k, (bill, each) in enumerate(drawn):
         law, place = bill.laws[cost], LARGEST * APART ** (2 * k - len(drawn) + 1)
         x = np.geomspace(law.highest, LARGEST, 40)
-        look = {"color": style.COLOUR[bill.solver], "linewidth": 0.7}
-        axes.plot(x, times * law.at(x), **look | {"linewidth": 0.5, "alpha": 0.6}, zorder=1)
+        look: dict[str, Any] = {"color": style.COLOUR[bill.solver], "linewidth": style.width(0.65)}
+        axes.plot(x, times * law.at(x), **look | {"linewidth": style.width(0.45), "alpha": 0.6}, zorder=1)
         marker, _ = LOOKS[next(name for name, other in costed.bills.items() if other is bill)]
         bars = [[each.value - each.low], [each.high - each.value]]
-        axes.errorbar([place], [each.value], bars, marker=marker, markersize=2.5, linestyle="none", **look)
+        axes.errorbar(
+            [place], [each.value], bars, marker=marker, markersize=style.mark(0.65), linestyle="none", **look
+        )
 
 
 def _machines(axes: Axes):
     axes.set_xlim(right=max(2 * LARGEST, axes.get_xlim()[1]))
     for k, size in enumerate(MEMORIES):
-        axes.axhline(size, color="0.6", linewidth=0.7, zorder=0)
+        axes.axhline(size, color=style.grey(0.6), linewidth=style.width(0.65), zorder=0)
         axes.annotate(
             f"{size} GiB",
             (0.01 + 0.12 * k, size),
             xycoords=("axes fraction", "data"),
-            fontsize=5.5,
-            color="0.35",
+            fontsize=style.tiny(),
+            color=style.grey(0.35),
             va="bottom",
         )
 
@@ -156,8 +161,12 @@ def _counts(axes: Axes, bills):
         first = bill.processor[0]
         points, line = _look(name, bill)
         label = f"{name_of(bill)}: {bill.ladder.setting}"
-        axes.plot(bill.x, bill.processor / first, linestyle=line, linewidth=0.9, label=label, **points)
-    axes.set(xscale="log", yscale="log", xlabel="modes, or steps in time", ylabel="time over that of the first")
+        axes.plot(
+            bill.x, bill.processor / first, linestyle=line, linewidth=style.width(0.8), label=label, **points
+        )
+    axes.set(
+        xscale="log", yscale="log", xlabel="modes, or steps in time [1]", ylabel="time over that of the first [1]"
+    )
     _legend(axes, bills)
 
 
@@ -166,9 +175,14 @@ def _times(axes: Axes, bills):
         points, line = _look(name, bill)
         order = np.argsort(bill.x)
         axes.plot(
-            bill.x[order], bill.processor[order], linestyle=line, linewidth=0.9, label=name_of(bill), **points
+            bill.x[order],
+            bill.processor[order],
+            linestyle=line,
+            linewidth=style.width(0.8),
+            label=name_of(bill),
+            **points,
         )
-    label = next((AXES[bill.ladder.setting].label for bill in bills.values()), "")
+    label = next((f"{AXES[bill.ladder.setting].label} [1]" for bill in bills.values()), "")
     axes.set(xscale="log", yscale="log", xlabel=label, ylabel="processor time [s]")
     _widened(axes, bills)
     _legend(axes, bills)
@@ -185,7 +199,7 @@ def _widened(axes: Axes, bills):
 
 def _legend(axes: Axes, bills):
     if bills:
-        axes.legend(fontsize=6)
+        axes.legend(fontsize=style.tiny())
 
 
 def _shares(axes: Axes):
@@ -197,7 +211,7 @@ def _shares(axes: Axes):
         return
     axes.set_xscale("logit")
     ticks = [0.001, 0.01, 0.1, 0.5, 0.9, 0.99, 0.999]
-    axes.set_xticks(ticks, [f"{100 * tick:g} %" for tick in ticks])
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.set_xticks([], minor=True)
     axes.set_xlim(np.nanmin(x) / 2, 1 - (1 - np.nanmax(x)) / 2)
 

@@ -1,6 +1,6 @@
 """Error against the true answer of three dimensions over time: both models in one picture, in several regimes."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite
 
@@ -30,7 +30,6 @@ LONGEST = 1e5
 MARKED = (1, 10, 100, 1000, 10_000)
 # Errors of the first and the last rung by less than this factor apart are labelled together.
 CLOSE = 3.0
-CHEAPEST = {"color": "0.1", "linewidth": 2.2, "alpha": 0.35, "linestyle": "-"}
 
 
 @dataclass(frozen=True)
@@ -58,14 +57,17 @@ def figure(found: Sequence[Found]) -> Figure | None:
     if not drawn:
         return None
     rows, columns, places = _places(drawn)
-    drawing = style.canvas(style.DOUBLE if columns > 1 else style.SINGLE, rows * HEIGHT + AROUND)
+    drawing = style.canvas("double" if columns > 1 else "single", rows * HEIGHT + AROUND)
+    first: dict[bool, Axes] = {}
     for k, (panel, place) in enumerate(zip(drawn, places, strict=True)):
-        axes = drawing.add_subplot(rows, columns, place + 1)
-        axes.set_title(f"({letter(k)}) {_headed(panel)}", fontsize=6.5)
+        beside = first.get(panel.rough)
+        axes = drawing.add_subplot(rows, columns, place + 1, sharex=beside, sharey=beside)
+        first.setdefault(panel.rough, axes)
+        style.head(axes, f"({letter(k)}) {_headed(panel)}", columns)
         axes.set(xscale="log", yscale="log")
         (_rough if panel.rough else _smooth)(axes, panel)
-        if place % columns == 0:
-            axes.set_ylabel("relative error")
+        if place % columns == 0 or beside is None:
+            axes.set_ylabel("relative error [1]")
         if place + columns not in places or (not panel.rough and drawn[places.index(place + columns)].rough):
             axes.set_xlabel("processor time [s]")
     for rough in (False, True):
@@ -73,7 +75,7 @@ def figure(found: Sequence[Found]) -> Figure | None:
     _legend(drawing, drawn)
     drawing.draw_without_rendering()
     for axes, panel in zip(drawing.axes, drawn, strict=True):
-        write(axes, _letters(panel), 5.5)
+        write(axes, _letters(panel), style.tiny())
     return drawing
 
 
@@ -81,7 +83,11 @@ def sheets(found: Sequence[Found]) -> dict[str, list[dict]]:
     """What each setting gives and costs, and what a wanted error takes."""
     smooth = rungs([each for each in found if isinstance(each, Judged)])
     rough = [row for each in found if isinstance(each, JudgedEnsemble) for row in ways(each)]
-    content = {f"{NAME}-rungs": smooth, f"{NAME}-ways": rough, f"{NAME}-answers": table(found)}
+    content: Mapping[str, list[dict]] = {
+        f"{NAME}-rungs": smooth,
+        f"{NAME}-ways": rough,
+        f"{NAME}-answers": table(found),
+    }
     return {name: rows for name, rows in content.items() if rows}
 
 
@@ -112,7 +118,7 @@ def way_look(way: Way, ways: Sequence[Way]) -> dict:
     """Of the ways of one solver on one grid each: shades, the finest grid darkest."""
     shades = style.shades(way.solver, len(ways))[::-1] if len(ways) > 1 else [style.COLOUR[way.solver]]
     k = ways.index(way)
-    return {"color": shades[k], "linestyle": style.LINE[way.solver], "linewidth": 0.9}
+    return {"color": shades[k], "linestyle": style.LINE[way.solver], "linewidth": style.width(0.8)}
 
 
 def _headed(panel) -> str:
@@ -127,7 +133,9 @@ def _smooth(axes: Axes, panel):
     for climbed in judged.climbed:
         solver = climbed.ladder.rungs[0].solver.name
         errors, colour = np.maximum(climbed.errors[name], LEAST), style.COLOUR[solver]
-        axes.plot(climbed.processor, errors, color=colour, linestyle=style.LINE[solver], linewidth=0.9)
+        axes.plot(
+            climbed.processor, errors, color=colour, linestyle=style.LINE[solver], linewidth=style.width(0.8)
+        )
         for hollow in (False, True):
             part = (errors <= own) == hollow
             axes.plot(
@@ -135,14 +143,14 @@ def _smooth(axes: Axes, panel):
                 errors[part],
                 linestyle="none",
                 marker=style.MARKER[solver],
-                markersize=3.2,
+                markersize=style.mark(0.8),
                 color=colour,
-                markerfacecolor="white" if hollow else colour,
+                markerfacecolor=style.paper() if hollow else colour,
                 zorder=3,
             )
         _guide(axes, climbed, judged.order(climbed, name))
     if own > 0:
-        axes.axhspan(LEAST / 10, own, color="0.9", zorder=0, linewidth=0)
+        axes.axhspan(LEAST / 10, own, color=style.grey(0.9), zorder=0, linewidth=0)
     _say_failed(axes, [reason for climbed in judged.climbed for reason in climbed.reasons if reason is not None])
 
 
@@ -178,9 +186,9 @@ def _guide(axes, climbed, order):
     axes.plot(
         climbed.processor[solved],
         np.maximum(order.at(climbed.ladder.values)[solved], LEAST),
-        color="0.3",
+        color=style.grey(0.3),
         linestyle=(0, (1, 1.5)),
-        linewidth=0.8,
+        linewidth=style.width(0.7),
         zorder=1,
     )
 
@@ -194,7 +202,7 @@ def _rough(axes: Axes, panel):
     known = [way.least_seconds for way in every if isfinite(way.least_seconds)]
     if known:
         seconds = np.geomspace(min(known), LONGEST * min(known), 200)
-        axes.plot(seconds, envelope(every, seconds), **CHEAPEST, zorder=2)
+        axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
     _bands(axes, standing)
     reasons = [reason for sample in panel.found.samples for reason in sample.reasons]
     _say_failed(axes, reasons)
@@ -217,10 +225,14 @@ def _curve(axes, way: Way, look):
         way.error_of(marks),
         linestyle="none",
         marker=style.MARKER[way.solver],
-        markersize=2.6,
+        markersize=style.mark(0.65),
         color=look["color"],
         zorder=4,
     )
+
+
+def _cheapest():
+    return {"color": style.grey(0.1), "linewidth": style.width(2), "alpha": 0.35, "linestyle": "-"}
 
 
 def _bands(axes, standing: Standing):
@@ -230,13 +242,15 @@ def _bands(axes, standing: Standing):
             max(floor.least, LEAST), floor.most, color=style.COLOUR["MDR"], alpha=0.13, zorder=0, linewidth=0
         )
     if standing.discretisation > 0:
-        axes.axhspan(LEAST / 10, standing.discretisation, color="0.9", zorder=0, linewidth=0)
+        axes.axhspan(LEAST / 10, standing.discretisation, color=style.grey(0.9), zorder=0, linewidth=0)
 
 
 def _say_failed(axes, reasons):
     if reasons:
         said = f"not solved: {len(reasons)}"
-        axes.text(0.02, 0.02, said, transform=axes.transAxes, fontsize=5.5, color="0.3", va="bottom")
+        axes.text(
+            0.02, 0.02, said, transform=axes.transAxes, fontsize=style.tiny(), color=style.grey(0.3), va="bottom"
+        )
 
 
 def _share(group: Sequence[Axes], rough):
@@ -262,16 +276,16 @@ def _legend(drawing, drawn):
             color=style.COLOUR[solver],
             marker=style.MARKER[solver],
             linestyle=style.LINE[solver],
-            markersize=3.2,
+            markersize=style.mark(0.8),
             label=style.LABEL[solver],
         )
         for solver in ("MDR", "BEM")
     ]
     if any(panel.rough for panel in drawn):
-        entries.append(Line2D([], [], **CHEAPEST, label="cheapest way in 3D"))
+        entries.append(Line2D([], [], **_cheapest(), label="cheapest way in 3D"))
         entries.append(Patch(color=style.COLOUR["MDR"], alpha=0.2, linewidth=0, label="error that 1D keeps, 95 %"))
-    entries.append(Patch(color="0.88", linewidth=0, label="error of the reference"))
-    drawing.legend(handles=entries, loc="outside lower center", ncols=len(entries))
+    entries.append(Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"))
+    style.legend(drawing, entries, "outside lower center", len(entries))
 
 
 def _places(drawn):

@@ -25,7 +25,6 @@ COLUMNS, HEIGHT, AROUND = 3, 2.2, 0.55
 MOST = 1e4
 # Grids that leave errors less than this factor apart are labelled together; errors are drawn from here on.
 APART, LEAST = 1.5, 1e-5
-SCATTER = {"color": "0.45", "linewidth": 0.9, "linestyle": ":"}
 TAKEN = {False: "*", True: "D"}
 
 
@@ -36,16 +35,16 @@ def figure(found: Sequence[JudgedEnsemble]) -> Figure | None:
         return None
     columns = min(COLUMNS, len(drawn))
     rows = ceil(len(drawn) / columns)
-    drawing = style.canvas(style.DOUBLE if columns > 1 else style.SINGLE, rows * HEIGHT + AROUND)
+    drawing = style.canvas("double" if columns > 1 else "single", rows * HEIGHT + AROUND)
     panels = drawing.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     for k, (axes, (each, standing)) in enumerate(zip(panels.flat, drawn, strict=False)):
-        axes.set_title(f"({letter(k)}) {title(each)}\n{standing.quantity.label}", fontsize=7)
+        style.head(axes, f"({letter(k)}) {title(each)}\n{standing.quantity.label}", columns)
         axes.set(xscale="log", yscale="log")
         _panel(axes, standing)
         if k % columns == 0:
-            axes.set_ylabel("expected relative error")
+            axes.set_ylabel("expected relative error [1]")
         if k + columns >= len(drawn):
-            axes.set_xlabel("surfaces")
+            axes.set_xlabel("surfaces [1]")
             axes.tick_params(labelbottom=True)
     for axes in list(panels.flat)[len(drawn) :]:
         axes.remove()
@@ -54,7 +53,11 @@ def figure(found: Sequence[JudgedEnsemble]) -> Figure | None:
     drawing.draw_without_rendering()
     for axes, (_, standing) in zip(panels.flat, drawn, strict=False):
         taken = _taken(standing)
-        write(axes, [Letter(seconds(way.seconds), (way.counts[0], level)) for level, way in taken.items()], 6)
+        write(
+            axes,
+            [Letter(seconds(way.seconds), (way.counts[0], level)) for level, way in taken.items()],
+            style.tiny(),
+        )
     return drawing
 
 
@@ -91,23 +94,29 @@ def _panel(axes: Axes, standing: Standing):
     for way in known:
         look = way_look(way, own)
         axes.plot(counts, way.error_of(counts), **look)
-        axes.axhline(way.bias.size, color=look["color"], linewidth=0.6, linestyle=(0, (1, 3)), zorder=1)
+        axes.axhline(
+            way.bias.size, color=look["color"], linewidth=style.width(0.55), linestyle=(0, (1, 3)), zorder=1
+        )
     _label(axes, known)
     scatter = own[0].draws[0].scatter.value
     if isfinite(scatter):
-        axes.plot(counts, scatter / np.sqrt(counts), **SCATTER, zorder=1)
+        axes.plot(counts, scatter / np.sqrt(counts), **_scatter(), zorder=1)
     if isfinite(standing.discretisation) and standing.discretisation > 0:
-        axes.axhspan(LEAST / 10, standing.discretisation, color="0.9", zorder=0, linewidth=0)
+        axes.axhspan(LEAST / 10, standing.discretisation, color=style.grey(0.9), zorder=0, linewidth=0)
     for level, reached in _taken(standing).items():
         axes.plot(
             reached.counts[0],
             level,
             marker=TAKEN[reached.way.corrected],
-            markersize=3.6 if reached.way.corrected else 6,
-            color="black",
+            markersize=style.mark(0.9) if reached.way.corrected else 6,
+            color=style.ink(),
             linestyle="none",
             zorder=5,
         )
+
+
+def _scatter():
+    return {"color": style.grey(0.45), "linewidth": style.width(0.8), "linestyle": ":"}
 
 
 def _taken(standing) -> dict[float, Reached]:
@@ -132,7 +141,7 @@ def _label(axes, known: Sequence[Way]):
             xycoords=axes.get_yaxis_transform(),
             xytext=(2, 0),
             textcoords="offset points",
-            fontsize=5.5,
+            fontsize=style.tiny(),
             va="center",
         )
 
@@ -169,19 +178,25 @@ def _legend(drawing, drawn):
     own = plain(drawn[0][1])
     entries = [
         Line2D([], [], **way_look(own[-1], own), label=f"3D, error of a mean on {own[-1].label} points"),
-        Line2D([], [], **SCATTER, label="of scatter alone"),
+        Line2D([], [], **_scatter(), label="of scatter alone"),
         Line2D(
-            [], [], color="black", marker=TAKEN[False], linestyle="none", markersize=6, label="cheapest: one grid"
+            [],
+            [],
+            color=style.ink(),
+            marker=TAKEN[False],
+            linestyle="none",
+            markersize=style.mark(1.5),
+            label="cheapest: one grid",
         ),
         Line2D(
             [],
             [],
-            color="black",
+            color=style.ink(),
             marker=TAKEN[True],
             linestyle="none",
-            markersize=3.6,
+            markersize=style.mark(0.9),
             label="cheapest: corrected",
         ),
-        Patch(color="0.88", linewidth=0, label="error of the reference"),
+        Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"),
     ]
-    drawing.legend(handles=entries, loc="outside lower center", ncols=3)
+    style.legend(drawing, entries, "outside lower center", 3)

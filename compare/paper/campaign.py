@@ -9,10 +9,10 @@ import numpy as np
 
 from mdr1d import equations
 from mdr1d.ensemble import Answers, solve_profiles
-from scene import Regime, Scene
+from scene import Regime, Scene, SolveError
 from scene.scales import elastic_contact
 
-from ..outcome import Outcome
+from ..outcome import Outcome, Row
 from ..resampling import interval, left_out, standard_error
 from ..store import Task
 from ..study import SCENES
@@ -90,10 +90,15 @@ class Block:
         scenes, points = [place.scene for place in found], [place.points for place in found]
         return Outcome((), vars(solve_profiles(scenes, points, self.seeds)))
 
+    def failed(self, reason: str) -> Outcome:
+        """NaN everywhere, and a row for the reason."""
+        missing = np.full((len(places(self.campaign)), len(self.seeds)), np.nan)
+        return Outcome((Row(reason=reason),), {field.name: missing for field in fields(Answers)})
+
     def fits(self, outcome: Outcome) -> bool:
         """Every array, of the whole shape."""
         shape = len(places(self.campaign)), len(self.seeds)
-        return all(np.shape(outcome.fields.get(field.name)) == shape for field in fields(Answers))
+        return all(np.shape(outcome.fields.get(field.name, ())) == shape for field in fields(Answers))
 
 
 def blocks(campaign: Campaign) -> list[Block]:
@@ -139,13 +144,16 @@ class Collapse:
     @property
     def with_macro_slope(self) -> np.ndarray:
         """What mu-tilde is where Eq. 10 keeps the slope of the macroscopic profile, over xi."""
-        return 1 + self.regime.macro_over_rough**2
+        return np.asarray(1 + self.regime.macro_over_rough**2)
 
 
 def collect(campaign: Campaign, outcomes: Mapping[Task, Outcome]) -> Collapse:
-    """Put the blocks of a campaign together."""
-    found = places(campaign)
-    parts = [outcomes[block].fields for block in blocks(campaign)]
+    """Put the blocks of a campaign together, but for those that broke. Raises SolveError where all did."""
+    found, asked = places(campaign), [outcomes[block] for block in blocks(campaign)]
+    broken = [row.reason for outcome in asked for row in outcome.rows]
+    if len(broken) == len(asked):
+        raise SolveError(f"Fig. 3: no profile was solved: {broken[0]}")
+    parts = [outcome.fields for outcome in asked if not outcome.rows]
     whole = Answers(*(np.hstack([part[field.name] for part in parts]) for field in fields(Answers)))
     slope = np.nanmean(whole.rms_slope, axis=1)
     samples = equations.normalised_friction(whole.friction, whole.rms_slope)
@@ -167,7 +175,7 @@ def collect(campaign: Campaign, outcomes: Mapping[Task, Outcome]) -> Collapse:
             longest=parameters.LENGTH,
             rms_slope=slope,
         ),
-        failed=int(np.isnan(samples).sum()),
+        failed=int(np.isnan(samples).sum()) + len(found) * (campaign.profiles - samples.shape[1]),
         sweeps=float(np.nanmean(whole.sweeps)),
     )
 

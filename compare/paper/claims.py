@@ -14,7 +14,7 @@ from .law import Law
 from .parameters import Loss
 from .predicted import CONSTANT, STIFFNESS
 from .reproduction import Reproduction
-from .shifts import STRAIGHT, Shifted
+from .shifts import STRAIGHT, Shifted, exponent_of
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def _alphas(found) -> Iterator[Claim]:
     one, other = found.laws
     count = min(one.alphas.size, other.alphas.size)
     difference = one.alpha - other.alpha
-    error = standard_error(one.alphas[:count] - other.alphas[:count])
+    error = float(standard_error(one.alphas[:count] - other.alphas[:count]))
     low, high = interval(difference, error, count - 1)
     yield Claim(
         name=f"alpha does not depend on the shape: {one.shape} minus {other.shape}",
@@ -197,16 +197,16 @@ def _collapse(loss: Loss, name: str, shifted: Shifted) -> Claim:
 def _exponent(loss: Loss, name: str, shifted: Shifted) -> Claim:
     """The power of the speed in those shifts, which the collapse has to give a meaning first."""
     low, high = shifted.within
-    expected, tolerance = shifted.expected, 0.05 * abs(shifted.expected)
+    expected = exponent_of(loss)
     return Claim(
         name=f"Fig. 7, exponent of the shift of {name} against the speed, {_of(loss)}",
         figure=f"shifted-curves{loss.suffix}",
         expected=expected,
-        tolerance=tolerance,
+        tolerance=0.05 * abs(expected),
         value=shifted.exponent,
         low=low,
         high=high,
-        text=f"{_meant(shifted)} {_modulus(shifted)}",
+        text=f"{_meant(shifted, expected)} {_modulus(shifted)}",
     )
 
 
@@ -214,7 +214,7 @@ def _of(loss: Loss) -> str:
     return f"loss ~ frequency^{loss.exponent:g}, tau = {loss.relaxation_time:g} s"
 
 
-def _meant(shifted: Shifted) -> str:
+def _meant(shifted: Shifted, expected: float) -> str:
     """What the exponent is, and whether what is expected lies within its interval."""
     if not shifted.collapse.overlaps:
         return "The misfit only falls as the curves are pulled apart: no shift has an exponent."
@@ -224,9 +224,9 @@ def _meant(shifted: Shifted) -> str:
     low, high = shifted.within
     if not (isfinite(low) and isfinite(high)):
         return f"{taken}Its interval cannot be had."
-    inside = "within" if low <= shifted.expected <= high else "outside"
+    inside = "within" if low <= expected <= high else "outside"
     return (
-        f"{taken}The interval is of the sampling of profiles; {shifted.expected:g} itself lies {inside} it, and "
+        f"{taken}The interval is of the sampling of profiles; {expected:g} itself lies {inside} it, and "
         "what is up to 5 % off it counts as it."
     )
 

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import nan, sqrt
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
 from mdr1d import MDR, draw, equations
-from scene import Regime, Slide
+from scene import Regime, Slide, SolveError
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome
@@ -94,9 +94,13 @@ class Law:
 
 
 def collect(shape: str, found: list[Task | Planes], outcomes: Mapping[AnyTask, Outcome]) -> Law:
-    """Put the tasks of one shape together."""
+    """Put the tasks of one shape together, but for those that broke. Raises SolveError where all did."""
     slope = _slope()
     *found, planes = found
+    solved = np.array([any(row.reason is None for row in outcomes[task].rows) for task in found])
+    if not solved.any():
+        raise SolveError(f"Fig. 4, {shape}: nothing was solved: {outcomes[found[0]].rows[0].reason}")
+    found = [task for task, known in zip(found, solved, strict=True) if known]
     rows = [outcomes[task].rows for task in found]
     friction = np.array([[row.friction_coefficient for row in row_of] for row_of in rows])
     samples = equations.normalised_friction(friction, slope)
@@ -107,7 +111,7 @@ def collect(shape: str, found: list[Task | Planes], outcomes: Mapping[AnyTask, O
     alpha, alphas = best(xi, mean), np.array([best(xi, without) for without in left_out(kept).T])
     by_criterion = {name: best(xi, mean, error, criterion) for name, criterion in CRITERIA.items()}
     off = (mean - equations.interpolation(xi, by_criterion["chi square"])) / error
-    by_planes = equations.normalised_friction(outcomes[planes].fields["friction"], slope)
+    by_planes = equations.normalised_friction(outcomes[planes].fields["friction"][solved], slope)
     top = equations.interpolation(xi[-1])
     scene = found[0].scenes[0]
     relaxed = elastic_contact(replace(scene, motion=Slide(speed=0.0, load=scene.motion.load)))
@@ -126,7 +130,7 @@ def collect(shape: str, found: list[Task | Planes], outcomes: Mapping[AnyTask, O
         samples=samples,
         conditions=Conditions.of(regime, xi.shape),
         alpha=alpha,
-        alpha_interval=interval(alpha, standard_error(alphas), count - 1),
+        alpha_interval=interval(alpha, float(standard_error(alphas)), count - 1),
         alphas=alphas,
         by_criterion=by_criterion,
         chi_square=float(off @ off / (off.size - 1)),
@@ -134,7 +138,7 @@ def collect(shape: str, found: list[Task | Planes], outcomes: Mapping[AnyTask, O
         planes_alpha=best(xi, by_planes),
         plateau=float(mean[-1] / top),
         plateau_error=float(error[-1] / top),
-        failed=int(np.isnan(samples).sum()),
+        failed=int(np.isnan(samples).sum()) + samples.shape[1] * int(np.sum(~solved)),
     )
 
 
@@ -159,7 +163,9 @@ CRITERIA = {"logarithms": _logarithms, "differences": _differences, "chi square"
 
 
 def best(xi, friction, error=None, criterion=_logarithms) -> float:
-    """The alpha of Eq. 19 with which a criterion of friction, law and standard errors is least."""
+    """The alpha of Eq. 19 with which a criterion of friction, law and standard errors is least; NaN of NaN."""
+    if not np.isfinite(friction).all():
+        return nan
 
     def misfit(alpha):
         return criterion(friction, equations.interpolation(xi, alpha), error)

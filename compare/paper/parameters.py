@@ -18,7 +18,7 @@ LENGTH, POINTS = 1e-2, 5000
 PROFILES = 200
 ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=LENGTH)
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
-SHAPES = {"cone": Cone(angle=radians(10)), "sphere": Sphere(radius=1e-2)}
+SHAPES: dict[str, Cone | Sphere] = {"cone": Cone(angle=radians(10)), "sphere": Sphere(radius=1e-2)}
 HURST = tuple(k / 10 for k in range(11))
 
 # Fig. 1: load and speed, and of each contact the Hurst exponent and the profile.
@@ -101,8 +101,8 @@ def base(shape: str, speed: float = LOW_SPEED, load: float = LOAD) -> Scene:
 
 def varied(study: Study, value: float, hurst: float) -> tuple[Scene, int]:
     """A scene of Fig. 3, a cone, and the points over its length."""
-    scene, points = base("cone"), POINTS
-    scene = replace(scene, roughness=replace(ROUGH, hurst=hurst))
+    rough, points = replace(ROUGH, hurst=hurst), POINTS
+    scene = replace(base("cone"), roughness=rough)
     match study.name:
         case "load":
             scene = replace(scene, motion=Slide(speed=LOW_SPEED, load=value))
@@ -113,7 +113,7 @@ def varied(study: Study, value: float, hurst: float) -> tuple[Scene, int]:
         case "angle":
             scene = replace(scene, indenter=Cone(angle=value))
         case "rms height":
-            scene = replace(scene, roughness=replace(scene.roughness, rms_height=value))
+            scene = replace(scene, roughness=replace(rough, rms_height=value))
         case "spacing":
             points = round(LENGTH / value)
     return scene, points
@@ -121,8 +121,12 @@ def varied(study: Study, value: float, hurst: float) -> tuple[Scene, int]:
 
 def contact(shape: str) -> Scene:
     """A contact of Fig. 1."""
-    rough = replace(ROUGH, hurst=CONTACT_HURST[shape], seed=CONTACT_SEED[shape])
-    return Scene(SHAPES[shape], SOLID, CONTACT, rough)
+    return Scene(SHAPES[shape], SOLID, CONTACT, contact_rough(shape))
+
+
+def contact_rough(shape: str) -> SelfAffine:
+    """The roughness of that contact."""
+    return replace(ROUGH, hurst=CONTACT_HURST[shape], seed=CONTACT_SEED[shape])
 
 
 def lossy(loss: Loss, load: float, speed: float) -> Scene:

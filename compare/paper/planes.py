@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from mdr1d import draw, sweep
 from scene.scales import elastic_contact
 
-from ..outcome import Outcome
+from ..outcome import Outcome, Row
 from ..study import SCENES
 from . import parameters
 
@@ -55,9 +55,13 @@ class Planes:
         """Outcome.fields has the friction coefficient at each speed."""
         return Outcome((), {"friction": np.array([self._friction(speed) for speed in self.speeds])})
 
+    def failed(self, reason: str) -> Outcome:
+        """NaN at every speed, and a row for the reason."""
+        return Outcome((Row(reason=reason),), {"friction": np.full(len(self.speeds), np.nan)})
+
     def fits(self, outcome: Outcome) -> bool:
         """A number a speed."""
-        return np.shape(outcome.fields.get("friction")) == (len(self.speeds),)
+        return np.shape(outcome.fields.get("friction", 0.0)) == (len(self.speeds),)
 
     def _friction(self, speed):
         scene = parameters.base(self.shape, speed)

@@ -44,7 +44,7 @@ def predict(loss: Loss) -> Predicted:
     """What the laws say of a rubber."""
     speeds, loads = np.array(parameters.SPEEDS)[:, None], np.array(parameters.FORCES)
     scene = parameters.lossy(loss, 1.0, 1.0)
-    solid, body, rough = scene.elastomer, scene.indenter, scene.roughness
+    solid, body, rough = scene.elastomer, scene.indenter, parameters.LOSS_ROUGH
     c, n = body.mdr_coefficient, body.exponent
     surface = draw(rough, parameters.POINTS)
     slope, highest = surface.rms_slope, np.pi / surface.pixel

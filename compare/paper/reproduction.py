@@ -27,8 +27,8 @@ class Reproduction:
     @property
     def failed(self) -> int:
         """Solves without an answer."""
-        parts = (self.collapse, *self.laws, *self.losses)
-        return sum(part.failed for part in parts)
+        parts = [self.collapse.failed, *(law.failed for law in self.laws), *(each.failed for each in self.losses)]
+        return sum(parts)
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,14 @@ from math import nan
 import numpy as np
 
 from mdr1d import MDR, equations
-from scene import Scene
+from scene import SolveError
 
 from .. import mastercurve
 from ..commoncurve import Curve, Misfit
 from ..outcome import Outcome
 from ..resampling import interval, standard_error
 from ..store import Task as AnyTask
-from ..study import Task
+from ..study import Task, surfaces_of
 from ..vertical import Vertical, vertical_shifts
 from . import parameters
 from .conditions import Conditions
@@ -139,6 +139,11 @@ class Lossy:
         return self.predicted.forms(self.smooth)
 
 
+def exponent_of(loss: Loss) -> float:
+    """That expected of a rubber's shifts against the speed, -beta (n+1)/n."""
+    return equations.force_shift_exponent(loss.exponent, parameters.lossy(loss, 1.0, 1.0).indenter.exponent)
+
+
 def tasks(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> list[Task]:
     """The tasks for one rubber: of the rough profiles at each speed and load, then of the smooth body."""
     scenes = [parameters.lossy(loss, load, speed) for speed in parameters.SPEEDS for load in parameters.FORCES]
@@ -146,24 +151,22 @@ def tasks(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> list[Task]:
     modes = scenes[0].elastomer.relaxation()[2].size
     # As measured: a mode costs a tenth of all else.
     work = parameters.POINTS * 15.0 * (1 + modes / 10)
-    rough = [Task(solver, _drawn(scene, profiles), work=profiles * work) for scene in scenes]
+    rough = [Task(solver, surfaces_of(scene, profiles), work=profiles * work) for scene in scenes]
     smooth = [Task(solver, (replace(scene, roughness=None),), work=work) for scene in scenes]
     return rough + smooth
 
 
-def _drawn(scene: Scene, profiles: int) -> tuple[Scene, ...]:
-    rough = scene.roughness
-    return tuple(replace(scene, roughness=replace(rough, seed=seed)) for seed in range(profiles))
-
-
 def collect(loss: Loss, found: Sequence[Task], outcomes: Mapping[AnyTask, Outcome]) -> Lossy:
-    """Put the tasks of one rubber together."""
+    """Put the tasks of one rubber together. Raises SolveError where one of them broke: profiles are shared."""
+    for task in found:
+        if all(row.reason is not None for row in outcomes[task].rows):
+            raise SolveError(f"Fig. 7: {task.label}: {outcomes[task].rows[0].reason}")
     rows = [[row.friction_coefficient for row in outcomes[task].rows] for task in found]
     shape = len(parameters.SPEEDS), len(parameters.FORCES), -1
     friction = np.array(rows[: len(rows) // 2]).reshape(shape)
     smooth = np.array(rows[len(rows) // 2 :]).reshape(shape)
     known = friction[:, :, np.isfinite(friction).all(axis=(0, 1))]
-    expected = equations.force_shift_exponent(loss.exponent, parameters.lossy(loss, 1.0, 1.0).indenter.exponent)
+    expected = exponent_of(loss)
     predicted = predict(loss)
     laws = {name: _own_exponent(form) for name, form in predicted.forms(smooth[:, :, 0]).items()}
 

@@ -33,6 +33,9 @@ def force(displacement, exponent=2.0):
     """F_x/(mu F_N) by u/u_max, of a body z = c r^n: 1 - (1 - u/u_max)^((n+1)/n), as F ~ d^((n+1)/n).
 
     Sphere, n = 2: Cattaneo, Rend. Accad. Naz. Lincei 27, 342 (1938), and Mindlin (1949).
+
+    >>> round(float(force(0.5)), 4)
+    0.6464
     """
     return 1 - (1 - _checked(displacement)) ** ((exponent + 1) / exponent)
 

@@ -56,6 +56,10 @@ class Examination:
         seconds = time.process_time() - start
         return Outcome(tuple(_row(check, seconds) for check in checks))
 
+    def failed(self, reason: str) -> Outcome:
+        """As of a case that raises."""
+        return Outcome((Row(reason=reason),))
+
     def fits(self, outcome: Outcome) -> bool:
         """At least one check, or the reason why there is none."""
         return len(outcome.rows) > 0

@@ -99,7 +99,7 @@ def _no_numbers(size):
         for kind in (Elastic, Sphere):
             name = next(iter(fields(kind))).name
             ask = partial(kind, **{name: value})
-            yield refusal(f"{kind.__name__}({name}={value!r})", ValidationError, (name, "valid number"), ask)
+            yield refusal(f"{kind.__name__}({name}={value!r})", ValidationError, (name, "Input should be"), ask)
     for number in (np.float32(1e6), np.int64(1_000_000), 1_000_000):
         yield Check(f"{type(number).__name__} as a modulus", abs(Elastic(number).modulus - 1e6), 0.0)
 

@@ -35,7 +35,7 @@ TOLERANCE = 1e-7  # of contact in three dimensions, where a law is finer than it
 
 def resting(**changed) -> Scene:
     """The contact at rest at its depth, with what is changed."""
-    return Scene(**{"indenter": SPHERE, "elastomer": ELASTIC, "motion": Indent(depth=DEPTH)} | changed)
+    return replace(Scene(SPHERE, ELASTIC, Indent(depth=DEPTH)), **changed)
 
 
 def sliding(speed: float, elastomer=SOLID, **changed) -> Scene:

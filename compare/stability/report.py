@@ -6,16 +6,18 @@ from dataclasses import dataclass
 from math import inf, nan
 from pathlib import Path
 
+from ..glossary import Definitions
 from ..outcome import Outcome
-from ..publish import write_csv, write_text
-from ..store import Store
-from ..sweep import Progress, sweep
+from ..publish import render, write_csv, write_text
+from ..sheets import Sheet, anchored, reading
+from ..store import Store, Task
+from ..sweep import Progress, Swept, sweep
 from .collection import CASES
 from .examination import Examination, checks
 from .hardcase import Check, Refusal
 
 VERDICTS = HELD, REFUSED, BROKEN = "held", "refused as it should", "BROKEN"
-TABLE, PAGE = "stability.csv", "stability.md"
+TABLE, MARKDOWN, PAGE = "stability.csv", "stability.md", "stability.html"
 # Where a file lay when a case was examined: all before its name, of a path from the root.
 FOLDERS = re.compile(r"(?<![\w.])/(?:[^\s/]+/)+")
 
@@ -46,6 +48,41 @@ class Record:
     seconds: float
 
 
+def write_stability(folder: Path, found: Sequence[Record], size: str, swept: Swept) -> Path:
+    """Write the table as CSV and as Markdown, and the page; return the path of the page."""
+    write_csv(folder / TABLE, [vars(record) for record in found])
+    write_text(folder / MARKDOWN, markdown(found))
+    table = Sheet.read(folder, folder / TABLE, "Cases")
+    groups = grouped(found)
+    page = render(
+        "stability.html",
+        title="Where it is hard",
+        contents=[("summary", "Summary"), *((anchored("group", group), group.capitalize()) for group in groups)],
+        size=size,
+        verdicts={verdict: [record.verdict for record in found].count(verdict) for verdict in VERDICTS},
+        refused=REFUSED,
+        lost=BROKEN,
+        broken=[record for record in found if record.verdict == BROKEN],
+        groups=groups,
+        rows={record.name: row for row, record in enumerate(found, 1)},
+        table=table,
+        sheets=[table],
+        anchored=anchored,
+        definitions=Definitions(),
+        **reading(),
+        swept=swept,
+    )
+    write_text(folder / PAGE, page)
+    return folder / PAGE
+
+
+def grouped(found: Sequence[Record]) -> dict[str, list[Record]]:
+    """By what is hard, in the order of the collection."""
+    return {
+        group: [each for each in found if each.group == group] for group in dict.fromkeys(r.group for r in found)
+    }
+
+
 def conduct(
     size: str, folder: Path, solved: Path, workers: int | None = None, progress: Progress | None = None
 ) -> list[Record]:
@@ -56,14 +93,13 @@ def conduct(
     tasks = [Examination(name, size) for name in CASES]
     swept = sweep(tasks, Store(solved), workers, progress)
     found = records(swept.outcomes)
-    write_csv(folder / TABLE, [vars(record) for record in found])
-    write_text(folder / PAGE, markdown(found))
+    write_stability(folder, found, size, swept)
     return found
 
 
-def records(outcomes: Mapping[Examination, Outcome]) -> list[Record]:
+def records(outcomes: Mapping[Task, Outcome]) -> list[Record]:
     """One a case, in the order of the collection."""
-    of = {task.case: outcome for task, outcome in outcomes.items()}
+    of = {task.case: outcome for task, outcome in outcomes.items() if isinstance(task, Examination)}
     return [record(name, of[name]) for name in CASES if name in of]
 
 
@@ -91,7 +127,7 @@ def _nearness(check: Check | Refusal) -> tuple[bool, float]:
 
 def markdown(found: Sequence[Record]) -> str:
     """A section a group: what is hard, what must hold, what was found."""
-    groups = list(dict.fromkeys(record.group for record in found))
+    groups = grouped(found)
     return "\n\n".join(f"## {group.capitalize()}\n\n{table(found, group)}" for group in groups) + "\n"
 
 

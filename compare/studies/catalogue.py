@@ -8,10 +8,11 @@ import numpy as np
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Fractional, Indent, Kelvin, Program, Slide, Stage, StandardLinearSolid
+from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
 from ..paper import parameters
-from .contacts import SHORTEST, STEEP, kelvin
+from .contacts import SHORTEST, STEEP, kelvin, resolved
 from .series import Series
 from .sizes import Size, between
 
@@ -71,7 +72,7 @@ def _collapse(size: Size) -> list[Series]:
 def _solids(size: Size) -> list[Series]:
     rubber, size = parameters.SOLID, size.coarser
     highest = 2 * np.pi / SHORTEST * SPEEDS[1]
-    solids = {
+    solids: dict[str, Elastomer] = {
         "standard linear solid": StandardLinearSolid(
             rubber.modulus, GLASSY * rubber.modulus, rubber.relaxation_time / GLASSY
         ),
@@ -113,7 +114,7 @@ def _parameters(size: Size) -> list[Series]:
     found = []
     for shape in SHAPES:
         base = kelvin(shape)
-        rough, solid = base.roughness, base.elastomer
+        rough, solid = resolved(shape), parameters.SOLID
         changed = {
             "as in Fig. 1": base,
             "half the rms height": replace(base, roughness=replace(rough, rms_height=rough.rms_height / 2)),
@@ -125,7 +126,7 @@ def _parameters(size: Size) -> list[Series]:
         }
         for what, scene in changed.items():
             # As many pixels a wave for all.
-            finer = replace(size, points=round(size.points * max(1.0, SHORTEST / scene.roughness.shortest)))
+            finer = replace(size, points=round(size.points * max(1.0, SHORTEST / _shortest(scene))))
             found.append(_series(finer, f"{shape}-{what.replace(' ', '-')}", f"Rough {shape}, {what}", scene))
     return found
 
@@ -171,7 +172,7 @@ def _regime(size: Size) -> list[Series]:
     speeds, presses, fastest = (4, 3, 12.0) if small else (6, 6, 35.0)
     few = replace(size.at_most(speeds=speeds, presses=presses, surfaces=6), points=points)
     for shape, (scene, (low, high)) in STEEP.items():
-        wave = scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
+        wave = _shortest(scene) / (2 * np.pi * scene.elastomer.relaxation_time)
         # Wider contacts have fewer pixels a wave.
         loads = few.presses_of(low, 2 * low if small else high)
         knee = replace(few, range=(2.5 * wave, fastest * wave))
@@ -244,6 +245,10 @@ def _series(size, name, title, scene, presses=None):
 
 def _slower(solid: Kelvin, factor):
     return replace(solid, relaxation_time=factor * solid.relaxation_time)
+
+
+def _shortest(scene):
+    return scene.roughness.shortest
 
 
 def _depth(scene, load):

@@ -23,10 +23,10 @@ def friction_findings(solved: Solved, laws: Mapping[str, Laws]) -> list[Finding]
     """Of a series that slides, but for what shifts of its curves say."""
     found = []
     for solver, dimension in DIMENSIONS.items():
-        fine, coarse = (Side.of(solved, solver, grid) for grid in (FINE, COARSE))
+        one, other = (Side.of(solved, solver, grid) for grid in (FINE, COARSE))
         words = laws[solver].regime.words
         for question in _one_sided(solved, solver, laws[solver]):
-            found.append(answered(question, dimension, fine, coarse, words))
+            found.append(answered(question, dimension, one, other, words))
     (fine, coarse), words = pairs(solved), laws["BEM"].regime.words
     friction, rest = friction_questions(laws["BEM"]), rest_questions(solved.series)
     found += [answered(question, BOTH, fine, coarse, words) for question in friction]

@@ -34,5 +34,9 @@ STEEP = {
 
 def kelvin(shape: str, **roughness) -> Scene:
     """A contact of Fig. 1 of the paper with a shortest wave that both dimensionalities resolve."""
-    rough = replace(parameters.contact(shape).roughness, shortest=SHORTEST, **roughness)
-    return replace(parameters.contact(shape), roughness=rough)
+    return replace(parameters.contact(shape), roughness=resolved(shape, **roughness))
+
+
+def resolved(shape: str, **changed) -> SelfAffine:
+    """The roughness of that contact, with what is changed."""
+    return replace(parameters.contact_rough(shape), shortest=SHORTEST, **changed)

@@ -24,8 +24,8 @@ def depth_findings(solved: Solved) -> list[Finding]:
     """At rest, and pressed in where the motion is a Program."""
     series, words, found = solved.series, where(solved.series), []
     for solver, dimension in DIMENSIONS.items():
-        fine, coarse = (Side.of(solved, solver, grid).smooth for grid in (FINE, COARSE))
-        found += [answered(question, dimension, fine, coarse, words) for question in _smooth(series)]
+        one, other = (Side.of(solved, solver, grid).smooth for grid in (FINE, COARSE))
+        found += [answered(question, dimension, one, other, words) for question in _smooth(series)]
     fine, coarse = pairs(solved)
     questions = [*rest_questions(series), *_stiffness(series), *_pressed_in(series)]
     return found + [answered(question, BOTH, fine, coarse, words) for question in questions]

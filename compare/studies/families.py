@@ -14,7 +14,7 @@ from ..shifting import shift
 from ..verdict import DIMENSIONS
 from .claims import FAST, SLOW
 from .question import TOLERANCE, Question, answered, geometric, power
-from .series import COARSE, FINE, ROUGH
+from .series import COARSE, FAMILIES, FINE, ROUGH
 from .sides import Side
 
 if TYPE_CHECKING:
@@ -47,9 +47,9 @@ def families(series: "Sequence[JudgedSeries]") -> "dict[str, list[JudgedSeries]]
 
     All of a family have as many surfaces; of several such families of one shape it is the largest.
     """
-    found = {}
+    found: dict[tuple[str, int, int], list[JudgedSeries]] = {}
     for judged in series:
-        if judged.laws:
+        if judged.laws and FAMILIES in judged.solved.series.claims:
             each = judged.solved.series
             draws = type(each.scene.indenter).__name__.lower(), each.surfaces, each.profiles
             found.setdefault(draws, []).append(judged)
@@ -67,8 +67,8 @@ def reduced(members: "Sequence[JudgedSeries]", solver: str, grid: str = FINE) ->
         load.append((answers.normal_force * unit).reshape(-1, answers.depth.shape[2]))
         friction.append((answers.friction_force * unit / laws.plateau).reshape(load[-1].shape))
     most = max(len(each) for each in load)
-    load, friction = (np.array([_filled(each, most) for each in stack]) for stack in (load, friction))
-    return Samples(np.arange(1.0, len(members) + 1), load, friction)
+    loads, frictions = (np.array([_filled(each, most) for each in stack]) for stack in (load, friction))
+    return Samples(np.arange(1.0, len(members) + 1), loads, frictions)
 
 
 def family_findings(series: "Sequence[JudgedSeries]") -> Iterator[Finding]:

@@ -1,6 +1,6 @@
 """The judgement of a study: for each of its series, what the claims of the paper come to in 1D and in 3D."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,14 +10,15 @@ from scene import Program
 from ..finding import Finding
 from ..outcome import Outcome
 from ..shifting import Shifting
-from ..study import Task
+from ..store import Task
 from ..verdict import DIMENSIONS
 from .catalogue import SIZES, STUDIES, Size, Study
 from .claims import friction_findings
 from .depthclaims import depth_findings, loading
 from .families import family_findings
 from .laws import Laws, laws
-from .series import Series, Solved, collect
+from .question import BOTH
+from .series import COLLAPSE, DEPTH, FRICTION, PAIRS, Series, Solved, collect
 from .shiftclaims import shift_findings, shiftings, unshifted
 
 
@@ -62,19 +63,28 @@ def judge_study(name: str, size: str, series: list[Series], outcomes: Mapping[Ta
 
 
 def judge_series(solved: Solved) -> JudgedSeries:
-    """What each claim comes to on one series."""
-    if not solved.series.slides:
-        series = solved.series
+    """What each claim comes to on one series, of those that it asks."""
+    series = solved.series
+    if not series.slides:
         closed = loading(series) if isinstance(series.scene.motion, Program) else None
-        return JudgedSeries(solved, {}, {}, tuple(depth_findings(solved)), closed)
-    ruled = {solver: laws(solved, solver) for solver in DIMENSIONS}
-    if None in ruled.values():
+        return JudgedSeries(solved, {}, {}, _asked(series, depth_findings(solved), DEPTH), closed)
+    found = {solver: laws(solved, solver) for solver in DIMENSIONS}
+    ruled = {solver: ruling for solver, ruling in found.items() if ruling is not None}
+    if len(ruled) < len(found):
         return JudgedSeries(solved, {}, {}, ())
-    shifted, found = {}, []
+    shifted: dict[str, Shifting] = {}
+    collapse: list[Finding] = []
     for solver, ruling in ruled.items():
         if both := shiftings(solved, solver):
             shifted[solver] = both[0]
-            found += shift_findings(solver, both, ruling)
+            collapse += shift_findings(solver, both, ruling)
         else:
-            found += unshifted(solved.series, solver, ruling)
-    return JudgedSeries(solved, ruled, shifted, tuple(found + friction_findings(solved, ruled)))
+            collapse += unshifted(series, solver, ruling)
+    findings = _asked(series, collapse, COLLAPSE) + _asked(series, friction_findings(solved, ruled), FRICTION)
+    return JudgedSeries(solved, ruled, shifted, findings)
+
+
+def _asked(series: Series, found: Iterable[Finding], kind: str) -> tuple[Finding, ...]:
+    """Those of a kind that are asked; what compares the dimensionalities is a kind of its own."""
+    kinds = ((PAIRS if each.dimension == BOTH else kind, each) for each in found)
+    return tuple(each for kind, each in kinds if kind in series.claims)

@@ -69,10 +69,10 @@ def laws(solved: Solved, solver: str) -> Laws | None:
     The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
     solver's own measure.
     """
-    series, answers = solved.series, solved(solver)
-    regime_of_points = regime(solved, solver)
+    series, regime_of_points = solved.series, regime(solved, solver)
     if regime_of_points is None:
         return None
+    answers = solved(solver)
     scene, speeds = series.scene, np.array(series.speeds)
     body, solid, rough = scene.indenter, scene.solid, scene.roughness
     c, n = body.mdr_coefficient, body.exponent

@@ -18,7 +18,8 @@ AT_THE_KNEE = 3.0
 
 def pairs(solved: Solved) -> tuple[Pair, Pair]:
     """Both dimensionalities on the fine grids and on the coarse ones."""
-    return tuple(Pair(Side.of(solved, "MDR", grid), Side.of(solved, "BEM", grid)) for grid in (FINE, COARSE))
+    fine, coarse = (Pair(Side.of(solved, "MDR", grid), Side.of(solved, "BEM", grid)) for grid in (FINE, COARSE))
+    return fine, coarse
 
 
 def friction_questions(laws: Laws) -> Iterator[Question]:

@@ -8,7 +8,7 @@ import numpy as np
 from scene import Scene
 
 from ..pointregime import PointRegime, gathered
-from ..resampling import Estimated, mean_ratio
+from ..resampling import Estimated, Value, mean_ratio
 from ..verdict import DIMENSIONS
 from .series import FINE, REST, ROUGH, Answers, Key, Solved
 
@@ -25,19 +25,19 @@ REGIME = (
 SCENE_REGIME = ("contact_over_period", "macro_over_rough", "rms_slope")
 
 
-def mean_of(answers: Answers, body: str, above: str, below: str | None = None) -> Estimated:
+def mean_of(answers: Answers, body: str, above: str, below: str | None = None) -> Estimated[np.ndarray]:
     """Mean over surfaces, or ratio of two, of what answers name so; exact of a smooth body."""
     top = getattr(answers, above)
     found = mean_ratio(top, getattr(answers, below) if below else 1.0)
     return found if body in RANDOM else Estimated.exact(found.value)
 
 
-def friction(solved: Solved, solver: str, body: str = ROUGH, grid: str = FINE) -> Estimated:
+def friction(solved: Solved, solver: str, body: str = ROUGH, grid: str = FINE) -> Estimated[np.ndarray]:
     """Mean friction force over mean normal force (speeds, presses)."""
     return mean_of(solved(solver, body, grid), body, "friction_force", "normal_force")
 
 
-def quotient(one: Estimated, other: Estimated) -> Estimated:
+def quotient(one: Estimated[Value], other: Estimated[Value]) -> Estimated[Value]:
     """Of two independent numbers, to first order; degrees of freedom after Welch and Satterthwaite."""
     with np.errstate(invalid="ignore", divide="ignore"):
         value = one.value / other.value

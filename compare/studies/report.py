@@ -1,6 +1,6 @@
 """The page of a study: verdicts, figures, tables, and what cannot be matched between the dimensionalities."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -17,9 +17,12 @@ from ..figures import (
     study_verdicts,
 )
 from ..finding import Finding
+from ..glossary import Definitions
+from ..illustration import Illustration, illustrate, sheets_of
 from ..pointregime import PointRegime
-from ..publish import Drawn, draw, machine, render, versions, write_csv, write_json, write_text
+from ..publish import machine, render, versions, write_csv, write_json, write_text
 from ..report import described, slug
+from ..sheets import Sheet, reading
 from ..sweep import Swept
 from ..verdict import DIMENSIONS
 from . import points, tableau
@@ -43,36 +46,39 @@ OF_A_SERIES = (study_effects, study_collapse, study_shifts, study_levels, study_
 class Part:
     """One series on the page, or what belongs to all of them.
 
-    name : of its folder and its anchor; empty of the study
+    name : of its folder; empty of the study
     number : of the series, from 1
     findings : its claims
     figures : by name
-    tables : names of the CSV files in its folder
+    points : every point and what failed, of a series
+    rows : of its findings, in the table of all, from 1
     """
 
     name: str
     number: int
     findings: tuple[Finding, ...]
-    figures: Mapping[str, Drawn]
-    tables: frozenset[str]
+    figures: Mapping[str, Illustration]
+    points: tuple[Sheet, ...]
+    rows: range
 
     @property
-    def folder(self) -> str:
-        """Before the name of a file."""
-        return f"{self.name}/" if self.name else ""
+    def anchor(self) -> str:
+        """On the page."""
+        return f"series-{self.name}" if self.name else "all-series"
 
-    def anchor(self, figure: str) -> str:
-        """Of a figure on the page."""
-        return f"{self.name}-{figure}" if self.name else figure
+    def row(self, finding: Finding) -> int:
+        """Of a finding in the table of all."""
+        return self.rows[self.findings.index(finding)]
 
-    def shown(self, finding: Finding) -> str:
-        """Link to the figure of a finding, or to the table of all findings where there is none."""
-        return f"#{self.anchor(finding.figure)}" if finding.figure in self.figures else FINDINGS
+    def shown(self, finding: Finding) -> str | None:
+        """Anchor of the figure of a finding; None where there is none."""
+        figure = self.figures.get(finding.figure)
+        return figure.anchor if figure else None
 
-    def table(self, finding: Finding) -> str:
-        """Link to the numbers of that figure, or to the table of all findings."""
-        name = f"{finding.figure}.csv"
-        return self.folder + name if name in self.tables else FINDINGS
+    def behind(self, finding: Finding) -> Sequence[Sheet]:
+        """The data of that figure, or every point where it has none."""
+        figure = self.figures.get(finding.figure)
+        return (figure.sheets[:1] if figure else ()) or self.points[:1]
 
     @property
     def claims(self) -> list[tuple[str, dict[str, Finding]]]:
@@ -95,19 +101,27 @@ class Part:
 def write_study(folder: Path, judged: JudgedStudy, swept: Swept) -> Path:
     """Write page, figures and tables below a folder, a subfolder a series, and return the path of the page."""
     folder.mkdir(parents=True, exist_ok=True)
-    whole = Part("", 0, judged.findings, *_drawn(folder, OF_THE_STUDY, judged))
-    parts = [_part(folder, number, each) for number, each in enumerate(judged.series, 1)]
     write_csv(folder / FINDINGS, list(tableau.rows(judged)))
+    parts, first = [], 1
+    for place, each in enumerate(judged.series, 1):
+        parts.append(_part(folder, place, each, first))
+        first += len(each.findings)
+    rows = range(first, first + len(judged.findings))
+    whole = Part("", 0, judged.findings, _drawn(folder, folder, OF_THE_STUDY, judged, ""), (), rows)
+    findings = Sheet.read(folder, folder / FINDINGS, "Findings")
     write_json(folder / MANIFEST, manifest(judged, swept))
-    write_text(folder / PAGE, page(judged, whole, parts, swept))
+    write_text(folder / PAGE, page(judged, whole, parts, findings, swept))
     return folder / PAGE
 
 
-def page(judged: JudgedStudy, whole: Part, parts: list[Part], swept: Swept) -> str:
-    """The page as HTML; figures are inside, tables are linked beside it."""
+def page(judged: JudgedStudy, whole: Part, parts: list[Part], findings: Sheet, swept: Swept) -> str:
+    """The page as HTML that needs nothing else."""
     verdicts = [finding.verdict for finding in tableau.every(judged)]
+    drawn = [figure for part in (whole, *parts) for figure in part.figures.values()]
     return render(
         "study.html",
+        title=judged.study.title,
+        contents=_contents(whole, parts, judged),
         judged=judged,
         whole=whole,
         parts=list(zip(parts, judged.series, strict=True)),
@@ -124,7 +138,10 @@ def page(judged: JudgedStudy, whole: Part, parts: list[Part], swept: Swept) -> s
         regime=regime,
         failures=failures,
         seconds=seconds,
-        findings=FINDINGS,
+        findings=findings,
+        sheets=[findings, *(sheet for part in parts for sheet in part.points), *sheets_of(drawn)],
+        definitions=Definitions(),
+        **reading(),
         swept=swept,
     )
 
@@ -133,7 +150,7 @@ def slopes(each: JudgedSeries) -> dict[str, float]:
     """rms slope by dimension, as each solver measures it, mean over the surfaces; those that are known."""
     found = {}
     for solver, dimension in DIMENSIONS.items():
-        answers = each.solved(solver, ROUGH) or each.solved(solver, REST)
+        answers = each.solved.get(solver, ROUGH) or each.solved.get(solver, REST)
         known = answers.measures.get("rms_slope", np.array(np.nan)) if answers else np.array(np.nan)
         if np.isfinite(known).any():
             found[dimension] = float(np.nanmean(known))
@@ -175,24 +192,39 @@ def manifest(judged: JudgedStudy, swept: Swept) -> dict:
     }
 
 
-def _part(folder, number, each: JudgedSeries):
-    """Write what belongs to one series into its subfolder."""
-    name = slug(each.solved.series.name)
+def _part(folder, number, each: JudgedSeries, first):
+    """Write what belongs to one series into its subfolder; first is the row of its first finding."""
+    series = each.solved.series
+    name = slug(series.name)
     below = folder / name
     below.mkdir(parents=True, exist_ok=True)
     write_csv(below / POINTS, points.table(each.solved))
     # Of an earlier run in which more failed.
     (below / FAILED).unlink(missing_ok=True)
+    data = [Sheet.read(folder, below / POINTS, f"Points, {series.title}")]
     if failed := failures(each):
         write_csv(below / FAILED, failed)
-    return Part(name, number, each.findings, *_drawn(below, OF_A_SERIES, each))
+        data.append(Sheet.read(folder, below / FAILED, f"Failed solves, {series.title}"))
+    figures = _drawn(folder, below, OF_A_SERIES, each, series.title)
+    return Part(name, number, each.findings, figures, tuple(data), range(first, first + len(each.findings)))
 
 
-def _drawn(folder, modules, data):
-    """Figures by name, and the names of the tables beside them."""
-    found = {module: figure for module in modules if (figure := draw(folder, module, data))}
-    tables = frozenset(f"{sheet}.csv" for module in found for sheet in module.sheets(data))
-    return {figure.name: figure for figure in found.values()}, tables
+def _drawn(root, below, modules, data, title):
+    """Figures by name."""
+    drawn = (illustrate(root, below, module, data, of=title) for module in modules)
+    return {figure.name: figure for figure in drawn if figure}
+
+
+def _contents(whole, parts, judged):
+    """Anchors and titles of the page, in its order."""
+    found = [("summary", "What is claimed and what is found"), ("asked", "What was asked")]
+    found.append(("unmatched", "What cannot be matched between the dimensionalities"))
+    if whole.findings or whole.figures:
+        found.append((whole.anchor, "All series together"))
+    titles = (
+        f"{part.number}. {each.solved.series.title}" for part, each in zip(parts, judged.series, strict=True)
+    )
+    return found + [(part.anchor, title) for part, title in zip(parts, titles, strict=True)]
 
 
 def _overview(judged, whole, parts):
@@ -219,8 +251,8 @@ def _overview(judged, whole, parts):
 
 def _account(each: JudgedSeries):
     series = each.solved.series
-    first = series.scene.roughness.seed if series.scene.roughness else None
-    drawn = {} if first is None else {"MDR": series.profiles, "BEM": series.surfaces}
+    rough = series.scene.roughness
+    drawn = {"MDR": series.profiles, "BEM": series.surfaces} if rough else {}
     return {
         "name": series.name,
         "title": series.title,
@@ -228,7 +260,7 @@ def _account(each: JudgedSeries):
         "speeds": series.speeds,
         "presses": series.presses,
         "settings": {"MDR": asdict(series.mdr), "BEM": asdict(series.bem)},
-        "seeds": {solver: list(range(first, first + count)) for solver, count in drawn.items()},
+        "seeds": {solver: list(range(rough.seed, rough.seed + count)) for solver, count in drawn.items()},
         "grids": {"/".join(key): answers.points for key, answers in each.solved.answers.items()},
         "processor_seconds": seconds(each),
         "failures": failures(each),

@@ -2,21 +2,26 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Scene, Slide, Stage
+from scene.motion import Motion
 from scene.protocol import refuse
 
 from ..outcome import Outcome
 from ..resampling import mean_ratio
-from ..study import Task
+from ..store import Task as AnyTask
+from ..study import Task, surfaces_of
 
 ROUGH, REST, SMOOTH, SMOOTH_REST = "rough", "rest", "smooth", "smooth rest"
 FINE, COARSE = "fine", "coarse"
+# What is asked of answers: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and
+# force in each, all that compares the dimensionalities, and what compares several series.
+COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = CLAIMS = "collapse", "friction", "depth", "dimensions", "families"
 # Of the contact itself, by solver: the area [m^2] or the length [m] that touches.
 CONTACT = {"BEM": "contact_area", "MDR": "contact_length"}
 
@@ -33,6 +38,7 @@ class Series:
     surfaces, profiles : drawn in three and in one dimension, with the seeds from that of the scene on
     bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
     note : what is to be said of it, for the report
+    claims : which of CLAIMS are judged
     """
 
     name: str
@@ -45,6 +51,7 @@ class Series:
     bem: BEM
     mdr: MDR
     note: str = ""
+    claims: tuple[str, ...] = CLAIMS
 
     @property
     def pressed_by(self) -> str:
@@ -62,12 +69,11 @@ class Series:
 
     def at(self, press: float, speed: float = 0.0) -> Scene:
         """The scene pressed so, at rest or at a speed."""
-        pressed = {self.pressed_by: press}
-        if not speed:
-            motion = Indent(**pressed)
-        elif isinstance(self.scene.motion, Program):
+        pressed: dict[str, Any] = {self.pressed_by: press}
+        motion: Motion = Indent(**pressed)
+        if speed and isinstance(self.scene.motion, Program):
             motion = Program(stages=(Stage(duration=press / speed, **pressed),))
-        else:
+        elif speed:
             motion = Slide(speed=speed, **pressed)
         return replace(self.scene, motion=motion)
 
@@ -122,7 +128,12 @@ class Solved:
     series: Series
     answers: Mapping[Key, Answers]
 
-    def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> Answers | None:
+    def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> Answers:
+        """Those of a key that was asked for. Raises KeyError for another."""
+        return self.answers[Key(solver, body, grid)]
+
+    def get(self, solver: str, body: str = ROUGH, grid: str = FINE) -> Answers | None:
+        """The same, None where they were not asked for."""
         return self.answers.get(Key(solver, body, grid))
 
 
@@ -148,7 +159,7 @@ def tasks(series: Series) -> list[Task]:
     return list({(task.solver, task.scenes): task for task in every}.values())
 
 
-def collect(series: Series, outcomes: Mapping[Task, Outcome]) -> Solved:
+def collect(series: Series, outcomes: Mapping[AnyTask, Outcome]) -> Solved:
     """Put the answers of a series together."""
     return Solved(series, {key: _answers(key, block, outcomes) for key, block in blocks(series).items()})
 
@@ -171,7 +182,7 @@ def _block(series, solver, speeds, draws):
         for press in series.presses:
             scene = series.at(press, speed)
             refuse(solver, scene)
-            drawn = _drawn(scene, draws)
+            drawn = surfaces_of(scene, draws)
             together = (drawn,) if isinstance(solver, MDR) else tuple((each,) for each in drawn)
             points.append(tuple(Task(solver, scenes, work=_work(solver, scenes)) for scenes in together))
         rows.append(tuple(points))
@@ -187,15 +198,7 @@ def _work(solver, scenes):
     return len(scenes) * each * steps
 
 
-def _drawn(scene, count):
-    """With the seeds from that of the scene on; a smooth body has one surface."""
-    rough = scene.roughness
-    if rough is None:
-        return (scene,)
-    return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + k)) for k in range(count))
-
-
-def _answers(key: Key, block: Block, outcomes: Mapping[Task, Outcome]) -> Answers:
+def _answers(key: Key, block: Block, outcomes: Mapping[AnyTask, Outcome]) -> Answers:
     labelled = [
         [[(task.label, row) for task in point for row in outcomes[task].rows] for point in row]
         for row in block.tasks

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isfinite, nan
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -25,7 +26,7 @@ ONE_CURVE = "Eq. 23: shifts along the load bring friction at all speeds onto one
 def shiftings(solved: Solved, solver: str) -> tuple[Shifting, Shifting] | None:
     """Of the fine and of the coarse answers; None where points are too few."""
     try:
-        return tuple(shift(samples(solved, solver, grid)) for grid in (FINE, COARSE))
+        return shift(samples(solved, solver, FINE)), shift(samples(solved, solver, COARSE))
     except ValueError:
         return None
 
@@ -39,9 +40,8 @@ def samples(solved: Solved, solver: str, grid: str = FINE) -> Samples:
 def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[Finding]:
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
     for claim in (*_fitted(*both), *_predicted(both, laws)):
-        measured, other = claim.numbers
+        measured, grid = claim.numbers[0], claim.grid
         low, high = (float(end) for end in measured.interval())
-        grid = measured.apart(other)
         known = isfinite(low) and isfinite(high) and isfinite(grid)
         yield Finding(
             claim=claim.claim,
@@ -59,20 +59,28 @@ def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> 
         )
 
 
+_Number = TypeVar("_Number", Size, Estimated[float])
+
+
 @dataclass(frozen=True)
-class _Claim:
+class _Claim(Generic[_Number]):
     """What two fits say of a claim: numbers of the fine and of the coarse one, all else as of Finding."""
 
     claim: str
-    numbers: tuple[Size, Size] | tuple[Estimated, Estimated]
+    numbers: tuple[_Number, _Number]
     figure: str
     text: str
     undecidable: str = ""
     expected: float = 0.0
     tolerance: float = TOLERANCE
 
+    @property
+    def grid(self) -> float:
+        fine, coarse = self.numbers
+        return fine.apart(coarse)
 
-def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim]:
+
+def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim[Size]]:
     """With the shifts that are best."""
     straight, parted = inseparable(fine), fine.horizontal.reason or ""
     beside = "" if fine.both.reason else f" Shifted along friction too, they miss by {fine.both.misfit.value:.1%}."
@@ -94,12 +102,12 @@ def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim]:
     )
 
 
-def _predicted(both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[_Claim]:
+def _predicted(both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[_Claim[Size] | _Claim[Estimated[float]]]:
     """With those of the theory, and how the best ones compare."""
     fine, coarse = both
     yield _Claim(
         "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve",
-        tuple(misfit_at(each, _kept(each, laws)) for each in both),
+        (misfit_at(fine, _kept(fine, laws)), misfit_at(coarse, _kept(coarse, laws))),
         COLLAPSE,
         "The same with the shifts that the theory gives, none fitted.",
     )

@@ -25,7 +25,7 @@ class Side:
     @classmethod
     def of(cls, solved: Solved, solver: str, grid: str = FINE) -> Self:
         """All that a series has of it."""
-        found = {body: solved(solver, body, grid) for body in (ROUGH, REST, SMOOTH, SMOOTH_REST)}
+        found = {body: solved.get(solver, body, grid) for body in (ROUGH, REST, SMOOTH, SMOOTH_REST)}
         return cls(solver, {body: answers for body, answers in found.items() if answers is not None})
 
     def __getitem__(self, body: str) -> Answers:

@@ -1,6 +1,6 @@
 """To know the true answer of three dimensions within a wanted error: which model, which settings, how long."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isfinite, nan
 
@@ -129,7 +129,7 @@ def failures(found: Found) -> list[str]:
             ]
 
 
-def table(found: Sequence[Found], levels: Sequence[float] = LEVELS) -> list[Mapping]:
+def table(found: Sequence[Found], levels: Sequence[float] = LEVELS) -> list[dict]:
     """A row for each regime, quantity and wanted error; times in seconds, errors relative."""
     return [_row(each, quantity, level) for each in found for quantity in quantities(each) for level in levels]
 
@@ -191,7 +191,7 @@ def _cell(found: Found, quantity: str, level) -> str:
     return f"not reached; best known {share(known)}" if isfinite(known) else "not known"
 
 
-def _row(found: Found, quantity: Quantity, level) -> Mapping[str, object]:
+def _row(found: Found, quantity: Quantity, level) -> dict[str, object]:
     taken, own = answer(found, quantity.name, level), floor(found, quantity.name)
     each = {solver: answer(found, quantity.name, level, solver) for solver in DIMENSIONS}
     return {

@@ -58,7 +58,7 @@ class Bill:
     @property
     def nodes(self) -> np.ndarray:
         """Points of each rung in all (rungs,)."""
-        points = np.array([rung.solver.points for rung in self.ladder.rungs], float)
+        points = np.array([rung.solver.points for rung in self.ladder.rungs], np.float64)
         return points if self.solver == "MDR" else points**2
 
     @property

@@ -7,13 +7,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from scene import Scene, Solver
+from scene import Scene
 
 from ..outcome import Outcome, Row
 from ..store import Task
 from ..study import Task as Solves
 from .order import Order, observed
-from .rung import COSTS, Rung
+from .rung import COSTS, OnGrid, Rung
 
 Value = float | np.ndarray
 
@@ -65,14 +65,15 @@ class Known:
 
 
 class Truth(Protocol):
-    """What ladders are measured against.
+    """What ladders are measured against."""
 
-    source : where it is from, for people
-    tasks : that have to be solved for it
-    """
+    @property
+    def source(self) -> str:
+        """Where it is from, for people."""
 
-    source: str
-    tasks: Sequence[Task]
+    @property
+    def tasks(self) -> Sequence[Task]:
+        """That have to be solved for it."""
 
     def known(self, quantities: Sequence[Quantity], outcomes: Mapping[Task, Outcome]) -> Mapping[str, Known]:
         """By the quantity's name; quantities that it does not know are absent."""
@@ -104,11 +105,11 @@ class Finer:
     scale: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, scene: Scene, solver: Solver, source: str, scale: Mapping[str, float] | None = None, **coarser):
+    def of(cls, scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None, **coarser):
         """`coarser` : settings of the next, where half the points are not what is meant."""
         coarser = coarser or {"points": solver.points // 2}
-        tasks = (Solves(each, (scene,), work=work(each)) for each in (solver, replace(solver, **coarser)))
-        return cls(source, *tasks, scale or {})
+        finest, next = (Solves(each, (scene,), work=work(each)) for each in (solver, replace(solver, **coarser)))
+        return cls(source, finest, next, scale or {})
 
     @property
     def tasks(self) -> tuple[Task, ...]:
@@ -141,14 +142,14 @@ class Ladder:
     rungs: tuple[Rung, ...]
 
     @classmethod
-    def of(cls, label: str, scene: Scene, solver: Solver, setting: str, values: Sequence, **others: Any):
+    def of(cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence, **others: Any):
         """Rungs that differ in one setting. others : of the rungs, see Rung; steps that go along with points."""
         solvers = [replace(solver, **{setting: value}) for value in values]
         return cls.through(label, scene, solvers, setting, values, **others)
 
     @classmethod
     def through(
-        cls, label: str, scene: Scene, solvers: Sequence[Solver], setting: str, values: Sequence, **others
+        cls, label: str, scene: Scene, solvers: Sequence[OnGrid], setting: str, values: Sequence, **others
     ):
         """Rungs of any settings."""
         rungs = tuple(Rung(solver, scene, work=work(solver), **others) for solver in solvers)
@@ -248,6 +249,6 @@ def _error(quantity, known, answer):
     return nan if row.reason is not None else known.error_of(quantity.of(row, answer.fields))
 
 
-def work(solver: Solver) -> float:
+def work(solver: OnGrid) -> float:
     """Of one solve, in passes over a point of a grid, roughly; see store."""
     return solver.points * 15.0 if solver.name == "MDR" else solver.points**2.2 * 50.0

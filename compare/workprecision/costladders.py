@@ -69,6 +69,8 @@ class Paired(Rung):
     zeros that its operator needs on a free surface.
     """
 
+    solver: BEM
+
     @property
     def packages(self) -> tuple[str, ...]:
         """As of Rung, and this module."""
@@ -92,7 +94,8 @@ def product(engine: Engine, points: int, padded: int) -> float:
     """Least processor seconds of one product of points x points with a symbol, padded to so many a side."""
     symbol = np.ones((padded // 2 + 1, padded // 2 + 1))
     multiply = engine.product(symbol, (points, points), (padded, padded))
-    plane, out, spent = np.ones((points, points)), np.empty((points, points)), []
+    plane, out = np.ones((points, points)), np.empty((points, points))
+    spent: list[float] = []
     while len(spent) < PRODUCT_REPEATS or sum(spent) < PRODUCT_SECONDS:
         started = time.process_time()
         multiply(plane, out=out)
@@ -109,9 +112,9 @@ def ladders(size: str) -> dict[str, Ladder]:
 
 def plane(points: int, pressure: float) -> Scene:
     """A rough cell under a mean pressure over E* and its rms slope; its waves end at PIXELS_A_WAVE."""
-    of = {"hurst": 0.8, "longest": 1.0, "rolloff": 0.25, "shortest": PIXELS_A_WAVE / points, "seed": 1}
-    unit = SelfAffine(rms_height=1.0, **of)
-    rough = SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / points)), **of)
+    shortest = PIXELS_A_WAVE / points
+    unit = SelfAffine(hurst=0.8, rms_height=1.0, longest=1.0, rolloff=0.25, shortest=shortest, seed=1)
+    rough = replace(unit, rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / points)))
     return Scene(Plane(), Elastic(0.25), Indent(pressure=pressure * SLOPE), rough)  # E* = 4 G = 1
 
 

@@ -93,5 +93,5 @@ def _stored(rungs: Sequence[Rung], outcomes):
         store, sizes = Store(Path(folder)), []
         for rung in rungs:
             store.put(rung, Outcome(outcomes[rung].rows))
-            sizes.append(sum(path.stat().st_size for path in Path(folder).glob("*.json")))
+            sizes.append(sum(path.stat().st_size for path in Path(folder).glob("*.nc")))
         return np.diff([0, *sizes]).astype(float)

@@ -12,30 +12,42 @@ SIZES = ("quick", "full")
 
 
 class Entry(Protocol):
-    """What a diagram is made of: a Contest of ladders, or an Ensemble of surfaces.
+    """What a diagram is made of: a Contest of ladders, or an Ensemble of surfaces."""
 
-    name, title : for files and for people
-    timed, untimed : what is measured alone, and what is solved besides
-    """
+    @property
+    def name(self) -> str:
+        """For files."""
 
-    name: str
-    title: str
-    timed: Sequence[Rung]
-    untimed: Sequence[Task]
+    @property
+    def title(self) -> str:
+        """For people."""
+
+    @property
+    def timed(self) -> Sequence[Rung]:
+        """What is measured alone."""
+
+    @property
+    def untimed(self) -> Sequence[Task]:
+        """What is solved besides."""
 
     def judged(self, outcomes: Mapping[Task, Outcome]) -> Any:
         """All of it measured: Judged or JudgedEnsemble."""
 
 
 class Inquiry(Protocol):
-    """What the command measures, and tells.
+    """What the command measures, and tells."""
 
-    name : of the command and of files; title, about : what is compared and why, for people
-    """
+    @property
+    def name(self) -> str:
+        """Of the command and of files."""
 
-    name: str
-    title: str
-    about: str
+    @property
+    def title(self) -> str:
+        """What is compared, for people."""
+
+    @property
+    def about(self) -> str:
+        """How, and why, for people."""
 
     def untimed(self, size: str) -> list[Task]:
         """What is solved besides, each once."""

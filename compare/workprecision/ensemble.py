@@ -1,7 +1,7 @@
 """One rough scene whose answer is the mean over its surfaces: what either model takes to know it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import hypot, inf, nan, sqrt
 
 import numpy as np
@@ -13,6 +13,7 @@ from scene import Scene
 from ..outcome import Outcome
 from ..store import Task
 from ..study import Task as Solves
+from ..study import surfaces_of
 from .contest import Known, Quantity, work
 from .rung import COSTS, Rung
 from .statistics import Bias, Draw, Scatter, Way, half_width
@@ -73,8 +74,7 @@ class Ensemble:
 
     def drawn(self, count: int) -> tuple[Scene, ...]:
         """The scene with the seeds from its own on."""
-        rough = self.scene.roughness
-        return tuple(replace(self.scene, roughness=replace(rough, seed=rough.seed + k)) for k in range(count))
+        return surfaces_of(self.scene, count)
 
     @property
     def _grid_solvers(self):

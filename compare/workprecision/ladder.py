@@ -27,6 +27,7 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
+from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome, Row
@@ -38,7 +39,10 @@ KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
 STANDARD = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=2.5, relaxation_time=0.1)
 SHAPES = Sphere(radius=1.0), Cone(angle=0.05), PowerLaw(coefficient=2.0, exponent=4.0)
 # Speed times the time of the solid over the contact radius.
-SPEEDS = {KELVIN: (0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0), STANDARD: (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0)}
+SPEEDS: dict[Elastomer, tuple[float, ...]] = {
+    KELVIN: (0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0),
+    STANDARD: (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0),
+}
 # Hurst exponent, rms height over depth, contact radius over shortest wave, seed.
 ROUGHNESS = (
     (0.2, 0.1, 3, 1),
@@ -95,7 +99,8 @@ def probes() -> list[Probe]:
 
 def rows(found: Sequence[Probe], outcomes: Mapping[Task, Outcome]) -> list[dict]:
     """The ladder: the largest error of all answers resolved as finely as a rung or more finely."""
-    errors, costs = {}, {}
+    errors: dict[tuple[str, str, str], list[tuple[float, float]]] = {}
+    costs: dict[tuple[str, str, str], dict[int, list[float]]] = {}
     for probe in found:
         answers = [outcomes[task].rows[0] for task in probe.tasks]
         kind = probe.body, band(probe.scene)
@@ -170,7 +175,7 @@ def _errors(probe, name, answers: Sequence[Row]) -> Iterator[tuple[float, float]
             yield resolution(probe.scene, answer.measures), error
 
 
-def missing(points: int, finer: int) -> float:
+def missing(points: float, finer: float) -> float:
     """What a difference to a finer grid is multiplied with for the error, which falls with the points at least."""
     return finer / (finer - points)
 

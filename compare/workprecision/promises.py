@@ -24,6 +24,7 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
+from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome, Row, row
@@ -36,7 +37,7 @@ from .ladder import TIGHT, missing
 WANTED = (0.1, 0.03, 0.01, 0.003)
 FINEST, TRUTH = 1024, 2  # points of the truth, and how many times those chosen they have to be
 # Elastomers of several times, of a glass a hundred times as stiff, and of a loss as a power of the frequency.
-SOLIDS = {
+SOLIDS: dict[str, Elastomer] = {
     "three modes": Prony(equilibrium_modulus=0.25, moduli=(0.25, 0.5, 1.0), relaxation_times=(10.0, 1.0, 0.1)),
     "standard linear, E_g/E_r = 100": StandardLinearSolid(0.25, 25.0, 0.01),
     "fractional": Fractional(
@@ -95,6 +96,10 @@ class Promise:
             return Outcome((Row(reason=str(reason), measures=made),))
         found, change = row(answer.result), {"change": answer.change[self.quantity]}
         return Outcome((replace(found, measures={**found.measures, **made, **change}),))
+
+    def failed(self, reason: str) -> Outcome:
+        """One row, with the reason."""
+        return Outcome((Row(reason=reason),))
 
     def fits(self, outcome: Outcome) -> bool:
         """One row."""

@@ -1,6 +1,7 @@
 """The regimes in which both models are asked for the true answer of three dimensions."""
 
 from dataclasses import replace
+from typing import Any
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -16,7 +17,7 @@ LOAD = 1.0
 SMOOTH_SPEEDS = {"slow": 0.01, "middle": 1.0, "fast": 100.0}
 ROUGH_SPEEDS = {"slow": 0.02, "middle": 0.2, "fast": 20.0}
 GLASSY_OVER_RUBBERY = 10.0
-SMOOTH = {
+SMOOTH: dict[str, dict[str, Any]] = {
     "quick": {"BEM": (32, 64, 128), "MDR": (100, 400), "truth": 256},
     "full": {"BEM": (32, 64, 128, 256, 512), "MDR": (50, 500, 5000), "truth": 1024},
 }

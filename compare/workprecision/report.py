@@ -6,7 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from ..figures import workprecision, workprecision_costs, workprecision_models, workprecision_surfaces
-from ..publish import Drawn, draw, render, write_text
+from ..glossary import Definitions
+from ..illustration import Illustration, illustrate, sheets_of
+from ..publish import render, write_text
+from ..sheets import Sheet, reading
 from ..sweep import Swept
 from . import answers
 from .diagram import Inquiry
@@ -24,16 +27,30 @@ class Chapter:
 
     advice : what to do
     figures : none where nothing could be drawn
-    tables : in words, by title; sheets : names of its CSV files
+    tables : in words, by title
     """
 
     name: str
     title: str
     about: str
     advice: str
-    figures: tuple[Drawn, ...]
+    figures: tuple[Illustration, ...]
     tables: Mapping[str, Sequence[Mapping[str, str]]]
-    sheets: tuple[str, ...]
+
+    @property
+    def anchor(self) -> str:
+        """On the page."""
+        return f"inquiry-{self.name}"
+
+    @property
+    def data(self) -> list[Sheet]:
+        """All that its figures show."""
+        return sheets_of(self.figures)
+
+    @property
+    def sheets(self) -> list[str]:
+        """Names of its CSV files."""
+        return [sheet.name.removesuffix(".csv") for sheet in self.data]
 
 
 def chapter(folder: Path, inquiry: Inquiry, found: Any) -> Chapter:
@@ -43,7 +60,7 @@ def chapter(folder: Path, inquiry: Inquiry, found: Any) -> Chapter:
     if module is workprecision_models:
         asked = ((what, answers.restricted(found, names)) for what, names in ASKED.items())
         shown = {f"-{what.split()[0]}": some for what, some in asked if some}
-    drawn = [draw(folder, module, some, suffix) for suffix, some in shown.items()]
+    drawn = [illustrate(folder, folder, module, some, suffix) for suffix, some in shown.items()]
     return Chapter(
         inquiry.name,
         inquiry.title,
@@ -51,7 +68,6 @@ def chapter(folder: Path, inquiry: Inquiry, found: Any) -> Chapter:
         inquiry.advice(found),
         tuple(figure for figure in drawn if figure is not None),
         tables(inquiry, found),
-        tuple(f"{sheet}{suffix}" for suffix, some in shown.items() for sheet in module.sheets(some)),
     )
 
 
@@ -64,5 +80,16 @@ def tables(inquiry: Inquiry, found: Any) -> dict[str, list[dict[str, str]]]:
 
 def write_workprecision(folder: Path, chapters: Sequence[Chapter], size: str, swept: Swept) -> Path:
     """Write the page, and return its path."""
-    write_text(folder / PAGE, render("workprecision.html", chapters=chapters, size=size, swept=swept))
+    page = render(
+        "workprecision.html",
+        title="What accuracy costs in time",
+        contents=[("summary", "What to do"), *((each.anchor, each.title) for each in chapters)],
+        chapters=chapters,
+        sheets=[sheet for each in chapters for sheet in each.data],
+        definitions=Definitions(),
+        **reading(),
+        size=size,
+        swept=swept,
+    )
+    write_text(folder / PAGE, page)
     return folder / PAGE

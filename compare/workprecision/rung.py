@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from math import nan
+from typing import Protocol
 
 from scene import Plane, Result, Scene, SelfAffine, SolveError, Solver
 
@@ -19,6 +20,18 @@ WARM = {"points": 64, "steps": 20}
 COSTS = ("processor", "wall", "memory")
 
 
+class OnGrid(Solver, Protocol):
+    """A solver that has a grid."""
+
+    @property
+    def points(self) -> int:
+        """Along each side."""
+
+    @property
+    def steps(self) -> int:
+        """In time, of a Program."""
+
+
 @dataclass(frozen=True)
 class Rung:
     """A task, as of store: one scene, solved until its least time is known. It wants a process of its own.
@@ -30,7 +43,7 @@ class Rung:
     scene to the result; memory [bytes], by which the first raised the peak of the process; and repeats.
     """
 
-    solver: Solver
+    solver: OnGrid
     scene: Scene
     keeps: tuple[str, ...] = ()
     work: float = 1.0
@@ -67,6 +80,10 @@ class Rung:
         found = row(result)
         fields = {name: result.fields[name] for name in self.keeps}
         return Outcome((replace(found, measures={**found.measures, **costs}),), fields)
+
+    def failed(self, reason: str) -> Outcome:
+        """One row, with the reason."""
+        return Outcome((Row(reason=reason),))
 
     def fits(self, outcome: Outcome) -> bool:
         """One row."""

@@ -21,7 +21,7 @@ class Scatter:
     freedom: int
 
     @classmethod
-    def of(cls, values: Sequence[float]) -> Self:
+    def of(cls, values: Sequence[float] | np.ndarray) -> Self:
         """Of the finite ones of some values."""
         known = np.asarray(values, float)
         known = known[np.isfinite(known)]

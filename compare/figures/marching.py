@@ -1,0 +1,192 @@
+"""A program instant by instant: pressure from above, sections in both dimensionalities, and what came before."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from scene import Cylinder
+
+from ..film import Film
+from . import style, touching
+from .prefixes import prefixed
+
+NAME = "marching"
+TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: profile and elements"}
+HISTORIES = {"normal_force": "normal force", "friction_force": "friction"}
+ROOM = 0.08  # above and below a history, of what it spans
+
+
+def figure(film: Film) -> Figure:
+    """The last instant. Left: pressure in 3D. Right: its section y = 0, and the 1D contact. Below: forces."""
+    reel = Reel(film)
+    reel.show(len(film.times) - 1)
+    reel.drawing.draw_without_rendering()  # of two passes in which the layout is found
+    return reel.drawing
+
+
+def sheets(film: Film) -> dict[str, dict[str, np.ndarray]]:
+    """Histories of both, and their sections at the last instant, SI units."""
+    last, found = len(film.times) - 1, {}
+    for solver, name in (("BEM", "3d"), ("MDR", "1d")):
+        if solver in film.fields:
+            found[f"marching-history-{name}"] = {
+                column: film.fields[solver][column] for column in ("time", *HISTORIES)
+            }
+    for section, name in ((_section(film, "BEM", last), "3d"), (film.line(last), "1d")):
+        if section is not None:
+            found[f"marching-section-{name}"] = {
+                "x": section.x,
+                "indenter": section.indenter,
+                "surface": section.surface,
+                "contact": section.touching.astype(int),
+            }
+    seen = film.space(last)
+    if seen is not None:
+        y, x = np.meshgrid(seen.y, seen.x, indexing="ij")
+        pressed = seen.pressure > 0
+        found["marching-pressure"] = {"x": x[pressed], "y": y[pressed], "pressure": seen.pressure[pressed]}
+    return found
+
+
+def caption(film: Film) -> str:
+    """What the figure shows."""
+    said = []
+    if "BEM" in film.fields:
+        said.append("Contact pressure in three dimensions, and the section along the flow through the axis.")
+    if "MDR" in film.fields:
+        said.append("In one dimension, the profile on its row of independent elements, of which some are drawn.")
+    said.append(
+        "Real contact in bold, the undeformed level dashed; heights are exaggerated. Below, forces since the "
+        "program began."
+    )
+    if film.radius is not None:
+        said.append("Dashed: the smooth relaxed contact at the greatest load or depth.")
+    return " ".join(said)
+
+
+class Reel:
+    """One figure that shows a film instant by instant, every scale the same throughout.
+
+    drawing : the figure
+    """
+
+    def __init__(self, film: Film):
+        self.film = film
+        self._solvers = [solver for solver in ("BEM", "MDR") if solver in film.fields]
+        rows, maps = len(self._solvers), "BEM" in film.fields
+        self.drawing = style.canvas("double", 2.6 + rows)
+        above, below = self.drawing.subfigures(2, 1, squeeze=False, height_ratios=(1.1 * rows + 0.6, 1.1))[:, 0]
+        columns = above.add_gridspec(rows, 1 + maps, width_ratios=(1, 1.5) if maps else (1,))
+        self._map = above.add_subplot(columns[:, 0]) if maps else None
+        self._sections = [above.add_subplot(columns[row, -1]) for row in range(rows)]
+        self._histories = below.subplots(1, len(HISTORIES))
+        instants = range(len(film.times))
+        seen = [_section(film, solver, k) for solver in self._solvers for k in instants]
+        self._heights = touching.heights(seen, film.span)
+        self._highest = touching.highest_pressure(film.fields["BEM"]["frame_pressure"]) if maps else 1.0
+        if self._map is not None:
+            self._lay_out_map(self._map, above)
+        for axes, name in zip(self._histories, HISTORIES, strict=True):
+            self._lay_out_history(axes, name)
+
+    def show(self, k: int) -> None:
+        """Draw the k-th instant in place of the one before."""
+        film = self.film
+        scale, unit = prefixed(film.times[-1], "s")
+        when, passed = f"t = {scale * film.times[k]:.3g} {unit}", float(film.scene.motion.path(film.times[k]))
+        if self._map is not None:
+            self._show_pressure(self._map, k)
+            self._map.set_title(f"3D: pressure, {when}")
+        for axes, solver in zip(self._sections, self._solvers, strict=True):
+            _clear(axes)
+            seen, title = _section(film, solver, k), TITLES[solver]
+            row = passed if solver == "MDR" else None
+            touching.section(axes, seen, solver, film.span, self._heights, row)
+            axes.set_title(title if self._map is not None else f"{title}, {when}")
+            if axes is not self._sections[-1]:
+                axes.set_xlabel("")
+            if not seen.touching.any():
+                touching.remark(axes, "nothing touches here")
+        for axes, name in zip(self._histories, HISTORIES, strict=True):
+            self._show_history(axes, name, film.times[k])
+
+    def _lay_out_map(self, axes: Axes, drawing):
+        """Axes of the pressure and the bar of its colours, of all instants."""
+        film, y = self.film, self.film.fields["BEM"]["y"]
+        (along, unit), (up, name) = prefixed(film.span, "m"), prefixed(self._highest, "Pa")
+        if len(y) > 1:
+            image = touching.pressure_map(axes, y, y, np.zeros((len(y), len(y))), up * self._highest)
+            bar = drawing.colorbar(image, ax=axes, location="bottom", extend="max", aspect=30)
+            bar.set_label(f"pressure [{name}]")
+            bar.outline.set_linewidth(style.width(0.45))
+            half = (y[1] - y[0]) / 2
+            axes.set(ylim=(along * (y[0] - half), along * (y[-1] + half)), ylabel=f"y [{unit}]")
+        else:
+            axes.set(ylim=(0, 1.05 * up * self._highest), ylabel=f"pressure [{name}]")
+        axes.set(xlim=[along * end for end in film.span], xlabel=f"x [{unit}]")
+
+    def _show_pressure(self, axes: Axes, k):
+        seen, film = self.film.space(k), self.film
+        _clear(axes)
+        (along, _), (up, _) = prefixed(film.span, "m"), prefixed(self._highest, "Pa")
+        limits = axes.get_xlim(), axes.get_ylim()
+        if len(seen.y) > 1:
+            touching.pressure_map(axes, along * seen.x, along * seen.y, up * seen.pressure, up * self._highest)
+            touching.edge(axes, film.radius and along * film.radius, style.ink())
+        else:
+            axes.plot(along * seen.x, up * seen.pressure[0], color=style.COLOUR["BEM"])
+            if isinstance(film.scene.indenter, Cylinder):
+                touching.sides(axes, film.radius and along * film.radius)
+        axes.set(xlim=limits[0], ylim=limits[1])
+        way = _way(film, film.times[k])
+        touching.remark(axes, way if (seen.pressure > 0).any() else f"{way}, nothing touches")
+
+    def _lay_out_history(self, axes: Axes, name):
+        film = self.film
+        (scale, seconds), (up, unit), (low, high) = self._units(name)
+        room = ROOM * ((high - low) or 1.0)
+        axes.set(xlim=(0, scale * film.scene.motion.duration), ylim=(up * (low - room), up * (high + room)))
+        axes.set(xlabel=f"time [{seconds}]", ylabel=f"{HISTORIES[name]} [{unit}]")
+        if axes is self._histories[0]:
+            lines = [Line2D([], [], **_look(solver)) for solver in self._solvers]
+            axes.legend(handles=lines, loc="lower left", bbox_to_anchor=(0, 1), ncols=2, borderaxespad=0.2)
+
+    def _show_history(self, axes: Axes, name, now):
+        _clear(axes)
+        (scale, _), (up, _), _ = self._units(name)
+        for solver in self._solvers:
+            time, values = self.film.fields[solver]["time"], self.film.fields[solver][name]
+            past = time <= now * (1 + 1e-9)
+            axes.plot(scale * time[past], up * values[past], **_look(solver))
+
+    def _units(self, name):
+        """Of time and of a history, and its limits [SI]."""
+        limits = self.film.limits(name)
+        unit = "N/m" if isinstance(self.film.scene.indenter, Cylinder) else "N"
+        return prefixed(self.film.times[-1], "s"), prefixed(limits, unit), limits
+
+
+def _look(solver):
+    return {"color": style.COLOUR[solver], "linestyle": style.LINE[solver], "label": style.LABEL[solver]}
+
+
+def _clear(axes):
+    """What was drawn of an instant; axes and ticks stay, which take longest."""
+    for artist in (*axes.lines, *axes.collections, *axes.images, *axes.texts):
+        artist.remove()
+
+
+def _section(film, solver, k):
+    """Of a solver that the film has."""
+    if solver == "MDR":
+        return film.line(k)
+    seen = film.space(k)
+    return None if seen is None else seen.section
+
+
+def _way(film, now):
+    """Which way the elastomer passes at a time [s], seen from the indenter."""
+    ends = np.cumsum([stage.duration for stage in film.scene.motion.stages])
+    speed = film.scene.motion.stages[min(int(np.searchsorted(ends, now)), len(ends) - 1)].speed
+    return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"

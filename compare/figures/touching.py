@@ -1,0 +1,145 @@
+"""Panels of a contact: sections through both bodies, and maps of it seen from above."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+from matplotlib.image import AxesImage
+from matplotlib.typing import ColorType
+
+from ..views import Section
+from . import materials, style
+from .prefixes import prefixed
+
+# Elements that are drawn of a row; heights above and below what is shown of the surfaces, of their range.
+ELEMENTS, ABOVE, BELOW = 48, 0.45, 0.35
+HIGHEST = 99  # percentile of the pressures in contact at which colours end
+
+
+def heights(sections: Sequence[Section], span: tuple[float, float]) -> tuple[float, float]:
+    """(lowest, highest) [m] of panels that show these sections over a span of x [m]."""
+    seen = [
+        values[(span[0] <= each.x) & (each.x <= span[1])]
+        for each in sections
+        for values in (each.surface, each.indenter[each.touching], each.surface[each.touching])
+        if len(values) == len(each.x)
+    ]
+    values = np.concatenate([*seen, [0.0]])
+    low, high = np.nanmin(values), np.nanmax(values)
+    room = (high - low) or 1e-3 * (span[1] - span[0])
+    return float(low - BELOW * room), float(high + ABOVE * room)
+
+
+def section(
+    axes: Axes,
+    seen: Section,
+    solver: str,
+    span: tuple[float, float],
+    limits: tuple[float, float],
+    row: float | None = None,
+) -> None:
+    """Both bodies over a span of x between two heights [m], real contact in bold.
+
+    row : by how much the elastomer has passed [m], where it is drawn as the row of elements that stands for it
+    """
+    (along, x_unit), (up, unit) = prefixed(span, "m"), prefixed(limits, "m")
+    x, surface, body = along * seen.x, up * seen.surface, up * seen.indenter
+    bottom, top = (up * limit for limit in limits)
+    axes.fill_between(x, surface, bottom, color=materials.elastomer(), linewidth=0)
+    if row is not None:
+        places = along * _elements(span, row)
+        _draw_elements(axes, places, x, surface, seen.touching, bottom, style.COLOUR[solver])
+    axes.axhline(0.0, color=style.grey(0.35), linewidth=style.width(0.5), linestyle=(0, (5, 3)), zorder=1.5)
+    axes.fill_between(x, body, top, where=body < top, color=materials.indenter(), linewidth=0)
+    axes.plot(x, surface, color=materials.surface(), linewidth=style.width(0.65))
+    touched = np.where(seen.touching, surface, np.nan)
+    axes.plot(
+        x,
+        touched,
+        color=style.COLOUR[solver],
+        linewidth=style.width(2.2),
+        solid_capstyle="butt",
+        marker="." if _single(seen.touching) else "",
+    )
+    axes.set(xlim=[along * end for end in span], ylim=(bottom, top))
+    axes.set(xlabel=f"x [{x_unit}]", ylabel=f"height [{unit}]")
+
+
+def pressure_map(axes: Axes, x, y, pressure, highest: float) -> AxesImage:
+    """Pressure in units that `highest` reads well in, where there is any; x, y in the units of the axes."""
+    touched = np.ma.masked_less_equal(pressure, 0)
+    return _image(axes, x, y, touched, cmap="viridis_r", vmin=0, vmax=highest)
+
+
+def gap_map(axes: Axes, x, y, gap, highest: float) -> AxesImage:
+    """Gap, dark where it is small."""
+    return _image(axes, x, y, gap, cmap="cividis", vmin=0, vmax=highest)
+
+
+def contact_map(axes: Axes, x, y, touching, displacement, deepest: float, colour) -> AxesImage:
+    """Real contact in one colour, on the surface of the elastomer, which is the darker the deeper it lies.
+
+    x, y : pairs, of what touches and of the displacement
+    """
+    ends: list[ColorType] = [style.paper(), materials.surface()]
+    whole = LinearSegmentedColormap.from_list("surface", ends)
+    shades = ListedColormap(whole(np.linspace(0.0, 0.6, 256)))
+    (x, x_surface), (y, y_surface) = x, y
+    image = _image(axes, x_surface, y_surface, displacement, cmap=shades, vmin=0, vmax=deepest)
+    _image(axes, x, y, np.ma.masked_equal(np.asarray(touching, float), 0), cmap=ListedColormap([colour]))
+    return image
+
+
+def remark(axes: Axes, text: str) -> None:
+    """In the lower left corner, readable on whatever is drawn there."""
+    ground = {"facecolor": style.paper(), "edgecolor": "none", "alpha": 0.75, "pad": 1.0}
+    axes.text(0.03, 0.04, text, transform=axes.transAxes, fontsize=style.small(), bbox=ground)
+
+
+def edge(axes: Axes, radius: float | None, colour) -> None:
+    """A dashed circle, the edge of a smooth relaxed contact in the units of the axes, if there is one."""
+    if radius is not None:
+        angle = np.linspace(0, 2 * np.pi, 181)
+        look = {"color": colour, "linewidth": style.width(0.65), "linestyle": "--"}
+        axes.plot(radius * np.cos(angle), radius * np.sin(angle), **look)
+
+
+def sides(axes: Axes, half_width: float | None) -> None:
+    """Dashed, the sides of a smooth relaxed line contact."""
+    if half_width is not None:
+        for side in (-half_width, half_width):
+            axes.axvline(side, color=style.ink(), linewidth=style.width(0.65), linestyle="--")
+
+
+def highest_pressure(pressure) -> float:
+    """The greatest that is told apart: of all in contact but the highest of a hundred; 1 of nothing."""
+    touched = pressure[pressure > 0]
+    return float(np.percentile(touched, HIGHEST)) if touched.size else 1.0
+
+
+def _image(axes, x, y, values, **look):
+    half = (x[1] - x[0]) / 2
+    extent = (x[0] - half, x[-1] + half, y[0] - half, y[-1] + half)
+    return axes.imshow(values, origin="lower", extent=extent, interpolation="nearest", aspect="equal", **look)
+
+
+def _elements(span, passed):
+    """Where some of the row are, alike apart, after it has passed by a length [m]."""
+    pitch = (span[1] - span[0]) / ELEMENTS
+    return span[0] + (passed - span[0]) % pitch + pitch * np.arange(ELEMENTS)
+
+
+def _draw_elements(axes, places, x, surface, touching, bottom, colour):
+    """Those that touch in the colour of the solver."""
+    places = places[(x[0] <= places) & (places <= x[-1])]
+    nearest = np.unique(np.clip(np.searchsorted(x, places), 0, len(x) - 1))
+    for chosen, shade, times in ((~touching, materials.surface(), 0.5), (touching, colour, 0.8)):
+        drawn = nearest[chosen[nearest]]
+        axes.vlines(x[drawn], bottom, surface[drawn], color=shade, linewidth=style.width(times))
+
+
+def _single(touching):
+    """Whether any contact is of one point alone, of which no line is drawn."""
+    alone = touching & ~np.roll(touching, 1) & ~np.roll(touching, -1)
+    return bool(alone.any())

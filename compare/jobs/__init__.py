@@ -1,0 +1,1 @@
+"""What each command does between its question and its page, one job a module."""

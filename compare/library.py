@@ -1,0 +1,78 @@
+"""Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
+
+import re
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+
+_TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
+_END = "\n#\n"  # of what a file is about, in the comment with which it begins
+FOLDERS = {"scene": "scenes", "study": "ownstudies"}  # by kind
+
+
+class NotReady(LookupError):
+    """No scene or study of that name comes with the package; the message says which do."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A file to begin with.
+
+    name : of the file, without .toml
+    title, about : for people; what it is about stands in its first lines; a scene alone, which
+        has no title, has its first words
+    kind : "scene" or "study"
+    text : the file
+    """
+
+    name: str
+    title: str
+    about: str
+    kind: str
+    text: str
+
+
+def ready() -> dict[str, Ready]:
+    """All of them by name: scenes, then studies, in the order of their names. Nothing is imported for it."""
+    found = {}
+    for kind, folder in FOLDERS.items():
+        paths = [path for path in (files("compare") / folder).iterdir() if path.name.endswith(".toml")]
+        for path in sorted(paths, key=lambda path: path.name):
+            each = _ready(kind, path.name.removesuffix(".toml"), path.read_text(encoding="utf-8"))
+            found[each.name] = each
+    return found
+
+
+def find(name: str) -> Ready:
+    """That of a name. Raises NotReady."""
+    every = ready()
+    if name not in every:
+        # Only a mistake needs it.
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, every, n=1)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        raise NotReady(f"no scene or study is called {name!r}{meant} There are {', '.join(every)}")
+    return every[name]
+
+
+def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path:
+    """Write a copy of one of them, never over a file that is there, and return its path.
+
+    schema : of a JSON schema, by which editors check and complete: named in the first line. Absent, none is
+
+    Raises NotReady, FileExistsError, and OSError where it cannot be written.
+    """
+    text, path = find(name).text, Path(path)
+    with path.open("x", encoding="utf-8", newline="\n") as file:
+        file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
+    return path
+
+
+def _ready(kind, name, text):
+    about = " ".join(line.removeprefix("# ") for line in text.partition("\n\n")[0].partition(_END)[0].splitlines())
+    title = _TITLE.search(text)
+    return Ready(name, title[1] if title else re.split("[.:]", about)[0], about, kind, text)

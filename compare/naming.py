@@ -1,0 +1,20 @@
+"""Names that are given and names that are known."""
+
+from collections.abc import Collection
+
+
+def suggestion(given: str, names: Collection[str]) -> str:
+    """What is known and looks much like what is given, as the end of a sentence; empty if nothing does."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(given, names, n=1)
+    return f"; did you mean {close[0]}?" if close else ""
+
+
+def known(option: str, given: str, names: Collection[str], otherwise: str = "") -> None:
+    """Raise InvalidInput where something is given that is not known."""
+    if given not in names:
+        from scene.reading import InvalidInput  # slow, and only a mistake needs it
+
+        near = suggestion(given, list(names)) or (otherwise and f"; {otherwise}")
+        raise InvalidInput(f"{option} = {given}: allowed are {', '.join(names)}{near}")

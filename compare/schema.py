@@ -1,0 +1,87 @@
+"""JSON schemas of the files that a user writes, for editors: names, allowed values and units as one types."""
+
+import re
+from collections.abc import Iterator
+from inspect import cleandoc
+from typing import Any
+
+from pydantic import TypeAdapter
+from pydantic.json_schema import GenerateJsonSchema
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
+_BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
+_FIELD = re.compile(r"([a-z_0-9]+(?:, [a-z_0-9]+)*) : (.+)")
+
+
+def schema(kind: str) -> dict[str, Any]:
+    """The JSON schema, draft 2020-12, of a "scene" or "study" file. Raises KeyError for other kinds."""
+    title = KINDS[kind]
+    # Only the schema itself needs what it describes.
+    from .cases import Case
+    from .studies.asked import StudyFile
+
+    what = {"scene": Case, "study": StudyFile}[kind]
+    found = TypeAdapter(what).json_schema(schema_generator=_Documented, ref_template="#/$defs/{model}")
+    return {"$schema": DIALECT, **_said_in_full(found), "title": title}
+
+
+class _Documented(GenerateJsonSchema):
+    """With what the docstrings say of each class and its fields, and types stated where they decide."""
+
+    def dataclass_schema(self, schema):
+        found = super().dataclass_schema(schema)
+        about, fields = _documented(schema["cls"].__doc__ or "")
+        for name, text in fields.items():
+            if name in found.get("properties", {}):
+                described = found["properties"][name]
+                allowed = described.get("description")
+                found["properties"][name] = described | {"description": f"{text}: {allowed}" if allowed else text}
+        return found | ({"description": about} if about else {})
+
+    def tagged_union_schema(self, schema):
+        found = super().tagged_union_schema(schema)
+        if found.pop("discriminator", None) is not None:  # of OpenAPI, and no part of JSON schema
+            for part in (self.get_schema_from_definitions(choice["$ref"]) for choice in found["oneOf"]):
+                part["required"] = list(dict.fromkeys(["type", *part.get("required", [])]))
+        return found
+
+
+def _documented(docstring: str) -> tuple[str, dict[str, str]]:
+    """Of a docstring its first paragraph, and what it says of each field in lines of the form "name : text"."""
+    paragraphs = re.split(r"\n\s*\n", cleandoc(docstring))
+    return " ".join(paragraphs[0].split()), dict(_fields(cleandoc(docstring).splitlines()))
+
+
+def _fields(lines) -> Iterator[tuple[str, str]]:
+    entries = []
+    for line in lines:
+        if found := _FIELD.fullmatch(line):
+            entries.append([found[1], found[2]])
+        elif entries and line.startswith("    "):
+            entries[-1][1] += " " + line.strip()
+        else:
+            entries.append(["", ""])
+    for names, text in entries:
+        for name in filter(None, names.split(", ")):
+            yield name, text
+
+
+def _said_in_full(node):
+    """Bounds by their names in JSON schema; without None, which TOML has not, and defaults of whole tables."""
+    if isinstance(node, list):
+        return [_said_in_full(each) for each in node]
+    if not isinstance(node, dict):
+        return node
+    found = {}
+    for name, value in node.items():
+        if name in _BOUNDS and not isinstance(value, dict):
+            found[_BOUNDS[name]] = value
+        elif name == "anyOf":
+            choices = [_said_in_full(each) for each in value if each != {"type": "null"}]
+            found |= choices[0] if len(choices) == 1 else {"anyOf": choices}
+        elif name == "description" and isinstance(value, str):
+            found[name] = ": ".join(dict.fromkeys(filter(None, (value, found.get(name)))))
+        elif not (name == "default" and (value is None or isinstance(value, dict))):
+            found[name] = _said_in_full(value)
+    return found

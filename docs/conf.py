@@ -1,0 +1,67 @@
+"""How the pages are built, by `sphinx-build -W --keep-going -b html docs build/docs`: offline, and executed."""
+
+import os
+import sys
+import tempfile
+from importlib import metadata
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+# Figures of executed pages are drawings, sharp at any size. Kernels talk within this machine, unwarned.
+# Threads are one each, as in the tests.
+_profile = Path(tempfile.mkdtemp(prefix="ipython-")) / "profile_default"
+_profile.mkdir()
+(_profile / "ipython_kernel_config.py").write_text(
+    "settings = get_config()\n"
+    'settings.InlineBackend.figure_formats = {"svg"}\n'
+    'settings.IPKernelApp.matplotlib = "inline"\n'
+    "settings.IPKernelApp.log_level = 40\n"
+)
+os.environ |= {"IPYTHONDIR": str(_profile.parent), "OMP_NUM_THREADS": "1"}
+
+project = "mdr-bem-crosscheck"
+release = metadata.version(project)
+version = release
+copyright = "the authors of mdr-bem-crosscheck, MIT license"
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",
+    "sphinx_copybutton",
+    "docstrings",
+    "equations",
+    "kinds",
+    "thumbnails",
+]
+exclude_patterns = ["*/solved/*"]
+
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+
+nb_execution_mode = "force"
+nb_execution_timeout = 120
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+
+default_role = "py:obj"
+autodoc_default_options = {"members": True, "member-order": "bysource"}
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_class_signature = "mixed"
+autosummary_generate = False
+add_module_names = False
+toc_object_entries_show_parents = "hide"
+
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
+
+html_theme = "furo"
+html_title = f"{project} {release}"
+html_static_path = ["_static"]
+html_css_files = ["pages.css"]
+html_copy_source = False
+html_show_sphinx = False

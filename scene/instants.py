@@ -1,0 +1,38 @@
+"""Instants of a program at which a solver keeps its contact, and not only the sums over it."""
+
+from typing import Any
+
+import numpy as np
+
+
+def nearest(times: np.ndarray, duration: float, count: int) -> np.ndarray:
+    """Which steps are nearest to `count` instants alike apart, the last of them at the end; each step once.
+
+    times : of the steps (S,) [s], rising; duration : of the program [s]
+    """
+    wanted = duration * np.arange(1, count + 1) / max(count, 1)
+    after = np.clip(np.searchsorted(times, wanted), 1, max(len(times) - 1, 1))
+    closer = wanted - times[after - 1] <= times[np.minimum(after, len(times) - 1)] - wanted
+    return np.unique(np.minimum(after - closer, len(times) - 1))
+
+
+class Frames:
+    """What is kept of some steps of a march, name by name; of none where no instants are asked for."""
+
+    def __init__(self, times: np.ndarray, duration: float, count: int):
+        """As of `nearest`."""
+        self._steps = frozenset(nearest(times, duration, count).tolist())
+        self._kept: dict[str, list[Any]] = {}
+
+    def __contains__(self, step: int) -> bool:
+        """Whether anything is to be kept of it."""
+        return step in self._steps
+
+    def keep(self, **values: Any) -> None:
+        """Keep copies of numbers and arrays, the same names in every step."""
+        for name, value in values.items():
+            self._kept.setdefault(name, []).append(np.array(value))
+
+    def handed_over(self) -> dict[str, np.ndarray]:
+        """All that was kept, stacked along the instants (F, ...), as fields of a result: frame_ and the name."""
+        return {f"frame_{name}": np.stack(self._kept.pop(name)) for name in list(self._kept)}

@@ -1,0 +1,37 @@
+"""Tables as HTML, for notebooks: a few rows, all text escaped, no style of their own but alignment."""
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import Any
+
+LONGEST = 60  # rows of a table that are shown
+
+
+def table(rows: Iterable[Sequence[Any]], heading: Sequence[str] = (), title: str = "") -> str:
+    """Rows of cells as a table: the first cell of a row names it, and lines of a cell stay lines.
+
+    title : said above; heading : of the columns
+    """
+    every = [[_text(cell) for cell in row] for row in rows]
+    caption = f'<caption style="text-align:left;font-weight:bold">{_text(title)}</caption>' if title else ""
+    head = "".join(f'<th scope="col" style="text-align:left">{_text(name)}</th>' for name in heading)
+    body = "".join(_row(cells) for cells in every[:LONGEST])
+    if len(every) > LONGEST:
+        body += f"<tr><td>and {len(every) - LONGEST} more</td></tr>"
+    return f"<table>{caption}{f'<thead><tr>{head}</tr></thead>' if head else ''}<tbody>{body}</tbody></table>"
+
+
+def paragraph(text: str) -> str:
+    """A sentence."""
+    return f"<p>{_text(text)}</p>"
+
+
+def _row(cells):
+    name, *rest = cells or [""]
+    others = "".join(f'<td style="text-align:left">{cell}</td>' for cell in rest)
+    return f'<tr><th scope="row" style="text-align:left;font-weight:normal">{name}</th>{others}</tr>'
+
+
+def _text(cell):
+    said = f"{cell:.6g}" if isinstance(cell, float) else str(cell)
+    return escape(said).replace("\n", "<br>")

@@ -1,0 +1,124 @@
+"""The names that each table of a file may have, and which of them a misspelt one stands for."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+from pydantic import TypeAdapter
+from pydantic.errors import PydanticInvalidForJsonSchema
+
+CLOSE, _LIKE, _CLOSER = 0.75, 0.6, 0.8  # as of difflib: 1 is equal
+
+Place = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Names:
+    """By the JSON schema of what the file should be."""
+
+    schema: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, adapter: TypeAdapter) -> Self:
+        """Of what an adapter reads."""
+        try:
+            return cls(adapter.json_schema())
+        except PydanticInvalidForJsonSchema:  # of types whose names nothing tells
+            return cls({})
+
+    def at(self, where: Place, content: Any) -> list[str]:
+        """Names of a table of the content; none of what is no table, or of unknown type."""
+        return list(self._table(where, content))
+
+    def meant(self, where: Place, value: Any, content: Any) -> Place | None:
+        """The place that a name at a place was probably meant for; None where nothing is like it.
+
+        Looked for among what is not stated yet: in the same table, then in others.
+        """
+        inside, name = list(where[:-1]), str(where[-1])
+        stated, table = _of(content, inside), self._table(tuple(inside), content)
+        fitting = {
+            name: _fits(self._node(child, value), value) for name, child in table.items() if name not in stated
+        }
+        here = [name for name, fits in fitting.items() if fits] or list(fitting)
+        away = [
+            place
+            for place, node in self._unstated((), self.schema, content)
+            if list(place[:-1]) != inside and _fits(node, value)
+        ]
+        if nearest(name, table, CLOSE) in stated:
+            return None
+        called = {str(place[-1]): place for place in reversed(away)}
+        if (close := nearest(name, here, CLOSE)) is not None:
+            return (*inside, close)
+        if name in called:
+            return called[name]
+        if (like := nearest(name, here, _LIKE)) is not None:
+            return (*inside, like)
+        return called.get(nearest(name, called, _CLOSER) or "")
+
+    def _table(self, where: Place, content) -> Mapping[str, Any]:
+        node = self._node(self.schema, content)
+        for part in where:
+            content = _part(content, part)
+            node = self._node(_child(node, part), content)
+        return node.get("properties", {})
+
+    def _unstated(self, where: Place, node, content) -> Iterator[tuple[Place, Mapping]]:
+        """Names that tables could have besides; tables in lists are left out."""
+        for name, child in self._node(node, content).get("properties", {}).items():
+            value = _part(content, name)
+            if value is None:
+                # Of a table that is not there, one without types: it would be one name in it.
+                yield (*where, name), self._node(child, {})
+            yield from self._unstated((*where, name), child, value if isinstance(value, dict) else {})
+
+    def _node(self, node, content) -> Mapping:
+        """The schema of a part, once references are followed and the type of a table has decided."""
+        if "$ref" in node:
+            return self._node(self.schema["$defs"][node["$ref"].rpartition("/")[2]], content)
+        if "discriminator" in node:
+            mapping, kind = node["discriminator"]["mapping"], _part(content, "type")
+            if not isinstance(kind, str) or kind not in mapping:
+                return {"type": "object"}
+            return self._node({"$ref": mapping[kind]}, content)
+        if choices := node.get("anyOf") or node.get("oneOf"):
+            wanted = "object" if isinstance(content, dict) else "array" if isinstance(content, list) else None
+            every = [self._node(each, content) for each in choices]
+            return next((each for each in every if each.get("type") == wanted), every[0])
+        return node
+
+
+def nearest(name: str, known: Iterable[str], cutoff: float = _LIKE) -> str | None:
+    """The known name that one is most like; None where none is."""
+    # Only mistakes need it.
+    from difflib import get_close_matches
+
+    plain = {each.lower().replace("_", "-"): each for each in reversed(list(known))}
+    found = get_close_matches(name.lower().replace("_", "-"), plain, n=1, cutoff=cutoff)
+    return plain[found[0]] if found else None
+
+
+def _fits(node, value):
+    """Whether a table is where there may be one, and a list where there may be one."""
+    wanted = {"object": dict, "array": list}.get(node.get("type"))
+    return isinstance(value, wanted) if wanted else not isinstance(value, dict | list)
+
+
+def _child(node, part):
+    if isinstance(part, int):
+        return node.get("items") or {}
+    return node.get("properties", {}).get(part) or {}
+
+
+def _part(content, part):
+    try:
+        return content[part]
+    except (LookupError, TypeError):
+        return None
+
+
+def _of(content, inside):
+    for part in inside:
+        content = _part(content, part)
+    return content if isinstance(content, dict) else {}

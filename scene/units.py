@@ -1,0 +1,181 @@
+"""Quantities written with a unit, as "5 mm": read into SI, exactly up to the one rounding to a float."""
+
+import re
+from decimal import Decimal, InvalidOperation
+from fractions import Fraction
+from functools import lru_cache
+
+LONGEST = 100  # letters of a quantity
+_DECADES = 400  # of a number; beyond them lies the range of floats, whatever the prefix
+_MOST = 9  # power of a unit
+_COMMA = "; numbers have decimal points"
+
+_PREFIXES = (
+    *("femto- = 1e-15 = f-", "pico- = 1e-12 = p-", "nano- = 1e-9 = n-", "micro- = 1e-6 = µ- = μ- = u-"),
+    *("milli- = 1e-3 = m-", "centi- = 1e-2 = c-", "deci- = 1e-1 = d-", "hecto- = 1e2 = h-", "kilo- = 1e3 = k-"),
+    *("mega- = 1e6 = M-", "giga- = 1e9 = G-", "tera- = 1e12 = T-"),
+)
+# An angle counts as a dimension: so that a frequency [Hz] is not taken for an angular one [rad/s].
+_UNITS = (
+    *("meter = [length] = m = metre", "kilogram = [mass] = kg", "second = [time] = s = sec"),
+    *("kelvin = [temperature]; offset: 0 = K", "mole = [substance] = mol", "radian = [angle] = rad"),
+    *("gram = 1e-3 * kilogram = g", "minute = 60 * second = min", "hour = 3600 * second = h"),
+    *("micron = 1e-6 * meter", "angstrom = 1e-10 * meter = Å"),
+    *("inch = 0.0254 * meter = in", "foot = 0.3048 * meter = ft"),
+    "degree = 0.01745329251994329576923690768488612713442871888541725 * radian = deg = °",
+    "turn = 6.283185307179586476925286766559005768394338798750211642 * radian = _ = revolution",
+    *("hertz = 1 / second = Hz", "revolution_per_minute = turn / minute = rpm"),
+    *("newton = kilogram * meter / second ** 2 = N", "pascal = newton / meter ** 2 = Pa"),
+    *("joule = newton * meter = J", "watt = joule / second = W", "calorie = 4.184 * joule = cal"),
+    *("bar = 1e5 * pascal", "atmosphere = 101325 * pascal = atm", "kilogram_force = 9.80665 * newton = kgf"),
+    *("pound_force = 4.4482216152605 * newton = lbf", "psi = pound_force / inch ** 2"),
+    "degree_Celsius = kelvin; offset: 273.15 = degC = °C = celsius = Celsius",
+    "degree_Fahrenheit = 5 / 9 * kelvin; offset: 233.15 + 200 / 9 = degF = °F = fahrenheit = Fahrenheit",
+)
+_COUNTED = ("degree_Celsius", "degree_Fahrenheit")
+_SHORT = {"delta_degC": "delta_degree_Celsius", "delta_degF": "delta_degree_Fahrenheit"}
+_SYMBOLS = (
+    *("m", "s", "K", "mol", "rad", "kg", "g", "min", "h", "deg", "Hz", "rpm", "N", "Pa", "J", "W", "cal", "bar"),
+    *("atm", "psi", "in", "inch", "ft", "micron", "angstrom", "turn", "degC", "degF", "kelvin", "meter", "second"),
+    *("newton", "pascal", "hertz", "radian", "degree", "joule", "watt", "mole"),
+)
+_PREFIXED = [prefix + unit for unit in ("m", "s", "Pa", "N", "Hz") for prefix in "nuµmkMG"]
+KNOWN = (*_SYMBOLS, *_PREFIXED, "cm", "hPa", "kJ", "mW", "kW", "mK", "mrad", "kcal")  # what is suggested
+
+_NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(.*)", re.DOTALL)
+_TOKEN = re.compile(r"\s*(?:(Δ?°[CF]?|[^\W\d_]+(?:_[^\W\d_]+)*)|(\*\*|\^)\s*(-?[0-9]+)|([*·⋅/()])|(1)(?=\s*/))")
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+# Letters as a keyboard has them; "m²" is m^2.
+_PLAIN = (("−", "-"), ("\N{KELVIN SIGN}", "K"), ("\N{ANGSTROM SIGN}", "Å"), ("℃", "°C"), ("℉", "°F"))
+_SUPERSCRIPT = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
+
+PATTERN = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-−]?[0-9]+)?\s*[^\s0-9.,].*$"  # of a quantity, roughly
+
+
+class Unreadable(ValueError):
+    """What is no quantity of the unit that is asked for; the message says why, or nothing if that goes without."""
+
+
+def in_si(text: str, unit: str, difference: bool = True) -> float:
+    """The float nearest to a quantity in an SI unit.
+
+    unit : such as "m", "m/s" or "W/(m K)"
+    difference : whether a temperature is a difference, which has no degrees Celsius; else it is an absolute one
+
+    Raises Unreadable for any other dimension, for what is no number with a unit, and beyond the range of floats.
+    """
+    if len(text) > LONGEST:
+        raise Unreadable(f"more than {LONGEST} letters")
+    for letter, plain in _PLAIN:
+        text = text.replace(letter, plain)
+    written = _NUMBER.fullmatch(_SUPERSCRIPT.sub(lambda found: "^" + found[0].translate(_RAISED), text))
+    if written is None:
+        raise Unreadable("there is no number before the unit" if any(map(str.isalnum, text)) else "")
+    number, factors = _exact(written[1]), _factors(written[2])
+    if not factors:
+        raise Unreadable("there is no unit")
+    asked, wanted = _product(factors), _product(_factors(unit))
+    if asked.dimensionality != wanted.dimensionality:
+        raise Unreadable("")
+    _check_temperature(asked, factors, difference)
+    return _nearest(asked.__class__(number, asked.units).to_base_units().magnitude)
+
+
+def _exact(digits):
+    try:
+        number = Decimal(digits)
+    except InvalidOperation:  # of an exponent that is a number of many digits
+        raise Unreadable("beyond the range of floating-point numbers") from None
+    if number and abs(number.adjusted()) > _DECADES:
+        raise Unreadable("beyond the range of floating-point numbers")
+    return Fraction(number) if number else Fraction(0)
+
+
+def _nearest(exact):
+    try:
+        found = float(exact)
+    except OverflowError:
+        found = 0.0
+    if exact and not found:
+        raise Unreadable("beyond the range of floating-point numbers")
+    return found
+
+
+def _factors(text):
+    """Names of units with their powers: "W/(m K)" is W, m^-1, K^-1. A slash divides by what follows next."""
+    found, position, sign, closing = [], 0, 1, []
+    while text[position:].strip():
+        token = _TOKEN.match(text, position)
+        if token is None:
+            raise Unreadable(f"{text.strip()!r} is no unit" + (_COMMA if "," in text else ""))
+        name, raised, power, mark, one = token.groups()
+        position = token.end()
+        outer = closing[-1] if closing else 1
+        if name:
+            found.append((name, sign * outer))
+            sign = 1
+        elif raised and found and text[: token.start()].rstrip()[-1:] not in tuple("*·⋅/()"):
+            name, before = found[-1]
+            if abs(int(power)) > _MOST or abs(before) > 1:
+                raise Unreadable(f"{text.strip()!r}: powers of units are whole numbers up to {_MOST}")
+            found[-1] = name, before * int(power)
+        elif mark == "(":
+            closing.append(sign * outer)
+            sign = 1
+        elif mark == ")" and closing:
+            closing.pop()
+        elif mark == "/" and sign > 0:
+            sign = -1
+        elif not one and (mark is None or mark in "()/"):
+            raise Unreadable(f"{text.strip()!r} is no unit")
+    if closing or sign < 0:
+        raise Unreadable(f"{text.strip()!r} is no unit")
+    return found
+
+
+def _product(factors):
+    registry, alone = _registry(), [power for _, power in factors] == [1]
+    product = None
+    for name, power in factors:
+        called = _called(name)
+        # Of a product, a degree is a difference.
+        called = called if alone or called not in _COUNTED else f"delta_{called}"
+        unit = registry.Quantity(Fraction(1), called) ** power
+        product = unit if product is None else product * unit
+    return product
+
+
+def _called(name):
+    """What the registry calls it. Raises Unreadable, with what comes closest, where it does not know it."""
+    name, registry = _SHORT.get(name, name), _registry()
+    known = registry.parse_unit_name(name)
+    plural = name.endswith("s") and len(name) <= 4 and known and known == registry.parse_unit_name(name[:-1])
+    if known and not plural:  # a plural of a symbol would be taken for a product with seconds
+        prefix, unit, _ = known[0]
+        return prefix + unit
+    # Only a mistake needs it.
+    from difflib import get_close_matches
+
+    alike = [unit for unit in KNOWN if unit.casefold() == name.casefold()]
+    alike.sort(key=lambda unit: -sum(map(str.__eq__, unit, name)))
+    alike = alike or get_close_matches(name, KNOWN, n=1)
+    raise Unreadable(f"no unit is called {name!r}" + (f", did you mean {alike[0]!r}?" if alike else ""))
+
+
+def _check_temperature(asked, factors, difference):
+    """Degrees Celsius are absolute temperatures, and no differences."""
+    if difference and any(asked.units == _registry().Unit(degree) for degree in _COUNTED):
+        raise Unreadable("degrees count from a zero of their own, and a difference is in K")
+    if not difference and any(name.startswith(("delta", "Δ")) for name, _ in factors):
+        raise Unreadable("this is a difference of temperatures")
+
+
+@lru_cache(maxsize=1)
+def _registry():
+    # Takes a third of a second, and only what is written with units needs it.
+    import pint
+
+    registry = pint.UnitRegistry(None, non_int_type=Fraction)
+    for definition in (*_PREFIXES, *_UNITS):
+        registry.define(definition)
+    return registry

@@ -1,0 +1,164 @@
+"""The surface around a contact, as its pressure alone displaces it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from bem3d import BEM
+from bem3d.wake import heights, surroundings
+from scene import (
+    Cylinder,
+    Indent,
+    Kelvin,
+    Layer,
+    Plane,
+    Program,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+
+R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
+KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
+A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
+ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+SMALL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
+SCENES = {
+    "rough": Scene(Sphere(R), KELVIN, Slide(speed=0.5 * A / TAU, load=LOAD), ROUGH),
+    "standard": Scene(Sphere(R), STANDARD, Slide(speed=A / TAU, depth=1e-4)),
+    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
+    "layer": Scene(Sphere(R), KELVIN, Slide(speed=A / TAU, load=LOAD), layer=Layer(thickness=2e-3)),
+    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
+    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), SMALL),
+}
+BEYOND = {"upstream": 0.5 * A, "downstream": 4 * A, "aside": 0.5 * A}
+
+
+def solved(scene, **settings):
+    solver = BEM(**{"points": 64, **settings})
+    return solver, solver.solve(scene)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_on_its_own_grid_the_surface_is_that_of_the_answer(name):
+    # one convolution on two grids: to rounding of the transforms
+    solver, result = solved(SCENES[name])
+    around = surroundings(solver, SCENES[name], result.fields, **BEYOND)
+    x, y = result.fields["x"], result.fields["y"]
+    columns = np.searchsorted(around.x, x - 0.25 * (x[1] - x[0]))
+    rows = np.searchsorted(around.y, y - 0.25 * (x[1] - x[0]))
+    np.testing.assert_allclose(around.x[columns], x, rtol=0, atol=1e-9 * np.ptp(x))
+    inside = np.ix_(rows, columns)
+    np.testing.assert_allclose(
+        around.gap[inside], result.fields["gap"], rtol=0, atol=1e-10 * np.ptp(result.fields["gap"])
+    )
+    assert around.depth == pytest.approx(result.depth, rel=1e-10)
+    grows = name != "plane"
+    assert (around.x[-1] > x[-1] + 3.9 * A) == grows
+    assert (len(around.y) > len(y)) == (grows and name != "line")
+
+
+def test_at_rest_the_surface_around_a_sphere_is_that_of_hertz():
+    solver, result = solved(SCENES["rest"], points=128)
+    around = surroundings(solver, SCENES["rest"], result.fields, **BEYOND)
+    r = np.hypot(around.x[None, :], around.y[:, None])
+    outside = r > 1.1 * A
+    s = A / r[outside]
+    # Johnson, Contact Mechanics (1985), Eq. 3.42a, with d = a^2/R
+    expected = A**2 / (np.pi * R) * ((2 - s**-2) * np.arcsin(s) + np.sqrt(s**-2 - 1))
+    # of the area, known to a pixel along the rim of 55 pixels of radius
+    np.testing.assert_allclose(around.displacement[outside], expected, rtol=2e-3)
+
+
+@pytest.mark.parametrize("memory", [0.3, 3.0])
+def test_far_behind_the_surface_is_that_of_a_point_load_in_flow(memory):
+    # w + l dw/dx = F/(pi E* r): a load that has passed is remembered over l
+    length = memory * A
+    scene = Scene(Sphere(R), KELVIN, Slide(speed=length / TAU, load=LOAD))
+    solver, result = solved(scene)
+    around = surroundings(solver, scene, result.fields, downstream=12 * A, aside=6 * A)
+    pressure = result.fields["pressure"]
+    centre = float((pressure.sum(axis=0) @ result.fields["x"]) / pressure.sum())
+    row = int(np.argmin(np.abs(around.y - 6 * A)))
+    for column in np.searchsorted(around.x, [0.0, 4 * A, 10 * A]):
+        x, y = around.x[column] + around.lag - centre, around.y[row]
+        expected = LOAD / (np.pi * 4 * G) * _remembered(x, y, length)
+        # the second moment of the pressure over the square of the distance: (a/6a)^2/4
+        assert around.displacement[row, column] == pytest.approx(expected, rel=7e-3)
+
+
+def _remembered(x, y, length):
+    """1/r convolved downstream with exp(-s/l)/l."""
+    return quad(lambda s: np.exp(-s) / np.hypot(x - s * length, y), 0, 40, points=[abs(x) / length])[0]
+
+
+def test_behind_a_kelvin_body_every_point_returns_to_its_relaxed_place_at_the_rate_of_its_own_time():
+    speed = 2 * A / TAU
+    scene = Scene(Sphere(R), KELVIN, Slide(speed=speed, load=LOAD))
+    solver, result = solved(scene, points=96)
+    around = surroundings(solver, scene, result.fields, downstream=4 * A)
+    relaxed = surroundings(
+        solver,
+        replace(scene, motion=Indent(load=LOAD)),
+        # what the same pressure does at rest: where the gap of the answer is that of the relaxed surface
+        result.fields | {"gap": _relaxed_gap(solver, scene, result)},
+        downstream=4 * A,
+    )
+    length, pixel = speed * TAU, around.x[1] - around.x[0]
+    row = len(around.y) // 2
+    w, slope = around.displacement[row], np.gradient(around.displacement[row], pixel)
+    behind = around.x > 1.5 * A
+    at = around.x[behind] + around.lag
+    elastic = np.interp(at, relaxed.x, relaxed.displacement[row])
+    # of second order in the pixel of the difference quotient
+    kept = slice(2, -2)
+    np.testing.assert_allclose((w + length * slope)[behind][kept], elastic[kept], rtol=1e-3)
+
+
+def _relaxed_gap(solver, scene, result):
+    from bem3d.grid import Grid
+    from bem3d.problem import Problem
+
+    x, y = result.fields["x"], result.fields["y"]
+    pixel = x[1] - x[0]
+    grid = Grid(len(x), pixel * len(x), (float(x.mean()), float(y.mean())))
+    problem = Problem(replace(scene, motion=Indent(load=LOAD)), solver.engine, solver.terms)
+    displacement = problem.medium.operator(grid)(result.fields["pressure"] / problem.flow.modulus) * grid.pixel
+    return displacement + problem.heights(grid, None)
+
+
+def test_a_pressure_that_is_not_of_the_scene_has_no_surface():
+    solver, result = solved(SCENES["rough"])
+    other = replace(SCENES["rough"], motion=Slide(speed=5 * A / TAU, load=LOAD))
+    with pytest.raises(SolveError, match="the answer to another one"):
+        surroundings(solver, other, result.fields)
+
+
+def test_single_precision_has_its_surface_too():
+    solver, result = solved(SCENES["standard"], precision="single")
+    assert surroundings(solver, SCENES["standard"], result.fields).depth == pytest.approx(result.depth, rel=1e-4)
+
+
+def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
+    program = Program(stages=(Stage(duration=TAU, depth=1e-4), Stage(duration=TAU, speed=0.3)))
+    scene = Scene(Sphere(R), STANDARD, program, ROUGH)
+    solver, result = solved(scene, points=48, steps=40, frames=1)
+    around = surroundings(solver, scene, result.fields, **BEYOND)
+    np.testing.assert_allclose(around.gap, result.fields["gap"], rtol=0, atol=1e-12 * result.depth)
+    seen = result.fields["frame_displacement"][-1]
+    # the depth is held; the gap is measured where the last step ends and drawn where its pixels are, of slope 0.2
+    off = 0.2 * (around.x[1] - around.x[0])
+    np.testing.assert_allclose(around.displacement, seen, rtol=0, atol=off)
+
+
+def test_heights_on_one_row_are_those_on_the_whole_grid():
+    solver, result = solved(SCENES["rough"], points=48)
+    x, y = result.fields["x"], result.fields["y"]
+    whole = heights(solver, SCENES["rough"], x, y)
+    np.testing.assert_allclose(heights(solver, SCENES["rough"], x, y[20:21]), whole[20:21], rtol=0, atol=1e-15)

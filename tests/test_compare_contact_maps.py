@@ -1,0 +1,248 @@
+"""Pictures of a contact: what is in them is what was solved, from the lift of a program to full contact."""
+
+from dataclasses import replace
+from functools import cache
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare.figures import contact_maps, style
+from compare.figures.journals import JOURNALS
+from compare.figures.prefixes import prefixed
+from compare.views import view
+from mdr1d import MDR
+from scene import (
+    WLF,
+    Cylinder,
+    Elastic,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Plane,
+    Program,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+
+R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
+KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
+A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
+ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
+LIFT = Program(stages=(Stage(duration=5 * TAU, load=LOAD), Stage(duration=TAU, load=0.0), Stage(duration=TAU)))
+BACK = Program(stages=(Stage(duration=TAU, depth=1e-4, speed=0.5), Stage(duration=TAU, speed=-0.5)))
+SLIDING = Slide(speed=0.1, load=LOAD)
+SCENES = {
+    "rough": Scene(Sphere(R), KELVIN, SLIDING, ROUGH),
+    "smooth": Scene(Sphere(R), KELVIN, Slide(speed=A / TAU, load=LOAD)),
+    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
+    "elastic": Scene(Sphere(R), Elastic(G), SLIDING, ROUGH),
+    "prony": Scene(Sphere(R), Prony(G, (G, 2 * G), (TAU, 10 * TAU)), SLIDING),
+    "layer": Scene(Sphere(R), KELVIN, SLIDING, layer=Layer(thickness=2e-3)),
+    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
+    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), CELL),
+    "full": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e7), CELL),
+    "lifted": Scene(Sphere(R), KELVIN, LIFT),
+    "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
+    "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),
+}
+LINE, SPACE = MDR(points=500, steps=20), BEM(points=48, steps=20)
+
+
+@cache
+def answered(name):
+    scene = SCENES[name]
+    solvers = [solver for solver in (LINE, SPACE) if not solver.refusals(scene)]
+    return {solver.name: solver.solve(scene).fields for solver in solvers}
+
+
+def seen(name):
+    return view(SCENES[name], SPACE, answered(name))
+
+
+def drawn(found):
+    with style.applied():
+        drawing = contact_maps.drawn(found)
+        drawing.draw_without_rendering()
+    return drawing
+
+
+def axes_of(drawing, title):
+    return next(axes for axes in drawing.get_axes() if axes.get_title(loc="left").startswith(title))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_contact_has_a_picture_with_units_and_words_and_its_data(name):
+    found = seen(name)
+    drawing = drawn(found)
+    for axes in drawing.get_axes():
+        for label in (axes.get_xlabel(), axes.get_ylabel()):
+            assert not label or label.endswith("]"), label
+    titles = " ".join(axes.get_title(loc="left") for axes in drawing.get_axes())
+    assert ("1D" in titles) == (not LINE.refusals(SCENES[name]))
+    assert ("gap" in titles) == (name != "line")
+    assert contact_maps.told(found).endswith(".")
+    for columns in contact_maps.shown(found).values():
+        assert len({len(values) for values in columns.values()}) == 1
+
+
+@pytest.mark.parametrize("journal", ["aip", "elsevier"])  # the narrowest page and the widest
+@pytest.mark.parametrize("name", ["smooth", "line"])
+def test_nothing_written_is_smaller_than_a_journal_allows_or_leaves_the_figure(name, journal):
+    found = seen(name)
+    with style.applied(style.Look(JOURNALS[journal])):
+        drawing = contact_maps.drawn(found)
+        drawing.draw_without_rendering()
+        assert drawing.get_figwidth() == JOURNALS[journal].double
+        page = drawing.bbox.padded(1.0)
+        for axes in drawing.get_axes():
+            texts = [axes._left_title, axes.xaxis.label, axes.yaxis.label, *axes.texts]
+            for text in (text for text in texts if text.get_text()):
+                assert text.get_fontsize() >= JOURNALS[journal].least
+                box = text.get_window_extent()
+                assert page.contains(box.x0, box.y0), text
+                assert page.contains(box.x1, box.y1), text
+
+
+def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
+    found = seen("rough")
+    drawing = drawn(found)
+    pressure, gap, contact = (axes_of(drawing, f"3D: {what}") for what in ("pressure", "gap", "real contact"))
+    assert pressure.get_xlim() == gap.get_xlim() == contact.get_xlim()
+    assert pressure.get_ylim() == gap.get_ylim() == contact.get_ylim()
+    shown = pressure.images[0].get_array()
+    assert shown.sum() == pytest.approx(1e-6 * answered("rough")["BEM"]["pressure"].sum(), rel=1e-12)
+    assert (~shown.mask).sum() == (contact.images[1].get_array() > 0).sum() == found.space.touching.sum()
+    assert np.asarray(gap.images[0].get_array()).min() == pytest.approx(0.0, abs=1e-3)  # of 100 um: the residual
+    (circle,) = pressure.lines
+    assert np.hypot(*circle.get_data()) == pytest.approx(1e3 * A, rel=1e-9)
+    assert "elastomer flows →" in [text.get_text() for text in pressure.texts]
+
+
+def test_what_is_drawn_lies_beside_the_figure():
+    found = seen("rough")
+    drawing, sheets = drawn(found), contact_maps.shown(found)
+    pressed = sheets["contact-maps-pressure"]
+    image = axes_of(drawing, "3D: pressure").images[0].get_array()
+    np.testing.assert_allclose(np.sort(1e-6 * pressed["pressure"]), np.sort(image.compressed()), rtol=1e-12)
+    gap = np.asarray(axes_of(drawing, "3D: gap").images[0].get_array())
+    np.testing.assert_allclose(1e6 * np.maximum(sheets["contact-maps-surface"]["gap"], 0), gap.ravel(), atol=1e-9)
+    for name, title in (("section-3d", "3D: section"), ("section-1d", "1D")):
+        columns = sheets[f"contact-maps-{name}"]
+        # the undeformed level, the surface and its contact
+        _, surface, bold = axes_of(drawing, title).lines
+        x, y = surface.get_data()
+        held = np.isin(np.round(1e-3 * x, 12), np.round(columns["x"], 12))
+        np.testing.assert_allclose(1e-6 * y[held], columns["surface"], rtol=0, atol=1e-15)
+        assert np.isfinite(bold.get_ydata()[held]).sum() == columns["contact"].sum() > 0
+
+
+def test_the_wake_is_seen_behind_a_contact_that_slides_and_none_at_rest():
+    sliding, rest = seen("smooth"), seen("rest")
+    for found in (sliding, rest):
+        section = found.space.section
+        ahead = np.interp(-1.9 * A, section.x, section.surface)
+        behind = np.interp(1.9 * A, section.x, section.surface)
+        # far from both edges alike at rest, to the digits of the interpolation; the wake is deeper by half
+        assert behind < 1.5 * ahead if found is sliding else behind == pytest.approx(ahead, rel=1e-3)
+    assert sliding.span[1] > -sliding.span[0]
+    assert rest.span[1] == pytest.approx(-rest.span[0], rel=0.1)
+    assert sliding.space.around.x[-1] >= sliding.span[1] - A / 10
+
+
+def test_in_one_dimension_the_wake_behind_the_grid_recovers_as_it_does_on_it():
+    scene = replace(SCENES["smooth"], motion=Slide(speed=3 * A / TAU, load=LOAD))
+    narrow, wide = (
+        view(scene, SPACE, {"MDR": MDR(points=1000, extent=extent).solve(scene).fields})
+        for extent in (3 * A, 24 * A)
+    )
+    x = np.linspace(2 * A, min(narrow.span[1], wide.span[1]), 20)
+    assert x[-1] > 4 * A
+    near, far = (np.interp(x, each.line.x, each.line.surface) for each in (narrow, wide))
+    # of the greatest depression; profiles on pixels of a 40th of the radius
+    np.testing.assert_allclose(near, far, rtol=0, atol=1e-3 * np.ptp(wide.line.surface))
+
+
+def test_of_several_times_nothing_is_made_up_behind_the_grid():
+    found = seen("prony")
+    assert len(found.line.x) == len(answered("prony")["MDR"]["x"])
+
+
+def test_bodies_touch_where_contact_is_bold_and_nowhere_overlap():
+    for name in ("rough", "smooth", "layer", "line", "plane", "back"):
+        found = seen(name)
+        for section in filter(None, (found.line, found.space.section)):
+            gap = section.indenter - section.surface
+            deepest = np.ptp(section.surface)
+            # residual of the contact, and in a program what the depth moves within half a step
+            np.testing.assert_allclose(gap[section.touching], 0, atol=1e-4 * deepest)
+            assert np.nanmin(gap) > -1e-4 * deepest
+
+
+def test_of_one_pixel_in_contact_a_point_is_drawn():
+    found = seen("rough")
+    pressure = np.zeros_like(found.space.pressure)
+    row = int(np.argmin(np.abs(found.space.around.y)))
+    pressure[row, 30] = 1e5
+    one = replace(found, line=None, space=replace(found.space, pressure=pressure))
+    axes = axes_of(drawn(one), "3D: section")
+    bold = axes.lines[-1]
+    assert np.isfinite(bold.get_ydata()).sum() == 1
+    assert bold.get_marker() == "."
+
+
+def test_full_contact_has_no_gap_of_rounding():
+    gap = axes_of(drawn(seen("full")), "3D: gap")
+    image = gap.images[0]
+    assert np.max(image.get_array()) < 1e-6 * image.get_clim()[1]
+
+
+def test_where_nothing_is_left_in_contact_that_is_said():
+    found = seen("lifted")
+    assert not found.space.touching.any()
+    texts = [text.get_text() for axes in drawn(found).get_axes() for text in axes.texts]
+    assert texts.count("nothing touches") == 3
+    assert "at rest" in texts
+
+
+def test_a_contact_that_goes_backwards_meets_the_elastomer_from_the_other_side():
+    texts = [text.get_text() for axes in drawn(seen("back")).get_axes() for text in axes.texts]
+    assert "← elastomer flows" in texts
+
+
+def test_a_judged_case_without_fields_or_warmed_by_its_friction_has_no_picture():
+    warm = WLF(temperature=300.0, reference=300.0, c1=8.86, c2=101.6)
+    heated = replace(SCENES["rough"], temperature=warm, heating=Heating(conductivity=0.2, feedback="average"))
+    for scene, fields in ((SCENES["rough"], {}), (heated, {"BEM": {}})):
+        judgement = SimpleNamespace(case=SimpleNamespace(scene=scene, bem=SPACE), fields=fields)
+        assert contact_maps.figure(judgement) is None
+        assert contact_maps.sheets(judgement) == {}
+        assert contact_maps.caption(judgement) == ""
+
+
+def test_a_judged_case_is_drawn_from_what_is_kept_of_it(monkeypatch):
+    fields = answered("rough")
+    for solver in (MDR, BEM):
+        monkeypatch.setattr(solver, "solve", None)
+    judgement = SimpleNamespace(case=SimpleNamespace(scene=SCENES["rough"], bem=SPACE), fields=fields)
+    with style.applied():
+        assert contact_maps.figure(judgement) is not None
+    assert "wake" in contact_maps.caption(judgement)
+    assert "contact-maps-section-1d" in contact_maps.sheets(judgement)
+
+
+@pytest.mark.parametrize(
+    ("values", "factor", "unit"),
+    [([1.5e-3], 1e3, "mm"), ([-2e-4, 1e-5], 1e6, "µm"), ([1e6], 1e-6, "Mm"), ([0.0], 1, "m"), ([1e-40], 1, "m")],
+)
+def test_values_read_well_in_their_unit(values, factor, unit):
+    found = prefixed([*values, np.nan], "m")
+    assert found == (pytest.approx(factor), unit)

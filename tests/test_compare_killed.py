@@ -1,0 +1,223 @@
+"""Killed at any instant, a study that is asked for again ends as if nothing had happened."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from dataclasses import replace
+
+import pytest
+
+from compare.store import Store
+
+# A study of solvers that leave a mark when they begin a solve.
+MARKED = """
+import hashlib
+import json
+import os
+from dataclasses import dataclass, replace
+
+from bem3d import BEM
+from compare.studies.catalogue import kelvin
+from compare.studies.series import Series, tasks
+from compare.study import SCENES
+from mdr1d import MDR
+
+
+def name(solver, scene):
+    asked = solver.name, solver.points, SCENES.dump_python((scene,), mode="json")
+    return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
+
+
+def mark(solver, scene):
+    file = os.open(os.environ["MARKS"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
+    os.write(file, (name(solver, scene) + "\\n").encode())
+    os.close(file)
+
+
+@dataclass(frozen=True)
+class MarkedMDR(MDR):
+    def solve(self, scene):
+        mark(self, scene)
+        return super().solve(scene)
+
+
+@dataclass(frozen=True)
+class MarkedBEM(BEM):
+    def solve(self, scene):
+        mark(self, scene)
+        return super().solve(scene)
+
+
+def series():
+    scene = kelvin("sphere")
+    scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
+    solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
+    return Series("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)
+"""
+STUDY = """
+import marked
+from compare.__main__ import main
+from compare.studies.catalogue import STUDIES, Study
+
+if __name__ == "__main__":
+    STUDIES["collapse"] = Study("Tiny", "A few contacts.", lambda size: [marked.series()])
+    main()
+"""
+# A machine under load starts processes slowly.
+PATIENCE = 120
+
+
+class Killed:
+    """A folder with the study, run by the command in a process group of its own."""
+
+    def __init__(self, folder, marked):
+        self.folder, self.marked = folder, marked
+        (folder / "study.py").write_text(STUDY)
+        (folder / "marked.py").write_text(MARKED)
+        self.marks = folder / "marks"
+        self.tasks = marked.tasks(marked.series())
+        self.store = Store(folder / "crosscheck-study" / "solved")
+
+    def start(self):
+        return subprocess.Popen(
+            [sys.executable, "study.py", "study", "collapse", "--workers", "2"],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            env=os.environ | {"MARKS": str(self.marks), "PYTHONWARNINGS": "error"},
+        )
+
+    def files(self):
+        return len(list(self.store.folder.glob("*.nc")))
+
+    def stored(self):
+        """Tasks with an answer. Every file that can be seen is whole."""
+        found = [task for task in self.tasks if self.store.get(task) is not None]
+        assert len(found) == self.files()
+        return found
+
+    def begun(self):
+        """Solves so far, by scene and solver."""
+        return Counter(self.marks.read_text().split()) if self.marks.exists() else Counter()
+
+    def begun_of(self, tasks, begun):
+        return {task: [begun[self.marked.name(task.solver, scene)] for scene in task.scenes] for task in tasks}
+
+    def kill(self, when):
+        """Start it, kill all of it at a moment, and see that nothing stored is lost or was solved again.
+
+        when : condition that is asked for until it holds. Returns whether the study had not ended before.
+        """
+        before, begun = self.stored(), self.begun()
+        process = self.start()
+        deadline = time.monotonic() + PATIENCE
+        while not when() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.002)
+        ended = process.poll()
+        if ended is None:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate(timeout=PATIENCE)
+        assert ended in (None, 0)
+        assert set(before) <= set(self.stored())
+        assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
+        return ended is None
+
+    def finish(self, expected):
+        """Run it to its end, and compare with undisturbed answers."""
+        before, begun = self.stored(), self.begun()
+        said, complained = (process := self.start()).communicate(timeout=PATIENCE)
+        assert (process.returncode, complained) == (0, "")
+        solved = self.stored()
+        assert solved == self.tasks
+        assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
+        fresh = [task for task in self.tasks if task not in before]
+        counts = self.begun_of(fresh, begun), self.begun_of(fresh, self.begun())
+        assert all(counts[1][task] == [count + 1 for count in counts[0][task]] for task in fresh)
+        assert f"{len(fresh)} tasks solved, {len(before)} reused" in said
+        for task in self.tasks:
+            assert exactly(self.store.get(task)) == expected[task]
+        assert not [path for path in self.store.folder.iterdir() if path.name.startswith(".")]
+        manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
+        assert json.loads(manifest.read_text())
+
+
+def exactly(outcome):
+    """All of its numbers, to the last digit, but for the seconds that were measured."""
+    sorted_rows = [
+        replace(row, seconds=0.0, measures=sorted(row.measures.items()), settings=sorted(row.settings.items()))
+        for row in outcome.rows
+    ]
+    return repr(sorted_rows)
+
+
+@pytest.fixture(scope="module")
+def marked(tmp_path_factory):
+    """The module of the study, as the command imports it."""
+    folder = tmp_path_factory.mktemp("marked")
+    (folder / "marked.py").write_text(MARKED)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(folder))
+        patch.setenv("MARKS", str(folder / "marks"))
+        import marked
+
+        yield marked
+    del sys.modules["marked"]
+
+
+@pytest.fixture(scope="module")
+def expected(marked):
+    """Answers of an undisturbed solve of each task."""
+    return {task: exactly(task.solve()) for task in marked.tasks(marked.series())}
+
+
+def moment(draw, study):
+    """A condition: a random time after the start, or after some more answers are stored."""
+    start, more = time.monotonic(), study.files() + draw.randint(1, len(study.tasks) // 4)
+    if draw.random() < 0.3:
+        wait = draw.uniform(0.0, 4.0)
+        return lambda: time.monotonic() - start > wait
+    late, seen = draw.uniform(0.0, 0.1), []
+
+    def due():
+        if study.files() >= more:
+            seen.append(time.monotonic())
+        return bool(seen) and time.monotonic() - seen[0] > late
+
+    return due
+
+
+def test_killed_at_five_moments_a_study_ends_as_an_undisturbed_one(tmp_path, marked, expected):
+    draw, study = random.Random(5), Killed(tmp_path, marked)
+    kills = sum(study.kill(moment(draw, study)) for _ in range(5))
+    study.finish(expected)
+    assert kills >= 3  # a slow machine may draw moments after the end
+
+
+@pytest.mark.slow
+def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, marked, expected):
+    draw, kills, studies, unstored = random.Random(50), 0, 0, 0
+    while kills < 50:
+        (tmp_path / str(studies)).mkdir()
+        study = Killed(tmp_path / str(studies), marked)
+        studies += 1
+        while kills < 50 and study.files() < len(study.tasks):
+            kills += study.kill(moment(draw, study))
+            unstored += study.files() == 0
+        study.finish(expected)
+    print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
+
+
+def test_what_the_marks_count_are_solves(tmp_path, marked, monkeypatch):
+    study = Killed(tmp_path, marked)
+    monkeypatch.setenv("MARKS", str(study.marks))
+    task = study.tasks[0]
+    for times in (1, 2):
+        task.solve()
+        assert study.begun_of([task], study.begun()) == {task: [times] * len(task.scenes)}

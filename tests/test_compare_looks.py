@@ -1,0 +1,577 @@
+"""Figures for publication: every figure in every journal's size, in a style of one's own, in grey and in files."""
+
+import csv
+import re
+import zlib
+from dataclasses import replace
+from functools import cache
+from io import BytesIO
+from itertools import combinations, pairwise
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from figure_samples import EVERY, sample
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import same_color, to_rgb
+from matplotlib.image import imread
+from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.text import Text
+
+from compare import publish
+from compare.figures import (
+    contact,
+    curves,
+    effect_costs,
+    effect_shear,
+    force_depth,
+    friction_load,
+    friction_speed,
+    lettering,
+    paper_losses,
+    paper_studies,
+    shades,
+    study_verdicts,
+    style,
+    workprecision_models,
+)
+from compare.figures.journals import JOURNALS, journal
+from scene.reading import InvalidInput
+
+FOLDER = Path(style.__file__).parent
+# Figures whose own tests hold them against these laws, as what they draw is solved there.
+ELSEWHERE = {"contact_maps", "marching"}
+NARROW, OTHERS = "iop", [name for name in JOURNALS if name != "iop"]
+# Boxes of texts hold a pixel of nothing on each side [pixel].
+TOUCHING = 1.0
+ROUNDING = 1e-9
+# Machado, Oliveira and Fernandes, IEEE Trans. Vis. Comput. Graph. 15, 1291 (2009), severity 1, on linear sRGB.
+VISION = {
+    "normal": np.eye(3),
+    "protanopia": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deuteranopia": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritanopia": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
+}
+# Differences in CIE Lab (1976): 2.3 is just noticeable side by side; ten lightnesses are a step of a grey scale of
+# eleven, as print tells them apart.
+APART, LIGHTER = 15.0, 10.0
+
+# Figures held against every law in each run: an image, curves with bands and bars, words, formulas, shades; the
+# others, which take longer, on demand.
+OFTEN = (
+    contact,
+    effect_costs,
+    effect_shear,
+    force_depth,
+    friction_speed,
+    paper_losses,
+    study_verdicts,
+)
+
+every_figure = pytest.mark.parametrize(
+    "module",
+    [pytest.param(each, id=each.NAME, marks=() if each in OFTEN else pytest.mark.slow) for each in EVERY],
+)
+
+
+def lab(colour, vision="normal"):
+    """CIE Lab of a colour as seen, white point D65."""
+    seen = np.clip(VISION[vision] @ _linear(np.array(to_rgb(colour))), 0, 1)
+    to_xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+    x, y, z = (_cube_root(value) for value in to_xyz @ seen / to_xyz.sum(axis=1))
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+def _linear(colour):
+    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+
+
+def _cube_root(value):
+    return value ** (1 / 3) if value > (6 / 29) ** 3 else value / (3 * (6 / 29) ** 2) + 4 / 29
+
+
+def difference(one, other, vision="normal"):
+    return float(np.linalg.norm(lab(one, vision) - lab(other, vision)))
+
+
+def drawn(module, look=None):
+    with style.applied(look or style.Look()):
+        return module.figure(sample(module))
+
+
+@cache
+def plain(module):
+    """As it is without a journal or a style of one's own; only to be looked at."""
+    return drawn(module)
+
+
+@cache
+def laid_out(module, name):
+    """The figure in a journal, and the texts and lines that drawing puts into it."""
+    texts: dict[int, Text] = {}
+    lines: dict[int, Line2D] = {}
+    with style.applied(style.Look(journal(name))), pytest.MonkeyPatch.context() as patch:
+        drawing = module.figure(sample(module))
+        FigureCanvasAgg(drawing).draw()
+        for kind, kept in ((Text, texts), (Line2D, lines)):
+            patch.setattr(kind, "draw", _noting(kind.draw, kept))
+        drawing.canvas.draw()
+    return drawing, [text for text in texts.values() if text.get_text().strip()], list(lines.values())
+
+
+def _noting(draw, kept):
+    def noted(artist, *given, **named):
+        if artist.get_visible():
+            kept[id(artist)] = artist
+        return draw(artist, *given, **named)
+
+    return noted
+
+
+def laws_of_layout(module, name):
+    """What is wrong with the figure in a journal."""
+    drawing, texts, lines = laid_out(module, name)
+    boxes = [(text.get_text(), text.get_window_extent()) for text in texts]
+    least = JOURNALS[name]
+    for text in texts:
+        if text.get_fontsize() < least.least - ROUNDING:
+            yield f"{text.get_text()!r} has {text.get_fontsize():.3g} points"
+    for line in lines:
+        if line.get_linestyle() not in ("None", "none", "") and line.get_linewidth() < least.line - ROUNDING:
+            yield f"a line has {line.get_linewidth():.3g} points"
+    width, height = drawing.bbox.width, drawing.bbox.height
+    for said, box in boxes:
+        if min(box.x0, box.y0) < -TOUCHING or box.x1 > width + TOUCHING or box.y1 > height + TOUCHING:
+            yield f"{said!r} is cut"
+    for (said, box), (other, beside) in combinations(boxes, 2):
+        across, up = (
+            min(box.x1, beside.x1) - max(box.x0, beside.x0),
+            min(box.y1, beside.y1) - max(box.y0, beside.y0),
+        )
+        if across > TOUCHING and up > TOUCHING:
+            yield f"{said!r} lies over {other!r}"
+    for axes in drawing.axes:
+        if lettering.covered(axes):
+            yield f"a legend of {axes.get_title(loc='left')!r} lies over curves"
+
+
+def test_every_figure_is_held_against_the_laws_below():
+    names = {path.stem for path in FOLDER.glob("*.py") if re.search(r"^NAME = ", path.read_text(), re.MULTILINE)}
+    assert names - ELSEWHERE == {module.__name__.rpartition(".")[2] for module in EVERY}
+
+
+@every_figure
+def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(module):
+    assert not list(laws_of_layout(module, NARROW))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OTHERS)
+@every_figure
+def test_in_every_journal_texts_are_large_enough_whole_and_apart(module, name):
+    assert not list(laws_of_layout(module, name))
+
+
+def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
+    for module, width, wrong in ((effect_costs, 3.2, "is cut"), (contact, 4.0, "lies over")):
+        monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=width))
+        assert any(wrong in found for found in laws_of_layout(module, "narrow"))
+    drawing, texts, lines = laid_out(friction_speed, NARROW)
+    texts[0].set_fontsize(7.9)
+    monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
+    assert any("has 7.9 points" in found for found in laws_of_layout(friction_speed, NARROW))
+    texts[0].set_fontsize(8)
+
+
+@pytest.mark.parametrize("name", JOURNALS)
+def test_a_journal_has_its_source_and_no_text_below_its_least(name):
+    asked = JOURNALS[name]
+    assert asked.source
+    assert 0 < asked.single < asked.double
+    assert asked.least <= asked.text
+    with style.applied(style.Look(asked)):
+        assert style.across("single") == asked.single
+        assert style.tiny() >= asked.least
+        assert style.width(0.01) == asked.line
+
+
+@every_figure
+@pytest.mark.parametrize("name", ["elsevier"])
+def test_a_figure_is_exactly_as_wide_as_a_column_or_the_page(module, name):
+    with style.applied(style.Look(journal(name))):
+        width = module.figure(sample(module)).get_figwidth()
+    assert width in (JOURNALS[name].single, JOURNALS[name].double)
+
+
+@every_figure
+def test_every_axis_says_its_unit(module):
+    drawing, texts, _ = laid_out(module, NARROW)
+    said = {id(text) for text in texts}
+    for axes in drawing.axes:
+        if not axes.axison:
+            continue
+        for axis in (axes.xaxis, axes.yaxis):
+            ticks = [tick.label1 for tick in axis.get_major_ticks()] + [
+                tick.label2 for tick in axis.get_major_ticks()
+            ]
+            numbers = [text for text in ticks if id(text) in said and re.search(r"\d", text.get_text())]
+            words = [text for text in ticks if id(text) in said and re.search(r"[a-z]{3}", text.get_text())]
+            words = [text for text in words if "math" not in text.get_text()]
+            if not numbers or words:
+                continue
+            labels = [axis.get_label_text()] + [
+                getattr(other, f"{axis.axis_name}axis").get_label_text()
+                for other in getattr(axes, f"get_shared_{axis.axis_name}_axes")().get_siblings(axes)
+            ]
+            assert any("[" in label for label in labels), (axis.axis_name, axes.get_title(loc="left"), labels)
+
+
+@every_figure
+def test_a_style_of_ones_own_changes_fonts_sizes_and_lines_of_every_figure(module):
+    """A quarter more text, twice the lines, in another font."""
+    own = {"font.size": 10, "lines.linewidth": 2.2, "lines.markersize": 8, "font.family": "serif"}
+    styled = drawn(module, style.Look(sheet=own))
+    sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(module), styled))
+    assert larger == pytest.approx(1.25 * sizes, rel=ROUNDING)
+    assert {text.get_fontfamily()[0] for text in _written(styled)} == {"serif"}
+    widths, wider = (_widths(each) for each in (plain(module), styled))
+    assert max(wider, default=0) == pytest.approx(2 * max(widths, default=0), rel=ROUNDING)
+
+
+def _written(drawing):
+    return [text for text in drawing.findobj(Text) if text.get_text().strip()]
+
+
+def _widths(drawing):
+    """Of curves, not of axes, ticks and edges of markers."""
+    return [
+        line.get_linewidth()
+        for axes in drawing.axes
+        for line in axes.lines
+        if line.get_linestyle() not in ("None", "")
+    ]
+
+
+@every_figure
+def test_the_colours_of_both_dimensionalities_stay_whatever_the_style(module):
+    styled = drawn(module, style.Look(sheet="dark_background"))
+    for solver in style.COLOURS.values():
+        assert _uses(plain(module), solver) == _uses(styled, solver)
+
+
+def _uses(drawing, colour):
+    return sum(same_color(line.get_color(), colour) for line in drawing.findobj(Line2D))
+
+
+@every_figure
+def test_other_colours_of_the_dimensionalities_hold_in_every_figure(module):
+    own = {"MDR": "#117733", "BEM": "#AA4499"}
+    changed = drawn(module, style.Look(colours=own))
+    for solver, colour in style.COLOURS.items():
+        assert _uses(changed, colour) == 0
+        assert _uses(changed, own[solver]) == _uses(plain(module), colour)
+
+
+@every_figure
+def test_nothing_of_the_caller_changes(module):
+    before = dict(matplotlib.rcParams)
+    drawn(module, style.Look(journal("nature"), "ggplot"))
+    assert dict(matplotlib.rcParams) == before
+    assert style.current() == style.Look()
+    assert not plt.get_fignums()
+
+
+def _handles(drawing):
+    """Of each panel, what has a label; and what stands before the labels of legends made apart."""
+    for axes in drawing.axes:
+        yield [_sight(handle) for handle in axes.get_legend_handles_labels()[0]]
+    for legend in drawing.findobj(Legend):
+        if all(isinstance(handle, Line2D | Patch) for handle in legend.legend_handles):
+            yield [_sight(handle) for handle in legend.legend_handles]
+
+
+def _sight(handle):
+    """Colour, and what else tells it from others: dashes, marker, whether hollow or thin."""
+    if hasattr(handle, "lines"):  # error bars
+        handle = handle.lines[0]
+    if isinstance(handle, Line2D):
+        thin = handle.get_linewidth() < 0.6 * style.LINES["lines.linewidth"]
+        form = str(handle._dash_pattern), handle.get_linestyle(), str(handle.get_marker()), _hollow(handle), thin
+        return handle.get_color(), ("line", *form)
+    if isinstance(handle, Patch):
+        return handle.get_facecolor()[:3], ("patch",)
+    colours = [*handle.get_facecolor(), *handle.get_edgecolor()]
+    paths = tuple(len(path.vertices) for path in handle.get_paths())
+    return tuple(colours[0][:3]), ("points", paths, len(handle.get_facecolor()) == 0)
+
+
+def _hollow(line):
+    return not same_color(line.get_markerfacecolor(), line.get_color())
+
+
+@every_figure
+def test_what_a_legend_names_is_told_apart_in_grey_and_by_every_reader(module):
+    for handles in _handles(plain(module)):
+        for (colour, form), (other, beside) in combinations(handles, 2):
+            if form != beside:
+                continue
+            assert abs(lab(colour)[0] - lab(other)[0]) >= LIGHTER, (colour, other, form)
+            assert min(difference(colour, other, vision) for vision in VISION) >= LIGHTER
+
+
+@pytest.mark.parametrize("vision", VISION)
+def test_the_two_dimensionalities_differ_for_every_reader(vision):
+    seen = difference(style.COLOURS["MDR"], style.COLOURS["BEM"], vision)
+    assert seen > 3 * APART
+    for solver in style.COLOURS:
+        assert difference(style.COLOURS[solver], "white", vision) > 2 * APART
+        assert difference(style.COLOURS[solver], "black", vision) > 2 * APART
+
+
+def test_red_and_green_would_not_be_told_apart():
+    assert difference("#D62728", "#2CA02C") > 100
+    assert difference("#D62728", "#2CA02C", "deuteranopia") < 50
+
+
+@pytest.mark.parametrize("shades_of", [shades.SPEED, shades.PRESS, paper_studies.SHADES])
+def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
+    """Even: of 20 steps none is twice the mean; viridis and plasma are made so for normal vision."""
+    colours = shades_of(np.linspace(0, 1, 21))
+    light = np.array([lab(colour)[0] for colour in colours])
+    assert (np.diff(light) > 0).all()
+    for vision in VISION:
+        steps = [difference(a, b, vision) for a, b in pairwise(colours)]
+        assert max(steps) < 2 * np.mean(steps), vision
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Some figures as files, twice: with an image, formulas, error bars, bands."""
+    folders = [tmp_path_factory.mktemp(name) for name in ("first", "second")]
+    modules = (contact, force_depth, paper_losses)
+    for folder in folders:
+        for module in modules:
+            publish.draw(folder, module, sample(module))
+    return folders
+
+
+def test_the_same_numbers_give_the_same_files(files):
+    first, second = files
+    names = sorted(path.name for path in first.iterdir())
+    assert {Path(name).suffix for name in names} == {".pdf", ".svg", ".png", ".csv"}
+    for name in names:
+        assert (first / name).read_bytes() == (second / name).read_bytes(), name
+
+
+def test_every_font_of_a_pdf_is_inside_as_truetype(files):
+    for path in files[0].glob("*.pdf"):
+        content = path.read_bytes()
+        streams = [zlib.decompress(each) for each in _compressed(content)]
+        whole = content + b"".join(streams)
+        fonts, inside = whole.count(b"/Type /FontDescriptor"), whole.count(b"/FontFile2 ")
+        assert fonts == inside > 0, path.name
+        assert b"/Type3" not in whole
+        assert b"/Subtype /CIDFontType2" in whole or b"/Subtype /TrueType" in whole
+
+
+def _compressed(content):
+    for found in re.finditer(rb"stream\r?\n", content):
+        end = content.find(b"endstream", found.end())
+        try:
+            zlib.decompress(content[found.end() : end].rstrip(b"\r\n"))
+        except zlib.error:
+            continue
+        yield content[found.end() : end].rstrip(b"\r\n")
+
+
+def test_a_font_that_is_drawn_as_procedures_would_be_found():
+    figure = drawn(force_depth)
+    file = BytesIO()
+    with matplotlib.rc_context({"pdf.fonttype": 3}):
+        figure.savefig(file, format="pdf")
+    assert b"/Type3" in file.getvalue()
+
+
+def test_pictures_have_300_dots_an_inch_and_the_width_of_the_column(files):
+    for path in files[0].glob("*.png"):
+        width = imread(path).shape[1]
+        columns = [300 * JOURNALS["default"].single, 300 * JOURNALS["default"].double]
+        assert width in [pytest.approx(each, abs=1) for each in columns]
+
+
+def test_vector_files_name_no_day_and_hold_their_letters(files):
+    for path in files[0].glob("*.svg"):
+        text = path.read_text()
+        assert "<dc:date>" not in text
+        assert "<text" not in text  # letters are outlines: no font has to be at the reader's
+
+
+def test_a_figure_can_be_written_in_one_form_alone(tmp_path):
+    publish.draw(tmp_path, force_depth, sample(force_depth), forms=("png",))
+    assert {path.suffix for path in tmp_path.iterdir()} == {".png", ".csv"}
+
+
+def test_whatever_is_published_inside_a_look_has_it(tmp_path):
+    with publish.look("nature", {"font.size": 6}):
+        assert publish.draw(tmp_path, force_depth, sample(force_depth)).inches == JOURNALS["nature"].single
+    assert publish.draw(tmp_path, force_depth, sample(force_depth)).inches == JOURNALS["default"].single
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"journal": "elsvier"}, "did you mean elsevier"),
+        ({"sheet": "no-such-style"}, "neither a file nor one of"),
+        ({"sheet": {"lines.colour": "red"}}, "lines.colour"),
+        ({"colours": {"FEM": "red"}}, "no solver 'FEM'"),
+        ({"colours": {"MDR": "blu"}}, "no colour"),
+    ],
+)
+def test_a_look_that_does_not_exist_is_refused_with_what_is_known(given, said):
+    with pytest.raises(ValueError, match=re.escape(said)), publish.look(**given):
+        pass
+
+
+@pytest.mark.parametrize("line", ["lines.linewidth: thick", "lines.width: 2", "lines.linewidth 2", "\xff"])
+def test_a_file_that_is_no_style_is_refused(line, tmp_path):
+    path = tmp_path / "own.mplstyle"
+    path.write_bytes(line.encode("latin-1"))
+    with pytest.raises(ValueError, match=r"own\.mplstyle is no style"):
+        style.Look(sheet=path).settings()
+
+
+def test_a_file_of_settings_is_a_style(tmp_path):
+    path = tmp_path / "own.mplstyle"
+    path.write_text("font.size: 9\naxes.grid: True\nbackend: svg\n")
+    with style.applied(style.Look(sheet=path)):
+        assert (style.size(), matplotlib.rcParams["axes.grid"]) == (9, True)
+        assert matplotlib.rcParams["legend.fontsize"] == style.small() == 9 * style.SMALL
+    assert matplotlib.get_backend().lower() != "svg"
+
+
+def test_what_the_machine_has_set_does_not_show():
+    with matplotlib.rc_context({"lines.linewidth": 9.0, "font.size": 30, "axes.facecolor": "yellow"}):
+        figure = drawn(friction_load)
+    assert figure.axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+    assert max(_widths(figure)) < 2
+
+
+@every_figure
+def test_every_curve_stands_in_a_table_beside_the_figure(module, tmp_path):
+    """Up to a power of ten, as units of axes have prefixes; zero need not stand."""
+    if not hasattr(module, "sheets"):
+        tables = {"kept": sample(module)}
+        publish.write_csv(tmp_path / "kept.csv", sample(module))
+        if beyond := curves.unlisted(plain(module), tables):
+            publish.write_csv(tmp_path / "drawn.csv", beyond)
+    else:
+        publish.draw(tmp_path, module, sample(module), forms=())
+    tables = [_read(path) for path in tmp_path.glob("*.csv")]
+    for axes in curves.panels(plain(module)):
+        for line in axes.lines:
+            x, y = (np.asarray(values, float) for values in line.get_data(orig=False))
+            if len(x) == 0 or line in _caps(axes):
+                continue
+            sides = line.get_transform().contains_branch_seperately(axes.transData)
+            known = np.isfinite(x) & np.isfinite(y)
+            if sides[0]:  # what lies beyond the ends of the axis is not seen
+                known &= (x >= min(axes.get_xlim())) & (x <= max(axes.get_xlim()))
+            values = [each[known] for each, counts in zip((x, y), sides, strict=True) if counts]
+            assert any(all(_stands(each, table) for each in values) for table in tables), line
+
+
+def _caps(axes):
+    return [cap for bars in axes.containers for cap in bars.lines[1]]
+
+
+def _read(path):
+    """All numbers of a file."""
+    with path.open(newline="") as file:
+        cells = [cell for row in list(csv.reader(file))[1:] for cell in row]
+    return np.array([float(cell) for cell in cells if re.fullmatch(r"-?[0-9.]+(e[-+]?[0-9]+)?", cell)])
+
+
+def _stands(values, table):
+    values, table = np.abs(values[values != 0]), np.abs(table[table != 0])
+    if not len(values):
+        return True
+    powers = np.log10(values[:, None] / table)
+    return bool((np.abs(powers - np.round(powers)).min(axis=1) < ROUNDING).all())
+
+
+def test_a_curve_that_no_table_has_is_found():
+    with style.applied():
+        drawing = style.canvas("single", 2.0)
+        axes = drawing.subplots()
+        axes.set(xlabel="x [m]", title="panel")
+        axes.plot([1, 2], [3e-3, 4e-3], label="listed")
+        axes.errorbar([1, 2], [3, 5], [0.1, np.nan], label="of theory")
+        axes.axhline(7)
+        axes.scatter([1, 2], [4, 4])
+        axes.plot([], [])
+    found = curves.unlisted(drawing, {"table": [{"x": 1, "y": 3.0}, {"x": 2, "y": 4.0}]})
+    assert [(row["label"], row["x"], row["y"]) for row in found] == [
+        ("of theory", 1, 3),
+        ("of theory", 2, 5),
+        ("", pytest.approx(np.nan, nan_ok=True), 7),
+    ]
+    assert (found[0]["low"], found[0]["high"]) == pytest.approx((2.9, 3.1))
+    assert {row["title"] for row in found} == {"panel"}
+    assert curves.unlisted(drawing, {"table": {"x": [1, 2, 3], "y": [4, 5, 7], "error": [0.1, 0, 0]}}) == []
+
+
+def test_text_too_large_for_the_panels_is_refused_with_the_size(tmp_path):
+    with publish.look(sheet={"font.size": 40}), pytest.raises(InvalidInput, match="text of 40 points"):
+        publish.draw(tmp_path, friction_load, sample(friction_load))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_text_is_broken_where_it_would_be_too_wide():
+    words = "one word after another until the line is full"
+    lines = style.fill(words, 1.0, 8).split("\n")
+    assert " ".join(lines) == words
+    assert len(lines) > 1
+    assert all(style.text_width(line, 8) <= 1.0 for line in lines)
+    assert style.fill("a\nb", 1.0, 8) == "a\nb"
+
+
+@pytest.mark.parametrize(("inches", "expected"), [(0.1, 1), (3.0, 2), (30.0, 4)])
+def test_a_legend_has_as_many_columns_as_fit(inches, expected):
+    with style.applied():
+        assert style.columns(["a legend"] * 4, inches, 4) == pytest.approx(expected, abs=1)
+        labels = ["a legend"] * 4
+        count = style.columns(labels, inches, 4)
+        drawing = style.canvas("double", 2.0)
+        drawing.set_figwidth(inches)
+        style.legend(drawing, [Line2D([], [], label=label) for label in labels], "outside lower center", 4)
+        drawing.draw_without_rendering()
+        (legend,) = drawing.legends
+        assert count == 1 or legend.get_window_extent().width <= drawing.bbox.width
+
+
+def test_a_legend_over_a_curve_is_found_and_given_room():
+    with style.applied():
+        drawing = style.canvas("single", 2.0)
+        axes = drawing.subplots()
+        axes.plot([0, 1], [1, 1], label="level")
+        axes.legend(loc="upper left")
+        axes.set_ylim(0, 1.1)
+        drawing.draw_without_rendering()
+        assert lettering.covered(axes)
+        lettering.clear(drawing, [axes])
+        drawing.draw_without_rendering()
+        assert not lettering.covered(axes)
+
+
+def test_panels_of_models_and_of_one_regime_alone_take_the_page_or_a_column():
+    assert drawn(workprecision_models).get_figwidth() == JOURNALS["default"].double

@@ -1,0 +1,244 @@
+"""A study of one's own: a file says what Python says, each mistake in it is named, it is judged as any other."""
+
+from dataclasses import replace
+from typing import get_args
+
+import pytest
+
+from compare.studies.asked import Claim, read_study, study_of
+from compare.studies.catalogue import SIZES, STUDIES
+from compare.studies.families import family_findings
+from compare.studies.judgement import judge_series
+from compare.studies.question import BOTH
+from compare.studies.series import CLAIMS, collect, tasks
+from compare.studies.sizes import between
+from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
+from scene.reading import InvalidInput
+
+QUICK = SIZES["quick"]
+HEAD = """
+title = "Mine"
+about = "What I ask."
+"""
+SHARED = """
+speeds = ["50 mm/s", 0.1, 0.2]
+loads = { least = "0.5 N", greatest = 2, count = 4 }
+surfaces = 2
+profiles = 3
+"""
+TABLES = """
+[indenter]
+type = "sphere"
+radius = "10 mm"
+[elastomer]
+type = "kelvin"
+modulus = "1 MPa"
+relaxation_time = "1 ms"
+[roughness]
+type = "self-affine"
+hurst = 0.2
+rms_height = "50 um"
+longest = "10 mm"
+shortest = "2 mm"
+seed = 1
+[bem]
+points = 32
+[mdr]
+points = 400
+"""
+SERIES = """
+[[series]]
+name = "a"
+[[series]]
+name = "b"
+title = "Another"
+note = "Steeper."
+claims = ["collapse"]
+[series.indenter]
+type = "cone"
+angle = "10 deg"
+[series.roughness]
+hurst = 0.6
+"""
+TEXT = HEAD + SHARED + TABLES + SERIES
+
+
+def asked(text, size=QUICK):
+    return study_of(text, "mine").series(size)
+
+
+def mistakes_in(text):
+    with pytest.raises(InvalidInput) as raised:
+        study_of(text, "mine")
+    return str(raised.value).splitlines()
+
+
+def test_a_file_says_what_python_says():
+    first, second = asked(TEXT)
+    rough = SelfAffine(hurst=0.2, rms_height=50e-6, longest=10e-3, shortest=2e-3, seed=1)
+    assert first.scene == Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.05, load=0.5), rough)
+    assert (first.speeds, first.presses) == ((0.05, 0.1, 0.2), between(0.5, 2.0, 4))
+    assert (first.surfaces, first.profiles, first.bem.points, first.mdr.points) == (2, 3, 32, 400)
+    assert (first.name, first.title, first.note, first.claims) == ("a", "a", "", CLAIMS)
+    assert second.scene == replace(first.scene, indenter=Cone("10 deg"), roughness=replace(rough, hurst=0.6))
+    assert (second.title, second.note, second.claims) == ("Another", "Steeper.", ("collapse",))
+    study = study_of(TEXT, "mine")
+    assert (study.title, study.about) == ("Mine", "What I ask.")
+    assert type(study) is type(STUDIES["collapse"])
+
+
+def test_what_a_file_leaves_out_follows_from_the_size():
+    short = TEXT.replace("surfaces = 2\nprofiles = 3\n", "").replace("[bem]\npoints = 32\n", "")
+    short = short.replace(", count = 4", "").replace('["50 mm/s", 0.1, 0.2]', "{ least = 0.05, greatest = 0.2 }")
+    for size in (QUICK, SIZES["standard"]):
+        series = asked(short, size)[0]
+        assert (series.surfaces, series.profiles, series.bem.points) == (size.surfaces, size.profiles, size.points)
+        assert (len(series.speeds), len(series.presses)) == (size.speeds, size.presses)
+        assert series.speeds[0] == 0.05
+        assert series.speeds[-1] == pytest.approx(0.2, rel=1e-15)  # of a power
+    assert asked(TEXT, SIZES["standard"]) == asked(TEXT)
+
+
+def test_a_ready_scene_may_stand_below_all_tables():
+    text = HEAD + 'scene = "paper-sphere"\n' + SHARED + "[[series]]\nname = 'a'\n[series.roughness]\nhurst = 0.5\n"
+    (series,) = asked(text)
+    assert series.scene.indenter == Sphere(1e-2)
+    assert series.scene.roughness == SelfAffine(hurst=0.5, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+
+
+def test_another_type_takes_the_place_of_the_whole_table():
+    text = TEXT + '[series.elastomer]\ntype = "standard-linear-solid"\nrubbery_modulus = 1e6\n'
+    assert mistakes_in(text) == [
+        "mine: series.1.elastomer.glassy_modulus: missing, a pressure or modulus, as 1.2 MPa or 1.2e+06 (in Pa)",
+        "mine: series.1.elastomer.relaxation_time: missing, a time, as 1 ms or 0.001 (in s)",
+    ]
+
+
+def test_bodies_rest_without_speeds_and_are_pressed_in_at_rates():
+    rest = asked(TEXT.replace('speeds = ["50 mm/s", 0.1, 0.2]', ""))[0]
+    assert rest.speeds == ()
+    assert rest.scene.motion == Indent(load=0.5)
+    pressed = TEXT.replace("speeds =", "rates =").replace("loads = { least", "depths = { least")
+    pressed = pressed.replace('"0.5 N", greatest = 2', '"50 um", greatest = 2e-4')
+    series = asked(pressed)[0]
+    assert series.scene.motion == Program(stages=(Stage(duration=1.0, depth=50e-6),))
+    assert series.speeds == (0.05, 0.1, 0.2)
+
+
+def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
+    text = TEXT.replace('name = "a"', 'name = "a"\ndepths = ["50 um"]\nrates = [0.1]')
+    first, second = asked(text)
+    assert (first.pressed_by, first.slides) == ("depth", False)
+    assert (second.pressed_by, second.slides) == ("load", True)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('title = "Mine"', "", ["title: missing, a valid string"]),
+        ('title = "Mine"', 'titel = "Mine"', ["titel = 'Mine': unknown here; did you mean title?"]),
+        ('name = "a"', "", ["series.0.name: missing, "]),
+        ('name = "a"', 'name = "a/b"', ["series.0.name = 'a/b': String should match"]),
+        ('name = "b"', 'name = "A"', ["series: 'a' is the name of several"]),
+        ("speeds =", "sppeds =", ["sppeds = ['50 mm/s', 0.1, 0.2]: unknown here; did you mean speeds?"]),
+        ('"50 mm/s"', '"50 mm"', ["speeds.0 = '50 mm': Input should be a speed, as 20 mm/s"]),
+        ("0.1, 0.2]", "0.2, 0.1]", ["series.0: speeds = [0.05, 0.2, 0.1]: from the least", "series.1: speeds"]),
+        (", 0.1, 0.2]", "]", ["series.0: speeds: at least two", "series.1: speeds: at least two"]),
+        ("least =", "leest =", ["loads.leest = '0.5 N': unknown here; did you mean least?"]),
+        ("greatest = 2", "greatest = 0.2", ["loads: greatest = 0.2 must exceed least = 0.5"]),
+        ("count = 4", "count = 1", ["loads.count = 1: Input should be greater than or equal to 2"]),
+        ("surfaces = 2", "surfaces = 0", ["surfaces = 0: Input should be greater than or equal to 1"]),
+        ("surfaces = 2", "depths = [1e-4]", ["series.0: loads, depths: both given", "series.1: loads, depths"]),
+        ("surfaces = 2", "rates = [0.1]", ["series.0: speeds, rates: both given", "series.1: speeds, rates"]),
+        ('["collapse"]', '["colapse"]', ["series.1.claims.0 = 'colapse': Input should be 'collapse', "]),
+        ("[bem]\npoints = 32", "[bem]\npoint = 32", ["bem.point = 32: unknown here; did you mean points?"]),
+        ("points = 32", "points = 24", ["series.0: bem.points = 24: at least 32", "series.1: bem.points"]),
+        ('radius = "10 mm"', "radius = -1", ["indenter.radius = -1: Input should be greater than 0"]),
+        ('"10 deg"', '"10 mm"', ["series.1.indenter.angle = '10 mm': Input should be an angle, as 30 deg"]),
+        ('"cone"', '"con"', ["series.1.indenter.type = 'con': one of 'sphere', 'cone', 'power-law'; did you"]),
+        ("hurst = 0.6", "hurts = 0.6", ["series.1.roughness.hurts = 0.6: unknown here; did you mean hurst?"]),
+        ("hurst = 0.6", "rms_height = 0", ["series.1.roughness.rms_height = 0: a study asks what roughness does"]),
+        ("[roughness]", "[roughnes]", ["roughnes: unknown here; did you mean roughness?"]),
+        (
+            '"kelvin"\nmodulus = "1 MPa"\nrelaxation_time = "1 ms"',
+            '"elastic"\nmodulus = 1',
+            ["series.0: speeds"],
+        ),
+        ("title", 'scene = "paper-spere"\ntitle', ["scene = 'paper-spere': no scene or study is called"]),
+        (SERIES, "", ["series: missing, a list"]),
+        (SERIES, "[series]", ["series: Input should be a list"]),
+    ],
+)
+def test_a_mistake_is_named_with_its_place(old, new, said):
+    assert old in TEXT
+    lines = mistakes_in(TEXT.replace(old, new, 1))
+    for line in said:
+        assert any(each.startswith(f"mine: {line}") for each in lines), lines
+
+
+def test_a_misspelt_list_of_tables_is_taken_for_what_is_meant():
+    assert mistakes_in(TEXT.replace("[[series]]", "[[serie]]").replace("[series.", "[serie.")) == [
+        "mine: serie: unknown here; did you mean series? Known are scene, indenter, elastomer, roughness, "
+        "temperature, speeds, rates, loads, depths, surfaces, profiles, claims, bem, mdr, title, about, series"
+    ]
+
+
+def test_every_mistake_is_named_at_once():
+    text = TEXT.replace("surfaces", "surfases").replace('"50 mm/s"', '"50 Pa"').replace('"10 deg"', '"10 m"')
+    assert [line.split(" ")[1] for line in mistakes_in(text)] == [
+        "speeds.0",
+        "surfases",
+        "series.1.indenter.angle",
+    ]
+
+
+def test_what_is_no_file_and_no_toml_is_said(tmp_path):
+    with pytest.raises(InvalidInput, match=r"nowhere\.toml: No such file"):
+        read_study(tmp_path / "nowhere.toml")
+    (tmp_path / "mine.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(InvalidInput, match="not valid TOML"):
+        read_study(tmp_path / "mine.toml")
+    with pytest.raises(InvalidInput, match="not valid TOML"):
+        study_of("x = " + "[" * 100_000, "mine")
+
+
+@pytest.fixture(scope="module")
+def solved():
+    series = asked(TEXT)[0]
+    return collect(series, {task: task.solve() for task in tasks(series)})
+
+
+def asking(solved, *claims, **roughness):
+    scene = solved.series.scene
+    rougher = replace(scene, roughness=replace(scene.roughness, **roughness))
+    return judge_series(replace(solved, series=replace(solved.series, claims=claims, scene=rougher)))
+
+
+def test_a_study_of_ones_own_is_judged_as_any_other_and_only_what_it_asks(solved):
+    whole = judge_series(solved).findings
+    assert {each.dimension for each in whole} == {"1D", "3D", BOTH}
+    shifts = asking(solved, "collapse").findings
+    assert shifts
+    assert all("23" in each.claim for each in shifts)
+    friction = asking(solved, "friction").findings
+    assert friction
+    assert not any("23" in each.claim or each.dimension == BOTH for each in friction)
+    both = asking(solved, "dimensions").findings
+    assert {each.dimension for each in both} == {BOTH}
+    assert [each.claim for each in (*shifts, *friction, *both)] == [
+        each.claim for each in sorted(whole, key=lambda each: each.dimension == BOTH)
+    ]
+    assert not asking(solved, "families").findings
+
+
+def test_series_are_held_together_only_where_they_ask_it(solved):
+    def held(*claims):
+        return list(family_findings([asking(solved, *claims), asking(solved, *claims, hurst=0.3)]))
+
+    assert held("families")
+    assert held(*CLAIMS)
+    assert not held("friction")
+
+
+def test_a_file_can_ask_every_kind_of_claim():
+    assert set(get_args(Claim)) == set(CLAIMS)

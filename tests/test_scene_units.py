@@ -1,0 +1,276 @@
+"""Quantities with units: the number in SI that they are, to the last digit, or a mistake that says why not."""
+
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from decimal import Decimal
+from math import nextafter, pi
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import TypeAdapter, ValidationError
+
+from scene import (
+    WLF,
+    Arrhenius,
+    Cone,
+    Fractional,
+    Heating,
+    Kelvin,
+    KelvinChain,
+    PowerLaw,
+    Prony,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    Sphere,
+    Stage,
+    Topography,
+)
+from scene import quantities as q
+from scene.quantities import Unit, unit_of
+from scene.units import KNOWN, Unreadable, in_si
+
+PREFIXES = {
+    "f": -15,
+    "p": -12,
+    "n": -9,
+    "u": -6,
+    "µ": -6,
+    "μ": -6,
+    "m": -3,
+    "c": -2,
+    "": 0,
+    "k": 3,
+    "M": 6,
+    "G": 9,
+}
+UNITS = [each for each in vars(q).values() if isinstance(each, Unit)]
+
+
+@settings(deadline=None)  # the first takes the time in which units are loaded
+@given(
+    st.floats(min_value=1e-200, max_value=1e200),
+    st.sampled_from(sorted(PREFIXES)),
+    st.sampled_from(["m", "s", "Pa", "N", "Hz"]),
+    st.sampled_from(["", " ", "  "]),
+)
+def test_a_value_written_with_any_prefix_is_the_same_float(value, prefix, unit, space):
+    exact = f"{Decimal(repr(value)).scaleb(-PREFIXES[prefix])}{space}{prefix}{unit}"
+    assert in_si(exact, unit) == value
+    # A float before the unit is itself rounded once: that is one unit in the last place.
+    rounded = f"{float(Decimal(repr(value)).scaleb(-PREFIXES[prefix])):.17g} {prefix}{unit}"
+    assert nextafter(value, 0) <= in_si(rounded, unit) <= nextafter(value, float("inf"))
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "expected"),
+    [
+        ("5 mm", "m", 5e-3),
+        ("5mm", "m", 5e-3),
+        ("  5   mm ", "m", 5e-3),
+        (".5 mm", "m", 5e-4),
+        ("5. mm", "m", 5e-3),
+        ("+5e-3 m", "m", 5e-3),
+        ("−5 mm", "m", -5e-3),
+        ("5 µm", "m", 5e-6),
+        ("5 μm", "m", 5e-6),
+        ("5 um", "m", 5e-6),
+        ("5 micron", "m", 5e-6),
+        ("5 in", "m", 0.127),
+        ("4e308 mm", "m", 4e305),
+        ("0e999999999 m", "m", 0.0),
+        ("1.2 MPa", "Pa", 1.2e6),
+        ("1 N/mm^2", "Pa", 1e6),
+        ("1 N/mm²", "Pa", 1e6),
+        ("1 N mm⁻²", "Pa", 1e6),
+        ("1 kg/(m s^2)", "Pa", 1.0),
+        ("1 bar", "Pa", 1e5),
+        ("1/MPa", "1/Pa", 1e-6),
+        ("2 1/MPa", "1/Pa", 2e-6),
+        ("2 MPa^-1", "1/Pa", 2e-6),
+        ("1 ms", "s", 1e-3),
+        ("2 min", "s", 120.0),
+        ("20 mm/s", "m/s", 0.02),
+        ("36 km/h", "m/s", 10.0),
+        ("10 N/m", "N/m", 10.0),
+        ("10 mN·m/m^2", "N/m", 0.01),
+        ("30 deg", "rad", pi / 6),
+        ("30°", "rad", pi / 6),
+        ("0.5 rad", "rad", 0.5),
+        ("2 kHz", "Hz", 2e3),
+        ("60 rpm", "rad/s", 2 * pi),
+        ("20 W/(m K)", "W/(m K)", 20.0),
+        ("20 W/m/K", "W/(m K)", 20.0),
+        ("20 W/(m·degC)", "W/(m K)", 20.0),
+        ("50 kJ/mol", "J/mol", 5e4),
+        ("10 kcal/mol", "J/mol", 41840.0),
+        ("0.06 K", "K", 0.06),
+        ("5 delta_degC", "K", 5.0),
+    ],
+)
+def test_quantities_are_read_as_they_are_written(text, unit, expected):
+    assert in_si(text, unit) == pytest.approx(expected, rel=2.3e-16, abs=0)  # one unit in the last place
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"), [("25 degC", 298.15), ("25 °C", 298.15), ("-40 degF", 233.15), ("300 K", 300.0)]
+)
+def test_absolute_temperatures_have_degrees(text, expected):
+    assert in_si(text, "K", difference=False) == expected
+
+
+def test_a_difference_of_temperatures_has_none_and_a_temperature_is_no_difference():
+    with pytest.raises(Unreadable, match="zero of their own"):
+        in_si("5 degC", "K")
+    with pytest.raises(Unreadable, match="difference of temperatures"):
+        in_si("5 delta_degC", "K", difference=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("5 mmm", "did you mean 'mm'"),
+        ("5 Mm m", ""),
+        ("5 N", ""),
+        ("5 mm mm", ""),
+        ("", ""),
+        ("   ", ""),
+        ("mm", "no number"),
+        ("5", "no unit"),
+        ("nan m", "no number"),
+        ("inf m", "no number"),
+        ("1e999 m", "range"),
+        ("1e-999 m", "range"),
+        ("1e9999999999999999999999999 m", "range"),
+        ("1,5 mm", "decimal points"),
+        ("1_000 mm", "no unit"),
+        ("1.5.2 mm", "no unit"),
+        ("５ mm", "no number"),
+        ("5e mm", "no unit is called 'e'"),
+        ("(2+3) mm", "no number"),
+        ("2+3 mm", "no unit"),
+        ("__import__('os') mm", "no number"),
+        ("5 __import__('os')", "no unit"),
+        ("10**10**10 m", "no unit"),
+        ("5 m**10**10", "powers"),
+        ("5 m^999999999", "powers"),
+        ("5 m/", "no unit"),
+        ("5 / /m", "no unit"),
+        ("5 (m", "no unit"),
+        ("5 m)", "no unit"),
+        ("5 %", "no unit"),
+        ("5 mm # of steel", "no unit"),
+        ("5 " + "m" * 1000, "letters"),
+        ("5 m\0", "no unit"),
+    ],
+)
+def test_what_is_no_length_is_refused_at_once_with_a_reason(text, said):
+    begun = time.process_time()
+    with pytest.raises(Unreadable) as raised:
+        in_si(text, "m")
+    assert said in str(raised.value)
+    assert time.process_time() - begun < 1.0  # a thousandth of it, once units are loaded
+
+
+@pytest.mark.parametrize(("wrong", "meant"), [("3 Mpa", "MPa"), ("3 pa", "Pa"), ("3 mpa", "mPa"), ("3 Pas", "Pa")])
+def test_a_misspelt_unit_is_named_with_the_one_that_is_meant(wrong, meant):
+    with pytest.raises(Unreadable, match=f"did you mean '{meant}'"):
+        in_si(wrong, "Pa")
+
+
+def test_what_is_suggested_is_known():
+    for unit in KNOWN:
+        assert in_si(f"2 {unit} m/{unit}", "m") == 2.0, unit
+
+
+def test_a_frequency_is_no_angular_frequency():
+    law = {"modulus": 1.0, "relaxation_time": 1.0, "exponent": 0.5, "lowest_frequency": 1.0}
+    assert Fractional(**law, highest_frequency="1e3 rad/s").highest_frequency == 1e3
+    with pytest.raises(ValidationError, match="1 Hz is 2 pi rad/s"):
+        Fractional(**law, highest_frequency="1e3 Hz")
+    with pytest.raises(ValidationError, match="a frequency"):
+        Stage(duration=1, load=1, amplitude=0.1, frequency="10 rad/s")
+
+
+@pytest.mark.parametrize("unit", UNITS, ids=lambda unit: unit.kind)
+def test_each_kind_of_number_shows_an_example_that_it_takes(unit):
+    assert unit.value(unit.example) == pytest.approx(unit.number, rel=1e-5)  # six digits are shown
+    for wrong in (None, True, [1.0], "wide", 1j):
+        with pytest.raises(ValueError, match="Input should be"):
+            unit.value(wrong)
+
+
+def test_python_takes_what_a_file_takes_and_holds_numbers():
+    scene = Scene(
+        Sphere("5 mm"),
+        Prony("1 MPa", ["2 MPa", 3e6], ("1 ms", 1e-4)),
+        Slide(speed="20 mm/s", depth="10 um"),
+        SelfAffine(hurst=0.5, rms_height="1 um", longest="1 mm"),
+        temperature=WLF(temperature="25 degC", reference="-50 degC", c1=17.44, c2="51.6 K"),
+        heating=Heating(conductivity="20 W/(m K)"),
+    )
+    assert scene.indenter.radius == 5e-3
+    assert scene.elastomer == Prony(1e6, (2e6, 3e6), (1e-3, 1e-4))
+    assert scene.motion == Slide(speed=0.02, depth=1e-5)
+    assert (scene.temperature.temperature, scene.temperature.c2) == (298.15, 51.6)
+    adapter = TypeAdapter(Scene)
+    assert adapter.validate_json(adapter.dump_json(scene)) == scene
+    assert replace(scene.indenter, radius="1 cm") == Sphere(0.01)
+    assert Cone(angle="45 deg").angle == pi / 4
+    assert KelvinChain("0/Pa", ("1/MPa",), ("1 s",)).compliances == (1e-6,)
+    assert Arrhenius(temperature=300, reference="300 K", activation_energy="50 kJ/mol").activation_energy == 5e4
+    assert Topography(heights=[[1e-6, 2e-6, 0, 0]] * 3 + [[0.0] * 4], pixel="10 um").pixel == (1e-5, 1e-5)
+    assert Topography(heights=[[1e-6, 2e-6, 0, 0]] * 3 + [[0.0] * 4], pixel=["10 um", 2e-5]).pixel == (1e-5, 2e-5)
+
+
+@pytest.mark.parametrize("wrong", ["5 N", "-5 mm", "0 mm", "5", "", True, None, ["5 mm"], {"mm": 5}])
+def test_a_radius_is_a_length_above_zero(wrong):
+    with pytest.raises(ValidationError, match="radius"):
+        Sphere(radius=wrong)
+
+
+def test_units_that_depend_on_others_are_those_of_the_others():
+    swung = {"duration": 1.0, "frequency": 10.0}
+    assert Stage(load="1 N", amplitude="300 mN", **swung).amplitude == 0.3
+    assert Stage(depth="1 mm", amplitude="300 um", **swung).amplitude == 3e-4
+    assert Stage(amplitude=0.3, **swung).amplitude == 0.3
+    for pressed, amplitude in (({"load": 1.0}, "1 um"), ({"depth": 1.0}, "1 N"), ({}, "1 N")):
+        with pytest.raises(ValidationError, match="amplitude"):
+            Stage(amplitude=amplitude, **pressed, **swung)
+    assert Shear(load=1.0, force="3 mN").force == 3e-3
+    assert Shear(line_load=1.0, force="3 N/mm").force == 3e3
+    for pressed, force in (({"load": 1.0}, "3 N/m"), ({"line_load": 1.0}, "3 N")):
+        with pytest.raises(ValidationError, match="force"):
+            Shear(force=force, **pressed)
+    with pytest.raises(ValidationError, match=r"a number \(in m\^\(1-exponent\)\)"):
+        PowerLaw("3 1/m", 2.0)
+
+
+def test_the_unit_of_a_field_can_be_asked():
+    asked = [(Sphere, "radius"), (Prony, "moduli"), (Slide, "load"), (Topography, "pixel"), (WLF, "c2")]
+    assert [unit_of(*each) for each in asked] == ["m", "Pa", "N", "m", "K"]
+    assert unit_of(PowerLaw, "coefficient") == "m^(1-exponent)"
+    assert unit_of(SelfAffine, "hurst") is None
+    with pytest.raises(KeyError):
+        unit_of(Sphere, "diameter")
+
+
+def test_numbers_alone_load_no_units():
+    code = (
+        "import sys\n"
+        "from scene import Kelvin, Sphere\n"
+        "Sphere(1e-2), Kelvin(1e6, 1e-3)\n"
+        "assert not {'pint', 'xarray'} & set(sys.modules)\n"
+        "Sphere('1 cm')\n"
+        "assert 'pint' in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_kelvin_solid_of_strings_is_that_of_numbers():
+    assert Kelvin("1 MPa", "1 ms") == Kelvin(1e6, 1e-3)
+    assert hash(Kelvin("1 MPa", "1 ms")) == hash(Kelvin(1e6, 1e-3))
