@@ -118,8 +118,8 @@ def test_every_page_of_the_gallery_is_shown_and_tested():
     assert tested == pages
 
 
-def test_the_examples_of_the_readme_print_what_they_say(capsys):
-    first, second, third = PYTHON.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+def test_the_examples_of_the_readme_print_what_they_say(capsys, tmp_path, monkeypatch):
+    first, whole, second, third = PYTHON.findall((ROOT / "README.md").read_text(encoding="utf-8"))
     names = {}
     exec(first, names)
     assert names["answer"].confirmed
@@ -135,6 +135,11 @@ def test_the_examples_of_the_readme_print_what_they_say(capsys):
     assert 0.3 < float(in_one[1]) / float(in_three[1]) < 0.9
     exec(third, names)
     assert names["answer"].friction_coefficient == pytest.approx(0.00806, rel=0.01)
+    monkeypatch.chdir(tmp_path)
+    exec(whole, {"__name__": "__main__"})
+    told = capsys.readouterr().out
+    assert "1D / 3D friction" in told
+    assert "surfaces" in told
 
 
 def test_the_first_page_has_friction_of_1d_twice_that_of_3d():

@@ -82,6 +82,8 @@ def _steady(axes, data, panel, dimension):
 def _second_order(axes, data):
     """In logarithms, with a line of slope two through the second amplitude of one dimension."""
     x, y = _values(data, "mean", "1D")
+    if not np.isfinite(y).any():
+        return  # no logarithms of nothing
     axes.set(xscale="log", yscale="log", ylabel="share of friction missing [1]")
     axes.plot(x, y[1] * (x / x[1]) ** 2, color=style.grey(0.45), linewidth=style.width(0.7), label="square")
     axes.legend()
