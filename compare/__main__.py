@@ -44,9 +44,9 @@ def ready() -> None:
     """List the ready scenes and studies, to begin with."""
     from .library import ready
 
-    for kind, ask in (("scene", "crosscheck run NAME"), ("study", "crosscheck study NAME")):
-        typer.echo(f"{'Scenes' if kind == 'scene' else 'Studies'}, {ask}:\n")
-        listed({name: each for name, each in ready().items() if each.kind == kind})
+    for command, what in (("run", "Scenes"), ("plan", "Scenes that nothing compares"), ("study", "Studies")):
+        typer.echo(f"{what}, crosscheck {command} NAME:\n")
+        listed({name: each for name, each in ready().items() if each.command == command})
         typer.echo()
     typer.echo("`crosscheck new NAME` writes one into a file of your own.")
 
@@ -63,15 +63,15 @@ def new(
     with mistakes_said():
         from .naming import known
 
-        kinds = ready()
-        known("NAME", name, kinds)
+        every = ready()
+        known("NAME", name, every)
         try:
             write(name, path)
         except FileExistsError as error:
             raise FileExistsError(
                 f"{path} is there already, and nothing is overwritten: name another FILE"
             ) from error
-    typer.echo(f"{path}: crosscheck {'run' if kinds[name].kind == 'scene' else 'study'} {path}")
+    typer.echo(f"{path}: crosscheck {every[name].command} {path}")
 
 
 @app.command()

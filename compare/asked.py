@@ -17,8 +17,8 @@ from scene.reading import InvalidInput, parsed, read, text_of
 from .cases import Case, read_case, shipped_cases
 from .naming import suggestion
 
+ASKS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
 # A file, the name of a ready scene, or what it says.
-ASKS = {"scene": "run", "study": "study"}  # which command takes which kind
 Asked: TypeAlias = str | Path | Case | Scene
 
 
@@ -64,8 +64,8 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
     if str(asked) in known:
         return Path(str(files("compare"))) / FOLDERS[kind] / f"{asked}.toml"
     if str(asked) in every:
-        other = every[str(asked)].kind
-        raise InvalidInput(f"{asked}: is a ready {other}, and no {kind}: crosscheck {ASKS[other]} {asked}")
+        found = every[str(asked)]
+        raise InvalidInput(f"{asked}: is a ready {found.kind}, and no {kind}: crosscheck {found.command} {asked}")
     beside = (
         [str(path.with_name(each.name)) for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
     )

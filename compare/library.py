@@ -5,8 +5,11 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
+from .naming import suggestion
+
 _TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
+_ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
 FOLDERS = {"scene": "scenes", "study": "ownstudies"}  # by kind
 
 
@@ -25,6 +28,7 @@ class Ready:
     title, about : for people; what it is about stands in its first lines; a scene alone, which
         has no title, has its first words
     kind : "scene" or "study"
+    command : of `crosscheck`, by which it is asked: run, study, or plan of a scene that cannot be compared
     text : the file
     """
 
@@ -32,6 +36,7 @@ class Ready:
     title: str
     about: str
     kind: str
+    command: str
     text: str
 
 
@@ -50,11 +55,7 @@ def find(name: str) -> Ready:
     """That of a name. Raises NotReady."""
     every = ready()
     if name not in every:
-        # Only a mistake needs it.
-        from difflib import get_close_matches
-
-        near = get_close_matches(name, every, n=1)
-        meant = f"; did you mean {near[0]}?" if near else ""
+        meant = suggestion(name, every) or "."
         raise NotReady(f"no scene or study is called {name!r}{meant} There are {', '.join(every)}")
     return every[name]
 
@@ -73,6 +74,8 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
 
 def _ready(kind, name, text):
-    about = " ".join(line.removeprefix("# ") for line in text.partition("\n\n")[0].partition(_END)[0].splitlines())
+    comment = text.partition("\n\n")[0]
+    about = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
     title = _TITLE.search(text)
-    return Ready(name, title[1] if title else re.split("[.:]", about)[0], about, kind, text)
+    command = "study" if kind == "study" else "plan" if _ALONE in comment else "run"
+    return Ready(name, title[1] if title else re.split("[.:]", about)[0], about, kind, command, text)

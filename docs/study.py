@@ -87,7 +87,7 @@ def main() -> None:
             swept = sweep(
                 [task for each in series for task in tasks(each)], Store(FOLDER / "solved"), progress=progress
             )
-        judged[name] = judge_study(name, SIZE, series, swept.outcomes)
+        judged[name] = judge_study(name, study, SIZES[SIZE], series, swept.outcomes)
         parts += _study(judged[name])
     parts += ["## The spectrum of the paper, once\n", _spectrum()]
     write_text(FOLDER.with_suffix(".md"), "\n".join([INTRODUCTION, answer(judged), *parts]))

@@ -188,7 +188,7 @@ def scheduler(tmp_path):
         [*DASK, "scheduler", "--port=0", "--no-dashboard", "--host=127.0.0.1", f"--scheduler-file={place}"],
         stderr=subprocess.DEVNULL,
     )
-    wait_for(place.exists)
+    wait_for(lambda: place.exists() and place.read_text().rstrip().endswith("}"))
     process.address = json.loads(place.read_text())["address"]
     yield process
     process.kill()
@@ -266,6 +266,16 @@ def test_a_scheduler_that_cannot_be_reached_is_named_within_seconds(tmp_path):
     with pytest.raises(Refused, match="nonsense://x is no address of a scheduler"):
         sweep(loads(1.0), Store(tmp_path), scheduler="nonsense://x")
     assert not list(tmp_path.glob("*.nc"))
+
+
+def test_an_address_without_a_port_is_refused_and_leaves_no_client_that_hangs():
+    code = (
+        "from compare.pools.cluster import _connected\nfrom scene import Refused\n"
+        "try:\n    _connected('nonsense')\nexcept Refused as error:\n    print(error)\n"
+    )
+    asked = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert asked.stdout.startswith("nonsense is no address of a scheduler, as tcp://name:8786: missing port")
+    assert not asked.stderr
 
 
 def test_without_the_library_it_is_said_how_to_get_it(tmp_path, monkeypatch):

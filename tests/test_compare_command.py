@@ -213,6 +213,7 @@ def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(fol
         (["run", "two-shapes"], "is a ready study, and no scene: crosscheck study two-shapes"),
         (["run", "study.toml"], "is a study, and no scene: crosscheck study study.toml"),
         (["study", "hertz"], "is a ready scene, and no study: crosscheck run hertz"),
+        (["study", "thin-layer"], "is a ready scene, and no study: crosscheck plan thin-layer"),
         (["study", "scene.toml"], "is a scene, and no study: crosscheck run scene.toml"),
         (["run", "."], "is a folder, and no scene"),
         (["run", "scene.toml", "--output", "scene.toml"], "scene.toml: is a file, and no folder"),
@@ -237,6 +238,7 @@ def counts(said):
     return tuple(map(int, re.search(r"(\d+) tasks solved, (\d+) reused", said).groups()))
 
 
+@pytest.mark.slow
 def test_an_interrupted_study_resumes_and_another_shares_what_is_solved(folder):
     (folder / "studies.py").write_text(STUDIES)
     ask = {"program": ("studies.py", "study")}
@@ -334,6 +336,10 @@ def test_ready_scenes_and_studies_are_listed_copied_and_never_overwrite(tmp_path
     assert again.exit_code == 2
     assert "is there already, and nothing is overwritten" in again.stderr
     assert (tmp_path / "quick-start.toml").read_text() == "mine"
+    compared, alone = listed.output.split("Scenes that nothing compares, crosscheck plan NAME:")
+    assert "\nhertz " in compared
+    assert "\nthin-layer " in alone
+    assert "crosscheck plan thin-layer.toml" in ask("new", "thin-layer").output
     unknown = ask("new", "quick-strat")
     assert unknown.exit_code == 2
     assert unknown.stderr.strip().endswith("did you mean quick-start?")

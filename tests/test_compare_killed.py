@@ -193,11 +193,11 @@ def moment(draw, study):
     return due
 
 
-def test_killed_at_five_moments_a_study_ends_as_an_undisturbed_one(tmp_path, marked, expected):
+def test_killed_at_three_moments_a_study_ends_as_an_undisturbed_one(tmp_path, marked, expected):
     draw, study = random.Random(5), Killed(tmp_path, marked)
-    kills = sum(study.kill(moment(draw, study)) for _ in range(5))
+    kills = sum(study.kill(moment(draw, study)) for _ in range(3))
     study.finish(expected)
-    assert kills >= 3  # a slow machine may draw moments after the end
+    assert kills >= 2  # a slow machine may draw a moment after the end
 
 
 @pytest.mark.slow

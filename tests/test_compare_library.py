@@ -59,6 +59,12 @@ def test_every_scene_is_read_and_planned(name, tmp_path):
     )
 
 
+def test_the_command_that_is_named_for_a_file_is_one_that_takes_it():
+    assert {name for name, each in ready().items() if each.command == "plan"} == FROM_PYTHON
+    assert {name for name, each in ready().items() if each.command == "study"} == set(STUDIES)
+    assert {each.command for each in ready().values()} == {"run", "plan", "study"}
+
+
 def test_those_that_are_not_compared_say_how_they_are_solved():
     for name in FROM_PYTHON:
         assert f'read("{name}.toml", Scene)' in find(name).text
@@ -103,7 +109,7 @@ def test_a_copy_may_name_a_schema_for_editors(tmp_path):
 def test_a_name_that_is_not_there_is_said_with_what_is():
     with pytest.raises(NotReady, match=r"'hert'; did you mean hertz\? There are .*paper-sphere"):
         find("hert")
-    with pytest.raises(NotReady, match="no scene"):
+    with pytest.raises(NotReady, match=r"no scene or study is called 'nothing'\. There are"):
         write("nothing", "nowhere.toml")
 
 

@@ -7,6 +7,7 @@ import pytest
 from test_compare_studies import SERIES, SLOPE, eq_19, obeying, verdicts
 from test_compare_study_figures import spoiled
 
+from compare import publish
 from compare.outcome import Outcome, Row
 from compare.studies import claims, depthclaims, families, report
 from compare.studies.catalogue import SIZES, STUDIES
@@ -17,6 +18,14 @@ from compare.sweep import Swept
 from mdr1d import equations
 
 THREE = Key("BEM", ROUGH, FINE)
+
+
+@pytest.fixture(autouse=True)
+def quickly_drawn(monkeypatch):
+    """Small pictures in one form: what a page says is the same."""
+    save = publish.save
+    monkeypatch.setattr(publish, "save", lambda folder, name, drawing, _: save(folder, name, drawing, ("png",)))
+    monkeypatch.setattr(publish, "DOTS_PER_INCH", 50)
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +60,9 @@ def written(folder, judged):
     return report.write_study(folder, study, Swept({}, 1, 0, 1.0)).read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("place", [np.s_[0, 2], np.s_[-1, 2], np.s_[0], np.s_[0, 2, :5]])
+@pytest.mark.parametrize(
+    "place", [np.s_[0, 2], pytest.param(np.s_[-1, 2], marks=pytest.mark.slow), np.s_[0], np.s_[0, 2, :5]]
+)
 def test_a_point_without_answer_leaves_undecided_what_needs_it_and_the_page_whole(whole, tmp_path, place):
     judged = judge_series(spoiled(whole, THREE, place))
     assert len(judged.findings) == len(judge_series(whole).findings)
@@ -97,7 +108,15 @@ def test_smooth_bodies_need_no_second_surface(whole):
     assert smooth.verdict == "undecided"
 
 
-@pytest.mark.parametrize("less", [{"speeds": 1}, {"presses": 1}, {"speeds": 1, "presses": 1}, {"speeds": 2}])
+@pytest.mark.parametrize(
+    "less",
+    [
+        {"speeds": 1},
+        {"presses": 1},
+        {"speeds": 1, "presses": 1},
+        pytest.param({"speeds": 2}, marks=pytest.mark.slow),
+    ],
+)
 def test_nothing_is_fitted_through_a_single_point_and_no_speed_is_asked_twice(whole, tmp_path, less):
     judged = judge_series(cut(whole, **less))
     if "presses" in less:

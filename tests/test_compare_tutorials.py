@@ -8,10 +8,11 @@ import pytest
 
 FOLDER = Path(__file__).parent.parent / "docs" / "tutorials"
 CELL = re.compile(r"^```\{code-cell\}.*?\n(?::tags:.*?\n\n)?(.*?)^```$", re.MULTILINE | re.DOTALL)
+# All of them run each time the pages are built.
 NAMES = [
-    "first",
+    pytest.param("first", marks=pytest.mark.slow),
     "regression",
-    pytest.param("study", marks=pytest.mark.slow),  # and each time the pages are built
+    pytest.param("study", marks=pytest.mark.slow),
 ]
 
 

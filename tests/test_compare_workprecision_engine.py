@@ -10,6 +10,7 @@ from bem3d import BEM
 from compare import run
 from compare.store import Store
 from compare.sweep import sweep
+from compare.workprecision.catalogue import INQUIRIES
 from compare.workprecision.contest import FORCE, FRICTION, ClosedForm, Contest, Finer, Known, Ladder
 from compare.workprecision.diagram import Diagram
 from compare.workprecision.report import PAGE
@@ -103,16 +104,14 @@ def test_a_finer_solution_knows_its_own_error():
     assert known["friction"].relative_error == pytest.approx(abs(values[1] / values[0] - 1))
 
 
-def test_a_page_is_written_and_what_was_measured_is_not_measured_again(tmp_path, monkeypatch, capsys):
+def test_a_page_is_written_and_what_was_measured_is_not_measured_again(tmp_path, monkeypatch):
     title, advice = "A little diagram", "Take 64."
     little = Diagram("little", title, "Two rungs.", lambda size: [contest()], lambda found: advice)
-    monkeypatch.setattr(run, "INQUIRIES", {"little": little})
-    for solving in ("2 tasks solved, 0 reused", "0 tasks solved, 2 reused"):
-        run.make_folders(tmp_path, page=PAGE)
-        run.conduct_workprecision(["little"], "quick", tmp_path, 1)
-        said = capsys.readouterr().out
-        assert solving in said
-        assert advice in said
+    monkeypatch.setitem(INQUIRIES, "little", little)
+    for counted in ((2, 0), (0, 2)):
+        found = run.weigh("little", folder=tmp_path, workers=1)
+        assert (found.swept.solved, found.swept.reused) == counted
+        assert advice in str(found)
     page = (tmp_path / PAGE).read_text(encoding="utf-8")
     assert title in page
     assert advice in page

@@ -10,9 +10,8 @@ from scene import markup
 from ..report import slug
 from ..studies import report, tableau
 from ..studies.catalogue import SIZES, STUDIES, Study
-from ..studies.families import family_findings
-from ..studies.judgement import JudgedStudy, judge_series
-from ..studies.series import Series, collect, tasks
+from ..studies.judgement import JudgedStudy, judge_study
+from ..studies.series import Series, tasks
 from ..studies.wording import line, written
 from ..sweep import Swept
 from .job import Heading, Panel, Round
@@ -77,8 +76,7 @@ class Conducted:
 
     def judged(self, swept: Swept) -> JudgedStudy:
         """All series, and what is asked of them together."""
-        judged = tuple(judge_series(collect(each, swept.outcomes)) for each in self.series)
-        return JudgedStudy(self.name, self.study, SIZES[self.size], judged, tuple(family_findings(judged)))
+        return judge_study(self.name, self.study, SIZES[self.size], self.series, swept.outcomes)
 
     def write(self, folder: Path, judged: JudgedStudy, swept: Swept) -> Path:
         """The page."""

@@ -282,9 +282,11 @@ def _executing(dask_worker) -> list[str]:
 def _connected(address) -> "Client":
     try:
         from distributed import Client
+        from distributed.comm import resolve_address
     except ImportError as error:
         raise Refused(f"a cluster needs dask.distributed: {EXTRA}") from error
     try:
+        resolve_address(address)  # a client that cannot read it hangs at the end of the program
         return Client(address, timeout=ANSWERS, set_as_default=False)
     except (OSError, TimeoutError) as error:
         raise ConnectionError(f"no scheduler answers at {address} within {ANSWERS:g} s") from error

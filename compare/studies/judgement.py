@@ -12,7 +12,7 @@ from ..outcome import Outcome
 from ..shifting import Shifting
 from ..store import Task
 from ..verdict import DIMENSIONS
-from .catalogue import SIZES, STUDIES, Size, Study
+from .catalogue import Size, Study
 from .claims import friction_findings
 from .depthclaims import depth_findings, loading
 from .families import family_findings
@@ -56,10 +56,12 @@ class JudgedStudy:
     findings: tuple[Finding, ...] = ()
 
 
-def judge_study(name: str, size: str, series: list[Series], outcomes: Mapping[Task, Outcome]) -> JudgedStudy:
+def judge_study(
+    name: str, study: Study, size: Size, series: Iterable[Series], outcomes: Mapping[Task, Outcome]
+) -> JudgedStudy:
     """Judge everything that was solved for a study."""
     judged = tuple(judge_series(collect(each, outcomes)) for each in series)
-    return JudgedStudy(name, STUDIES[name], SIZES[size], judged, tuple(family_findings(judged)))
+    return JudgedStudy(name, study, size, judged, tuple(family_findings(judged)))
 
 
 def judge_series(solved: Solved) -> JudgedSeries:
