@@ -188,7 +188,7 @@ def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
         ("plane-slide", 256),
         ("line-slide", 1024),
         ("program", 256),
-        ("far-and-back", 64),
+        pytest.param("far-and-back", 64, marks=pytest.mark.slow),
         ("plane-program", 256),
         ("layer", 256),
         ("shear", 256),

@@ -151,6 +151,7 @@ def test_figures_are_made_again_for_a_journal_without_solving(folder, found, mon
         assert (folder / "plain" / f"{name}.pdf").read_bytes() == (folder / f"{name}.pdf").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_folder_that_was_moved_is_drawn_again(folder, found, tmp_path):
     moved = tmp_path / "elsewhere"
     moved.mkdir()

@@ -151,6 +151,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_a_client_that_is_killed_leaves_nothing_to_solve_and_its_store_whole(cluster, tmp_path):
     (tmp_path / "client.py").write_text(CLIENT)
     process = subprocess.Popen(

@@ -150,6 +150,7 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert manifest["tasks"] == {"solved": now, "reused": reused}
 
 
+@pytest.mark.slow
 def test_the_paper_is_simulated_and_judged(folder):
     (folder / "smaller.py").write_text(PAPER)
     smaller = {"program": ("smaller.py",)}

@@ -138,6 +138,7 @@ def test_collapse_shifts_as_eq_23_predicts_on_axes_that_can_be_compared(judgemen
     assert line.get_ydata() == pytest.approx(-1.5 * np.log(line.get_xdata() / 0.2), rel=ROUNDING)
 
 
+@pytest.mark.slow
 def test_a_shift_at_its_bound_is_hollow_and_has_no_error(judgement):
     stopped = replace(judgement.collapses["BEM"], overlaps=False, shift_errors=np.full(3, np.nan))
     for given, barred in ((replace(judgement, collapses={"BEM": stopped}), False), (judgement, True)):

@@ -314,6 +314,7 @@ def test_one_surface_is_undecided_never_certain():
     assert judgement.collapses["BEM"].verdict == "undecided"
 
 
+@pytest.mark.slow
 def test_a_scene_at_rest_has_a_report_of_what_makes_sense(tmp_path):
     judgement, swept = solved(replace(CASE, motion=Indent(depth=1e-4), roughness=None))
     page = Page(report.write_report(tmp_path, {"rest": judgement}, swept).read_text())

@@ -265,6 +265,7 @@ def check_that_wrong_laws_are_rejected(repeats, surfaces):
     assert tilted["fails"] >= 0.8 * repeats
 
 
+@pytest.mark.slow
 def test_the_right_law_is_kept_as_often_as_stated_however_points_share_their_scatter():
     check_that_the_right_law_is_kept(cubic, 200, 10, scatter=0.1)
 

@@ -61,7 +61,11 @@ def written(folder, judged):
 
 
 @pytest.mark.parametrize(
-    "place", [np.s_[0, 2], pytest.param(np.s_[-1, 2], marks=pytest.mark.slow), np.s_[0], np.s_[0, 2, :5]]
+    "place",
+    [
+        np.s_[0, 2],
+        *(pytest.param(place, marks=pytest.mark.slow) for place in (np.s_[-1, 2], np.s_[0], np.s_[0, 2, :5])),
+    ],
 )
 def test_a_point_without_answer_leaves_undecided_what_needs_it_and_the_page_whole(whole, tmp_path, place):
     judged = judge_series(spoiled(whole, THREE, place))
@@ -111,10 +115,8 @@ def test_smooth_bodies_need_no_second_surface(whole):
 @pytest.mark.parametrize(
     "less",
     [
-        {"speeds": 1},
-        {"presses": 1},
         {"speeds": 1, "presses": 1},
-        pytest.param({"speeds": 2}, marks=pytest.mark.slow),
+        *(pytest.param(less, marks=pytest.mark.slow) for less in ({"speeds": 1}, {"presses": 1}, {"speeds": 2})),
     ],
 )
 def test_nothing_is_fitted_through_a_single_point_and_no_speed_is_asked_twice(whole, tmp_path, less):
@@ -213,6 +215,7 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
     assert {each.expected for each in families.family_findings(late) if "power" in each.claim} == {1.0}
 
 
+@pytest.mark.slow
 def test_a_second_report_drops_the_failures_of_the_first(whole, tmp_path):
     written(tmp_path, judge_series(spoiled(whole, THREE, np.s_[0, 2])))
     assert (tmp_path / "sphere" / "failed.csv").exists()
