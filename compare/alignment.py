@@ -10,7 +10,7 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 
 from .commoncurve import Fit, bounds, inside, near, rms
-from .resampling import Estimated, Size, resample
+from .statistics.jackknife import Estimated, Size, resample
 
 # What rounding leaves of ln mu.
 ROUNDING = 1e-9

@@ -1,71 +1,173 @@
-"""What a claim comes to: a number with both of its errors, and the verdict that follows from them."""
+"""Claim and finding: what is claimed, what was measured of it, and the one rule of the verdict."""
 
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from math import isfinite, nan
+from typing import Any
+
+import pandas
+
+HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
+# How the share of the grid in an interval is known.
+HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exact", "unknown"
+BOTH = "1D/3D"
 
 
 def verdict(expected: float, tolerance: float, low: float, high: float) -> str:
-    """holds if the interval lies within the tolerance around what is expected, fails if none of it does, else
-    undecided; undecided too where an end is unknown."""
+    """Verdict on a claim by its interval of 95 %.
+
+    "holds" if the whole interval lies within the tolerance around the expected number, "fails" if none of it does,
+    else "undecided"; "undecided" too where an end is unknown.
+    """
     least, most = expected - tolerance, expected + tolerance
     if not (isfinite(low) and isfinite(high)):
-        return "undecided"
+        return UNDECIDED
     if least <= low and high <= most:
-        return "holds"
-    return "fails" if high < least or low > most else "undecided"
+        return HOLDS
+    return FAILS if high < least or low > most else UNDECIDED
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement that one number decides.
+
+    id : name of the claim, such as "rest.depth"; it never changes, and no other claim has it
+    sentence : the statement in words, without a full stop
+    expected, tolerance : the number claimed, and how far from it still counts as it, both in `unit`; a tolerance of
+        NaN marks a number that is reported without a claim
+    meaning : how the number is measured, and what a deviation from it says
+    dimension : "1D", "3D", or "1D/3D" of a comparison
+    curves : names of the rectangles that it is measured on
+    measure : function of one sample of these rectangles, see `statistics.jackknife.Sample`, that returns a number,
+        or an array of which the root mean square counts
+    """
+
+    id: str
+    sentence: str
+    expected: float = nan
+    tolerance: float = nan
+    meaning: str = ""
+    unit: str = "1"
+    dimension: str = BOTH
+    curves: tuple[str, ...] = ()
+    measure: Callable[[Mapping[str, Any]], Any] | None = None
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One claim, and what was measured of it in one dimensionality.
+    """One claim, and what was measured of it in one place.
 
-    claim : what is claimed, the same words wherever it is asked
-    dimension : "1D", "3D", or "1D/3D" of a claim on both
-    expected, tolerance : the number claimed, and how far from it still counts as it, absolute
-    value : measured
-    statistical : interval of 95 % from the scatter of surfaces alone; both ends the value of a smooth body
-    grid : error of discretisation, absolute: the change from half the points a side to all, on the same surfaces,
-        which is no less than the error that is left if that falls at least as fast as the pixel; NaN if unknown
-    surfaces : how many were drawn; 0 of a smooth body, which has no scatter
-    regime : where it was measured, in words
-    figure : name of the figure that shows it
-    text : how it was measured, and what a deviation means
-    undecidable : why there is no verdict whatever the number; empty if there may be one
+    claim : the statement
+    value : number measured, in the unit of the claim
+    scatter : (low, high), the interval of 95 % over rough surfaces alone; both ends are the value where there are none
+    grid : error of discretisation, absolute, which widens the interval at both ends; NaN if unknown
+    grid_method : how `grid` is known: "change on halving", "extrapolated", "exact" or "unknown"
+    where : case, series or diagram in which it was measured
+    draws : number of rough surfaces behind it; 0 of smooth bodies
+    regime : range of the dimensionless groups in which it was measured, in words
+    reason : why there is no verdict, or what else has to be said; empty if nothing
+    stated : verdict of a law or a stored value that is no interval; empty where the interval decides
+    plot : name of the plot that shows it
+    dimension : "1D", "3D", "1D/3D"; that of the claim if empty
     """
 
-    claim: str
-    dimension: str
-    expected: float
-    tolerance: float
+    claim: Claim
     value: float
-    statistical: tuple[float, float]
-    grid: float
-    surfaces: int
-    regime: str
-    figure: str
-    text: str
-    undecidable: str = ""
+    scatter: tuple[float, float] = (nan, nan)
+    grid: float = nan
+    grid_method: str = UNKNOWN
+    where: str = ""
+    draws: int = 0
+    regime: str = ""
+    reason: str = ""
+    stated: str = ""
+    plot: str = ""
+    dimension: str = ""
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Of 95 %, wider at both ends by the error of discretisation; NaN without either error."""
-        low, high = self.statistical
+        """Interval of 95 % with the scatter of surfaces and the error of the grid; NaN if either is unknown."""
+        low, high = self.scatter
         return low - self.grid, high + self.grid
 
     @property
     def verdict(self) -> str:
-        """holds, fails or undecided, from the interval that holds both errors."""
-        return "undecided" if self.undecidable else verdict(self.expected, self.tolerance, *self.interval)
+        """"holds", "fails" or "undecided"; "reported" of a number without a claim."""
+        if self.stated:
+            return self.stated
+        if not isfinite(self.claim.tolerance):
+            return REPORTED
+        if self.undecidable:
+            return UNDECIDED
+        return verdict(self.claim.expected, self.claim.tolerance, *self.interval)
 
     @property
-    def effect(self) -> float:
-        """How far from what is expected, in tolerances."""
-        return (self.value - self.expected) / self.tolerance if self.tolerance else nan
+    def undecidable(self) -> str:
+        """Why no verdict is possible whatever the number is; empty if one is."""
+        if self.reason:
+            return self.reason
+        if not isfinite(self.value):
+            return "the number is not known"
+        if not all(map(isfinite, self.scatter)):
+            return "the scatter of surfaces is not known"
+        return "" if isfinite(self.grid) else "the error of the grid is not known"
 
     @property
-    def row(self) -> dict:
-        """Flat, for a table."""
-        flat = asdict(self)
-        (flat["statistical_low"], flat["statistical_high"]) = flat.pop("statistical")
-        flat["low"], flat["high"] = self.interval
-        return flat | {"effect": self.effect, "verdict": self.verdict}
+    def row(self) -> dict[str, Any]:
+        """Finding as a row of the table that every command gives."""
+        low, high = self.interval
+        return {
+            "claim": self.claim.id,
+            "where": self.where,
+            "dimension": self.dimension or self.claim.dimension,
+            "verdict": self.verdict,
+            "value": self.value,
+            "low": low,
+            "high": high,
+            "unit": self.claim.unit,
+            "expected": self.claim.expected,
+            "tolerance": self.claim.tolerance,
+            "scatter_low": self.scatter[0],
+            "scatter_high": self.scatter[1],
+            "grid": self.grid,
+            "grid_method": self.grid_method,
+            "draws": self.draws,
+            "regime": self.regime,
+            "reason": self.reason or (self.undecidable if self.verdict == UNDECIDED else ""),
+            "sentence": self.claim.sentence,
+            "meaning": self.claim.meaning,
+            "plot": self.plot,
+        }
+
+
+COLUMNS = tuple(Finding(Claim("", ""), nan).row)
+
+
+def table(findings: Iterable[Finding]) -> pandas.DataFrame:
+    """Findings as one DataFrame, the same columns whatever command they come from."""
+    return pandas.DataFrame([each.row for each in findings], columns=list(COLUMNS))
+
+
+def sentences(findings: Sequence[Finding]) -> list[str]:
+    """One sentence for each claim, from all of its findings: how often it holds, where it fails, what is undecided."""
+    found = []
+    for sentence in dict.fromkeys(each.claim.sentence for each in findings):
+        places: dict[str, list[str]] = {}
+        for each in findings:
+            if each.claim.sentence == sentence:
+                place = " ".join(part for part in (each.dimension or each.claim.dimension, each.where) if part)
+                places.setdefault(each.verdict, []).append(f"{place} {number(each)}")
+        told = [f"{name}: {', '.join(places[name])}" for name in VERDICTS if name in places]
+        found.append(f"{sentence}. {'; '.join(told).capitalize()}.")
+    return found
+
+
+def number(found: Finding) -> str:
+    """Value and interval of a finding in words."""
+    if not isfinite(found.value):
+        return "not measured"
+    unit = "" if found.claim.unit in ("", "1") else f" {found.claim.unit}"
+    low, high = found.interval
+    if not (isfinite(low) and isfinite(high)):
+        return f"{found.value:.3g}{unit}"
+    return f"{found.value:.3g}{unit} ({low:.3g} to {high:.3g})"

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from scene import Refused
 
 from .store import Store, Task
-from .sweep import Swept
+from .sweep import SweepResult
 
 
-def recall(tasks: Sequence[Task], store: Store) -> Swept:
+def recall(tasks: Sequence[Task], store: Store) -> SweepResult:
     """The outcomes of tasks by whatever code solved them. Raises Refused where any of them is not there."""
     start, wanted = time.perf_counter(), list(dict.fromkeys(tasks))
     found = store.recalled(wanted)
@@ -21,7 +21,7 @@ def recall(tasks: Sequence[Task], store: Store) -> Swept:
             f"{len(missing)} of {len(wanted)} tasks are not solved in {store.folder}{broke}: {missing[0].label}"
             f"{', ...' if len(missing) > 1 else ''}; the command that wrote the folder solves them"
         )
-    return Swept(found, 0, len(found), time.perf_counter() - start)
+    return SweepResult(found, 0, len(found), time.perf_counter() - start)
 
 
 def of_other_code(tasks: Sequence[Task], store: Store) -> list[Task]:

@@ -21,7 +21,7 @@ from .accuracy import shipped
 from .outcome import Outcome
 from .quantity import Quantity, Unmeasured
 from .store import Store, Task, write
-from .sweep import Progress, Swept, sweep
+from .sweep import Progress, SweepResult, sweep
 
 SHIPPED = Path(__file__).with_name("baseline.toml")
 # Of a stored value: no tolerance is less than what they leave.
@@ -203,7 +203,7 @@ def _why(change):
 
 def measure(
     quantities: Sequence[Quantity], folder: Path, workers: int | None = None, progress: Progress | None = None
-) -> Swept:
+) -> SweepResult:
     """Solve what the quantities need in worker processes, and keep it in a folder."""
     return sweep([task for quantity in quantities for task in quantity.tasks], Store(folder), workers, progress)
 

@@ -19,7 +19,7 @@ from .illustration import Illustration, illustrate, sheets_of
 from .publish import machine, render, versions, write_csv, write_json, write_text
 from .sheets import Sheet, reading
 from .sources import behind
-from .sweep import Swept
+from .sweep import SweepResult
 from .verdict import Judgement, Number
 
 FIGURES = (contact, contact_maps, force_depth, friction_speed, friction_load, collapse, smooth_limit)
@@ -67,7 +67,7 @@ class Section:
         return f"{self.anchor}.{every.index(number) + 1}"
 
 
-def write_report(folder: Path, judged: Mapping[str, Judgement], swept: Swept) -> Path:
+def write_report(folder: Path, judged: Mapping[str, Judgement], swept: SweepResult) -> Path:
     """Write everything below a folder, a subfolder a case, and return the path of the page.
 
     judged : by the name of the case, which becomes that of its subfolder
@@ -91,7 +91,7 @@ def section(folder: Path, name: str, judgement: Judgement) -> Section:
     return Section(name, judgement, points, tuple(figure for figure in drawn if figure))
 
 
-def page(sections: Sequence[Section], swept: Swept) -> str:
+def page(sections: Sequence[Section], swept: SweepResult) -> str:
     """The page as HTML that needs nothing else."""
     return render(
         "report.html",
@@ -161,7 +161,7 @@ def _written(value, unit):
     return EngFormatter(unit)(value) if unit in PREFIXED else f"{value:.6g} {unit or ''}".strip()
 
 
-def manifest(sections: Sequence[Section], swept: Swept) -> dict:
+def manifest(sections: Sequence[Section], swept: SweepResult) -> dict:
     """What was solved with what: versions, platform, tasks, and for each case its settings, seeds and timings."""
     return {
         "versions": versions(),

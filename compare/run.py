@@ -14,7 +14,7 @@ from .asked import Asked, case_of, make_folders
 from .jobs import asking
 from .jobs.job import SOLVED, Found, Job, answer, solve
 from .manifest import NAME as MANIFEST
-from .sweep import Progress, Swept
+from .sweep import Progress, SweepResult
 
 REPORT, STUDY, PAPER, COSTS = (
     "crosscheck-report",
@@ -200,7 +200,7 @@ def conducted(
     """Do a job from its question to its page."""
     folder = Path(folder)
     if not job.rounds:  # what is read may be wrong, and then nothing is written
-        job.judged(Swept({}, 0, 0, 0.0))
+        job.judged(SweepResult({}, 0, 0, 0.0))
     prepared(job, folder)
     return answer(job, folder, solve(job, folder, workers, scheduler, _watched(progress)))
 

@@ -6,7 +6,7 @@ from math import nan
 import numpy as np
 
 from .commoncurve import Curve
-from .resampling import groups
+from .statistics.jackknife import groups
 
 
 @dataclass(frozen=True)

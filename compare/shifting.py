@@ -10,7 +10,7 @@ import numpy as np
 from .alignment import ROUNDING, Alignment, moved, outside, size_at, still, taken, undecided
 from .commoncurve import Curve, Fit, bounds, near, within
 from .mastercurve import DEGREE, MOST_FREE
-from .resampling import Replicates, Size
+from .statistics.jackknife import Replicates, Size
 from .samples import Samples
 
 # Of ln mu: parallel straight lines that miss no more are straight. Friction is solved, and Eq. 19 is followed by a

@@ -16,48 +16,16 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from math import isfinite
 from pathlib import Path
-from typing import IO, Any, Protocol
+from typing import IO, Any
 
 from .outcome import Outcome
+from .task import Task
 
 TRACE = ".fault.txt"  # of how a task broke, behind its key
 DAY = 86400.0  # as long no write takes
 # Of a file that is being written: that of the file, machine and process, and some letters.
 TEMPORARY = re.compile(r"\..+\.([0-9a-f]{8})-([1-9][0-9]*)\.[a-z0-9_]{8}")
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
-
-
-class Task(Protocol):
-    """What one worker solves in one go; equal tasks have equal answers."""
-
-    @property
-    def label(self) -> str:
-        """Short description for people."""
-
-    @property
-    def work(self) -> float:
-        """Rough cost, in units that are the same for all tasks; orders them and tells how far they are."""
-
-    @property
-    def question(self) -> Mapping[str, Any]:
-        """Everything that the answer depends on but for code, as JSON can hold it."""
-
-    @property
-    def packages(self) -> Sequence[str]:
-        """Whose code the answer depends on."""
-
-    @property
-    def keeps_fields(self) -> bool:
-        """Whether the outcome has fields."""
-
-    def solve(self) -> Outcome:
-        """The answer."""
-
-    def failed(self, reason: str) -> Outcome:
-        """What stands for an answer where there is none: as much, all NaN, with the reason in its rows."""
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether a stored outcome is whole."""
 
 
 def code_digest(folder: Path) -> str:

@@ -1,101 +1,16 @@
 """From a case to what has to be solved: points of curves, and the tasks of which each point is the average."""
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
-from math import nan
+from dataclasses import dataclass, replace
 
-from pydantic import TypeAdapter
-
-from scene import EmptyContact, Indent, Program, Scene, SelfAffine, Slide, SolveError, Solver, Topography
-from scene.motion import UNITS
+from scene import Indent, Scene, Slide, Solver
 from scene.protocol import refuse
 from scene.scales import elastic_contact
 
 from .cases import Case
 from .exact import Exact
-from .outcome import Outcome, Row, row
-
-SCENES = TypeAdapter(tuple[Scene, ...])
-
-
-@dataclass(frozen=True)
-class Task:
-    """A task, as of store: scenes that differ only in the seed of their roughness.
-
-    solver, scenes : what is solved
-    keeps_fields : whether the fields of the first scene are kept, for pictures
-    work : see store
-    """
-
-    solver: Solver
-    scenes: tuple[Scene, ...]
-    keeps_fields: bool = False
-    work: float = 1.0
-
-    @property
-    def label(self) -> str:
-        """Short description for people."""
-        scene = self.scenes[0]
-        motion, rough = scene.motion, scene.roughness
-        seed = getattr(rough, "seed", None)
-        body = "smooth" if rough is None else "waves" if seed is None else f"surface {seed}"
-        if len(self.scenes) > 1:
-            body = f"{len(self.scenes)} profiles"
-        pressed, moved = _pressed(motion), _moving(motion)
-        return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}, {moved}, {body}"
-
-    @property
-    def question(self) -> dict:
-        """The scenes, and the solver by its name and settings."""
-        scenes = SCENES.dump_python(self.scenes, mode="json")
-        return {"scenes": scenes, "solver": self.solver.name, "settings": asdict(self.solver)}
-
-    @property
-    def packages(self) -> tuple[str, ...]:
-        """That of the scenes and that of the solver."""
-        return "scene", type(self.solver).__module__.split(".")[0]
-
-    def solve(self) -> Outcome:
-        """Solve every scene, one after the other.
-
-        An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
-        exception is a fault and is raised.
-        """
-        rows, fields = [], {}
-        for scene in self.scenes:
-            try:
-                result = self.solver.solve(scene)
-            except EmptyContact:
-                depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
-                rows.append(Row(0.0, depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
-                continue
-            except SolveError as error:
-                rows.append(Row(reason=str(error) or type(error).__name__))
-                continue
-            if self.keeps_fields and not rows:
-                fields = dict(result.fields)
-            rows.append(row(result))
-        return Outcome(tuple(rows), fields)
-
-    def failed(self, reason: str) -> Outcome:
-        """A row a scene, each with the reason."""
-        return Outcome((Row(reason=reason),) * len(self.scenes))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """A row a scene."""
-        return len(outcome.rows) == len(self.scenes)
-
-
-def _pressed(motion):
-    """What presses, with its unit; depths in micrometres."""
-    value, unit = motion.greatest, UNITS[motion.pressed_by]
-    return f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
-
-
-def _moving(motion):
-    if isinstance(motion, Program):
-        return f"{len(motion.stages)} stages"
-    return f"{motion.speed:.3g} m/s" if motion.speed else "at rest"
+from .task import SceneTask as Task
+from .task import draws_of as surfaces_of
 
 
 @dataclass(frozen=True)
@@ -195,14 +110,6 @@ def _both(case: Case, kind: str, scene: Scene) -> Iterator[Point]:
     plan = case.plan()
     yield Point(kind, (_task(case, case.mdr, surfaces_of(scene, plan.profiles)),))
     yield Point(kind, tuple(_task(case, case.bem, (drawn,)) for drawn in surfaces_of(scene, plan.surfaces)))
-
-
-def surfaces_of(scene: Scene, count: int) -> tuple[Scene, ...]:
-    """The scene with seeds seed, seed + 1, ...; a body that is smooth or has plain waves has one surface."""
-    rough = scene.roughness
-    if not isinstance(rough, SelfAffine | Topography):
-        return (scene,)
-    return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + k)) for k in range(count))
 
 
 def _task(case: Case, solver: Solver, scenes: tuple[Scene, ...]) -> Task:

@@ -66,7 +66,7 @@ class Silent:
 
 
 @dataclass(frozen=True)
-class Swept:
+class SweepResult:
     """What came of a sweep.
 
     outcomes : by task
@@ -81,9 +81,9 @@ class Swept:
     seconds: float
     faults: Mapping[Task, str] = field(default_factory=dict)
 
-    def joined(self, later: "Swept") -> "Swept":
+    def joined(self, later: "SweepResult") -> "SweepResult":
         """This and a later one."""
-        return Swept(
+        return SweepResult(
             {**self.outcomes, **later.outcomes},
             self.solved + later.solved,
             self.reused + later.reused,
@@ -99,7 +99,7 @@ def sweep(
     progress: Progress | None = None,
     tasks_each: int | None = None,
     scheduler: str | None = None,
-) -> Swept:
+) -> SweepResult:
     """Solve tasks, longest first, storing each as it ends.
 
     workers : processes of this machine, one thread each; absent, as many as there are processors
@@ -122,7 +122,7 @@ def sweep(
     waiting = sorted((task for task in stored if task not in outcomes), key=lambda task: -task.work)
     progress.planned(waiting, len(outcomes))
     if not waiting:
-        return Swept(outcomes, 0, len(outcomes), time.perf_counter() - start)
+        return SweepResult(outcomes, 0, len(outcomes), time.perf_counter() - start)
     with (
         caught() as interrupts,
         Sharing(store.folder) as sharing,
@@ -131,7 +131,7 @@ def sweep(
         course = _Course(deque(waiting), store, sharing, pool, progress, interrupts)
         outcomes.update(course.run())
     solved = len(waiting) - course.found
-    return Swept(outcomes, solved, len(stored) - solved, time.perf_counter() - start, course.faults)
+    return SweepResult(outcomes, solved, len(stored) - solved, time.perf_counter() - start, course.faults)
 
 
 def _pool(waiting, workers, tasks_each, scheduler, progress) -> AbstractContextManager[Pool]:

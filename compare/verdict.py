@@ -15,7 +15,7 @@ from .commoncurve import Curve
 from .mastercurve import Collapse, collapse, misfit_at
 from .metrics import Record
 from .study import Point
-from .sweep import Swept
+from .sweep import SweepResult
 from .wording import explain, plus_minus, said
 
 # Solver's name -> dimension, as the report writes it.
@@ -72,7 +72,7 @@ class Judgement:
         return fragment(self)
 
 
-def judge(case: Case, points: Sequence[Point], swept: Swept) -> Judgement:
+def judge(case: Case, points: Sequence[Point], swept: SweepResult) -> Judgement:
     """Judge a case from the outcomes of all its points."""
     table = tuple(metrics.records(points, swept.outcomes))
     collapses = _collapses(table)

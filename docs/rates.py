@@ -16,7 +16,7 @@ from tables import table
 from compare.commoncurve import Fit, bounds, near, rms
 from compare.finding import verdict
 from compare.publish import write_csv, write_text
-from compare.resampling import resample
+from compare.statistics.jackknife import resample
 from compare.samples import Samples
 from compare.shifting import Shifting, misfit_at, shift
 from compare.studies.catalogue import LOADS as LOAD_RANGE

@@ -6,7 +6,7 @@ from math import inf, sqrt
 import numpy as np
 import pytest
 
-from compare.resampling import (
+from compare.statistics.jackknife import (
     MOST_GROUPS,
     Estimated,
     Replicates,

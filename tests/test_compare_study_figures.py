@@ -21,7 +21,7 @@ from compare.figures import (
     style,
 )
 from compare.finding import Finding
-from compare.resampling import Estimated
+from compare.statistics.jackknife import Estimated
 from compare.shifting import Samples, shift
 from compare.studies import points, tableau
 from compare.studies.catalogue import SIZES, Study

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from math import nan
 
 from ..metrics import Estimate, estimate
-from ..resampling import student
+from ..statistics.jackknife import student
 from ..wording import plus_minus
 
 LEVEL = 0.95

@@ -20,7 +20,7 @@ from scene.scales import elastic_contact
 from ..figures import effect_topography
 from ..metrics import Estimate, estimate, ratio
 from ..outcome import Outcome
-from ..resampling import student
+from ..statistics.jackknife import student
 from ..store import Task as AnyTask
 from ..study import Task
 from ..topography import Description, describe

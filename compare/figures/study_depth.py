@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..resampling import Estimated
+from ..statistics.jackknife import Estimated
 from ..studies.depthclaims import closed_forms
 from ..studies.judgement import JudgedSeries
 from ..studies.points import mean_of, mean_ratio, quotient

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter
 
-from ..resampling import Estimated
+from ..statistics.jackknife import Estimated
 from ..studies.judgement import JudgedSeries
 from ..studies.points import friction, quotient, ratio
 from ..studies.series import ROUGH, SMOOTH

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from scene import Program
 
-from ..resampling import Estimated
+from ..statistics.jackknife import Estimated
 from ..studies.judgement import JudgedSeries
 from ..studies.points import mean_of, quotient
 from ..studies.series import ROUGH, SMOOTH

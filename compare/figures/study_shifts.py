@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..resampling import Estimated
+from ..statistics.jackknife import Estimated
 from ..studies.judgement import JudgedSeries
 from ..studies.question import TOLERANCE
 from ..studies.shiftclaims import inseparable

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..quantity import Quantity
 from ..regression import Changes, changes
-from ..sweep import Swept
+from ..sweep import SweepResult
 from .job import Panel, Round
 
 
@@ -34,11 +34,11 @@ class Baseline:
         """Of all quantities."""
         return (Round([task for quantity in self.quantities for task in quantity.tasks]),)
 
-    def judged(self, swept: Swept) -> Changes:
+    def judged(self, swept: SweepResult) -> Changes:
         """Every quantity today and as it was."""
         return changes(self.quantities, self.stored, swept.outcomes)
 
-    def write(self, folder: Path, judged: Changes, swept: Swept) -> None:
+    def write(self, folder: Path, judged: Changes, swept: SweepResult) -> None:
         """Nothing: what is stored is rewritten on demand."""
 
     def panels(self, judged: Changes) -> Iterator[Panel]:

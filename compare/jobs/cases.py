@@ -11,7 +11,7 @@ from .. import report
 from ..archive import RESULTS, record
 from ..cases import Case
 from ..study import Point, points, tasks
-from ..sweep import Swept
+from ..sweep import SweepResult
 from ..verdict import Judgement, judge
 from ..written import as_json, from_json
 from .job import Heading, Panel, Round
@@ -51,11 +51,11 @@ class Cases:
         """All cases together."""
         return (Round(tasks([point for those in self.points.values() for point in those])),)
 
-    def judged(self, swept: Swept) -> dict[str, Judgement]:
+    def judged(self, swept: SweepResult) -> dict[str, Judgement]:
         """By the name of the case."""
         return {name: judge(case, self.points[name], swept) for name, case in self.cases.items()}
 
-    def write(self, folder: Path, judged: Mapping[str, Judgement], swept: Swept) -> Path:
+    def write(self, folder: Path, judged: Mapping[str, Judgement], swept: SweepResult) -> Path:
         """The report, and a file of results a case."""
         page = report.write_report(folder, judged, swept)
         for name, judgement in judged.items():

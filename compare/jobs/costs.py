@@ -8,7 +8,7 @@ from typing import Any
 from scene import markup
 
 from ..figures import workprecision
-from ..sweep import Swept
+from ..sweep import SweepResult
 from ..workprecision import answers, report
 from ..workprecision.catalogue import INQUIRIES
 from ..workprecision.diagram import Inquiry
@@ -48,11 +48,11 @@ class Costs:
             Round([task for each in self.inquiries for task in each.timed(self.size)], alone=True),
         )
 
-    def judged(self, swept: Swept) -> dict[str, Any]:
+    def judged(self, swept: SweepResult) -> dict[str, Any]:
         """What each inquiry found, by its name."""
         return {each.name: each.judge(self.size, swept.outcomes) for each in self.inquiries}
 
-    def write(self, folder: Path, judged: Mapping[str, Any], swept: Swept) -> Path:
+    def write(self, folder: Path, judged: Mapping[str, Any], swept: SweepResult) -> Path:
         """The page, a chapter an inquiry."""
         chapters = [report.chapter(folder, each, judged[each.name]) for each in self.inquiries]
         return report.write_workprecision(folder, chapters, self.size, swept)

@@ -10,7 +10,7 @@ from ..stability import report
 from ..stability.collection import CASES
 from ..stability.examination import Examination
 from ..stability.report import BROKEN, VERDICTS, Record, records
-from ..sweep import Swept
+from ..sweep import SweepResult
 from .job import Panel, Round
 
 
@@ -38,11 +38,11 @@ class HardCases:
         """All of them."""
         return (Round([Examination(name, self.size) for name in CASES]),)
 
-    def judged(self, swept: Swept) -> list[Record]:
+    def judged(self, swept: SweepResult) -> list[Record]:
         """One a case."""
         return records(swept.outcomes)
 
-    def write(self, folder: Path, judged: Sequence[Record], swept: Swept) -> Path:
+    def write(self, folder: Path, judged: Sequence[Record], swept: SweepResult) -> Path:
         """Table and page."""
         return report.write_stability(folder, judged, self.size, swept)
 

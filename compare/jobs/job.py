@@ -16,7 +16,7 @@ from scene import SolveError, markup
 from .. import manifest, sweep
 from ..recalling import recall
 from ..store import TRACE, Store
-from ..sweep import Progress, Swept
+from ..sweep import Progress, SweepResult
 
 SOLVED = "solved"
 SHOWN = 3  # reasons, of the tasks that broke
@@ -90,10 +90,10 @@ class Job(Protocol[T]):
     @property
     def rounds(self) -> Sequence[Round]: ...
 
-    def judged(self, swept: Swept) -> T:
+    def judged(self, swept: SweepResult) -> T:
         """What comes of the outcomes."""
 
-    def write(self, folder: Path, judged: T, swept: Swept) -> Path | None:
+    def write(self, folder: Path, judged: T, swept: SweepResult) -> Path | None:
         """Write page, figures and tables into the folder of the page. Returns the page, None of a job without."""
 
     def panels(self, judged: T) -> Iterator[Panel]:
@@ -117,7 +117,7 @@ class Found(Generic[T]):
     """
 
     judged: T
-    swept: Swept
+    swept: SweepResult
     page: Path | None
     job: Job[T]
 
@@ -178,9 +178,9 @@ def solve(
     workers: int | None = None,
     scheduler: str | None = None,
     watched: Callable[[], AbstractContextManager[Progress | None]] = nullcontext,
-) -> Swept:
+) -> SweepResult:
     """Solve what the folder does not have. What is timed is solved here and alone, whatever the scheduler."""
-    store, swept = Store(folder / SOLVED), Swept({}, 0, 0, 0.0)
+    store, swept = Store(folder / SOLVED), SweepResult({}, 0, 0, 0.0)
     for each in job.rounds:
         with watched() as progress:
             if each.alone:
@@ -191,7 +191,7 @@ def solve(
     return swept
 
 
-def answer(job: Job[T], folder: Path, swept: Swept) -> Found[T]:
+def answer(job: Job[T], folder: Path, swept: SweepResult) -> Found[T]:
     """Judge what was solved, and write page and manifest. Raises Broken where too much of it broke."""
     try:
         return _answered(job, folder, swept)
@@ -205,7 +205,7 @@ def answer(job: Job[T], folder: Path, swept: Swept) -> Found[T]:
         raise Broken(what, broken(swept, folder)) from error
 
 
-def broken(swept: Swept, folder: Path) -> list[str]:
+def broken(swept: SweepResult, folder: Path) -> list[str]:
     """How many tasks broke, the first reasons, and where it is told; empty where none did."""
     if not swept.faults:
         return []

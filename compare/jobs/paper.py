@@ -11,7 +11,7 @@ from ..figures import paper_contacts, paper_law, paper_losses, paper_sketch, pap
 from ..paper import report, reproduction
 from ..paper.claims import Claim, claims
 from ..paper.reproduction import Reproduction
-from ..sweep import Swept
+from ..sweep import SweepResult
 from .job import Panel, Round
 
 
@@ -52,12 +52,12 @@ class Paper:
         """All figures together."""
         return (Round(reproduction.tasks(self.size)),)
 
-    def judged(self, swept: Swept) -> Reproduced:
+    def judged(self, swept: SweepResult) -> Reproduced:
         """Figures and claims."""
         found = reproduction.collect(self.size, swept.outcomes)
         return Reproduced(found, tuple(claims(found)))
 
-    def write(self, folder: Path, judged: Reproduced, swept: Swept) -> Path:
+    def write(self, folder: Path, judged: Reproduced, swept: SweepResult) -> Path:
         """The page."""
         return report.write_paper(folder, judged.data, judged.claims, swept)
 

@@ -13,7 +13,7 @@ from ..studies.catalogue import SIZES, STUDIES, Study
 from ..studies.judgement import JudgedStudy, judge_study
 from ..studies.series import Series, tasks
 from ..studies.wording import line, written
-from ..sweep import Swept
+from ..sweep import SweepResult
 from .job import Heading, Panel, Round
 
 
@@ -74,11 +74,11 @@ class Conducted:
         """All series together."""
         return (Round([task for each in self.series for task in tasks(each)]),)
 
-    def judged(self, swept: Swept) -> JudgedStudy:
+    def judged(self, swept: SweepResult) -> JudgedStudy:
         """All series, and what is asked of them together."""
         return judge_study(self.name, self.study, SIZES[self.size], self.series, swept.outcomes)
 
-    def write(self, folder: Path, judged: JudgedStudy, swept: Swept) -> Path:
+    def write(self, folder: Path, judged: JudgedStudy, swept: SweepResult) -> Path:
         """The page."""
         return report.write_study(folder, judged, swept)
 

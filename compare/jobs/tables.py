@@ -15,7 +15,7 @@ from ..paper.measured import read_measured
 from ..paper.shifts import Shifted
 from ..publish import draw
 from ..report import slug
-from ..sweep import Swept
+from ..sweep import SweepResult
 from ..topography import Description, describe, described
 from ..wording import explain, explain_vertical, plus_minus
 from .job import Panel, Round
@@ -41,11 +41,11 @@ class Mastercurve:
         """The file."""
         return {"table": str(self.path)}
 
-    def judged(self, swept: Swept) -> Shifted:
+    def judged(self, swept: SweepResult) -> Shifted:
         """The curves and what shifts make of them. Raises InvalidInput."""
         return read_measured(self.path)
 
-    def write(self, folder: Path, judged: Shifted, swept: Swept) -> None:
+    def write(self, folder: Path, judged: Shifted, swept: SweepResult) -> None:
         """The figure and its tables."""
         _draw(folder, self.panels(judged))
 
@@ -100,7 +100,7 @@ class Map:
         """The file and what was stated of it."""
         return {"file": str(self.path), "stated": dict(self.stated)}
 
-    def judged(self, swept: Swept) -> Description:
+    def judged(self, swept: SweepResult) -> Description:
         """Its sizes, slopes and spectra. Raises InvalidInput."""
         content, adapter = {"file": str(self.path), **self.stated}, TypeAdapter(Topography)
         try:
@@ -110,7 +110,7 @@ class Map:
         except ValueError as error:
             raise InvalidInput(f"{self.path}: {error}") from error
 
-    def write(self, folder: Path, judged: Description, swept: Swept) -> None:
+    def write(self, folder: Path, judged: Description, swept: SweepResult) -> None:
         """The figure of its spectra and its tables."""
         _draw(folder, self.panels(judged))
 

@@ -13,7 +13,7 @@ from scene import Regime, Scene, SolveError
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome, Row
-from ..resampling import interval, left_out, standard_error
+from ..statistics.jackknife import interval, left_out, standard_error
 from ..store import Task
 from ..study import SCENES
 from . import parameters

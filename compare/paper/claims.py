@@ -7,7 +7,7 @@ from math import isfinite, sqrt
 import numpy as np
 
 from ..finding import verdict
-from ..resampling import interval, standard_error
+from ..statistics.jackknife import interval, standard_error
 from .campaign import line
 from .conditions import gathered
 from .law import Law

@@ -12,7 +12,7 @@ from scene import Regime, Slide, SolveError
 from scene.scales import elastic_contact
 
 from ..outcome import Outcome
-from ..resampling import interval, left_out, standard_error
+from ..statistics.jackknife import interval, left_out, standard_error
 from ..store import Task as AnyTask
 from ..study import Task
 from . import parameters

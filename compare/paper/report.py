@@ -9,7 +9,7 @@ from ..glossary import Definitions
 from ..illustration import Illustration, illustrate, sheets_of
 from ..publish import machine, render, versions, write_csv, write_json, write_text
 from ..sheets import Sheet, reading
-from ..sweep import Swept
+from ..sweep import SweepResult
 from . import parameters
 from .claims import Claim
 from .reproduction import Reproduction
@@ -19,7 +19,7 @@ PAGE, MANIFEST, TABLE = "paper.html", "manifest.json", "claims.csv"
 CONTENTS = {"summary": "What is claimed and what is found", "open": "What is left open", "figures": "Figures"}
 
 
-def write_paper(folder: Path, found: Reproduction, said: Sequence[Claim], swept: Swept) -> Path:
+def write_paper(folder: Path, found: Reproduction, said: Sequence[Claim], swept: SweepResult) -> Path:
     """Write page, figures and tables into a folder, and return the path of the page.
 
     said : the claims

@@ -16,7 +16,7 @@ from scene import SolveError
 from .. import mastercurve
 from ..commoncurve import Curve, Misfit
 from ..outcome import Outcome
-from ..resampling import interval, standard_error
+from ..statistics.jackknife import interval, standard_error
 from ..store import Task as AnyTask
 from ..study import Task, surfaces_of
 from ..vertical import Vertical, vertical_shifts

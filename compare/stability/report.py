@@ -11,7 +11,7 @@ from ..outcome import Outcome
 from ..publish import render, write_csv, write_text
 from ..sheets import Sheet, anchored, reading
 from ..store import Store, Task
-from ..sweep import Progress, Swept, sweep
+from ..sweep import Progress, SweepResult, sweep
 from .collection import CASES
 from .examination import Examination, checks
 from .hardcase import Check, Refusal
@@ -48,7 +48,7 @@ class Record:
     seconds: float
 
 
-def write_stability(folder: Path, found: Sequence[Record], size: str, swept: Swept) -> Path:
+def write_stability(folder: Path, found: Sequence[Record], size: str, swept: SweepResult) -> Path:
     """Write the table as CSV and as Markdown, and the page; return the path of the page."""
     write_csv(folder / TABLE, [vars(record) for record in found])
     write_text(folder / MARKDOWN, markdown(found))

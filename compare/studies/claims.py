@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ..finding import Finding
-from ..resampling import mean_ratio
+from ..statistics.jackknife import mean_ratio
 from ..verdict import DIMENSIONS
 from .laws import Laws, slow_drag
 from .pairclaims import friction_questions, pairs, rest_questions, smooth_question

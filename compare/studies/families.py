@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from ..finding import Finding
-from ..resampling import Size, mean_ratio
+from ..statistics.jackknife import Size, mean_ratio
 from ..samples import Samples
 from ..shifting import shift
 from ..verdict import DIMENSIONS

@@ -8,7 +8,7 @@ from mdr1d import equations
 
 from .. import exact
 from ..pointregime import PointRegime
-from ..resampling import mean_ratio
+from ..statistics.jackknife import mean_ratio
 from .points import regime
 from .series import REST, SMOOTH_REST, Answers, Solved
 

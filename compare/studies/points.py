@@ -8,7 +8,7 @@ import numpy as np
 from scene import Scene
 
 from ..pointregime import PointRegime, gathered
-from ..resampling import Estimated, Value, mean_ratio
+from ..statistics.jackknife import Estimated, Value, mean_ratio
 from ..verdict import DIMENSIONS
 from .series import FINE, REST, ROUGH, Answers, Key, Solved
 

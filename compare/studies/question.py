@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..finding import Finding
-from ..resampling import resample
+from ..statistics.jackknife import resample
 from .sides import Pair, Side
 
 BOTH = "1D/3D"

@@ -23,7 +23,7 @@ from ..pointregime import PointRegime
 from ..publish import machine, render, versions, write_csv, write_json, write_text
 from ..report import described, slug
 from ..sheets import Sheet, reading
-from ..sweep import Swept
+from ..sweep import SweepResult
 from ..verdict import DIMENSIONS
 from . import points, tableau
 from .judgement import JudgedSeries, JudgedStudy
@@ -98,7 +98,7 @@ class Part:
         ]
 
 
-def write_study(folder: Path, judged: JudgedStudy, swept: Swept) -> Path:
+def write_study(folder: Path, judged: JudgedStudy, swept: SweepResult) -> Path:
     """Write page, figures and tables below a folder, a subfolder a series, and return the path of the page."""
     folder.mkdir(parents=True, exist_ok=True)
     write_csv(folder / FINDINGS, list(tableau.rows(judged)))
@@ -114,7 +114,7 @@ def write_study(folder: Path, judged: JudgedStudy, swept: Swept) -> Path:
     return folder / PAGE
 
 
-def page(judged: JudgedStudy, whole: Part, parts: list[Part], findings: Sheet, swept: Swept) -> str:
+def page(judged: JudgedStudy, whole: Part, parts: list[Part], findings: Sheet, swept: SweepResult) -> str:
     """The page as HTML that needs nothing else."""
     verdicts = [finding.verdict for finding in tableau.every(judged)]
     drawn = [figure for part in (whole, *parts) for figure in part.figures.values()]
@@ -179,7 +179,7 @@ def seconds(each: JudgedSeries) -> dict[str, float]:
     }
 
 
-def manifest(judged: JudgedStudy, swept: Swept) -> dict:
+def manifest(judged: JudgedStudy, swept: SweepResult) -> dict:
     """What was solved with what, and every finding."""
     return {
         "versions": versions(),

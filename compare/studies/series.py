@@ -13,7 +13,7 @@ from scene.motion import Motion
 from scene.protocol import refuse
 
 from ..outcome import Outcome
-from ..resampling import mean_ratio
+from ..statistics.jackknife import mean_ratio
 from ..store import Task as AnyTask
 from ..study import Task, surfaces_of
 

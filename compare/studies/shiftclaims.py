@@ -10,7 +10,7 @@ import numpy as np
 from ..commoncurve import LEAST_OVERLAP
 from ..finding import Finding
 from ..mastercurve import DEGREE
-from ..resampling import Estimated, Size
+from ..statistics.jackknife import Estimated, Size
 from ..samples import Samples
 from ..shifting import Shifting, misfit_at, shift
 from ..verdict import DIMENSIONS

@@ -6,7 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from ..resampling import groups, mean_ratio
+from ..statistics.jackknife import groups, mean_ratio
 from .series import FINE, REST, ROUGH, SMOOTH, SMOOTH_REST, Answers, Solved
 
 PER_SURFACE = ("normal_force", "friction_force", "depth", "contact")

@@ -7,7 +7,7 @@ import numpy as np
 from scipy import stats
 from scipy.optimize import least_squares
 
-from ..resampling import student
+from ..statistics.jackknife import student
 
 FEWEST = 3  # points that a power is fitted to
 WITH_OVERHEAD = 5  # points from which on a fixed cost can be told from a power

@@ -10,7 +10,7 @@ from ..glossary import Definitions
 from ..illustration import Illustration, illustrate, sheets_of
 from ..publish import render, write_text
 from ..sheets import Sheet, reading
-from ..sweep import Swept
+from ..sweep import SweepResult
 from . import answers
 from .diagram import Inquiry
 
@@ -78,7 +78,7 @@ def tables(inquiry: Inquiry, found: Any) -> dict[str, list[dict[str, str]]]:
     return {f"To know {what}": answers.cells(found, names) for what, names in ASKED.items()}
 
 
-def write_workprecision(folder: Path, chapters: Sequence[Chapter], size: str, swept: Swept) -> Path:
+def write_workprecision(folder: Path, chapters: Sequence[Chapter], size: str, swept: SweepResult) -> Path:
     """Write the page, and return its path."""
     page = render(
         "workprecision.html",

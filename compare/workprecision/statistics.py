@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from scipy import stats
 
-from ..resampling import student
+from ..statistics.jackknife import student
 
 LEVEL = 0.95
 

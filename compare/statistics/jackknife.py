@@ -4,14 +4,17 @@ The same surfaces stand behind all points: each is left out everywhere at once. 
 is inside as often as stated from three surfaces on; percentiles of resampled surfaces are too narrow there.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot, inf, nan, sqrt
 from typing import Generic, Protocol, Self, TypeVar
 
 import numpy as np
+import xarray
 from scipy import stats
 from scipy.optimize import brentq
+
+from ..finding import HALVED, UNKNOWN, Claim, Finding
 
 # Statistics are found this often at most: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
@@ -242,3 +245,122 @@ def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
 def student(level: float, freedom: float | np.ndarray) -> float:
     """By how many standard errors either end of an interval lies off, as often inside as stated."""
     return stats.t.ppf((1 + level) / 2, freedom)
+
+
+# Claims on Datasets.
+
+DIMENSIONS = {"1D": ("MDR",), "3D": ("BEM",), "1D/3D": ("MDR", "BEM")}
+
+
+@dataclass(frozen=True)
+class Sample(Mapping[str, xarray.Dataset]):
+    """Datasets of one grid by "rectangle/solver", from which draws can be left out.
+
+    Draws of different solvers are independent: a share of each is left out together, which counts both errors with
+    the degrees of freedom of the fewer.
+    """
+
+    datasets: Mapping[str, xarray.Dataset]
+
+    @classmethod
+    def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
+        """Datasets of some nodes on one of their grids; nodes that were not asked for are left out."""
+        nodes = {node.path.strip("/"): node for node in answers.subtree}
+        return cls({name: nodes[name].to_dataset(inherit=False).sel(grid=grid) for name in names if name in nodes})
+
+    def __getitem__(self, name: str) -> xarray.Dataset:
+        return self.datasets[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.datasets)
+
+    def __len__(self) -> int:
+        return len(self.datasets)
+
+    @property
+    def _counts(self) -> set[int]:
+        return {each.sizes["draw"] for each in self.values() if "draw" in each.dims}
+
+    @property
+    def draws(self) -> int:
+        """Number of surfaces of the solver with the fewest; 0 of smooth bodies."""
+        return min(self._counts, default=0)
+
+    @property
+    def groups(self) -> Sequence[np.ndarray]:
+        """Draws that are left out together; where solvers differ in their number, the numbers of equal shares."""
+        if len(self._counts) > 1:
+            return [np.array([k]) for k in range(min(self.draws, MOST_GROUPS))]
+        return groups(self.draws) if self.draws else []
+
+    def without(self, group: np.ndarray) -> Self:
+        """The sample without one group of draws, or without one share of the draws of each solver."""
+        shares = len(self.groups) if len(self._counts) > 1 else 0
+        return type(self)({name: _without(each, group, shares) for name, each in self.items()})
+
+
+def _without(dataset, group, shares):
+    if "draw" not in dataset.dims:
+        return dataset
+    every = np.arange(dataset.sizes["draw"])
+    return dataset.isel(draw=np.delete(every, np.array_split(every, shares)[int(group[0])] if shares else group))
+
+
+def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.ndarray:
+    """Mean over draws of a variable, or ratio of two means, NaN where fewer than half of the draws have it."""
+    values = dataset[name]
+    if "draw" not in values.dims:
+        return values.values / (1.0 if below is None else dataset[below].values)
+    over = values.transpose(..., "draw").values
+    under = 1.0 if below is None else dataset[below].transpose(..., "draw").values
+    enough = 2 * np.isfinite(over).sum(axis=-1) >= over.shape[-1]
+    return np.where(enough, mean_ratio(over, under).value, nan)
+
+
+def friction(dataset: xarray.Dataset) -> np.ndarray:
+    """Coefficient of friction: mean friction force over mean normal force."""
+    return mean(dataset, "friction_force", "normal_force")
+
+
+def judge(claim: Claim, answers: xarray.DataTree, where: str = "", regime: str = "", plot: str = "") -> Finding:
+    """Measure a claim on the fine grid, its scatter by leaving draws out, its error of the grid on the coarse one.
+
+    An array counts by its root mean square, without what scatter adds.
+    """
+    names = [f"{curve}/{solver}" for curve in claim.curves for solver in DIMENSIONS[claim.dimension]]
+    fine, coarse = (Sample.of(answers, names, grid) for grid in ("fine", "coarse"))
+    return measured(claim, fine, coarse, where, regime, plot)
+
+
+def measured(
+    claim: Claim, fine: Grouped, coarse: Grouped, where: str = "", regime: str = "", plot: str = ""
+) -> Finding:
+    """Finding of a claim from samples on two grids."""
+    # What has no logarithm is not known, and the finding says so.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        replicates = resample(lambda sample: {"": claim.measure(sample)}, fine)[""]
+        other = np.asarray(claim.measure(coarse))
+        found = replicates.size if np.ndim(replicates.value) else replicates.estimated
+        low, high = found.interval()
+        grid = float(np.sqrt(np.mean(np.square(other - replicates.value))))
+    return Finding(
+        claim=claim,
+        value=float(found.value),
+        scatter=(float(low), float(high)),
+        grid=grid,
+        grid_method=HALVED if np.isfinite(grid) else UNKNOWN,
+        where=where,
+        draws=fine.draws,
+        regime=regime,
+        reason=_unknown(fine.draws, (found.value, low, high, grid)),
+        plot=plot,
+    )
+
+
+def _unknown(draws, numbers):
+    """Why a number or one of its errors is not known; empty where all are."""
+    if np.all(np.isfinite(numbers)):
+        return ""
+    if draws == 1:
+        return "of one surface the scatter is not known"
+    return "at some point fewer than half of the surfaces have an answer, or the mean is not positive"

@@ -1,0 +1,112 @@
+"""Page: what a command has to say, as a list of blocks that every renderer shows in its own way."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from .finding import Finding
+
+Tables: TypeAlias = Mapping[str, DataFrame]
+
+
+@dataclass(frozen=True)
+class Text:
+    """Paragraphs in Markdown: emphasis, `code`, links and lists, nothing else."""
+
+    markdown: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table that people read; its CSV file is the frame with every digit.
+
+    name : of its file, without .csv, with the folder below that of the page: "sphere/points"
+    frame : columns whose names the vocabulary knows
+    caption : one sentence
+    long : whether the page shows a link to the file alone, as nobody reads so many rows
+    """
+
+    name: str
+    frame: DataFrame
+    caption: str = ""
+    long: bool = False
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Findings as a table: claim, verdict, value with its interval, the number claimed, and the reason."""
+
+    findings: Sequence[Finding]
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A figure as a function of tables. The CSV files beside it are these tables.
+
+    name : of its files, without ending, with the folder below that of the page: "sphere/friction-load"
+    draw : function of the tables and the options that returns a matplotlib Figure: a module function of
+        `compare.plots`, so that it can be drawn again from the files alone
+    tables : by name; a table is written to a CSV file of that name beside the figure
+    caption : what it shows, in at most 60 words
+    alternative : what is to be seen, for those who cannot see it
+    options : further keyword arguments of `draw` that JSON can hold
+    """
+
+    name: str
+    draw: Callable[..., Figure]
+    tables: Tables
+    caption: str
+    alternative: str = ""
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def folder(self) -> str:
+        """Folder of its files below that of the page, with a slash at the end; empty of that folder itself."""
+        return self.name[: self.name.rfind("/") + 1]
+
+    def figure(self) -> Figure:
+        """The figure, drawn from the tables in the style that is applied."""
+        return self.draw(self.tables, **self.options)
+
+
+@dataclass(frozen=True)
+class Section:
+    """Blocks under a heading."""
+
+    title: str
+    blocks: Sequence["Block"]
+
+
+Block: TypeAlias = Text | Table | Findings | Plot | Section
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page.
+
+    title : of the page
+    answer : a sentence for each claim, generated from all findings: what stands first
+    blocks : figures, tables and sections, in the order of reading
+    about : facts on how it was made, by name: versions, machine, times
+    """
+
+    title: str
+    answer: Sequence[str]
+    blocks: Sequence[Block]
+    about: Mapping[str, str] = field(default_factory=dict)
+
+    def every(self, kind: type) -> Iterator[Any]:
+        """Blocks of one kind, in sections too, in their order."""
+
+        def below(blocks):
+            for block in blocks:
+                if isinstance(block, Section):
+                    yield from below(block.blocks)
+                elif isinstance(block, kind):
+                    yield block
+
+        return below(self.blocks)

@@ -1,0 +1,196 @@
+"""Rectangle: contacts of one scene at every speed and every load or depth, and what they came to as Datasets."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import nan
+
+import numpy as np
+import xarray
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topography
+from scene.protocol import refuse
+
+from .outcome import Outcome
+from .task import SceneTask, Task, draws_of
+from .vocabulary import attributes
+
+FINE, COARSE = "fine", "coarse"
+# Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
+SOLVED, EMPTY, FAILED, NOT_ASKED = STATUS = ("solved", "no contact", "failed", "not asked")
+# What a solver gives of every contact, by the names of a Dataset.
+NUMBERS = {
+    "normal_force": "normal_force",
+    "depth_reached": "depth",
+    "friction_force": "friction_force",
+    "residual": "residual",
+    "applications": "applications",
+    "seconds": "seconds",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rectangle:
+    """Contacts of one scene at every speed and every load or depth, each solver on its grids, on the same draws.
+
+    scene : its motion says whether a load or a depth is prescribed; a Program is pressed in from nothing at a
+        constant rate, every other scene slides steadily or, at speed 0, is at rest
+    speeds : of sliding, or rates of pressing in [m/s]; 0 is rest
+    values : loads [N] or depths [m] that are prescribed
+    grids : settings of a solver by the name of the grid, by the name of the solver
+    draws : number of rough surfaces by the name of the solver; 1 if absent
+    keeps_fields : whether the fields of the first draw on the fine grid are kept, for pictures
+    """
+
+    scene: Scene
+    speeds: tuple[float, ...]
+    values: tuple[float, ...]
+    grids: Mapping[str, Mapping[str, Solver]]
+    draws: Mapping[str, int]
+    keeps_fields: bool = False
+
+    @property
+    def prescribed(self) -> str:
+        """Name of what is prescribed: "load" or "depth"."""
+        return self.scene.motion.pressed_by
+
+    @property
+    def random(self) -> bool:
+        """Whether the body has draws: rough surfaces that differ by their seed."""
+        return isinstance(self.scene.roughness, SelfAffine | Topography)
+
+    def at(self, value: float, speed: float = 0.0) -> Scene:
+        """The scene under one load or depth, at rest or at a speed."""
+        pressed = {self.prescribed: value}
+        if speed and isinstance(self.scene.motion, Program):
+            motion = Program(stages=(Stage(duration=value / speed, **pressed),))
+        else:
+            motion = Slide(speed=speed, **pressed) if speed else Indent(**pressed)
+        return replace(self.scene, motion=motion)
+
+    def refuse(self) -> None:
+        """Raise Refused if a solver lacks what any of the scenes asks for; SolveError if numbers are too far apart."""
+        for grids in self.grids.values():
+            for solver in grids.values():
+                for speed in self.speeds:
+                    for value in self.values:
+                        refuse(solver, self.at(value, speed))
+
+    def tasks(self) -> list[SceneTask]:
+        """Every task, each once: all profiles of a 1D contact in one task, and a task for each surface in 3D."""
+        return list(dict.fromkeys(task for _, _, tasks in self._points() for task in tasks))
+
+    def datasets(self, outcomes: Mapping[Task, Outcome]) -> dict[str, xarray.Dataset]:
+        """Datasets by the name of the solver, with the dimensions grid, speed, load or depth, and draw.
+
+        A smooth body has no draw. `status` tells failed from not asked, `reason` why a solve failed. Where nothing
+        touches, the force is 0, and friction and contact are NaN.
+        """
+        rows: dict[str, dict] = {name: {} for name in self.grids}
+        for name, place, tasks in self._points():
+            rows[name][place] = [row for task in tasks for row in outcomes[task].rows]
+        return {name: self._dataset(name, found) for name, found in rows.items()}
+
+    def fields(self, outcomes: Mapping[Task, Outcome]) -> dict[str, Mapping[str, np.ndarray]]:
+        """Fields that were kept of the first contact, by the name of the solver."""
+        kept = ((name, outcomes[tasks[0]].fields) for name, place, tasks in self._points() if tasks[0].keeps_fields)
+        return {name: fields for name, fields in kept if fields}
+
+    def _points(self) -> Iterator[tuple[str, tuple[str, int, int], tuple[SceneTask, ...]]]:
+        """Solver's name, place (grid, speed, value) and tasks of every contact."""
+        for name, grids in self.grids.items():
+            for grid, solver in grids.items():
+                for i, speed in enumerate(self.speeds):
+                    for j, value in enumerate(self.values):
+                        scenes = draws_of(self.at(value, speed), self.draws.get(name, 1))
+                        together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
+                        first = self.keeps_fields and grid == FINE and not (i or j)
+                        yield name, (grid, i, j), tuple(
+                            SceneTask(solver, each, keeps_fields=first and not k, work=_work(solver, each))
+                            for k, each in enumerate(together)
+                        )
+
+    def _dataset(self, name, rows):
+        grids = self.grids[name]
+        count = max(len(each) for each in rows.values())
+        shape = len(grids), len(self.speeds), len(self.values), count
+        every = [
+            [[rows[grid, i, j] for j in range(len(self.values))] for i in range(len(self.speeds))] for grid in grids
+        ]
+        flat = [row for each in rows.values() for row in each]
+
+        def array(number, kind=float):
+            found = [number(row) for plane in every for line in plane for point in line for row in point]
+            return np.array(found, kind).reshape(shape)
+
+        status = array(
+            lambda row: FAILED if row.reason is not None else EMPTY if row.normal_force == 0 else SOLVED, object
+        )
+        touched = status == SOLVED
+        values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
+        for measure in sorted({measure for row in flat for measure in row.measures}):
+            values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
+        values["friction_force"] = np.where(touched, values["friction_force"], nan)
+        reasons = array(lambda row: row.reason or "", object)
+        dims = ["grid", "speed", self.prescribed, "draw"]
+        coordinates = {
+            "grid": list(grids),
+            "speed": list(self.speeds),
+            self.prescribed: list(self.values),
+            "points": ("grid", [getattr(solver, "points", 0) for solver in grids.values()]),
+        }
+        if self.random:
+            first = self.scene.roughness.seed
+            coordinates["draw"] = list(range(first, first + count))
+        else:
+            dims = dims[:3]
+
+        def variable(values, label):
+            return xarray.Variable(dims, values if self.random else values[..., 0], attributes(label, self.scene))
+
+        made = {label: variable(found, label) for label, found in values.items()}
+        made |= {"status": variable(status, "status"), "reason": variable(reasons, "reason")}
+        dataset = xarray.Dataset(made, coordinates, {"solver": name})
+        for label in dataset.coords:
+            dataset[label].attrs = attributes(str(label), self.scene)
+        return dataset
+
+
+def on_two_grids(*solvers: MDR | BEM) -> dict[str, dict[str, Solver]]:
+    """Settings of solvers on their own grid and on one of half the points, and of half the steps in time."""
+    return {
+        each.name: {FINE: each, COARSE: replace(each, points=each.points // 2, steps=max(1, each.steps // 2))}
+        for each in solvers
+    }
+
+
+def unique(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
+    """Tasks of several rectangles, each once: rectangles that cross share the contacts where they do."""
+    found: dict = {}
+    for rectangle in rectangles.values():
+        for task in rectangle.tasks():
+            if not found.get((task.solver, task.scenes), task).keeps_fields:
+                found[task.solver, task.scenes] = task
+    return list(found.values())
+
+
+def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+    """Everything solved of some rectangles: a Dataset for each rectangle and solver, at /rectangle/solver."""
+    parts = {
+        f"/{name}/{solver}": dataset
+        for name, rectangle in rectangles.items()
+        for solver, dataset in rectangle.datasets(outcomes).items()
+    }
+    return xarray.DataTree.from_dict(parts)
+
+
+def _work(solver, scenes):
+    """Cost in passes over a point of a grid, roughly."""
+    if isinstance(solver, MDR):
+        each = solver.points * 15.0 * max(1, scenes[0].elastomer.relaxation()[2].size)
+    elif isinstance(solver, BEM):
+        each = solver.points**2.2 * 50.0
+    else:
+        return 1.0
+    return len(scenes) * each * (solver.steps if isinstance(scenes[0].motion, Program) else 1)

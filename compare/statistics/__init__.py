@@ -1,0 +1,1 @@
+"""Statistics of contacts: intervals over surfaces, collapse of curves, power laws, costs."""

@@ -1,0 +1,143 @@
+"""Task: what one worker solves in one go, and the scenes of one solver as such a task."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from math import nan
+from typing import Any, NamedTuple, Protocol
+
+from pydantic import TypeAdapter
+
+from scene import EmptyContact, Program, Scene, SelfAffine, SolveError, Solver, Topography
+from scene.motion import UNITS
+
+from .outcome import Outcome, Row, row
+
+SCENES = TypeAdapter(tuple[Scene, ...])
+
+
+class Task(Protocol):
+    """What one worker solves in one go; equal tasks have equal answers."""
+
+    @property
+    def label(self) -> str:
+        """Short description for people."""
+
+    @property
+    def work(self) -> float:
+        """Rough cost, in units that are the same for all tasks; it orders them and tells how far they are."""
+
+    @property
+    def question(self) -> Mapping[str, Any]:
+        """Everything that the answer depends on but for code, as JSON can hold it."""
+
+    @property
+    def packages(self) -> Sequence[str]:
+        """Names of the packages whose code the answer depends on."""
+
+    @property
+    def keeps_fields(self) -> bool:
+        """Whether the outcome has fields."""
+
+    def solve(self) -> Outcome:
+        """Solve, and return the outcome."""
+
+    def failed(self, reason: str) -> Outcome:
+        """Outcome where there is no answer: as many rows, all NaN, each with the reason."""
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether a stored outcome is whole."""
+
+
+class Batch(NamedTuple):
+    """Tasks solved together. timed : one after the other, each in a process of its own, as its time is measured."""
+
+    tasks: Sequence[Task]
+    timed: bool = False
+
+
+@dataclass(frozen=True)
+class SceneTask:
+    """Scenes that differ only in the seed of their roughness, answered by one solver.
+
+    keeps_fields : whether the fields of the first scene are kept, for pictures
+    work : rough cost, see `Task`
+    """
+
+    solver: Solver
+    scenes: tuple[Scene, ...]
+    keeps_fields: bool = False
+    work: float = 1.0
+
+    @property
+    def label(self) -> str:
+        """Short description for people."""
+        scene = self.scenes[0]
+        motion, rough = scene.motion, scene.roughness
+        seed = getattr(rough, "seed", None)
+        body = "smooth" if rough is None else "waves" if seed is None else f"surface {seed}"
+        if len(self.scenes) > 1:
+            body = f"{len(self.scenes)} profiles"
+        pressed, moved = _pressed(motion), _moving(motion)
+        return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}, {moved}, {body}"
+
+    @property
+    def question(self) -> dict:
+        """The scenes, and the solver by its name and settings."""
+        scenes = SCENES.dump_python(self.scenes, mode="json")
+        return {"scenes": scenes, "solver": self.solver.name, "settings": asdict(self.solver)}
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """Packages of the scenes and of the solver."""
+        return "scene", type(self.solver).__module__.split(".")[0]
+
+    def solve(self) -> Outcome:
+        """Solve every scene, one after the other.
+
+        An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
+        exception is a fault of the program and is raised.
+        """
+        rows, fields = [], {}
+        for scene in self.scenes:
+            try:
+                result = self.solver.solve(scene)
+            except EmptyContact:
+                depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
+                rows.append(Row(0.0, depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
+                continue
+            except SolveError as error:
+                rows.append(Row(reason=str(error) or type(error).__name__))
+                continue
+            if self.keeps_fields and not rows:
+                fields = dict(result.fields)
+            rows.append(row(result))
+        return Outcome(tuple(rows), fields)
+
+    def failed(self, reason: str) -> Outcome:
+        """Outcome with a row for each scene, each with the reason."""
+        return Outcome((Row(reason=reason),) * len(self.scenes))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether the outcome has a row for each scene."""
+        return len(outcome.rows) == len(self.scenes)
+
+
+def draws_of(scene: Scene, count: int) -> tuple[Scene, ...]:
+    """The scene with the seeds seed, seed + 1, ...; a body that is smooth or has plain waves has one draw."""
+
+    rough = scene.roughness
+    if not isinstance(rough, SelfAffine | Topography):
+        return (scene,)
+    return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + k)) for k in range(count))
+
+
+def _pressed(motion):
+    """What presses, with its unit; depths in micrometres."""
+    value, unit = motion.greatest, UNITS[motion.pressed_by]
+    return f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
+
+
+def _moving(motion):
+    if isinstance(motion, Program):
+        return f"{len(motion.stages)} stages"
+    return f"{motion.speed:.3g} m/s" if motion.speed else "at rest"
