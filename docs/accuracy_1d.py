@@ -4,8 +4,8 @@ from math import radians
 
 from tables import order, table
 
-from compare.references.foundation import sliding_forces
-from compare.references.indentation import force_of_depth
+from compare.exact.foundation import sliding_forces
+from compare.exact.indentation import force_of_depth
 from mdr1d import MDR
 from scene import Cone, Kelvin, PowerLaw, Program, Scene, Slide, Sphere, Stage, StandardLinearSolid
 
@@ -66,14 +66,14 @@ def ting() -> str:
 
 SECTIONS = {
     "One dimension: sliding against closed forms": (
-        "The foundation itself has closed forms in steady sliding (`compare.references.foundation`): Kelvin and "
+        "The foundation itself has closed forms in steady sliding (`compare.exact.foundation`): Kelvin and "
         "standard linear, at the depth whose static contact has the half-width a. Relative errors, the grid over "
         "2.2 a. A cone is linear between nodes, so that nothing is left of its error.",
         sliding,
     ),
     "One dimension: pressing in and withdrawing": (
         "E_r = 1, E_g = 5, relaxation time 1; the depth rises at 0.1 to t = 2 and falls as fast: force against "
-        "Lee and Radok while loading, Ting while withdrawing (`compare.references.indentation`).",
+        "Lee and Radok while loading, Ting while withdrawing (`compare.exact.indentation`).",
         ting,
     ),
 }

@@ -7,7 +7,7 @@ from tables import order, table
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.references import full_contact, indentation, line_contact, waves
+from compare.exact import full_contact, indentation, line_contact, waves
 from scene import (
     Cone,
     CrossedWaves,

@@ -10,20 +10,20 @@ What plans multiply costs with, bem3d/effects.csv and mdr1d/effects.csv, is writ
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from effects_page import costs
+from effects_page.asked import Effect, effects
+from effects_page.catalogue import STUDIES
+from effects_page.chapter import Chapter
 from rich.console import Console
 from tables import table
 
 import bem3d.plan
 import mdr1d.plan
-from compare.effects import costs
-from compare.effects.asked import Effect, effects
-from compare.effects.catalogue import STUDIES
-from compare.effects.chapter import Chapter
-from compare.figures import style
+from compare.plots import style
 from compare.progress import watch
 from compare.publish import machine, save, versions, write_csv, write_text
+from compare.runner import sweep
 from compare.store import Store
-from compare.sweep import sweep
 from scene.costs import two_digits
 
 FOLDER = Path(__file__).with_suffix("")

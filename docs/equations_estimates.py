@@ -6,7 +6,7 @@ from math import log, sqrt
 import numpy as np
 from tables import table
 
-from compare.references.indentation import force_of_depth
+from compare.exact.indentation import force_of_depth
 from mdr1d import MDR, estimates
 from mdr1d import equations as eq
 from scene import Elastic, Indent, Kelvin, Scene, Slide, Sphere, StandardLinearSolid

@@ -7,7 +7,7 @@ import pytest
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.references import full_contact, waves
+from compare.exact import full_contact, waves
 from scene import (
     CrossedWaves,
     Elastic,

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.exact import Exact
-from compare.references import indentation
+from compare.exact import Exact, indentation
 from scene import (
     CrossedWaves,
     Cylinder,

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import dblquad, quad
 
 from bem3d import influence
-from compare.references import line_contact
+from compare.exact import line_contact
 
 KERNEL = 1e-9  # of the kernel's peak: the quadrature here; against panels in extended precision it is 1e-11
 ROUNDING = 1e-12

@@ -19,9 +19,8 @@ from bem3d.layer import FALSIFIED, Layered
 from bem3d.layerwaves import Bonded, Frictionless
 from bem3d.line import Line
 from bem3d.sliding import Flow
-from compare.exact import mean_lag
-from compare.references import foundation, full_contact
-from compare.references import layer as reference
+from compare.exact import foundation, full_contact, mean_lag
+from compare.exact import layer as reference
 from scene import (
     Cone,
     Cylinder,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.references import line_contact
+from compare.exact import line_contact
 from scene import Cylinder, Elastic, Indent, Kelvin, Scene, Slide, StandardLinearSolid
 from scene.scales import elastic_contact
 

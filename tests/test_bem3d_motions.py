@@ -5,6 +5,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+from effects_page import closed_forms as motions
+from effects_page.track import harmonic
 
 import bem3d.timeline
 from bem3d import BEM, marching, upstream
@@ -15,8 +17,7 @@ from bem3d.marching import march
 from bem3d.problem import Problem
 from bem3d.timeline import timeline
 from bem3d.upstream import Endless, Repeating, Returning, Sheet
-from compare.effects.track import harmonic
-from compare.references import full_contact, motions
+from compare.exact import full_contact
 from scene import (
     CrossedWaves,
     Cylinder,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, cerruti, engine, stickslip
-from compare.references import tangential as closed
+from compare.exact import tangential as closed
 from scene import (
     Coulomb,
     CrossedWaves,

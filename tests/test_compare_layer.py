@@ -4,11 +4,11 @@ from math import pi
 
 import numpy as np
 import pytest
+from effects_page import layer as study
 
 from bem3d import BEM
-from compare.effects import layer as study
-from compare.figures import style
-from compare.references import layer as reference
+from compare.exact import layer as reference
+from compare.plots import style
 from scene import Cone, Layer, PowerLaw, Sphere
 
 SPHERE, CONE = Sphere(10e-3), Cone(0.1)

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from effects_page.means import half, mean, written
 
-from compare.effects.means import half, mean, written
 from compare.metrics import estimate
 
 

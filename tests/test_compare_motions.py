@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from effects_page import closed_forms as motions
+from effects_page import motions as study
+from effects_page.track import Track, harmonic
 from pydantic import ValidationError
 
 from bem3d import BEM
-from compare.effects import motions as study
-from compare.effects.track import Track, harmonic
 from compare.outcome import Outcome, Row
-from compare.references import motions
 from compare.store import key
 from mdr1d import MDR
 from scene import Arrhenius, Kelvin, Layer, Program, Scene, SolveError, Sphere, Stage, StandardLinearSolid

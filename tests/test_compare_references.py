@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from compare.references import foundation, full_contact, indentation, line_contact, waves
+from compare.exact import foundation, full_contact, indentation, line_contact, waves
 from mdr1d import MDR
 from scene import Cone, Kelvin, KelvinChain, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from bem3d import BEM
-from compare.references import tangential
+from compare.exact import tangential
 from mdr1d import MDR
 from scene import Coulomb, Elastic, Indent, Scene, Shear, Sphere
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from effects_page import shear
 
-from compare.effects import shear
-from compare.figures import style
+from compare.exact import tangential
 from compare.outcome import Outcome, Row
-from compare.references import tangential
+from compare.plots import style
 from scene import Shear
 
 FACTOR = 1.25  # of the displacement at which the rough bodies made up here slip, over that of the smooth

@@ -5,13 +5,13 @@ from math import exp, sqrt
 
 import numpy as np
 import pytest
+from effects_page import temperature, warmcontacts
 from scipy.optimize import bisect
 
 from bem3d import BEM
 from bem3d.convolution import FreeConvolution
 from compare import report
 from compare.cases import Case
-from compare.effects import temperature, warmcontacts
 from compare.outcome import Outcome, Row
 from compare.study import Task, points
 from mdr1d import MDR

@@ -5,6 +5,8 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
+from effects_page import topography as study
+from effects_page.asked import effects
 from scipy.ndimage import gaussian_filter
 from scipy.stats import binom
 from typer.testing import CliRunner
@@ -12,8 +14,6 @@ from typer.testing import CliRunner
 from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.__main__ import app
-from compare.effects import topography as study
-from compare.effects.asked import effects
 from compare.figures import effect_topography, topography
 from compare.outcome import Outcome, Row
 from compare.powerlaw import fit

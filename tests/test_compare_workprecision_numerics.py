@@ -10,10 +10,10 @@ from matplotlib.text import Text
 from scipy.integrate import quad
 
 from bem3d import BEM
+from compare.exact.waves import crossed_closure, crossed_contact_fraction_light
 from compare.figures import lettering, style, workprecision
 from compare.outcome import Outcome, Row, row
 from compare.publish import DOTS_PER_INCH
-from compare.references.waves import crossed_closure, crossed_contact_fraction_light
 from compare.workprecision import wording
 from compare.workprecision.contest import (
     FORCE,

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from effects_page.asked import effects
 
 from bem3d import BEM
 from bem3d.engine import Engine
-from compare.effects.asked import effects
 from mdr1d import MDR
 from scene import (
     WLF,

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from effects_page import costs
+from effects_page.asked import PLAIN, SCENES, effects, measured
 
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
-from compare.effects import costs
-from compare.effects.asked import PLAIN, SCENES, effects, measured
-from compare.figures import style
 from compare.outcome import Outcome, Row
+from compare.plots import style
 from compare.workprecision.ladder import TIGHT
 from mdr1d import MDR
 from scene import Layer, Program, Scene

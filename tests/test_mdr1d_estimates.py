@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from compare.references.indentation import force_of_depth
+from compare.exact.indentation import force_of_depth
 from mdr1d import MDR, equations, estimates
 from scene import Cone, Elastic, Indent, Kelvin, PowerLaw, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 

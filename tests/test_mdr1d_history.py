@@ -6,7 +6,7 @@ from math import atan
 import numpy as np
 import pytest
 
-from compare.references import indentation
+from compare.exact import indentation
 from mdr1d import MDR
 from mdr1d.timeline import timeline
 from scene import (

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from effects_page import closed_forms as motions
+from effects_page.track import harmonic
 
 import mdr1d.timeline
-from compare.effects.track import harmonic
-from compare.references import motions
 from mdr1d import MDR, marching
 from mdr1d.timeline import timeline
 from scene import (

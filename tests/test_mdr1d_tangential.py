@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from compare.references import tangential as closed
+from compare.exact import tangential as closed
 from mdr1d import MDR, estimates, tangential
 from scene import (
     Cone,

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from bem3d import BEM
-from compare.references import waves
+from compare.exact import waves
 from scene import CrossedWaves, Indent, Plane, Scene, Slide, SolveError, Wave
 
 from .complementarity import Matrix, solved

@@ -23,7 +23,7 @@ class Examination:
     case: str
     size: str
     keeps_fields = False
-    packages = ("scene", "mdr1d", "bem3d", "compare.stability", "compare.references", "compare.exact")
+    packages = ("scene", "mdr1d", "bem3d", "compare.stability", "compare.exact")
 
     @property
     def label(self) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from bem3d import BEM
-from compare.references import indentation
+from compare.exact import indentation
 from mdr1d import MDR
 from scene import (
     Elastic,

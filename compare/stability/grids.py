@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from bem3d import BEM
-from compare.references import full_contact, line_contact, waves
+from compare.exact import full_contact, line_contact, waves
 from mdr1d import MDR
 from scene import CrossedWaves, Cylinder, Indent, Plane, Scene, SelfAffine, Slide, SolveError, Wave
 from scene.scales import elastic_contact

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from bem3d import BEM
-from compare.references import indentation
+from compare.exact import indentation
 from scene import Indent
 
 from .hardcase import Check, HardCase, deviation

@@ -6,7 +6,7 @@ import numpy as np
 
 from bem3d import BEM
 from compare.exact import mean_lag, slow_friction_1d, slow_friction_by_curvature
-from compare.references import foundation, line_contact
+from compare.exact import foundation, line_contact
 from scene import Cylinder, Elastic, Kelvin, Program, Scene, Slide, SolveError, Stage, StandardLinearSolid
 from scene.scales import elastic_contact
 

@@ -11,7 +11,7 @@ from ..outcome import Outcome
 from ..publish import render, write_csv, write_text
 from ..sheets import Sheet, anchored, reading
 from ..store import Store, Task
-from ..sweep import Progress, SweepResult, sweep
+from ..runner import Progress, SweepResult, sweep
 from .collection import CASES
 from .examination import Examination, checks
 from .hardcase import Check, Refusal

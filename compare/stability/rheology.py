@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from compare.exact import mean_lag, slow_friction_1d
-from compare.references import foundation
+from compare.exact import foundation
 from scene import (
     Elastic,
     Fractional,

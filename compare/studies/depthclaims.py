@@ -8,7 +8,7 @@ from scene import Indent, Program
 from scene.scales import elastic_contact
 
 from ..finding import Finding
-from ..references.indentation import loading_force
+from ..exact.indentation import loading_force
 from ..verdict import DIMENSIONS
 from .pairclaims import pairs, rest_questions
 from .question import BOTH, DEPTH, Question, answered

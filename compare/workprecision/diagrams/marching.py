@@ -10,7 +10,7 @@ import numpy as np
 from bem3d import BEM
 from scene import Program, Scene, Stage
 
-from ...references import indentation
+from ...exact import indentation
 from .. import wording
 from ..contest import FORCE, FRICTION, ClosedForm, Contest, Finer, Judged, Known, Ladder, Quantity
 from ..diagram import Diagram

@@ -6,7 +6,7 @@ from mdr1d import MDR
 from scene import Program, Scene, Stage
 from scene.scales import elastic_contact
 
-from ...references import foundation, indentation
+from ...exact import foundation, indentation
 from .. import wording
 from ..contest import FORCE, FRICTION, ClosedForm, Contest, Finer, Judged, Known, Ladder
 from ..diagram import Diagram

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from . import style
-from .lettering import clear
+from compare.plots import style
+from compare.plots.lettering import clear
 
 NAME = "effect-topography"
 WAYS = ("smooth, 3D", "map, 3D", "line by π q C2D", "rows of the map")

@@ -6,8 +6,8 @@ from typing import Protocol
 
 from matplotlib.figure import Figure
 
-from ..outcome import Outcome
-from ..store import Task
+from compare.outcome import Outcome
+from compare.task import Task
 
 Rows = Sequence[Mapping[str, object]]
 

@@ -10,16 +10,16 @@ from math import nan, pi
 import numpy as np
 
 from bem3d import BEM
+from compare.outcome import Outcome
+from compare.task import SceneTask as Task
+from compare.task import Task as AnyTask
 from mdr1d import MDR
 from scene import Kelvin, Plane, Program, Scene, Slide, Sphere, Stage, StandardLinearSolid, Wave
 from scene.scales import elastic_contact
 
-from ..figures import effect_motions
-from ..outcome import Outcome
-from ..references import motions as exact
-from ..store import Task as AnyTask
-from ..study import Task
+from . import closed_forms as exact
 from .chapter import Chapter, Rows
+from .figures import motions as drawing
 from .track import NEAR, Track, harmonic
 
 NAME, TITLE = "motions", "Motions: start, steps of the speed, oscillation, oblique approach, reversal"
@@ -92,7 +92,7 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     every = {by: _answered(outcomes, by) for by in (WHOLE, HALF)}
     tracks, steady = every[WHOLE]
     rows = [*_curves(tracks, steady), *_means(tracks)]
-    drawing = effect_motions.figure(rows)
+    figure = drawing.figure(rows)
     text = TEXT.format(
         load=LOAD,
         stiffening=SOLID.glassy_modulus / SOLID.rubbery_modulus,
@@ -104,7 +104,7 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
         found="\n\n".join(_said(dimension, every) for dimension in SOLVERS) + _failures(outcomes),
     )
     tables = {"Against closed forms": _table(outcomes, every)}
-    return Chapter(text, tables, {effect_motions.NAME: drawing}, {effect_motions.NAME: rows})
+    return Chapter(text, tables, {drawing.NAME: figure}, {drawing.NAME: rows})
 
 
 def _solvers(by):

@@ -5,7 +5,7 @@ from math import inf, nan
 
 import numpy as np
 
-from ..outcome import Outcome
+from compare.outcome import Outcome
 
 NEAR = 0.05  # of the friction that is tended to
 

@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from math import nan
 
-from ..metrics import Estimate, estimate
-from ..statistics.jackknife import student
-from ..wording import plus_minus
+from compare.metrics import Estimate, estimate
+from compare.statistics.jackknife import student
+from compare.wording import plus_minus
 
 LEVEL = 0.95
 # Of the mean: bodies that differ by less do not scatter, and the mean stands alone.

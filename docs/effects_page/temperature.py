@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..figures import effect_temperature
-from ..outcome import Outcome
-from ..store import Task as AnyTask
-from ..study import Task
+from compare.outcome import Outcome
+from compare.task import SceneTask as Task
+from compare.task import Task as AnyTask
+
 from .chapter import Chapter, Rows
+from .figures import temperature as drawing
 from .warmcontacts import (
     CONDUCTIVITIES,
     CONTACTS,
@@ -72,8 +73,8 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     return Chapter(
         TEXT.format(**_numbers(found)),
         {HEADING: _experiment(found)},
-        {effect_temperature.NAME: effect_temperature.figure(rows)},
-        {effect_temperature.NAME: rows},
+        {drawing.NAME: drawing.figure(rows)},
+        {drawing.NAME: rows},
     )
 
 

@@ -10,16 +10,16 @@ import numpy as np
 from scipy.optimize import brentq
 
 from bem3d import BEM
+from compare.exact import layer as reference
+from compare.exact import mean_lag
+from compare.outcome import Outcome
+from compare.task import SceneTask as Task
+from compare.task import Task as AnyTask
 from mdr1d.estimates import layer_force
 from scene import Elastic, Indent, Layer, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
-from ..exact import mean_lag
-from ..figures import effect_layer
-from ..outcome import Outcome
-from ..references import layer as reference
-from ..store import Task as AnyTask
-from ..study import Task
 from .chapter import Chapter, Rows
+from .figures import layer as drawing
 from .means import MEANING, mean
 
 NAME, TITLE = "layer", "A layer of finite thickness"
@@ -44,7 +44,7 @@ F^(1/2) in place of F^(1/3). Below, F* has E*/4 in the place of G₀: the half-s
 is that of the first pair at its own to {same:.0e}.
 
 **Stiffness.** In three dimensions k is within {off:.1e} of an integral equation that knows no grid
-(`compare.references.layer`), on all layers and from {least:g} to {most:g} N. On the layer bonded at ν = 1/2 the
+(`compare.exact.layer`), on all layers and from {least:g} to {most:g} N. On the layer bonded at ν = 1/2 the
 exponent of k is {at_force:.2f} at F*, where it is {stiffer:.2f} times as stiff as the half-space at the same
 load; it passes 1/2 at {half:.2f} F*, is {last:.2f} at {last_over:.0f} F*, and tends to 2/3. With ν = 0.45 it
 rises above 1/2 as well, to {bump:.2f}, and comes back; with ν = 0.3 and on a frictionless base it goes to 1/2
@@ -125,8 +125,8 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     slid = [_friction(*asked, outcomes[task]) for asked, task in _slid().items()]
     rows = [*found, *_exponents(found), *slid]
     tables = {"Exponents of the stiffness": _table(rows), "Friction of the rough sphere": _means(outcomes)}
-    figures = {effect_layer.NAME: effect_layer.figure(rows)}
-    return Chapter(_said(outcomes, found, slid), tables, figures, {effect_layer.NAME: rows})
+    figures = {drawing.NAME: drawing.figure(rows)}
+    return Chapter(_said(outcomes, found, slid), tables, figures, {drawing.NAME: rows})
 
 
 def _pair(rubber, force, thickness=THICKNESS, sphere=SPHERE):

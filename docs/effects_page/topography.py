@@ -13,19 +13,19 @@ import numpy as np
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
+from compare.metrics import Estimate, estimate, ratio
+from compare.outcome import Outcome
+from compare.statistics.jackknife import student
+from compare.task import SceneTask as Task
+from compare.task import Task as AnyTask
+from compare.topography import Description, describe
+from compare.wording import plus_minus
 from mdr1d import MDR
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere, Topography
 from scene.scales import elastic_contact
 
-from ..figures import effect_topography
-from ..metrics import Estimate, estimate, ratio
-from ..outcome import Outcome
-from ..statistics.jackknife import student
-from ..store import Task as AnyTask
-from ..study import Task
-from ..topography import Description, describe
-from ..wording import plus_minus
 from .chapter import Chapter, Rows
+from .figures import topography as drawing
 from .means import LEVEL, half, written
 
 NAME, TITLE = "topography", "Measured topography"
@@ -127,8 +127,8 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     return Chapter(
         _text(described, found),
         {"Force at a depth, friction under a load": _table(found)},
-        {effect_topography.NAME: effect_topography.figure(drawn)},
-        {effect_topography.NAME: drawn},
+        {drawing.NAME: drawing.figure(drawn)},
+        {drawing.NAME: drawn},
     )
 
 

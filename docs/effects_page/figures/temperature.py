@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import style
-from .lettering import clear
+from compare.plots import style
+from compare.plots.lettering import clear
 
 NAME = "effect-temperature"
 SOLVER = {"1D": "MDR", "3D": "BEM"}

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from . import style
+from compare.plots import style
 
 NAME = "effect-costs"
 # Of a row: how far from its middle each dimensionality is drawn.

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from . import style
-from .lettering import clear
+from compare.plots import style
+from compare.plots.lettering import clear
 
 NAME = "effect-shear"
 WAYS = {"smooth, 1D": "MDR", "smooth, 3D": "BEM", "rough, 1D": "MDR", "rough, 3D": "BEM"}

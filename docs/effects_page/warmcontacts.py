@@ -9,13 +9,12 @@ from typing import Literal
 import numpy as np
 
 from bem3d import BEM
+from compare.outcome import Outcome, Row
+from compare.task import SceneTask as Task
+from compare.task import Task as AnyTask
 from mdr1d import MDR
 from scene import WLF, Coulomb, Fractional, Heating, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 from scene.temperature import UNIVERSAL
-
-from ..outcome import Outcome, Row
-from ..store import Task as AnyTask
-from ..study import Task
 
 SOLVERS: dict[str, MDR | BEM] = {"1D": MDR(points=1000), "3D": BEM(points=64)}
 GLASS, ROOM = 223.0, 296.0  # [K]: where the rubber turns to glass, and where its moduli are stated

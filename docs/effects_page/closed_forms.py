@@ -5,7 +5,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from .full_contact import complex_stiffness
+from compare.exact.full_contact import complex_stiffness
 
 
 def wave_friction(amplitude, wavelength, elastomer, program, times, begin):

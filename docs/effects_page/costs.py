@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from math import isfinite, nan
 
 from bem3d import BEM
+from compare.outcome import Outcome, Row
+from compare.task import Task
+from compare.workprecision.rung import Rung
+from compare.workprecision.wording import seconds
 from mdr1d import MDR
 from scene.costs import COSTS, two_digits
 from scene.plan import size
 
-from ..figures import effect_costs
-from ..outcome import Outcome, Row
-from ..store import Task
-from ..workprecision.rung import Rung
-from ..workprecision.wording import seconds
 from .asked import Effect, effects
 from .chapter import Chapter, Rows
+from .figures import costs as drawing
 
 NAME, TITLE = "costs", "What each effect costs"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
@@ -104,10 +104,10 @@ def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
         found=" ".join(_said(name, billed) for name, billed in found.items()),
     )
     data = [_sheet(name, each) for name, billed in found.items() for each in billed]
-    drawing = effect_costs.figure(data)
-    figures = {effect_costs.NAME: drawing} if drawing else {}
+    figure = drawing.figure(data)
+    figures = {drawing.NAME: figure} if figure else {}
     rows = [_line(*each) for each in zip(*found.values(), strict=True)]
-    return Chapter(text, {"Costs": rows}, figures, {effect_costs.NAME: data})
+    return Chapter(text, {"Costs": rows}, figures, {drawing.NAME: data})
 
 
 def _of(solver, outcomes):

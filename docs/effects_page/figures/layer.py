@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from . import style
-from .lettering import clear
+from compare.plots import style
+from compare.plots.lettering import clear
 
 NAME = "effect-layer"
 # Marker and line of each rubber.

@@ -5,8 +5,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MultipleLocator
 
-from . import style
-from .lettering import clear
+from compare.plots import style
+from compare.plots.lettering import clear
 
 NAME = "effect-motions"
 THIN = 0.45  # of the width of curves

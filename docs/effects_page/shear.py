@@ -11,17 +11,17 @@ from functools import cache
 import numpy as np
 
 from bem3d import BEM
+from compare.cases import shipped_cases
+from compare.exact import tangential
+from compare.metrics import estimate
+from compare.outcome import Outcome
+from compare.task import SceneTask as Task
+from compare.task import Task as AnyTask
 from mdr1d import MDR
 from scene import Coulomb, Indent, Kelvin, Scene, Shear, Sphere
 
-from ..cases import shipped_cases
-from ..figures import effect_shear
-from ..metrics import estimate
-from ..outcome import Outcome
-from ..references import tangential
-from ..store import Task as AnyTask
-from ..study import Task
 from .chapter import Chapter, Rows
+from .figures import shear as drawing
 from .means import half, mean
 
 NAME, TITLE = "shear", "Tangential loading and partial slip"
@@ -177,8 +177,8 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
             "Tangential force over μ F_N": _table(found),
             "Operator applications at half of 3/2 μ d": _costs(outcomes),
         },
-        {effect_shear.NAME: effect_shear.figure(drawn)},
-        {effect_shear.NAME: drawn},
+        {drawing.NAME: drawing.figure(drawn)},
+        {drawing.NAME: drawn},
     )
 
 
