@@ -16,7 +16,8 @@ from mdr1d import MDR
 from scene import Refused, Scene, SolveError, Solver
 
 from .cases import Case
-from .figures import marching, style
+from .figures import marching
+from .plots import style
 from .film import Film, started
 from .progress import Progress
 from .store import Store, write
@@ -132,7 +133,7 @@ def drawn(film: Film) -> Iterator[np.ndarray]:
 def _outcomes(tasks, store, workers, progress):
     if store is None:
         return {task: task.solve() for task in tasks}
-    from .sweep import sweep
+    from .runner import sweep
 
     return sweep(tasks, store, workers, progress).outcomes
 

@@ -20,9 +20,9 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from .figures import style
+from .plots import style
 from .figures.curves import unlisted
-from .figures.journals import journal as find_journal
+from .plots.journals import journal as find_journal
 from .store import finite, write
 
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba", "matplotlib", "pydantic")
@@ -55,8 +55,8 @@ def look(
 ) -> Iterator[None]:
     """All figures drawn inside are made for a journal, in a style of one's own.
 
-    journal : a name of figures.journals.JOURNALS
-    sheet, colours : as of figures.style.Look
+    journal : a name of plots.journals.JOURNALS
+    sheet, colours : as of plots.style.Look
     ValueError where there is no such journal, style, solver or colour.
     """
     with style.chosen(style.Look(find_journal(journal), sheet, colours or {})):

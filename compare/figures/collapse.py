@@ -7,8 +7,8 @@ from matplotlib.typing import HashableList
 from ..mastercurve import misfit_at, shifted
 from ..verdict import DIMENSIONS, Judgement, predicted_exponent
 from ..wording import explain
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "collapse"
 COLUMNS = {"solved": "as solved", "predicted": "by Eq. 23", "fitted": "best shifts"}

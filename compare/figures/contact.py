@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from scene.scales import elastic_contact
 
 from ..verdict import Judgement
-from . import materials, style
+from ..plots import materials, style
 
 NAME = "contact"
 

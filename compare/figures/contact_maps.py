@@ -10,8 +10,8 @@ from scene import Cylinder, Plane, Program
 
 from ..verdict import Judgement
 from ..views import Section, View, of_judgement
-from . import style, touching
-from .prefixes import prefixed
+from ..plots import style, touching
+from ..plots.prefixes import prefixed
 
 NAME = "contact-maps"
 MOST_PIXELS = 10_000  # of the maps of the surface: of a finer grid every second one, or third, is shown

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from .. import metrics
 from ..verdict import Judgement
-from . import style
+from ..plots import style
 
 NAME = "force-depth"
 

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 
 from .. import metrics
 from ..verdict import Judgement
-from . import style
+from ..plots import style
 from .force_depth import averaged
 from .friction_speed import LAW, law
-from .lettering import clear
+from ..plots.lettering import clear
 
 NAME = "friction-load"
 

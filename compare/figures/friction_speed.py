@@ -7,9 +7,9 @@ from mdr1d.equations import interpolation, plateau, similarity_variable
 
 from .. import metrics
 from ..verdict import Judgement
-from . import style
+from ..plots import style
 from .force_depth import averaged
-from .lettering import clear
+from ..plots.lettering import clear
 
 NAME = "friction-speed"
 LAW = (

@@ -8,8 +8,8 @@ from matplotlib.lines import Line2D
 from scene import Cylinder
 
 from ..film import Film
-from . import style, touching
-from .prefixes import prefixed
+from ..plots import style, touching
+from ..plots.prefixes import prefixed
 
 NAME = "marching"
 TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: profile and elements"}

@@ -13,7 +13,7 @@ from scene import Cone, Regime
 from scene.regime import SMALL_SLOPE
 
 from ..paper.contacts import Configuration
-from . import materials, style
+from ..plots import materials, style
 
 NAME = "paper-contacts"
 # Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].

@@ -10,8 +10,8 @@ from scene.regime import SMALL_SLOPE
 
 from ..paper.law import Law
 from ..wording import plus_minus
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "paper-law"
 # Marker, its size and line of the shapes, in the order in which they come: the first, small and dark, is drawn

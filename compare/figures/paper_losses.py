@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from ..paper.parameters import FORCES, SPEEDS
 from ..paper.predicted import EVERY, SHORTEST, STIFFNESS, WITH_SMOOTH
 from ..paper.shifts import Lossy
-from . import style
+from ..plots import style
 
 NAME = "paper-losses"
 SHOWN = (0, len(SPEEDS) // 2, len(SPEEDS) - 1)

@@ -15,8 +15,8 @@ from scene.regime import MUCH_LESS_HEIGHT
 
 from ..paper.campaign import SLOW, Collapse, Line, line
 from ..paper.parameters import STUDIES
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "paper-studies"
 # Of the Hurst exponent; without the yellow end, which is lost on white.

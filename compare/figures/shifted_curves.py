@@ -11,8 +11,8 @@ from ..paper.conditions import gathered
 from ..paper.predicted import STIFFNESS
 from ..paper.shifts import Shifted
 from ..wording import explain, explain_vertical, plus_minus
-from . import shades, style
-from .lettering import clear
+from ..plots import shades, style
+from ..plots.lettering import clear
 
 NAME = "shifted-curves"
 LOG10 = np.log(10)

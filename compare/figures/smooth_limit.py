@@ -9,8 +9,8 @@ from scene.scales import elastic_contact
 
 from .. import exact, metrics
 from ..verdict import DIMENSIONS, Judgement, smooth_speed
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "smooth-limit"
 

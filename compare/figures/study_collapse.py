@@ -11,8 +11,8 @@ from ..studies.points import friction, mean_of
 from ..studies.question import TOLERANCE
 from ..studies.series import ROUGH
 from ..verdict import DIMENSIONS
-from . import shades, style
-from .lettering import clear
+from ..plots import shades, style
+from ..plots.lettering import clear
 
 NAME = "study-collapse"
 # Of a rough body in one dimension and in three; the marker tells them apart where colour is speed.

@@ -10,8 +10,8 @@ from ..studies.judgement import JudgedSeries
 from ..studies.points import mean_of, mean_ratio, quotient
 from ..studies.series import REST, SMOOTH_REST, Series, Solved
 from ..verdict import DIMENSIONS
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "study-depth"
 # Neighbouring markers are drawn apart by this factor of the load or depth, either way.

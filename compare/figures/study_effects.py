@@ -8,7 +8,7 @@ from ..finding import Finding
 from ..studies.judgement import JudgedSeries
 from ..studies.question import BOTH
 from ..studies.tableau import DIMENSIONS, claims
-from . import style
+from ..plots import style
 
 NAME = "study-effects"
 SOLVER = {"1D": "MDR", "3D": "BEM", BOTH: "exact"}

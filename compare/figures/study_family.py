@@ -11,7 +11,7 @@ from ..studies.judgement import JudgedStudy
 from ..studies.points import mean_of, mean_ratio
 from ..studies.series import ROUGH
 from ..verdict import DIMENSIONS
-from . import shades, style
+from ..plots import shades, style
 
 NAME = "study-family"
 

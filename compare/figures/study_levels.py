@@ -13,7 +13,7 @@ from ..studies.judgement import JudgedSeries
 from ..studies.points import friction, quotient, ratio
 from ..studies.series import ROUGH, SMOOTH
 from ..verdict import DIMENSIONS
-from . import shades, style
+from ..plots import shades, style
 
 NAME = "study-levels"
 # Of what is prescribed: unit, and what the bar of shades is in.

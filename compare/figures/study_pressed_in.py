@@ -13,8 +13,8 @@ from ..studies.judgement import JudgedSeries
 from ..studies.points import mean_of, quotient
 from ..studies.series import ROUGH, SMOOTH
 from ..verdict import DIMENSIONS
-from . import shades, style
-from .lettering import clear
+from ..plots import shades, style
+from ..plots.lettering import clear
 
 NAME = "study-pressed-in"
 # Markers of neighbouring rates are drawn apart by this factor of the depth.

@@ -9,8 +9,8 @@ from ..studies.judgement import JudgedSeries
 from ..studies.question import TOLERANCE
 from ..studies.shiftclaims import inseparable
 from ..verdict import DIMENSIONS
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "study-shifts"
 # Neighbouring markers are drawn apart by this factor of the speed, either way.

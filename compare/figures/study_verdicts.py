@@ -10,7 +10,7 @@ from ..finding import Finding
 from ..studies.judgement import JudgedStudy
 from ..studies.question import BOTH
 from ..studies.tableau import DIMENSIONS, claims, columns, every, rows
-from . import style
+from ..plots import style
 
 NAME = "study-verdicts"
 SOLVER = {"1D": "MDR", "3D": "BEM", BOTH: "exact"}

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..topography import Description, mapped
-from . import style
-from .lettering import clear
+from ..plots import style
+from ..plots.lettering import clear
 
 NAME = "topography"
 

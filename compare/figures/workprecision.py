@@ -14,8 +14,8 @@ from matplotlib.ticker import LogLocator
 from ..workprecision.contest import Climbed, Judged, Quantity
 from ..workprecision.listing import orders, rungs
 from ..workprecision.wording import digits, share
-from . import style
-from .lettering import Letter, letter, write
+from ..plots import style
+from ..plots.lettering import Letter, letter, write
 
 NAME = "workprecision"
 # Columns of panels, and their size [inch].

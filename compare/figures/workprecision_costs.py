@@ -13,7 +13,7 @@ from ..workprecision.costladders import AXES
 from ..workprecision.costs import Costed
 from ..workprecision.forecast import GIBIBYTE, LARGEST, MEMORIES, USELESS, largest, name_of
 from ..workprecision.laws import Law, NoLaw
-from . import style
+from ..plots import style
 
 NAME = "workprecision-costs"
 # Forecasts of neighbours are drawn apart by this factor.

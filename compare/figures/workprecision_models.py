@@ -16,8 +16,8 @@ from ..workprecision.ensemble import JudgedEnsemble, Standing
 from ..workprecision.listing import rungs
 from ..workprecision.records import ways
 from ..workprecision.statistics import Way, envelope
-from . import style
-from .lettering import Letter, letter, write
+from ..plots import style
+from ..plots.lettering import Letter, letter, write
 
 NAME = "workprecision-models"
 # Size of a panel [inch], and of what surrounds them all.

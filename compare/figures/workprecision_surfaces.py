@@ -15,8 +15,8 @@ from ..workprecision.records import ways
 from ..workprecision.statistics import Reached, Way, cheapest
 from ..workprecision.surfaces import plain
 from ..workprecision.wording import seconds, share
-from . import style
-from .lettering import Letter, letter, write
+from ..plots import style
+from ..plots.lettering import Letter, letter, write
 from .workprecision_models import way_look
 
 NAME = "workprecision-surfaces"

@@ -1,0 +1,48 @@
+"""Friction of a sweep against speed, or against load at one speed, in one and in three dimensions with error bars."""
+
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..page import Plot, Tables
+from . import style
+
+
+def plot(means: DataFrame) -> Plot:
+    """The plot of the means of a sweep."""
+    return Plot(
+        "friction",
+        figure,
+        {"friction": means},
+        "Coefficient of friction in one and in three dimensions. Bars are intervals of 95 %: scatter of the draws, "
+        "widened by the change on halving the grid.",
+        "Friction of both models as two curves with error bars.",
+    )
+
+
+def figure(tables: Tables) -> Figure:
+    """One panel: friction against speed, or against load or depth where there is one speed."""
+    means = tables["friction"]
+    prescribed = "load" if "load" in means else "depth"
+    across = "speed" if means["speed"].nunique() > 1 else prescribed
+    other = prescribed if across == "speed" else "speed"
+    drawing = style.canvas("single", 2.6)
+    axes = drawing.subplots()
+    for solver, of_solver in means[means["speed"] > 0].groupby("solver", sort=False):
+        for index, (value, curve) in enumerate(of_solver.groupby(other)):
+            label = style.LABEL[solver] if index == 0 and of_solver[other].nunique() == 1 else None
+            label = label or f"{style.LABEL[solver]}, {value:.3g} {'N' if other == 'load' else 'm' if other == 'depth' else 'm/s'}"
+            ends = [curve["friction"] - curve["friction_low"], curve["friction_high"] - curve["friction"]]
+            axes.errorbar(
+                curve[across],
+                curve["friction"],
+                yerr=[each.clip(lower=0) for each in ends],
+                color=style.colour(solver),
+                marker=style.MARKER[solver],
+                linestyle=style.SERIES_LINES[index % len(style.SERIES_LINES)],
+                capsize=2,
+                label=label,
+            )
+    units = {"speed": "speed [m/s]", "load": "normal force [N]", "depth": "depth [m]"}
+    axes.set(xscale="log", yscale="log", xlabel=units[across], ylabel="coefficient of friction [1]")
+    axes.legend()
+    return drawing
