@@ -1,24 +1,38 @@
 """Study: one declaration a command, and the one path from its tasks to its page."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+import errno
+import os
+import tempfile
+from base64 import b64encode
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from html import escape
+from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar
 
 import xarray
+from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from scene import SolveError
+from scene.reading import InvalidInput
 
-from . import finding, rectangle
-from .finding import VERDICTS, Claim, Finding
+from . import finding, manifest, pages, rectangle, runner
+from .finding import FAILS, Claim, Finding
 from .outcome import Outcome
 from .page import Block, Findings, Page, Plot
 from .rectangle import Rectangle
+from .runner import Progress, SweepResult
 from .statistics.jackknife import judge
+from .suggest import known
+from .store import TRACE, Store, write
 from .task import Batch, Task
 
-SOLVED = "solved"
+SOLVED, RESULTS = "solved", "results.nc"
+SHOWN = 3  # reasons that are said of tasks that broke
+SCREEN = 110  # dots per inch of what a notebook shows
 
 
 class Study:
@@ -33,11 +47,11 @@ class Study:
     inputs : what was asked, as JSON can hold it
     """
 
-    command: ClassVar[str]
+    command: ClassVar[str] = "study"
     title: str = ""
     about: str = ""
     place: str = ""
-    inputs: Mapping[str, Any] = {}
+    inputs: Mapping[str, Any] = {}  # noqa: RUF012
 
     def rectangles(self) -> Mapping[str, Rectangle]:
         """Rectangles of contacts by name. Raises InvalidInput, Refused."""
@@ -79,16 +93,21 @@ class Study:
         return Page(self.title, self.answer(findings), blocks)
 
 
+
+class Broken(SolveError):
+    """So many tasks broke that nothing can be judged."""
+
+
 @dataclass(frozen=True, repr=False)
 class Report:
     """What a study came to. Printed, it is what the command prints; in a notebook, tables and figures.
 
     study : the question
     answers : everything that was solved, an xarray.DataTree with a Dataset for each rectangle and solver
-    claims : the findings one by one
+    claims : findings one by one; `findings` has them as a DataFrame
     page : the page, with its plots
+    swept : number of tasks that were solved and reused, and what broke
     path : file of the page; None if none was written
-    swept : how much was solved and reused, and what broke
     """
 
     study: Study
@@ -104,18 +123,205 @@ class Report:
         return finding.table(self.claims)
 
     @property
-    def figures(self) -> Mapping[str, Any]:
+    def figures(self) -> "Figures":
         """Figures by name, each drawn when it is taken out; a notebook shows them."""
         return Figures(tuple(self.page.every(Plot)))
 
-    def __str__(self) -> str:
-        from .pages import terminal
+    @property
+    def failed(self) -> bool:
+        """Whether a task broke, or a law or a stored value does not hold."""
+        return bool(self.swept.faults) or any(each.stated == FAILS for each in self.claims)
 
-        return terminal.text(self.page, self.path)
+    def __str__(self) -> str:
+        return pages.terminal.text(self.page, self.path)
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        from .pages import notebook
+        return pages.notebook.fragment(self.page, self.path)
 
-        return notebook.fragment(self.page, self.path)
+
+@dataclass(frozen=True, repr=False)
+class Figures(Mapping[str, Figure]):
+    """Figures by name, each drawn when it is taken out."""
+
+    plots: tuple[Plot, ...]
+
+    def __getitem__(self, name: str) -> Figure:
+        from .plots import style
+
+        with style.applied():
+            figure = next(plot for plot in self.plots if plot.name == name).figure()
+        figure._repr_png_ = lambda: _png(figure)
+        return figure
+
+    def __iter__(self) -> Iterator[str]:
+        return (plot.name for plot in self.plots)
+
+    def __len__(self) -> int:
+        return len(self.plots)
+
+    def __repr__(self) -> str:
+        return f"Figures({', '.join(self)})"
+
+    def _repr_html_(self) -> str:
+        shown = ((name, b64encode(_png(self[name])).decode()) for name in self)
+        return "".join(f'<p><img alt="{escape(name)}" src="data:image/png;base64,{image}"></p>' for name, image in shown)
+
+
+def _png(figure):
+    from .plots import style
+
+    image = BytesIO()
+    with style.applied():
+        figure.savefig(image, format="png", dpi=SCREEN)
+    return image.getvalue()
+
+
+@dataclass(frozen=True)
+class Watch:
+    """Whom a run tells how far it is.
+
+    solving : makes what is told while tasks are solved
+    writing : makes what is told of every figure while the page is written, from their number
+    """
+
+    solving: Callable[[], AbstractContextManager[Progress | None]] = nullcontext
+    writing: Callable[[int], AbstractContextManager[Callable[[str], Any]]] = lambda count: nullcontext(lambda name: None)
+
+
+def run(
+    study: Study,
+    output: str | Path,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    format: str = "html",
+    figures: str = "png",
+    report: bool = True,
+    watch: Watch | None = None,
+) -> Report:
+    """Do a study from its tasks to its page; what the folder has is not solved again.
+
+    output : folder of the page and of what has been solved
+    workers : processes; as many as processors if absent
+    scheduler : address of a scheduler of dask.distributed, whose workers solve then
+    format : of the page, "html", "markdown" or "latex"
+    figures : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
+    report : whether the page and its figures are written; findings and results always are
+    watch : told how far it is
+
+    Raises Unwritable, before anything is solved, where the folder cannot be written; Broken where so many tasks broke
+    that nothing can be judged.
+    """
+    output, watch = Path(output), watch or Watch()
+    forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figures.split(",") if form.strip())]))
+    known("format", format, pages.FORMATS)
+    for form in forms:
+        known("figures", form, pages.FORMS)
+    batches = study.batches()
+    below = output / study.place
+    _make_folders(output, [SOLVED] if any(each.tasks for each in batches) else [], study.place)
+    swept = _solve(batches, output, workers, scheduler, watch)
+    try:
+        answers = study.answers(swept.outcomes)
+        findings = study.findings(answers)
+        page = study.page(answers, findings)
+    except (SolveError, ValueError, ArithmeticError, LookupError) as error:
+        # What is made of NaN alone raises nearly anything, and would hide what matters.
+        if not swept.faults:
+            raise
+        whole = len(swept.faults) == len(swept.outcomes)
+        what = "nothing was solved" if whole else f"what was solved cannot be judged without what broke: {error}"
+        raise Broken("; ".join([what, *faults(swept, output)])) from error
+    manifest.remove(below)
+    store_results(below / RESULTS, answers)
+    path = None
+    if report:
+        with watch.writing(len(list(page.every(Plot)))) as told:
+            path = pages.write(page, findings, below, format, forms, told)
+    else:
+        pages.write_tables(page, findings, below)
+    manifest.stamp(below, study, page, swept, os.path.relpath(output / SOLVED, below))
+    return Report(study, answers, findings, page, swept, path)
+
+
+def faults(swept: SweepResult, output: Path) -> list[str]:
+    """Number of tasks that broke, the first reasons, and where the tracebacks are; empty where none broke."""
+    if not swept.faults:
+        return []
+    lines = [f"{len(swept.faults)} of {len(swept.outcomes)} tasks broke, which is a fault of the program"]
+    told = {reason: task.label for task, reason in reversed(list(swept.faults.items()))}
+    lines += [f"{label}: {reason}" for reason, label in reversed(told.items())][:SHOWN]
+    return [*lines, f"tracebacks: {(output / SOLVED).resolve()}/*{TRACE}"]
+
+
+def store_results(path: Path, answers: xarray.DataTree) -> None:
+    """Write everything that was solved as one netCDF-4 file, whole or not at all. Raises OSError."""
+    content = bytes(answers.to_netcdf(engine="h5netcdf"))
+    write(path, lambda file: file.write(content))
+
+
+def load(folder: str | Path) -> xarray.DataTree:
+    """Everything that a command solved, as it left it in a folder: a Dataset for each rectangle and solver.
+
+    Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of several
+    studies has each below its name.
+
+    Raises InvalidInput where there are no results or they are damaged, OSError for what cannot be read.
+    """
+    folder = Path(folder)
+    paths = [folder] if folder.is_file() else sorted(folder.rglob(RESULTS))
+    if not folder.exists():
+        raise InvalidInput(f"{folder}: no such file or folder")
+    if not paths:
+        raise InvalidInput(f"{folder}: no command has left results here")
+    parts: dict[str, xarray.Dataset] = {}
+    for path in paths:
+        place = "" if folder.is_file() else path.parent.relative_to(folder).as_posix().removeprefix(".")
+        try:
+            with xarray.open_datatree(BytesIO(path.read_bytes()), engine="h5netcdf") as tree:
+                for node in tree.subtree:
+                    parts[f"/{place}{node.path}".rstrip("/") or "/"] = node.to_dataset(inherit=False).load()
+        except (ValueError, KeyError, TypeError, RuntimeError) as error:
+            raise InvalidInput(f"{path}: is no file of results, or is damaged: {error}") from error
+    return xarray.DataTree.from_dict(parts)
+
+
+def _solve(batches, output, workers, scheduler, watch) -> SweepResult:
+    """Solve what the folder does not have. What is timed is solved here and alone, whatever the scheduler."""
+    swept = SweepResult({}, 0, 0, 0.0)
+    for batch in batches:
+        if not batch.tasks:
+            continue
+        store = Store(output / SOLVED)
+        with watch.solving() as progress:
+            if batch.timed:
+                found = runner.sweep(batch.tasks, store, 1, progress, tasks_each=1)
+            else:
+                found = runner.sweep(batch.tasks, store, workers, progress, scheduler=scheduler)
+        swept = swept.joined(found)
+    return swept
+
+
+class Unwritable(OSError):
+    """A folder or a file cannot be written into; said before anything is solved."""
+
+
+def _make_folders(folder, below, place):
+    """Make every folder that is written into. Raises Unwritable."""
+    try:
+        _try_folders(folder, below, place)
+    except OSError as error:
+        raise Unwritable(error.errno, error.strerror, error.filename) from error
+
+
+def _try_folders(folder, below, place):
+    for path in (folder, *(folder / name for name in (*below, place) if name)):
+        if path.exists() and not path.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    for path in (folder / place / name for name in (*pages.FILES, RESULTS, manifest.NAME)):
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))

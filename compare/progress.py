@@ -99,10 +99,11 @@ class _Told:
 
 
 class Lines(_Told):
-    """Progress as a line every few seconds."""
+    """Progress as a line every few seconds. pause : seconds between lines; 0 for a line a task"""
 
-    def __init__(self, console: Console, clock: Callable[[], float] = time.monotonic):
+    def __init__(self, console: Console, clock: Callable[[], float] = time.monotonic, pause: float = PAUSE):
         super().__init__(console, clock)
+        self.pause = pause
 
     def __enter__(self):
         return self
@@ -120,7 +121,7 @@ class Lines(_Told):
     def finished(self, task, outcome):
         super().finished(task, outcome)
         now = self.clock()
-        if now - self.last < PAUSE:
+        if now - self.last < self.pause:
             return
         self.last = now
         left = duration(self.counts.left.seconds())

@@ -6,6 +6,9 @@ from pandas import DataFrame
 from ..page import Plot, Tables
 from . import style
 
+UNITS = {"speed": "m/s", "load": "N", "depth": "m"}
+WORDS = {"speed": "speed", "load": "normal force", "depth": "depth"}
+
 
 def plot(means: DataFrame) -> Plot:
     """The plot of the means of a sweep."""
@@ -29,20 +32,20 @@ def figure(tables: Tables) -> Figure:
     axes = drawing.subplots()
     for solver, of_solver in means[means["speed"] > 0].groupby("solver", sort=False):
         for index, (value, curve) in enumerate(of_solver.groupby(other)):
-            label = style.LABEL[solver] if index == 0 and of_solver[other].nunique() == 1 else None
-            label = label or f"{style.LABEL[solver]}, {value:.3g} {'N' if other == 'load' else 'm' if other == 'depth' else 'm/s'}"
+            label = style.LABEL[solver]
+            if of_solver[other].nunique() > 1:
+                label += f", {value:.3g} {UNITS[other]}"
             ends = [curve["friction"] - curve["friction_low"], curve["friction_high"] - curve["friction"]]
             axes.errorbar(
                 curve[across],
                 curve["friction"],
                 yerr=[each.clip(lower=0) for each in ends],
-                color=style.colour(solver),
+                color=style.COLOUR[solver],
                 marker=style.MARKER[solver],
                 linestyle=style.SERIES_LINES[index % len(style.SERIES_LINES)],
                 capsize=2,
                 label=label,
             )
-    units = {"speed": "speed [m/s]", "load": "normal force [N]", "depth": "depth [m]"}
-    axes.set(xscale="log", yscale="log", xlabel=units[across], ylabel="coefficient of friction [1]")
+    axes.set(xscale="log", yscale="log", xlabel=f"{WORDS[across]} [{UNITS[across]}]", ylabel="coefficient of friction [1]")
     axes.legend()
     return drawing

@@ -1,0 +1,321 @@
+"""What every command does, as functions of the same names, arguments and defaults: `crosscheck X` is `compare.X`.
+
+A function that solves returns a `pipeline.Report` and prints nothing: printed, the report is what the command
+prints; in a notebook it shows tables, and its `figures`. Interrupted or killed, the same call resumes. As worker
+processes are started, a script calls these under `if __name__ == "__main__":`.
+
+Options of all of them:
+
+output : folder of the page and of what has been solved
+workers : processes; as many as processors if absent
+scheduler : address of a scheduler of dask.distributed, whose workers solve then
+format : of the page, "html", "markdown" or "latex"
+figures : forms of the figures, separated by commas: "png", or "png,pdf,svg"
+report : whether the page and its figures are written; findings and results always are
+progress : whether the terminal says how far it is
+
+Each raises InvalidInput or Refused before anything is solved where what is asked for cannot be, and OSError where
+the folder cannot be written.
+"""
+
+# Nothing is imported before a command needs it: `crosscheck --help` answers at once.
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+    from scene import Scene
+
+    from .cases import Case
+    from .inputs import Asked
+    from .pipeline import Report, Study
+    from .planning import Plans
+    from .quantity import Quantity
+    from .ready import Listing
+
+
+class Options(TypedDict, total=False):
+    """Options of every command that solves, see the module."""
+
+    workers: int | None
+    scheduler: str | None
+    format: str
+    figures: str
+    report: bool
+    progress: bool | str
+
+
+def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Report:
+    """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
+
+    study : an object of a class derived from `compare.Study`
+    """
+    from . import pipeline
+    from .console import watch
+
+    chosen: dict[str, Any] = dict(options)
+    progress = chosen.pop("progress", False)
+    told = watch(lines=progress == "lines") if progress else None
+    return pipeline.run(study, output, watch=told, **chosen)
+
+
+def run(
+    scene: Asked | Mapping[str, Asked] | None = None,
+    output: str | Path = "crosscheck-report",
+    **options: Unpack[Options],
+) -> Report:
+    """Solve a scene in one and in three dimensions, compare, and write a report.
+
+    scene : a Scene or a Case, the path of one, the name of a ready one, or several by name; the paper's sphere and
+        cone if absent
+    """
+    from .studies.run import Run
+
+    return solve(Run.of(scene), output, **options)
+
+
+def study(
+    name: str | Path | None = None,
+    size: str = "quick",
+    output: str | Path = "crosscheck-study",
+    **options: Unpack[Options],
+) -> Report | Listing:
+    """Ask the claims of the paper of many contacts in one and in three dimensions, and write a page.
+
+    name : of a study, or the path of a file with one of your own; absent, the studies are listed
+    size : "quick" (minutes), "standard" (up to an hour) or "full" (up to a day)
+    """
+    from .studies.claimstudy import ClaimStudy
+
+    if name is None:
+        return ClaimStudy.listing()
+    return solve(ClaimStudy.of(name, size), output, **options)
+
+
+def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
+    """Simulate the paper again in one dimension: its figures, its parameter studies, its claims.
+
+    size : "quick" (20 rough profiles averaged), "standard" (50) or "full" (200, as published)
+    """
+    from .studies.paper import Paper
+
+    return solve(Paper.of(size), output, **options)
+
+
+def workprecision(
+    name: str | None = None,
+    size: str = "quick",
+    output: str | Path = "crosscheck-workprecision",
+    **options: Unpack[Options],
+) -> Report | Listing:
+    """Measure what accuracy costs in time, in one and in three dimensions, and write a page.
+
+    name : of a diagram, or "all"; absent, the diagrams are listed. What is timed is solved on this machine, alone
+    size : "quick" (a minute a diagram), "standard" or "full" (up to ten)
+    """
+    from .studies.workprecision import WorkPrecision
+
+    if name is None:
+        return WorkPrecision.listing()
+    return solve(WorkPrecision.of([name], size), output, **options)
+
+
+def stability(
+    size: str = "quick", output: str | Path = "crosscheck-stability", **options: Unpack[Options]
+) -> Report:
+    """Solve the named hard cases, and say whether each keeps its law; status 1 if any does not.
+
+    size : "quick" (half a minute), "standard" or "full" (some minutes)
+    """
+    from .studies.stability import Stability
+
+    return solve(Stability.of(size), output, **options)
+
+
+def regress(
+    baseline: str | Path | None = None,
+    update: bool = False,
+    quantities: Sequence[Quantity] | None = None,
+    output: str | Path = "crosscheck-regress",
+    **options: Unpack[Options],
+) -> Report:
+    """Say whether the accuracy of one dimension has moved from what is stored; status 1 if it has.
+
+    baseline : file of stored quantities; that of the package if absent
+    update : whether what has moved is stored
+    quantities : that are measured; those of the package if absent
+    """
+    from .studies.regress import Regress
+
+    asked = Regress.of(baseline, quantities, update)
+    report = solve(asked, output, **options)
+    if update:
+        asked.store(report.claims)
+    return report
+
+
+def mastercurve(table: str | Path, output: str | Path = "mastercurve", **options: Unpack[Options]) -> Report:
+    """Shift measured curves of friction against load onto one, and say whether that works.
+
+    table : CSV of friction mu, normal force F_N [N] and speed v [m/s]
+    """
+    from .studies.mastercurve import Mastercurve
+
+    return solve(Mastercurve.of(table), output, **options)
+
+
+def topography(
+    file: str | Path,
+    pixel: Sequence[float] | None = None,
+    unit: str | None = None,
+    level: str | None = None,
+    repeat: str = "mirror",
+    peaks: str = "up",
+    output: str | Path = "topography",
+    **options: Unpack[Options],
+) -> Report:
+    """Describe a measured map of heights: size, slopes, spectra, and the self-affine law in them.
+
+    file : .npy, .npz, .csv, .txt, or as SurfaceTopography reads it
+    pixel : side of a pixel [m], or sides along x and y, if the file has none
+    unit : of its heights, "m", "mm", "um" or "nm", if the file has none
+    level : taken off first, "mean", "tilt" or "curvature"; if absent tilt, and mean of what is periodic
+    repeat : how the map goes on, "mirror" or "periodic"
+    peaks : "up" if heights grow towards the elastomer, else "down"
+    """
+    from .studies.topography import Map
+
+    return solve(Map.of(file, pixel=pixel, unit=unit, level=level, repeat=repeat, peaks=peaks), output, **options)
+
+
+def sweep(
+    scene: Asked,
+    speed: Sequence[float],
+    load: Sequence[float] | None = None,
+    depth: Sequence[float] | None = None,
+    draws: int = 8,
+    output: str | Path = "crosscheck-sweep",
+    **options: Unpack[Options],
+) -> xarray.Dataset:
+    """Solve a scene at every speed and every load or depth in both dimensionalities.
+
+    Returns a Dataset with the dimensions solver, grid, speed, load or depth, and draw: every single draw with its
+    `status` and `reason`, and the means over draws on the fine grid, `friction`, `force` and `reached`, each with
+    `_low` and `_high`, the interval of 95 % with the scatter of draws and the change on halving the grid.
+
+    speed : [m/s]; 0 is rest
+    load, depth : [N], [m]; those of the scene if both are absent
+    draws : rough surfaces, and as many profiles
+    """
+    from .studies.sweep import Sweep
+
+    asked = Sweep.of(scene, speed, load, depth, draws)
+    return asked.dataset(solve(asked, output, **options).answers)
+
+
+def friction_plot(dataset: xarray.Dataset) -> Figure:
+    """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
+    from .studies.sweep import figure_of
+
+    return figure_of(dataset)
+
+
+def plan(scene: Asked) -> Plans:
+    """Say what would be simulated of a scene, what that costs, and what is left out; status 2 if no solver can.
+
+    scene : as of run, with or without settings of the solvers
+    """
+    from .planning import plans
+
+    return plans(scene)
+
+
+def load(folder: str | Path) -> xarray.DataTree:
+    """Everything that a command solved, with each single draw: a Dataset for each rectangle and solver.
+
+    folder : that a command left, or one file of results
+    """
+    from . import pipeline
+
+    return pipeline.load(folder)
+
+
+def ready() -> Listing:
+    """Scenes and studies to begin with, which come with the package, by name: the command `list`."""
+    from .ready import ready
+
+    return ready()
+
+
+def new(name: str, file: str | Path | None = None) -> Path:
+    """Write a ready scene or study into a file, to be changed; never over a file that is there.
+
+    name : of a ready scene or study
+    file : where to; NAME.toml if absent
+    """
+    from .ready import write
+
+    return write(name, file or f"{name}.toml")
+
+
+def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, Any]:
+    """Write the JSON schema of scenes or of studies, for editors that complete and check TOML.
+
+    kind : "scene" or "study"
+    output : file; none is written if absent
+    """
+    from .schema import schema
+
+    return schema(kind, output)
+
+
+def figures(
+    folder: str | Path, journal: str = "default", style: Any = None, output: str | Path | None = None
+) -> list[Path]:
+    """Draw every figure of a folder again, for a journal or in a style, from its tables; nothing is solved.
+
+    folder : that a command left
+    journal : whose columns and least sizes; none in particular if "default"
+    style : a style of matplotlib of your own: a .mplstyle file, a name, or settings
+    output : where to; `figures` in the folder if absent
+    """
+    from .redraw import redraw
+
+    return redraw(folder, journal, style, output)
+
+
+def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
+    """Write the tables of results into files: CSV with units, or LaTeX for a paper.
+
+    folder : that a command left, or a file of results
+    to : "csv", every digit, or "latex", rounded, for booktabs
+    output : where to; `tables` in the folder if absent
+    """
+    from .export import export
+
+    return export(folder, to, output)
+
+
+def animate(
+    scene: Asked,
+    output: str | Path = "animation.gif",
+    frames: int | None = None,
+    seconds: float | None = None,
+    folder: str | Path = "crosscheck-animation",
+    workers: int | None = None,
+    progress: bool = False,
+) -> Path:
+    """Draw a scene as it moves in time, in one and in three dimensions side by side.
+
+    output : a .gif, or an .mp4 where ffmpeg is there
+    frames, seconds : how many pictures, and how long they last
+    folder : of what has been solved
+    """
+    from .animation import animate
+
+    return animate(scene, output, frames, seconds, folder, workers, progress)

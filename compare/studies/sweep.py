@@ -1,0 +1,188 @@
+"""A rectangle of a scene of one's own in both dimensionalities: `compare.sweep`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from scene import Indent, Scene, Slide
+from scene.motion import UNITS
+from scene.reading import InvalidInput
+
+from ..cases import Case
+from ..finding import Claim, Finding
+from ..inputs import Asked, case_of
+from ..page import Block, Plot, Table
+from ..pipeline import Study
+from ..plots import sweep as plots
+from ..rectangle import COARSE, FINE, Rectangle, on_two_grids
+from ..statistics.jackknife import Estimated, judge, mean, mean_ratio
+from ..vocabulary import attributes
+
+# Means over draws, by the names of a sweep: of a variable, or of one over another.
+MEANS = {
+    "friction": ("friction_force", "normal_force"),
+    "force": ("normal_force", None),
+    "reached": ("depth_reached", None),
+}
+
+
+@dataclass(frozen=True)
+class Sweep(Study):
+    """Contacts of one scene at every speed and every load or depth.
+
+    case : the scene with the settings of both solvers; its motion says whether a load or a depth is prescribed
+    speeds, values : [m/s]; [N] or [m]
+    draws : rough surfaces, and as many profiles
+    """
+
+    case: Case
+    speeds: tuple[float, ...]
+    values: tuple[float, ...]
+    draws: int
+
+    command, title = "sweep", "A sweep in one and in three dimensions"
+
+    @classmethod
+    def of(
+        cls,
+        scene: Asked,
+        speed: Sequence[float],
+        load: Sequence[float] | None = None,
+        depth: Sequence[float] | None = None,
+        draws: int = 8,
+    ) -> "Sweep":
+        """The sweep of a scene, a case, a file or a ready scene. Raises InvalidInput, Refused."""
+        case = case_of(scene)
+        if load is not None and depth is not None:
+            raise InvalidInput("load, depth: both given, give one of them")
+        name, values = ("load", load) if depth is None else ("depth", depth)
+        if values is None:
+            name, values = case.motion.pressed_by, [case.motion.greatest]
+        speeds = _numbers("speed", speed, least=0.0)
+        prescribed = _numbers(name, values)
+        if isinstance(draws, bool) or not isinstance(draws, int) or not 1 <= draws <= 10_000:
+            raise InvalidInput(f"draws = {draws!r}: a whole number from 1 to 10000")
+        pressed: dict[str, Any] = {name: prescribed[0]}
+        moving = max(speeds)
+        motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)
+        asked = cls(replace(case, motion=motion), speeds, prescribed, draws)
+        asked.rectangles()["contacts"].refuse()
+        return asked
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """What was asked, as JSON can hold it."""
+        return {"speed": self.speeds, self.case.motion.pressed_by: self.values, "draws": self.draws}
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """One rectangle, both solvers on two grids each."""
+        scene: Scene = self.case.scene
+        return {
+            "contacts": Rectangle(
+                scene=scene,
+                speeds=self.speeds,
+                values=self.values,
+                grids=on_two_grids(self.case.mdr, self.case.bem),
+                draws={self.case.mdr.name: self.draws, self.case.bem.name: self.draws},
+            )
+        }
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Friction, or force, of 1D over 3D at every contact, reported without a claim."""
+        prescribed = self.case.motion.pressed_by
+        name = "friction" if max(self.speeds) > 0 else "force" if prescribed == "depth" else "reached"
+        above, below = MEANS[name]
+        found = []
+        for i, speed in enumerate(self.speeds):
+            for j, value in enumerate(self.values):
+
+                def ratio(sample, i=i, j=j):
+                    one, three = (mean(sample[f"contacts/{solver}"], above, below) for solver in ("MDR", "BEM"))
+                    return float(one[i, j] / three[i, j])
+
+                claim = Claim(
+                    f"sweep.{name}",
+                    f"The {name.replace('reached', 'depth')} in 1D over that in 3D",
+                    meaning="Ratio of the means over draws.",
+                    curves=("contacts",),
+                    measure=ratio,
+                )
+                found.append(judge(claim, answers, f"{speed:g} m/s, {value:g} {UNITS[prescribed]}"))
+        return found
+
+    def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
+        """Everything solved as one Dataset with the dimension solver, and means with intervals of 95 %."""
+        parts = [answers[f"contacts/{solver}"].to_dataset(inherit=False) for solver in ("MDR", "BEM")]
+        # Points of a grid differ between the solvers.
+        parts = [part.reset_coords("points") for part in parts]
+        joined = xarray.concat(
+            parts, xarray.Variable("solver", ["MDR", "BEM"], attributes("solver")), data_vars="all", join="outer"
+        )
+        joined.attrs = {"prescribed": self.case.motion.pressed_by}
+        for name, (above, below) in MEANS.items():
+            value, low, high = _interval(joined, above, below)
+            for label, found in ((name, value), (f"{name}_low", low), (f"{name}_high", high)):
+                joined[label] = found.assign_attrs(attributes(label))
+        return joined
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        """Friction against speed or load, both models with error bars."""
+        return [plots.plot(means(self.dataset(answers)))] if max(self.speeds) > 0 else []
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """Figure, findings, means."""
+        return [
+            *super().blocks(answers, findings, plots),
+            Table("means", means(self.dataset(answers)), "Means over draws with intervals of 95 %."),
+        ]
+
+
+def means(dataset: xarray.Dataset) -> DataFrame:
+    """Means of a sweep with their intervals of 95 %: a row for each solver, speed, and load or depth."""
+    names = [f"{name}{end}" for name in MEANS for end in ("", "_low", "_high")]
+    return dataset[names].to_dataframe().reset_index()
+
+
+def figure_of(dataset: xarray.Dataset) -> Figure:
+    """Friction of a sweep against speed, or against load if there is one speed: a matplotlib Figure."""
+    return plots.plot(means(dataset)).figure()
+
+
+def _interval(dataset, above, below):
+    """Mean over draws on the fine grid, and both ends with scatter and the change on halving."""
+    values = []
+    for grid in (FINE, COARSE):
+        at = dataset.sel(grid=grid)
+        over = at[above]
+        under = xarray.ones_like(over) if below is None else at[below]
+        if "draw" not in over.dims:
+            value = (over / under).transpose("solver", ...)
+            values.append((value, Estimated.exact(value.values)))
+            continue
+        order = [name for name in over.dims if name != "draw"]
+        found = mean_ratio(over.transpose(*order, "draw").values, under.transpose(*order, "draw").values)
+        values.append((over.isel(draw=0, drop=True).transpose(*order).copy(data=found.value), found))
+    (value, found), (coarse, _) = values
+    low, high = found.interval()
+    grid = np.abs(value.values - coarse.values)
+    return value, value.copy(data=low - grid), value.copy(data=high + grid)
+
+
+def _numbers(name, values, least=None):
+    """Distinct finite numbers as a tuple. Raises InvalidInput."""
+    given = [values] if isinstance(values, int | float) else list(values)
+    allowed = "finite numbers of zero or more" if least == 0 else "finite numbers above zero"
+    for value in given:
+        fits = isinstance(value, int | float | np.number) and np.isfinite(value)
+        if not fits or value < 0 or (least is None and value == 0):
+            raise InvalidInput(f"{name} = {value!r}: {allowed}")
+    if not given or len(set(given)) < len(given):
+        raise InvalidInput(f"{name} = {given}: at least one, and each once")
+    return tuple(float(value) for value in sorted(given))
