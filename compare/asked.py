@@ -15,7 +15,7 @@ from scene import Scene, SolveError
 from scene.reading import InvalidInput, parsed, read, text_of
 
 from .cases import Case, read_case, shipped_cases
-from .naming import suggestion
+from .suggest import suggestion
 
 ASKS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
 # A file, the name of a ready scene, or what it says.

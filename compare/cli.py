@@ -25,7 +25,6 @@ ARGUMENTS = {
     ("topography", "file"): (Path, "Map of heights: .npy, .npz, .csv, .txt, or as SurfaceTopography reads it."),
     ("figures", "folder"): (Path, "Folder that a command left."),
     ("export", "folder"): (Path, "Folder that a command left, or a file of results."),
-    ("list", "kind"): (str, ""),
     ("new", "name"): (str, "Ready scene or study, see `crosscheck list`."),
     ("new", "file"): (Path | None, "Where to; NAME.toml if absent. Never overwritten."),
     ("schema", "kind"): (str, "scene or study."),
@@ -147,7 +146,7 @@ def _paths(found: Any) -> str:
 
 
 def _written_ready(path: Path) -> str:
-    return f"{path}: crosscheck {commands.ready().command(path)} {path}"
+    return f"{path}: crosscheck {'study' if '[[series]]' in path.read_text(encoding='utf-8') else 'run'} {path}"
 
 
 def _schema(found: Mapping[str, Any]) -> str:

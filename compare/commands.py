@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from .pipeline import Report, Study
     from .planning import Plans
     from .quantity import Quantity
-    from .ready import Listing
+    from .library import Listing
 
 
 class Options(TypedDict, total=False):
@@ -247,7 +247,7 @@ def load(folder: str | Path) -> xarray.DataTree:
 
 def ready() -> Listing:
     """Scenes and studies to begin with, which come with the package, by name: the command `list`."""
-    from .ready import ready
+    from .library import ready
 
     return ready()
 
@@ -258,7 +258,7 @@ def new(name: str, file: str | Path | None = None) -> Path:
     name : of a ready scene or study
     file : where to; NAME.toml if absent
     """
-    from .ready import write
+    from .library import write
 
     return write(name, file or f"{name}.toml")
 
@@ -269,7 +269,7 @@ def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, A
     kind : "scene" or "study"
     output : file; none is written if absent
     """
-    from .schema import schema
+    from .json_schema import schema
 
     return schema(kind, output)
 
@@ -296,7 +296,7 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
     to : "csv", every digit, or "latex", rounded, for booktabs
     output : where to; `tables` in the folder if absent
     """
-    from .export import export
+    from .tables import export
 
     return export(folder, to, output)
 

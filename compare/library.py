@@ -1,11 +1,14 @@
 """Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
+from textwrap import wrap
+from typing import Any
 
-from .naming import suggestion
+from .suggest import suggestion
 
 _TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
@@ -40,15 +43,54 @@ class Ready:
     text: str
 
 
-def ready() -> dict[str, Ready]:
-    """All of them by name: scenes, then studies, in the order of their names. Nothing is imported for it."""
+@dataclass(frozen=True, repr=False)
+class Listing(Mapping[str, Any]):
+    """What can be named, each with a title and what it is about; printed, a list for people.
+
+    offered : by name; groups : headings with the names below each, all names under none if absent
+    end : last line
+    """
+
+    offered: Mapping[str, Any]
+    groups: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    end: str = ""
+
+    def __getitem__(self, name: str) -> Any:
+        return self.offered[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.offered)
+
+    def __len__(self) -> int:
+        return len(self.offered)
+
+    def __str__(self) -> str:
+        width = max((len(name) for name in self), default=0) + 2
+        lines = []
+        for heading, names in (self.groups or {"": list(self)}).items():
+            lines += [f"{heading}:", ""] if heading else []
+            for name in names:
+                lines.append(f"{name:{width}s}{self[name].title}")
+                lines += wrap(self[name].about, 79, initial_indent=width * " ", subsequent_indent=width * " ")
+            lines.append("")
+        return "\n".join([*lines, self.end]).strip("\n")
+
+    __repr__ = __str__
+
+
+def ready() -> Listing:
+    """Scenes and studies that come with the package: scenes, then studies, by name. Nothing is imported for it."""
     found = {}
     for kind, folder in FOLDERS.items():
         paths = [path for path in (files("compare") / folder).iterdir() if path.name.endswith(".toml")]
         for path in sorted(paths, key=lambda path: path.name):
             each = _ready(kind, path.name.removesuffix(".toml"), path.read_text(encoding="utf-8"))
             found[each.name] = each
-    return found
+    groups = {
+        f"{what}, crosscheck {command} NAME": [name for name, each in found.items() if each.command == command]
+        for command, what in (("run", "Scenes"), ("plan", "Scenes that nothing compares"), ("study", "Studies"))
+    }
+    return Listing(found, groups, "`crosscheck new NAME` writes one into a file of your own.")
 
 
 def find(name: str) -> Ready:
@@ -65,11 +107,18 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
     schema : of a JSON schema, by which editors check and complete: named in the first line. Absent, none is
 
-    Raises NotReady, FileExistsError, and OSError where it cannot be written.
+    Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """
-    text, path = find(name).text, Path(path)
-    with path.open("x", encoding="utf-8", newline="\n") as file:
-        file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
+    from scene.reading import InvalidInput  # slow, and a list does without
+
+    try:
+        text, path = find(name).text, Path(path)
+        with path.open("x", encoding="utf-8", newline="\n") as file:
+            file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
+    except NotReady as error:
+        raise InvalidInput(f"NAME = {name}: {error}") from error
+    except FileExistsError as error:
+        raise InvalidInput(f"{path} is there already, and nothing is overwritten: name another FILE") from error
     return path
 
 

@@ -9,7 +9,7 @@ from scene.reading import InvalidInput, text_of
 
 from ..asked import Asked, located, named_cases
 from ..library import ready
-from ..naming import known
+from ..suggest import known
 from .job import Job
 
 

@@ -1,12 +1,17 @@
 """JSON schemas of the files that a user writes, for editors: names, allowed values and units as one types."""
 
+import json
 import re
 from collections.abc import Iterator
 from inspect import cleandoc
+from pathlib import Path
 from typing import Any
 
 from pydantic import TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
+
+from .store import write
+from .suggest import known
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
@@ -14,16 +19,23 @@ _BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", 
 _FIELD = re.compile(r"([a-z_0-9]+(?:, [a-z_0-9]+)*) : (.+)")
 
 
-def schema(kind: str) -> dict[str, Any]:
-    """The JSON schema, draft 2020-12, of a "scene" or "study" file. Raises KeyError for other kinds."""
-    title = KINDS[kind]
+def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
+    """JSON schema, draft 2020-12, of a "scene" or "study" file. Raises InvalidInput for other kinds.
+
+    output : file that it is written into; none if absent
+    """
+    known("KIND", kind, KINDS)
     # Only the schema itself needs what it describes.
     from .cases import Case
-    from .studies.asked import StudyFile
+    from .studies.inputs import StudyFile
 
     what = {"scene": Case, "study": StudyFile}[kind]
     found = TypeAdapter(what).json_schema(schema_generator=_Documented, ref_template="#/$defs/{model}")
-    return {"$schema": DIALECT, **_said_in_full(found), "title": title}
+    made = {"$schema": DIALECT, **_said_in_full(found), "title": KINDS[kind]}
+    if output is not None:
+        text = json.dumps(made, indent=1, ensure_ascii=False)
+        write(Path(output), lambda file: file.write(f"{text}\n".encode()))
+    return made
 
 
 class _Documented(GenerateJsonSchema):
