@@ -10,7 +10,7 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 
 from .commoncurve import Fit, bounds, inside, near, rms
-from .statistics.jackknife import Estimated, Size, resample
+from .statistics.jackknife import Estimated, RmsMisfit, resample
 
 # What rounding leaves of ln mu.
 ROUNDING = 1e-9
@@ -36,10 +36,10 @@ class Alignment:
     vertical: Estimated
     exponent: Estimated
     vertical_exponent: Estimated
-    raised: Size
+    raised: RmsMisfit
     rms: float
-    misfit: Size
-    mended: Size
+    misfit: RmsMisfit
+    mended: RmsMisfit
     curve: Chebyshev | None
     reason: str | None = None
 
@@ -47,7 +47,7 @@ class Alignment:
     def undecided(cls, speeds: int, missed: float, reason: str) -> "Alignment":
         """One of which no shift is known."""
         number, shifts = Estimated(nan, nan, 0), Estimated(np.full(speeds, nan), np.full(speeds, nan), 0)
-        size = Size.unknown()
+        size = RmsMisfit.unknown()
         return cls(shifts, shifts, number, number, size, missed, size, size, None, reason)
 
 
@@ -71,7 +71,7 @@ def moved(samples, fit, guess):
         each = Fit(part.curves, fit.degree, fit.lifted)
         return {"": each.residuals(sought(each))}
 
-    return replace(undecided(fit, best, _PARTED), misfit=resample(missed, samples)[""].size)
+    return replace(undecided(fit, best, _PARTED), misfit=resample(missed, samples)[""].rms)
 
 
 def taken(samples, level, lifted, along, both):
@@ -84,7 +84,7 @@ def taken(samples, level, lifted, along, both):
         each = Fit(part.curves, fit.degree, fit.lifted)
         return each.residuals(near(each, guess, *bounds(each.curves)))
 
-    return resample(lambda part: {"": missed(level, along, part) - missed(lifted, both, part)}, samples)[""].size
+    return resample(lambda part: {"": missed(level, along, part) - missed(lifted, both, part)}, samples)[""].rms
 
 
 def undecided(fit, increments, reason):
@@ -112,7 +112,7 @@ def _aligned(samples, fit, sought):
         }
 
     found, increments = resample(numbers, samples), sought(fit)
-    sizes = {name: found.pop(name).size for name in ("raised", "misfit", "mended")}
+    sizes = {name: found.pop(name).rms for name in ("raised", "misfit", "mended")}
     return Alignment(
         **{name: each.estimated for name, each in found.items()},
         **sizes,
@@ -137,7 +137,7 @@ def _curve(fit, increments):
 
 def size_at(samples, degree, increments, lifted=False):
     """Misfit of the curves with given increments of the shifts."""
-    return resample(lambda part: {"": Fit(part.curves, degree, lifted).residuals(increments)}, samples)[""].size
+    return resample(lambda part: {"": Fit(part.curves, degree, lifted).residuals(increments)}, samples)[""].rms
 
 
 def outside(tangent, others):

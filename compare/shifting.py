@@ -10,7 +10,7 @@ import numpy as np
 from .alignment import ROUNDING, Alignment, moved, outside, size_at, still, taken, undecided
 from .commoncurve import Curve, Fit, bounds, near, within
 from .mastercurve import DEGREE, MOST_FREE
-from .statistics.jackknife import Replicates, Size
+from .statistics.jackknife import Replicates, RmsMisfit
 from .samples import Samples
 
 # Of ln mu: parallel straight lines that miss no more are straight. Friction is solved, and Eq. 19 is followed by a
@@ -39,7 +39,7 @@ class Shifting:
     surfaces_left_out: int
     curves: tuple[Curve, ...]
     degree: int
-    straight: Size
+    straight: RmsMisfit
     none: Alignment
     horizontal: Alignment
     vertical: Alignment
@@ -106,7 +106,7 @@ def shift(samples: Samples) -> Shifting:
     )
 
 
-def misfit_at(found: Shifting, shifts: np.ndarray) -> Size:
+def misfit_at(found: Shifting, shifts: np.ndarray) -> RmsMisfit:
     """Misfit of the curves once shifted by b_v (S,), as where a theory predicts ln p(v).
 
     Unknown where that leaves neighbours less than the least overlap.
@@ -114,7 +114,7 @@ def misfit_at(found: Shifting, shifts: np.ndarray) -> Size:
     increments = np.diff(shifts)
     lower, upper = bounds(found.curves)
     if not np.all((lower <= increments) & (increments <= upper)):
-        return Size.unknown()
+        return RmsMisfit.unknown()
     return size_at(found.samples, found.degree, increments)
 
 
@@ -166,4 +166,4 @@ def _pays(samples, fit, increments):
     load, friction = samples.deviations
     scatter = new.T @ (friction - (1 + common.slopes[:, None]) * load)
     missed = Replicates.first_order(new.T @ fit.residuals(increments), scatter.T)
-    return missed.size.interval(1 - CHANCE)[0] > ROUNDING
+    return missed.rms.interval(1 - CHANCE)[0] > ROUNDING

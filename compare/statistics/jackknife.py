@@ -16,6 +16,8 @@ from scipy.optimize import brentq
 
 from ..finding import HALVED, UNKNOWN, Claim, Finding
 
+# Degrees of freedom of what counts as known exactly.
+KNOWN = 1e9
 # Statistics are found this often at most: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
 
@@ -61,7 +63,7 @@ class Estimated(Generic[Value]):
 
 
 @dataclass(frozen=True)
-class Size:
+class RmsMisfit:
     """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
 
     square : mean of the squares less their variances; negative by chance where there is little but scatter
@@ -69,6 +71,7 @@ class Size:
     along : of that, what changes the size to first order
     modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
     freedom : degrees of freedom of the noise
+    pooled : whether one scatter, common to all numbers, is known with that freedom, and not that of each mode
     """
 
     square: float
@@ -76,15 +79,16 @@ class Size:
     along: float
     modes: float
     freedom: float
+    pooled: bool = False
 
     @classmethod
     def unknown(cls) -> Self:
-        """Of what cannot be had."""
+        """Misfit of numbers that are not known, or not with which scatter."""
         return cls(nan, nan, nan, nan, 0)
 
     @property
     def value(self) -> float:
-        """Zero where the scatter explains all; NaN where it is not known."""
+        """Root mean square without scatter; zero where the scatter explains all, NaN where it is not known."""
         return sqrt(max(self.square, 0.0)) if np.isfinite(self.square) else nan
 
     def interval(self, level: float = 0.95) -> tuple[float, float]:
@@ -99,7 +103,8 @@ class Size:
         if self.noise == 0:
             return self.value, self.value
         reach = self.along * student(level, self.freedom) ** 2
-        second = (stats.f.ppf(level, self.modes, self.modes * self.freedom) - 1) * self.noise
+        known = self.freedom * (1.0 if self.pooled else self.modes)
+        second = (stats.f.ppf(level, self.modes, min(known, KNOWN)) - 1) * self.noise
         middle = self.square + 2 * reach
         above = self.square**2 - second**2
         low = above / (middle + sqrt(middle**2 - above)) if self.square > second else 0.0
@@ -119,23 +124,18 @@ class Size:
         one, two = (np.copysign(sqrt(abs(each.square)), each.square) for each in (self, other))
         return float(abs(one - two))
 
-    def verdict(self, tolerance: float) -> str:
-        """holds, fails or undecided: whether the size is within the tolerance, from its interval of 95 %."""
-        low, high = self.interval()
-        if high <= tolerance:
-            return "holds"
-        return "fails" if low > tolerance else "undecided"
-
 
 @dataclass(frozen=True)
 class Replicates:
     """A statistic, (...), and how it changes with the surfaces.
 
     deviations : (groups, ...), of which the mean of products estimates the covariance of the statistic
+    pooled : degrees of freedom of one scatter that is common to all; None where it is that of the groups
     """
 
     value: float | np.ndarray
     deviations: np.ndarray
+    pooled: float | None = None
 
     @classmethod
     def first_order(cls, value: float | np.ndarray, changes: np.ndarray) -> Self:
@@ -146,6 +146,8 @@ class Replicates:
     @property
     def freedom(self) -> float:
         """Degrees of freedom of the errors."""
+        if self.pooled is not None:
+            return self.pooled
         return len(self.deviations) - 1 if len(self.deviations) else inf
 
     @property
@@ -156,20 +158,21 @@ class Replicates:
         return Estimated(self.value, np.sqrt(np.mean(np.square(self.deviations), axis=0)), self.freedom)
 
     @property
-    def size(self) -> Size:
-        """Of all numbers together."""
+    def rms(self) -> RmsMisfit:
+        """Root mean square of all numbers together."""
         value = np.ravel(self.value)
         square = float(np.mean(np.square(value)))
         if not len(self.deviations):
-            return Size(square, 0.0, 0.0, 1.0, inf)
+            return RmsMisfit(square, 0.0, 0.0, 1.0, inf)
         deviations = self.deviations.reshape(len(self.deviations), -1) / sqrt(len(self.deviations))
         if not (np.all(np.isfinite(value)) and np.all(np.isfinite(deviations))):
-            return Size.unknown()
+            return RmsMisfit.unknown()
         products = deviations @ deviations.T
         noise, length = float(np.trace(products)), float(np.linalg.norm(value))
         along = float(np.sum(np.square(deviations @ value))) / length**2 if length else 0.0
         modes = noise**2 / float(np.sum(np.square(products))) if noise else 1.0
-        return Size(square - noise / value.size, noise / value.size, along / value.size, modes, self.freedom)
+        count, pooled = value.size, self.pooled is not None
+        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.freedom, pooled)
 
 
 def groups(count: int) -> list[np.ndarray]:
@@ -340,7 +343,7 @@ def measured(
     with np.errstate(invalid="ignore", divide="ignore"):
         replicates = resample(lambda sample: {"": claim.measure(sample)}, fine)[""]
         other = np.asarray(claim.measure(coarse))
-        found = replicates.size if np.ndim(replicates.value) else replicates.estimated
+        found = replicates.rms if np.ndim(replicates.value) else replicates.estimated
         low, high = found.interval()
         grid = float(np.sqrt(np.mean(np.square(other - replicates.value))))
     return Finding(

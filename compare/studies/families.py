@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from ..finding import Finding
-from ..statistics.jackknife import Size, mean_ratio
+from ..statistics.jackknife import RmsMisfit, mean_ratio
 from ..samples import Samples
 from ..shifting import shift
 from ..verdict import DIMENSIONS
@@ -104,7 +104,7 @@ def _missed(members, solver, grid):
     try:
         return shift(reduced(members, solver, grid)).none.misfit
     except ValueError:
-        return Size.unknown()
+        return RmsMisfit.unknown()
 
 
 def _slope_exponents(members, solver, dimension, shape):

@@ -43,7 +43,7 @@ def answered(question: Question, dimension: str, fine: Side | Pair, coarse: Side
     with np.errstate(invalid="ignore", divide="ignore"):
         replicates = resample(lambda side: {"": question.statistic(side)}, fine)[""]
         other = np.asarray(question.statistic(coarse))
-        measured = replicates.size if np.ndim(replicates.value) else replicates.estimated
+        measured = replicates.rms if np.ndim(replicates.value) else replicates.estimated
         low, high = measured.interval()
         grid = float(np.sqrt(np.mean(np.square(other - replicates.value))))
     return Finding(

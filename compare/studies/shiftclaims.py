@@ -10,7 +10,7 @@ import numpy as np
 from ..commoncurve import LEAST_OVERLAP
 from ..finding import Finding
 from ..mastercurve import DEGREE
-from ..statistics.jackknife import Estimated, Size
+from ..statistics.jackknife import Estimated, RmsMisfit
 from ..samples import Samples
 from ..shifting import Shifting, misfit_at, shift
 from ..verdict import DIMENSIONS
@@ -59,7 +59,7 @@ def shift_findings(solver: str, both: tuple[Shifting, Shifting], laws: Laws) -> 
         )
 
 
-_Number = TypeVar("_Number", Size, Estimated[float])
+_Number = TypeVar("_Number", RmsMisfit, Estimated[float])
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class _Claim(Generic[_Number]):
         return fine.apart(coarse)
 
 
-def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim[Size]]:
+def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim[RmsMisfit]]:
     """With the shifts that are best."""
     straight, parted = inseparable(fine), fine.horizontal.reason or ""
     beside = "" if fine.both.reason else f" Shifted along friction too, they miss by {fine.both.misfit.value:.1%}."
@@ -102,7 +102,7 @@ def _fitted(fine: Shifting, coarse: Shifting) -> Iterator[_Claim[Size]]:
     )
 
 
-def _predicted(both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[_Claim[Size] | _Claim[Estimated[float]]]:
+def _predicted(both: tuple[Shifting, Shifting], laws: Laws) -> Iterator[_Claim[RmsMisfit] | _Claim[Estimated[float]]]:
     """With those of the theory, and how the best ones compare."""
     fine, coarse = both
     yield _Claim(

@@ -1,0 +1,290 @@
+"""Collapse of friction at several speeds onto one curve by shifts along ln F and ln mu, Eq. 23 of the paper.
+
+All shifts are found at once, and the misfit that they leave is told without what scatter adds, with its interval.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from math import isfinite, nan
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+
+from .commoncurve import Fit, bounds, inside, near, within
+from .frictioncurves import Curve, FrictionCurves
+from .jackknife import Estimated, RmsMisfit
+
+# Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
+# the scatter is less than that, the curve gets more freedom as long as that pays.
+DEGREE, HIGHEST_DEGREE = 4, 10
+# Of ln mu: parallel straight lines that miss no more are straight. Friction is solved, and Eq. 19 is followed by a
+# polynomial of the fourth degree, to about that, so less curvature does not tell one shift from the other.
+STRAIGHT = 0.01
+# Share of coefficients that scatter alone asks for, at each rise of the degree.
+CHANCE = 0.05
+# Powers of the speed from which shifts are sought, and how many are followed to their minimum.
+POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
+# Misfit of ln mu that rounding leaves.
+ROUNDING = 1e-9
+PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
+PARTED = "the fit asks for less than the least overlap of neighbours"
+UNSCATTERED = "scatter is not known, nor whether the curves are bent"
+
+
+@dataclass(frozen=True)
+class Alignment:
+    """Curves shifted to ln mu + c_v against ln F + b_v; what is not fitted is exactly zero.
+
+    horizontal, vertical : b_v and c_v (S,), zero at the middle speed
+    exponent, vertical_exponent : of exp(b_v) and exp(c_v) as powers of the speed, least squares
+    raised : rms of c_v over the speeds about its mean, as a level common to all is no shift
+    rms : of ln mu about the common curve, with scatter
+    misfit : of ln mu about the common curve, without what scatter adds
+    mended : of that misfit, what vertical shifts would take away to first order
+    curve : ln mu of ln F, that of the middle speed
+    reason : why the shifts are not known; empty where they are. Where the curves part, misfit and mended are those
+        at the least overlap of neighbours, and all else but rms is NaN
+    """
+
+    horizontal: Estimated
+    vertical: Estimated
+    exponent: Estimated
+    vertical_exponent: Estimated
+    raised: RmsMisfit
+    rms: float
+    misfit: RmsMisfit
+    mended: RmsMisfit
+    curve: Chebyshev | None = field(repr=False)
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Collapse:
+    """Curves, and how far from one they are for each choice of shifts.
+
+    data : what was fitted; points_left_out, surfaces_left_out : how many were not
+    curves : with standard errors, to first order
+    degree : of the common polynomial
+    straight : misfit of parallel straight lines, one a speed
+    unshifted, horizontal, vertical, both : which shifts are fitted
+    """
+
+    data: FrictionCurves = field(repr=False)
+    points_left_out: int
+    surfaces_left_out: int
+    curves: tuple[Curve, ...] = field(repr=False)
+    degree: int
+    straight: RmsMisfit
+    unshifted: Alignment
+    horizontal: Alignment
+    vertical: Alignment
+    both: Alignment
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """(S,) [m/s], ascending."""
+        return self.data.speeds
+
+    @property
+    def scatter(self) -> float:
+        """Rms standard error of ln mu; NaN if unknown."""
+        return _rms(np.concatenate([curve.error for curve in self.curves]))
+
+    @property
+    def inseparable(self) -> str:
+        """Why a horizontal shift cannot be told from a vertical one; empty where it can."""
+        if _bent(self.straight):
+            return ""
+        return PARALLEL if isfinite(self.straight.value) else UNSCATTERED
+
+    def misfit_at(self, shifts: np.ndarray) -> RmsMisfit:
+        """Misfit of the curves once shifted by b_v (S,), as where a theory predicts ln p(v).
+
+        Unknown where that leaves neighbours less than the least overlap.
+        """
+        increments = np.diff(shifts)
+        lower, upper = bounds(self.curves)
+        if not np.all((lower <= increments) & (increments <= upper)):
+            return RmsMisfit.unknown()
+        return _misfit(self.data, self.degree, increments)
+
+
+def collapse(data: FrictionCurves) -> Collapse:
+    """Find all shifts at once, for each choice of them; points weigh alike.
+
+    Raises ValueError with fewer than two speeds or fewer points than unknowns.
+    """
+    complete = data.complete()
+    curves = complete.curves
+    unknowns, count = 2 * (len(curves) - 1) + DEGREE + 1, sum(curve.log_load.size for curve in curves)
+    if len(curves) < 2 or count <= unknowns:
+        raise ValueError(f"{len(curves)} speeds with too few points for {unknowns} unknowns: add loads or speeds")
+    unmoved = np.zeros(len(curves) - 1)
+    straight = _misfit(complete, 1, unmoved, lifted=True)
+    along = _best(Fit(curves, DEGREE), unmoved)
+    lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
+    level = Fit(curves, lifted.degree)
+    horizontal = _moved(complete, level, along)
+    raised = _moved(complete, lifted, both) if _bent(straight) else _undecided(lifted, both, PARALLEL)
+    if horizontal.reason and not raised.reason:
+        horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
+    return Collapse(
+        data=complete,
+        points_left_out=data.points - count,
+        surfaces_left_out=data.surfaces - complete.surfaces,
+        curves=_with_errors(complete, curves),
+        degree=lifted.degree,
+        straight=straight,
+        unshifted=_still(complete, level),
+        horizontal=horizontal,
+        vertical=_still(complete, lifted),
+        both=raised,
+    )
+
+
+def _with_errors(data, curves):
+    """Curves with standard errors, to first order."""
+    errors = data.replicates(np.zeros(sum(curve.log_load.size for curve in curves)), data.deviations()).estimated.error
+    parts = np.split(errors, np.cumsum([curve.log_load.size for curve in curves])[:-1])
+    return tuple(replace(curve, error=error) for curve, error in zip(curves, parts, strict=True))
+
+
+def _bent(straight):
+    """Whether curves are not straight parallel lines."""
+    return straight.interval()[0] > STRAIGHT
+
+
+def _best(fit, *guesses):
+    """Increments of least misfit of several starts, those given and powers of the speed."""
+    lower, upper = bounds(fit.curves)
+    lengths = np.diff(np.log([curve.speed for curve in fit.curves]))
+
+    def cost(increments):
+        return np.sum(np.square(fit.residuals(increments)))
+
+    starts = [within(guess, lower, upper) for guess in (*guesses, *np.multiply.outer(POWERS, lengths))]
+    followed = sorted(starts, key=cost)[:FOLLOWED]
+    return min((near(fit, start) for start in followed), key=cost)
+
+
+def _freed(data, fit, guess):
+    """The fit with the least degree from which a higher one takes no more than scatter, and its increments."""
+    best = _best(fit, guess)
+    while fit.degree < HIGHEST_DEGREE and _pays(data, fit, best):
+        fit = Fit(fit.curves, fit.degree + 2, lifted=True)
+        best = near(fit, best)
+    return fit, best
+
+
+def _pays(data, fit, increments):
+    """Whether two more coefficients take from the misfit what scatter does not explain.
+
+    The two components of the misfit are asked whether they are scatter. A third of the points stays free.
+    """
+    common, tangent = fit.common(increments), fit.tangent(increments)
+    if len(tangent) - tangent.shape[1] - 2 < len(tangent) / 3:
+        return False
+    freer = Fit(fit.curves, fit.degree + 2).common(increments).basis[:, -2:]
+    new = _outside(tangent, freer)
+    missed = data.replicates(new.T @ fit.residuals(increments), data.deviations(common.slopes) @ new)
+    return missed.rms.interval(1 - CHANCE)[0] > ROUNDING
+
+
+def _still(data, fit):
+    """Curves that are not shifted horizontally."""
+    return _aligned(data, fit, lambda each: np.zeros(len(each.curves) - 1))
+
+
+def _moved(data, fit, guess):
+    """Curves that are, from a guess; where they part, only the misfit that the least overlap leaves is known."""
+    best = near(fit, guess)
+    if inside(best, *bounds(fit.curves)):
+        return _aligned(data, fit, lambda each: near(each, best))
+
+    def missed(part):
+        each = Fit(part.curves, fit.degree, fit.lifted)
+        return {"": each.residuals(near(each, best))}
+
+    return replace(_undecided(fit, best, PARTED), misfit=data.resampled(missed)[""].rms)
+
+
+def _taken(data, level, lifted, along, both):
+    """What vertical shifts take from the misfit that horizontal ones leave at the least overlap.
+
+    along, both : guesses of the increments of either fit
+    """
+
+    def missed(fit, guess, part):
+        each = Fit(part.curves, fit.degree, fit.lifted)
+        return each.residuals(near(each, guess))
+
+    return data.resampled(lambda part: {"": missed(level, along, part) - missed(lifted, both, part)})[""].rms
+
+
+def _undecided(fit, increments, reason):
+    """Alignment of which no shift is known."""
+    speeds, unknown = len(fit.curves), RmsMisfit.unknown()
+    number, shifts = Estimated(nan, nan, 0), Estimated(np.full(speeds, nan), np.full(speeds, nan), 0)
+    missed = _rms(fit.residuals(increments))
+    return Alignment(shifts, shifts, number, number, unknown, missed, unknown, unknown, None, reason)
+
+
+def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]) -> Alignment:
+    """Alignment at the best horizontal shifts of a fit; sought : function that finds their increments."""
+    logs = np.log(data.speeds) - np.mean(np.log(data.speeds))
+    lever = logs / (logs @ logs)
+
+    def numbers(part):
+        each = Fit(part.curves, fit.degree, fit.lifted)
+        increments = sought(each)
+        missed, mending = each.residuals(increments), _outside(each.tangent(increments), each.later)
+        moved, lifted = _shifts(increments), _shifts(each.lifts(increments))
+        return {
+            "horizontal": moved,
+            "vertical": lifted,
+            "exponent": lever @ moved,
+            "vertical_exponent": lever @ lifted,
+            "raised": lifted - lifted.mean(),
+            "misfit": missed,
+            "mended": mending @ (mending.T @ missed),
+        }
+
+    found, increments = data.resampled(numbers), sought(fit)
+    sizes = {name: found.pop(name).rms for name in ("raised", "misfit", "mended")}
+    return Alignment(
+        **{name: each.estimated for name, each in found.items()},
+        **sizes,
+        rms=_rms(fit.residuals(increments)),
+        curve=_curve(fit, increments),
+    )
+
+
+def _shifts(increments):
+    """Shifts against the middle speed (S,)."""
+    sums = np.concatenate([[0], np.cumsum(increments)])
+    return sums - sums[sums.size // 2]
+
+
+def _curve(fit, increments):
+    """The common polynomial as the curve of the middle speed has it."""
+    common = fit.common(increments)
+    along, lift = (-_shifts(each)[0] for each in (increments, fit.lifts(increments)))
+    polynomial = Chebyshev(common.coefficients[: fit.degree + 1], domain=np.array(common.domain) - along)
+    return polynomial - lift
+
+
+def _misfit(data, degree, increments, lifted=False):
+    """Misfit of the curves with given increments of the shifts."""
+    return data.resampled(lambda part: {"": Fit(part.curves, degree, lifted).residuals(increments)})[""].rms
+
+
+def _outside(tangent, others):
+    """Orthonormal vectors (N, M) that others reach beyond a tangent space."""
+    left, sizes, _ = np.linalg.svd(tangent, full_matrices=False)
+    taken = left[:, sizes > ROUNDING * sizes[0]]
+    left, sizes, _ = np.linalg.svd(others - taken @ (taken.T @ others), full_matrices=False)
+    return left[:, sizes > ROUNDING * np.linalg.norm(others)]
+
+
+def _rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))

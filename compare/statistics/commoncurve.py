@@ -1,0 +1,145 @@
+"""Common polynomial of curves of friction against load that are shifted, and how far they are from it.
+
+Shifts are sought with the polynomial projected out (variable projection; Golub and Pereyra 1973).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.optimize import least_squares
+
+from .frictioncurves import Curve
+
+# Neighbouring curves share at least this part of the shorter one's range of ln F: a fit that wants less is no fit.
+LEAST_OVERLAP = 0.25
+# Singular values below this share of the largest do not count.
+_LEAST_SINGULAR = 1e-12
+# Increments closer to a bound than this share of the range between the bounds count as at it.
+_CLEAR = 1e-3
+# Steps of Gauss-Newton at most, and the square of the change at which it ends, over the sum of squares.
+_STEPS, _SETTLED = 20, 1e-12
+
+
+@dataclass(frozen=True)
+class Common:
+    """The best common polynomial of curves shifted in some way; arrays over all points (N,).
+
+    basis, orthonormal : polynomials and levels (N, M), as they are and orthonormal
+    slopes : of the polynomial
+    coefficients : of the polynomial, then the increments of the level (M,)
+    domain : least and greatest ln F, shifted as the first curve is
+    """
+
+    basis: np.ndarray
+    orthonormal: np.ndarray
+    slopes: np.ndarray
+    coefficients: np.ndarray
+    domain: tuple[float, float]
+
+
+class Fit:
+    """Misfit of the curves to their best common polynomial, given the increments of the shifts from speed to speed.
+
+    degree : of the polynomial
+    lifted : whether each curve is shifted vertically too, as fits best
+    """
+
+    def __init__(self, curves: Sequence[Curve], degree: int, lifted: bool = False):
+        self.curves, self.degree, self.lifted = curves, degree, lifted
+        self.owner = np.repeat(np.arange(len(curves)), [curve.log_load.size for curve in curves])
+        self.log_load = np.concatenate([curve.log_load for curve in curves])
+        self.log_friction = np.concatenate([curve.log_friction for curve in curves])
+        # An increment moves every later curve.
+        self.later = (self.owner[:, None] > np.arange(len(curves) - 1)).astype(float)
+        # An increment of the level moves it down.
+        self.levels = self.later if lifted else self.later[:, :0]
+        self._last: tuple[np.ndarray, Common] | None = None
+
+    def residuals(self, increments: np.ndarray) -> np.ndarray:
+        """ln mu minus the best polynomial, (N,)."""
+        basis = self.common(increments).orthonormal
+        return self.log_friction - basis @ (basis.T @ self.log_friction)
+
+    def jacobian(self, increments: np.ndarray) -> np.ndarray:
+        """Derivatives of the residuals, (N, increments), but for what lies in the span of the polynomials.
+
+        Kaufman, BIT 15, 49 (1975). The gradient of the sum of squares is exact, as residuals do not lie there.
+        """
+        common = self.common(increments)
+        moved = common.slopes[:, None] * self.later
+        return common.orthonormal @ (common.orthonormal.T @ moved) - moved
+
+    def tangent(self, increments: np.ndarray) -> np.ndarray:
+        """What the fit can change to first order: polynomials, levels and shifts (N, M)."""
+        common = self.common(increments)
+        return np.hstack([common.basis, common.slopes[:, None] * self.later])
+
+    def lifts(self, increments: np.ndarray) -> np.ndarray:
+        """Increments of the level (K - 1,), zero where curves are not lifted."""
+        lifts = self.common(increments).coefficients[self.degree + 1 :]
+        return lifts if self.lifted else np.zeros(len(increments))
+
+    def common(self, increments: np.ndarray) -> Common:
+        """The best polynomial once the curves are shifted; kept, as residuals and slopes are asked for in turn."""
+        if self._last is None or not np.array_equal(self._last[0], increments):
+            self._last = np.array(increments), self._common(increments)
+        return self._last[1]
+
+    def _common(self, increments):
+        x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
+        middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
+        scaled = (x - middle) / half
+        basis = np.hstack([chebyshev.chebvander(scaled, self.degree), -self.levels])
+        left, sizes, right = np.linalg.svd(basis, full_matrices=False)
+        # Where loads coincide once shifted, fewer polynomials are told apart than there are.
+        told = sizes > _LEAST_SINGULAR * sizes[0]
+        orthonormal = left[:, told]
+        coefficients = right[told].T @ (orthonormal.T @ self.log_friction / sizes[told])
+        slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients[: self.degree + 1])) / half
+        return Common(basis, orthonormal, slopes, coefficients, (x.min(), x.max()))
+
+
+def bounds(curves: Sequence[Curve]) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest increments that leave neighbouring curves the least overlap."""
+    lower, upper = [], []
+    for left, right in pairwise(curves):
+        a, b = left.log_load, right.log_load
+        shared = LEAST_OVERLAP * min(np.ptp(a), np.ptp(b))
+        lower.append(a.min() - b.max() + shared)
+        upper.append(a.max() - b.min() - shared)
+    return np.array(lower), np.array(upper)
+
+
+def near(fit: Fit, guess: np.ndarray) -> np.ndarray:
+    """Increments of least misfit close to a guess (Gauss-Newton), from a search within the bounds if not that close."""
+    lower, upper = bounds(fit.curves)
+    at, least = guess, np.inf
+    for _ in range(_STEPS):
+        residuals, jacobian = fit.residuals(at), fit.jacobian(at)
+        cost = residuals @ residuals
+        if not cost <= least or np.any((at <= lower) | (at >= upper)):
+            break
+        least = cost
+        step = np.linalg.lstsq(jacobian, -residuals, rcond=_LEAST_SINGULAR)[0]
+        gain = jacobian @ step
+        at = at + step
+        if gain @ gain <= _SETTLED * (cost + _LEAST_SINGULAR**2):
+            return at
+    start = within(guess, lower, upper)
+    return least_squares(
+        fit.residuals, start, fit.jacobian, bounds=(lower, upper), xtol=1e-14, ftol=1e-14, gtol=1e-14
+    ).x
+
+
+def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
+    """The nearest increments that keep clear of the bounds."""
+    margin = _CLEAR * (upper - lower)
+    return np.clip(increments, lower + margin, upper - margin)
+
+
+def inside(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> bool:
+    """Whether the demand for overlap leaves the increments free."""
+    return bool(np.all(np.minimum(increments - lower, upper - increments) > _CLEAR * (upper - lower)))

@@ -1,0 +1,148 @@
+"""Claims of Eqs. 22 and 23: what shifts of friction at several speeds, fitted or predicted, come to."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import isfinite, nan
+
+import numpy as np
+
+from ..finding import EXACT, HALVED, UNKNOWN, Claim, Finding
+from .collapse import DEGREE, Collapse
+from .commoncurve import LEAST_OVERLAP
+from .jackknife import Estimated, RmsMisfit
+
+# Of ln mu, and relative of an exponent: what still counts as one curve, and as the exponent predicted.
+TOLERANCE = 0.05
+_MISFIT = "rms of ln mu about one curve, without what scatter adds"
+COLLAPSE = Claim(
+    id="eq23.collapse",
+    sentence="Eq. 23: shifts along the load bring friction at all speeds onto one curve",
+    expected=0.0,
+    tolerance=TOLERANCE,
+    meaning=f"{_MISFIT}. All shifts are found at once, and neighbouring curves share {LEAST_OVERLAP:.0%} of their "
+    "range at least.",
+)
+VERTICAL = Claim(
+    id="eq23.vertical",
+    sentence="Eq. 23: no shift along friction is needed",
+    expected=0.0,
+    tolerance=TOLERANCE,
+    meaning="rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit.",
+)
+PREDICTED = Claim(
+    id="eq23.predicted",
+    sentence="Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve",
+    expected=0.0,
+    tolerance=TOLERANCE,
+    meaning=f"{_MISFIT}, with the shifts that the theory gives, none fitted.",
+)
+EXPONENT = Claim(
+    id="eq23.exponent",
+    sentence="Eqs. 22, 23: p(v) is the power of the speed that the loss at the shortest wave gives",
+    meaning="Exponent of the horizontal shifts against the speed, least squares.",
+)
+UNSHIFTED = Claim(
+    id="eq23.unshifted",
+    sentence="Misfit of friction to one curve before shifting",
+    meaning=f"{_MISFIT}, where no curve is shifted.",
+)
+VERTICAL_ALONE = Claim(
+    id="eq23.vertical-alone",
+    sentence="Misfit of friction to one curve with vertical shifts alone",
+    meaning=f"{_MISFIT}, with a shift along friction at each speed and none along the load.",
+)
+BOTH = Claim(
+    id="eq23.both",
+    sentence="Misfit of friction to one curve with shifts along load and friction",
+    meaning=f"{_MISFIT}, with both shifts at each speed.",
+)
+TOO_FEW = "too few points have an answer on half of the surfaces"
+_UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
+
+
+def findings(
+    fine: Collapse,
+    coarse: Collapse | None,
+    dimension: str,
+    shifts: np.ndarray | None = None,
+    exponent: float = nan,
+    where: str = "",
+    draws: int | None = None,
+    regime: str = "",
+    plots: tuple[str, str] = ("", ""),
+) -> Iterator[Finding]:
+    """Every finding on the shifts of one set of curves.
+
+    coarse : the collapse on a grid of half the points; None of data without a grid, which have no error of one
+    shifts : ln p(v) that the theory predicts for `fine.speeds` (S,); None where it predicts none
+    exponent : of p(v) as a power of the speed, predicted; NaN where p(v) is none
+    draws : number of random surfaces; that of the fit if None
+    plots : names of the plots that show the collapse, and the shifts
+    """
+    parted, straight = fine.horizontal.reason, fine.inseparable
+    measured: list[tuple[Claim, str, str]] = [
+        (COLLAPSE, straight or _unless_beyond(fine.horizontal.misfit, parted), plots[0]),
+        (VERTICAL, straight or _unless_beyond(fine.horizontal.mended, parted), plots[1]),
+    ]
+    if shifts is not None:
+        measured.append((PREDICTED, "", plots[0]))
+    if shifts is not None and isfinite(exponent):
+        claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
+        measured.append((claim, straight or parted, plots[1]))
+    measured += [(UNSHIFTED, "", plots[0]), (VERTICAL_ALONE, "", plots[1])]
+    if not fine.both.reason:
+        measured.append((BOTH, "", plots[1]))
+    for claim, reason, plot in measured:
+        numbers = [_number(each, claim.id, shifts) for each in (fine, coarse) if each is not None]
+        found = finding(claim, numbers[0], numbers[-1] if coarse else None, reason)
+        drawn = fine.data.surfaces if draws is None else draws
+        yield replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
+
+
+def finding(
+    claim: Claim, fine: RmsMisfit | Estimated, coarse: RmsMisfit | Estimated | None, reason: str = ""
+) -> Finding:
+    """Finding of a number that fits on two grids give; on one only, None, of data that have no grid."""
+    grid = 0.0 if coarse is None else fine.apart(coarse)
+    method = EXACT if coarse is None else HALVED if isfinite(grid) else UNKNOWN
+    low, high = (float(end) for end in fine.interval())
+    known = isfinite(low) and isfinite(high) and isfinite(grid)
+    return Finding(
+        claim=claim,
+        value=float(fine.value),
+        scatter=(low, high),
+        grid=grid,
+        grid_method=method,
+        reason=reason or ("" if known else _UNKNOWN),
+    )
+
+
+def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", plot: str = "") -> Finding:
+    """Finding on the collapse where points were asked for that can be shifted, and too few have an answer."""
+    return Finding(
+        COLLAPSE, nan, dimension=dimension, where=where, draws=draws, regime=regime, plot=plot, reason=TOO_FEW
+    )
+
+
+def shiftable(speeds: int, points: int) -> bool:
+    """Whether so many speeds, each with so many points, are enough to find shifts of both kinds."""
+    return speeds > 1 and speeds * points > 2 * (speeds - 1) + DEGREE + 1
+
+
+def _number(found, claim, shifts):
+    """Number of a fit that a claim is on."""
+    if claim == PREDICTED.id:
+        return found.misfit_at(shifts)
+    return {
+        COLLAPSE.id: found.horizontal.misfit,
+        VERTICAL.id: found.horizontal.mended,
+        EXPONENT.id: found.horizontal.exponent,
+        UNSHIFTED.id: found.unshifted.misfit,
+        VERTICAL_ALONE.id: found.vertical.misfit,
+        BOTH.id: found.both.misfit,
+    }[claim]
+
+
+def _unless_beyond(missed, reason):
+    """The reason, unless the misfit is beyond the tolerance: curves that part miss by more at any larger overlap."""
+    return "" if missed.interval()[0] > TOLERANCE else reason

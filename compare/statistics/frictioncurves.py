@@ -1,0 +1,224 @@
+"""Curves of friction against load at several speeds: simulated on the same rough surfaces, or measured by points."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import inf, nan, sqrt
+from typing import Protocol, Self
+
+import numpy as np
+import xarray
+
+from .jackknife import Replicates, groups, resample
+
+Statistic = Callable[["FrictionCurves"], Mapping[str, float | np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Friction against load at one speed [m/s]: ln F, ln mu and its standard error, NaN if unknown, each (N,)."""
+
+    speed: float
+    log_load: np.ndarray
+    log_friction: np.ndarray
+    error: np.ndarray
+
+
+class FrictionCurves(Protocol):
+    """Curves of ln mu (ln F) at several speeds, and how anything that follows from them scatters."""
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """(S,) [m/s]."""
+
+    @property
+    def curves(self) -> Sequence[Curve]:
+        """A curve for each speed; points weigh alike."""
+
+    @property
+    def points(self) -> int:
+        """Number of points, those without an answer included."""
+
+    @property
+    def surfaces(self) -> int:
+        """Number of random surfaces behind all points; 1 where there is none."""
+
+    def complete(self) -> Self:
+        """The points that have an answer, speeds ascending. Raises ValueError where nothing is left."""
+
+    def resampled(self, statistic: Statistic) -> dict[str, Replicates]:
+        """Statistics of these curves with their scatter."""
+
+    def deviations(self, slopes: float | np.ndarray = 0.0) -> np.ndarray:
+        """Deviations (K, N) of ln mu from a curve of these slopes d ln mu / d ln F, to first order.
+
+        The mean of products over K estimates the covariance.
+        """
+
+    def replicates(self, value: np.ndarray, deviations: np.ndarray) -> Replicates:
+        """Numbers (M,) whose deviations (K, M) follow from those of the points."""
+
+
+@dataclass(frozen=True)
+class SimulatedCurves:
+    """Friction on the same surfaces at every speed and load or depth; NaN where a solve failed.
+
+    Points share their surfaces, so the scatter comes from leaving surfaces out, never points.
+
+    speeds : (S,) [m/s]
+    load, friction_force : (S, P, surfaces) [N], or (S, P) of a body without random surfaces
+    """
+
+    speeds: np.ndarray
+    load: np.ndarray
+    friction_force: np.ndarray
+
+    @classmethod
+    def of(cls, dataset: xarray.Dataset) -> Self:
+        """Curves of a Dataset of one grid: dimensions speed, load or depth, and draw if the body has any."""
+        (pressed,) = {"load", "depth"} & set(dataset.dims)
+        forces = (
+            dataset[name].transpose("speed", pressed, ...).values for name in ("normal_force", "friction_force")
+        )
+        return cls(dataset["speed"].values, *forces)
+
+    @property
+    def points(self) -> int:
+        """Number of speeds times loads or depths."""
+        return self.load.shape[0] * self.load.shape[1]
+
+    @property
+    def surfaces(self) -> int:
+        """Number of surfaces; 1 of a body without."""
+        return self.load.shape[2] if self.load.ndim == 3 else 1
+
+    @property
+    def known(self) -> np.ndarray:
+        """Points at which any surface has an answer (S, P)."""
+        return np.any(np.atleast_3d(np.isfinite(self.load) & np.isfinite(self.friction_force)), axis=2)
+
+    @property
+    def groups(self) -> list[np.ndarray]:
+        """Surfaces that are left out together."""
+        return groups(self.surfaces) if self.load.ndim == 3 else []
+
+    def without(self, group: np.ndarray) -> Self:
+        """Curves without some surfaces."""
+        return replace(
+            self,
+            load=np.delete(self.load, group, axis=2),
+            friction_force=np.delete(self.friction_force, group, axis=2),
+        )
+
+    def complete(self) -> Self:
+        """Points that have an answer on every surface left, speeds ascending; all else is NaN or gone.
+
+        Points go where more than half of the surfaces failed, then surfaces that failed anywhere else, then points
+        where the mean friction, of all or without a group of surfaces, is not positive and has no logarithm, then
+        speeds with a single point. Raises ValueError where nothing is left.
+        """
+        order = np.argsort(self.speeds)
+        load, friction = np.atleast_3d(self.load)[order], np.atleast_3d(self.friction_force)[order]
+        solved = np.isfinite(load) & np.isfinite(friction)
+        points = solved.mean(axis=2) >= 0.5
+        surfaces = solved[points].all(axis=0)
+        if not points.any() or not surfaces.any():
+            raise ValueError("no surface has an answer at every point")
+        load, friction = load[..., surfaces], friction[..., surfaces]
+        left = [np.delete(np.arange(surfaces.sum()), group) for group in groups(surfaces.sum())]
+        parts: list[slice | np.ndarray] = [slice(None), *(part for part in left if part.size)]
+        for part in parts:
+            for force in (load, friction):
+                points &= np.where(points, force[..., part].mean(axis=2), 0) > 0
+        speeds = points.sum(axis=1) > 1
+        kept = np.where(points[..., None], [load, friction], nan)[:, speeds]
+        if self.load.ndim == 2:
+            kept = kept[..., 0]
+        return type(self)(self.speeds[order][speeds], *kept)
+
+    @property
+    def curves(self) -> tuple[Curve, ...]:
+        """ln of mean friction over mean load against ln of mean load, without errors."""
+        known = self.known
+        load, friction = (np.atleast_3d(force).mean(axis=2) for force in (self.load, self.friction_force))
+        return tuple(
+            Curve(speed, np.log(n[at]), np.log(x[at] / n[at]), np.full(at.sum(), nan))
+            for speed, n, x, at in zip(self.speeds.tolist(), load, friction, known, strict=True)
+        )
+
+    def resampled(self, statistic: Statistic) -> dict[str, Replicates]:
+        """Statistics with the scatter that leaving surfaces out shows."""
+        return resample(statistic, self)
+
+    def deviations(self, slopes: float | np.ndarray = 0.0) -> np.ndarray:
+        """Deviations (surfaces, N) of each surface from the mean, relative, along a curve of these slopes."""
+        surfaces = slice(None) if self.load.ndim == 3 else slice(0)
+        forces = (np.atleast_3d(force)[self.known] for force in (self.load, self.friction_force))
+        load, friction = ((force / force.mean(axis=1, keepdims=True) - 1)[:, surfaces] for force in forces)
+        return (friction - (1 + np.reshape(slopes, (-1, 1))) * load).T
+
+    def replicates(self, value: np.ndarray, deviations: np.ndarray) -> Replicates:
+        """Numbers whose deviations follow from those of the surfaces."""
+        return Replicates.first_order(value, deviations)
+
+
+@dataclass(frozen=True)
+class MeasuredCurves:
+    """Curves of which every point was measured by itself.
+
+    curves : with the standard error of each ln mu, NaN where unknown
+    freedom : degrees of freedom of the one relative scatter behind these errors; infinite if it is known exactly
+    """
+
+    curves: tuple[Curve, ...]
+    freedom: float = field(default=inf)
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """(S,) [m/s]."""
+        return np.array([curve.speed for curve in self.curves])
+
+    @property
+    def points(self) -> int:
+        """Number of points."""
+        return sum(curve.log_load.size for curve in self.curves)
+
+    @property
+    def surfaces(self) -> int:
+        """1, as none is random."""
+        return 1
+
+    def complete(self) -> Self:
+        """Curves of more than one point, speeds ascending."""
+        kept = sorted((curve for curve in self.curves if curve.log_load.size > 1), key=lambda curve: curve.speed)
+        return replace(self, curves=tuple(kept))
+
+    def resampled(self, statistic: Statistic) -> dict[str, Replicates]:
+        """Statistics with the scatter that follows from moving each point by its standard error, both ways."""
+        whole, errors = statistic(self), self._errors
+        if not np.all(np.isfinite(errors)):
+            return {name: self.replicates(value, np.full((1, *np.shape(value)), nan)) for name, value in whole.items()}
+        moved = [[statistic(self._moved(point, sign * errors[point])) for sign in (1, -1)] for point in range(self.points)]
+        return {
+            name: self.replicates(value, np.array([(up[name] - down[name]) / 2 for up, down in moved]))
+            for name, value in whole.items()
+        }
+
+    def deviations(self, slopes: float | np.ndarray = 0.0) -> np.ndarray:
+        """Errors of the points (N, N); loads are known exactly."""
+        return np.diag(self._errors)
+
+    def replicates(self, value: np.ndarray, deviations: np.ndarray) -> Replicates:
+        """Numbers whose deviations follow from those of independent points."""
+        return Replicates(value, sqrt(len(deviations)) * deviations, self.freedom)
+
+    @property
+    def _errors(self):
+        return np.concatenate([curve.error for curve in self.curves])
+
+    def _moved(self, point, by):
+        moved = []
+        for curve in self.curves:
+            here = np.arange(curve.log_load.size) == point
+            moved.append(replace(curve, log_friction=curve.log_friction + by * here))
+            point -= curve.log_load.size
+        return replace(self, curves=tuple(moved))
