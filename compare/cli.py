@@ -107,6 +107,11 @@ class Command:
             if self.solves:
                 given["progress"] = "lines" if verbose else not (quiet or json)
             found = self.function(**given)
+        swept = getattr(found, "swept", None)
+        if swept is not None and swept.reused and not swept.solved and not (quiet or json):
+            typer.echo(f"0 tasks solved, {swept.reused} reused")
+        for line in getattr(found, "faults", ()):
+            typer.echo(f"crosscheck: {line}", err=True)
         if json:
             typer.echo(_as_json(found))
         elif not quiet:

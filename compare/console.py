@@ -23,7 +23,7 @@ def watch(lines: bool = False) -> "Watch":
     from . import progress
     from .pipeline import Watch
 
-    console = Console(highlight=False, soft_wrap=True, stderr=True)
+    console = Console(highlight=False, soft_wrap=True)
     return Watch(
         lambda: progress.Lines(console, pause=0.0) if lines else progress.watch(console),
         lambda count: _figures(console, count, lines),

@@ -14,9 +14,9 @@ import pytest
 from test_compare_sweep import Heard, Stand, loads
 
 from compare.pools.cluster import Cluster, differences
+from compare.runner import sweep
 from compare.store import Store, code_of
-from compare.study import Task
-from compare.sweep import sweep
+from compare.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere
 
@@ -142,7 +142,7 @@ import sys
 from pathlib import Path
 from test_compare_sweep import Stand, loads
 from compare.store import Store
-from compare.sweep import sweep
+from compare.runner import sweep
 
 if __name__ == "__main__":
     folder, address = Path(sys.argv[1]), sys.argv[2]

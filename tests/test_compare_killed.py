@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 from bem3d import BEM
 from compare.studies.catalogue import kelvin
 from compare.studies.series import Series, tasks
-from compare.study import SCENES
+from compare.task import SCENES
 from mdr1d import MDR
 
 

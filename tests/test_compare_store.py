@@ -27,7 +27,7 @@ from compare.outcome import Outcome, Row
 from compare.paper import campaign
 from compare.recalling import of_other_code, recall
 from compare.store import Store, canonical, code_digest, key, write
-from compare.study import Task
+from compare.task import SceneTask as Task
 from compare.taskfile import OTHERS
 from mdr1d import MDR
 from scene import Indent, Kelvin, Prony, Refused, Scene, SelfAffine, Slide, Sphere

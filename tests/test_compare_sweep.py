@@ -16,10 +16,10 @@ from pydantic.dataclasses import dataclass
 from compare.outcome import Outcome, Row
 from compare.pools.local import ONE_THREAD, STILLBORN, Local
 from compare.progress import Bar, Lines, duration, watch
+from compare.runner import TRIES, sweep
 from compare.sharing import Sharing
 from compare.store import Store
-from compare.study import Task
-from compare.sweep import TRIES, sweep
+from compare.task import SceneTask as Task
 from compare.timeleft import TimeLeft
 from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
 
@@ -232,7 +232,7 @@ import sys
 from pathlib import Path
 from test_compare_sweep import Stand, loads
 from compare.store import Store
-from compare.sweep import sweep
+from compare.runner import sweep
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1])

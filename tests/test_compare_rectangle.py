@@ -1,0 +1,167 @@
+"""Everything that was solved is a Dataset with named dimensions, units, and a status of each contact."""
+
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+import pytest
+import xarray
+
+from bem3d import BEM
+from compare import pipeline
+from compare.finding import Claim
+from compare.outcome import Outcome, Row
+from compare.rectangle import Rectangle, on_two_grids, tree, unique
+from compare.statistics.jackknife import Sample, friction, judge, mean
+from mdr1d import MDR
+from scene import Indent, Kelvin, Refused, Scene, SelfAffine, Slide, Sphere
+from scene.reading import InvalidInput
+
+SCENE = Scene(
+    indenter=Sphere(radius=1e-2),
+    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+    motion=Slide(speed=0.1, load=1.0),
+    roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
+)
+ROUGH = Rectangle(
+    scene=SCENE,
+    speeds=(0.0, 0.1),
+    values=(0.5, 1.0, 2.0),
+    grids=on_two_grids(MDR(points=200), BEM(points=32)),
+    draws={"MDR": 4, "BEM": 2},
+)
+SMOOTH = replace(ROUGH, scene=replace(SCENE, roughness=None))
+
+
+def outcome_of(task, bad=()):
+    """Numbers that tell where they belong: the speed, the load, the seed, the points."""
+    rows = []
+    for scene in task.scenes:
+        seed = getattr(scene.roughness, "seed", 0)
+        if seed in bad:
+            rows.append(Row(reason="too rough"))
+            continue
+        speed, load = scene.motion.speed, scene.motion.load
+        rows.append(Row(load, 1e-4 * load, 0.1 * load * speed, measures={"seed_seen": float(seed)}))
+    return Outcome(tuple(rows))
+
+
+@pytest.fixture(scope="module")
+def answers():
+    both = {"rough": ROUGH, "smooth": SMOOTH}
+    return tree(both, {task: outcome_of(task) for task in unique(both)})
+
+
+def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
+    assert dict(answers["rough/MDR"].sizes) == {"grid": 2, "speed": 2, "load": 3, "draw": 4}
+    assert dict(answers["rough/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3, "draw": 2}
+    assert dict(answers["smooth/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3}
+    assert answers["rough/BEM"].points.values.tolist() == [32, 16]
+    assert answers["rough/BEM"].draw.values.tolist() == [5, 6]
+
+
+def test_every_number_stands_where_it_was_asked_for(answers):
+    rough = answers["rough/MDR"].to_dataset()
+    assert np.array_equal(
+        rough.normal_force.broadcast_like(rough.load), rough.load.broadcast_like(rough.normal_force)
+    )
+    assert (rough.seed_seen == rough.draw).all()
+    assert rough.friction_force.sel(speed=0.1, load=2.0).values == pytest.approx(0.02)
+
+
+def test_every_variable_says_its_unit_and_what_it_is(answers):
+    for node in ("rough/MDR", "smooth/BEM"):
+        for name, variable in answers[node].to_dataset().variables.items():
+            assert variable.attrs["long_name"], name
+    assert answers["rough/MDR"].normal_force.attrs["units"] == "N"
+    assert answers["rough/MDR"].speed.attrs["units"] == "m/s"
+
+
+def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
+    both = {"rough": ROUGH}
+    found = tree(both, {task: outcome_of(task, bad=(6,)) for task in unique(both)})["rough/BEM"].to_dataset()
+    assert set(found.status.sel(draw=6).values.ravel()) == {"failed"}
+    assert set(found.reason.sel(draw=6).values.ravel()) == {"too rough"}
+    assert set(found.status.sel(draw=5).values.ravel()) == {"solved"}
+    assert friction(found.sel(grid="fine"))[1] == pytest.approx([0.01] * 3)
+    assert np.isnan(mean(found.sel(grid="fine", draw=[6]), "normal_force")).all()
+
+
+def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
+    empty = {task: Outcome((Row(0.0, nan, 0.0),) * len(task.scenes)) for task in ROUGH.tasks()}
+    found = ROUGH.datasets(empty)["BEM"]
+    assert set(found.status.values.ravel()) == {"no contact"}
+    assert (found.normal_force == 0).all()
+    assert found.friction_force.isnull().all()
+
+
+def test_results_are_the_same_after_they_were_stored(answers, tmp_path):
+    pipeline.store_results(tmp_path / "results.nc", answers)
+    again = pipeline.load(tmp_path)
+    assert {node.path for node in again.subtree} == {node.path for node in answers.subtree}
+    for node in answers.subtree:
+        xarray.testing.assert_equal(again[node.path].to_dataset(), node.to_dataset())
+        for name, variable in node.variables.items():
+            assert again[node.path].variables[name].attrs == variable.attrs
+
+
+@pytest.mark.parametrize("damage", [b"", b"x" * 100])
+def test_damaged_results_and_folders_without_any_are_said(tmp_path, damage):
+    with pytest.raises(InvalidInput, match="no command has left results"):
+        pipeline.load(tmp_path)
+    (tmp_path / "results.nc").write_bytes(damage)
+    with pytest.raises(InvalidInput, match=r"results\.nc"):
+        pipeline.load(tmp_path)
+    with pytest.raises(InvalidInput, match="no such file"):
+        pipeline.load(tmp_path / "nowhere")
+
+
+def test_rectangles_that_cross_share_their_contacts():
+    line = replace(ROUGH, speeds=(0.1,), values=(1.0,))
+    assert len(unique({"a": ROUGH, "b": line})) == len(ROUGH.tasks())
+    kept = unique({"a": ROUGH, "b": replace(line, keeps_fields=True)})
+    assert len(kept) == len(ROUGH.tasks())
+    assert sum(task.keeps_fields for task in kept) == 2
+
+
+def test_depths_are_prescribed_where_the_scene_prescribes_one():
+    rest = replace(ROUGH, scene=replace(SCENE, motion=Indent(depth=1e-5)), speeds=(0.0,), values=(1e-5, 2e-5))
+    found = rest.datasets({task: Outcome((Row(1.0, 1e-5, 0.0),) * len(task.scenes)) for task in rest.tasks()})
+    assert "depth" in found["BEM"].dims
+    assert {"depth_reached", "normal_force"} <= set(found["BEM"].data_vars)
+
+
+def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
+    with pytest.raises(Refused, match="BEM"):
+        replace(
+            ROUGH, scene=replace(SCENE, roughness=replace(SCENE.roughness, shortest=1e-9, longest=1e-2))
+        ).refuse()
+
+
+def test_draws_of_solvers_are_left_out_in_equal_shares(answers):
+    sample = Sample.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
+    assert set(sample) == {"rough/MDR", "rough/BEM", "smooth/MDR"}
+    assert (sample.draws, len(sample.groups)) == (2, 2)
+    less = sample.without(sample.groups[1])
+    assert (less["rough/MDR"].sizes["draw"], less["rough/BEM"].draw.values.tolist()) == (2, [5])
+    assert less["smooth/MDR"] is sample["smooth/MDR"]
+
+
+def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers):
+    claim = Claim(
+        "force",
+        "The force in 1D is that in 3D",
+        1.0,
+        0.01,
+        curves=("rough",),
+        measure=lambda sample: (
+            mean(sample["rough/MDR"], "normal_force") / mean(sample["rough/BEM"], "normal_force")
+        ),
+    )
+    ratio = judge(replace(claim, measure=lambda sample: float(claim.measure(sample)[0, 0])), answers)
+    assert (ratio.value, ratio.verdict, ratio.grid, ratio.draws) == (1.0, "holds", 0.0, 2)
+    halved = answers.copy()
+    halved["rough/BEM"]["normal_force"].loc[{"grid": "coarse"}] *= 1.25
+    assert judge(
+        replace(claim, measure=lambda sample: float(claim.measure(sample)[0, 0])), halved
+    ).grid == pytest.approx(0.2)
