@@ -392,3 +392,9 @@ def shades(solver: str, count: int) -> list[tuple[float, float, float]]:
         tuple(base + 0.45 * (1 - t) * (dark - base) + 0.45 * max(0.0, t - 0.3) * (light - base))
         for t in np.linspace(0, 1, count)
     ]
+
+
+def bars(values, low, high) -> np.ndarray:
+    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; none where an end is not known."""
+    values, low, high = (np.asarray(each, float) for each in (values, low, high))
+    return np.nan_to_num(np.clip([values - low, high - values], 0.0, None), nan=0.0, posinf=0.0)

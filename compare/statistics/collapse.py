@@ -9,10 +9,11 @@ from math import isfinite, nan
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from pandas import DataFrame, concat
 
 from .commoncurve import Fit, bounds, inside, near, within
 from .frictioncurves import Curve, FrictionCurves
-from .jackknife import Estimated, RmsMisfit
+from .jackknife import Estimated, RmsMisfit, student
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
@@ -64,6 +65,7 @@ class Collapse:
 
     data : what was fitted; points_left_out, surfaces_left_out : how many were not
     curves : with standard errors, to first order
+    freedom : degrees of freedom of these errors
     degree : of the common polynomial
     straight : misfit of parallel straight lines, one a speed
     unshifted, horizontal, vertical, both : which shifts are fitted
@@ -73,6 +75,7 @@ class Collapse:
     points_left_out: int
     surfaces_left_out: int
     curves: tuple[Curve, ...] = field(repr=False)
+    freedom: float
     degree: int
     straight: RmsMisfit
     unshifted: Alignment
@@ -93,9 +96,39 @@ class Collapse:
     @property
     def inseparable(self) -> str:
         """Why a horizontal shift cannot be told from a vertical one; empty where it can."""
-        if _bent(self.straight):
-            return ""
-        return PARALLEL if isfinite(self.straight.value) else UNSCATTERED
+        return _inseparable(self.straight)
+
+    def points(self, shifts: np.ndarray | None = None) -> DataFrame:
+        """Every point of every curve, with intervals of 95 % of friction, as it is and shifted.
+
+        shifts : ln p(v) by which the force is shifted (S,); the best horizontal shifts if None
+        """
+        shifts = self.horizontal.horizontal.value if shifts is None else shifts
+        student_t, parts = student(0.95, self.freedom), []
+        for curve, shift in zip(self.curves, shifts, strict=True):
+            load, friction, factor = np.exp([curve.log_load, curve.log_friction, student_t * curve.error])
+            parts.append(
+                DataFrame(
+                    {
+                        "speed": curve.speed,
+                        "normal_force": load,
+                        "shifted_force": load * np.exp(shift),
+                        "friction_coefficient": friction,
+                        "friction_coefficient_low": friction / factor,
+                        "friction_coefficient_high": friction * factor,
+                    }
+                )
+            )
+        return concat(parts, ignore_index=True)
+
+    @property
+    def shifts(self) -> DataFrame:
+        """Shifts of each speed with intervals of 95 %: along the force, and along friction where both are shifted."""
+        columns: dict[str, np.ndarray] = {"speed": self.speeds}
+        for name, found in (("log_shift", self.horizontal.horizontal), ("log_lift", self.both.vertical)):
+            low, high = found.interval()
+            columns |= {name: found.value, f"{name}_low": low, f"{name}_high": high}
+        return DataFrame(columns)
 
     def misfit_at(self, shifts: np.ndarray) -> RmsMisfit:
         """Misfit of the curves once shifted by b_v (S,), as where a theory predicts ln p(v).
@@ -125,7 +158,8 @@ def collapse(data: FrictionCurves) -> Collapse:
     lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
     level = Fit(curves, lifted.degree)
     horizontal = _moved(complete, level, along)
-    raised = _moved(complete, lifted, both) if _bent(straight) else _undecided(lifted, both, PARALLEL)
+    why = _inseparable(straight)
+    raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if horizontal.reason and not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
     return Collapse(
@@ -133,6 +167,7 @@ def collapse(data: FrictionCurves) -> Collapse:
         points_left_out=data.points - count,
         surfaces_left_out=data.surfaces - complete.surfaces,
         curves=_with_errors(complete, curves),
+        freedom=complete.replicates(unmoved, complete.deviations()[:, : unmoved.size]).freedom,
         degree=lifted.degree,
         straight=straight,
         unshifted=_still(complete, level),
@@ -149,9 +184,11 @@ def _with_errors(data, curves):
     return tuple(replace(curve, error=error) for curve, error in zip(curves, parts, strict=True))
 
 
-def _bent(straight):
-    """Whether curves are not straight parallel lines."""
-    return straight.interval()[0] > STRAIGHT
+def _inseparable(straight):
+    """Why curves may be straight parallel lines, by the misfit of such lines; empty where they are not."""
+    if straight.interval()[0] > STRAIGHT:
+        return ""
+    return PARALLEL if isfinite(straight.value) else UNSCATTERED
 
 
 def _best(fit, *guesses):

@@ -196,8 +196,11 @@ class MeasuredCurves:
         """Statistics with the scatter that follows from moving each point by its standard error, both ways."""
         whole, errors = statistic(self), self._errors
         if not np.all(np.isfinite(errors)):
-            return {name: self.replicates(value, np.full((1, *np.shape(value)), nan)) for name, value in whole.items()}
-        moved = [[statistic(self._moved(point, sign * errors[point])) for sign in (1, -1)] for point in range(self.points)]
+            unknown = {name: np.full((1, *np.shape(value)), nan) for name, value in whole.items()}
+            return {name: self.replicates(value, unknown[name]) for name, value in whole.items()}
+        moved = [
+            [statistic(self._moved(point, sign * errors[point])) for sign in (1, -1)] for point in range(self.points)
+        ]
         return {
             name: self.replicates(value, np.array([(up[name] - down[name]) / 2 for up, down in moved]))
             for name, value in whole.items()

@@ -1,0 +1,195 @@
+"""Friction against load at many speeds, the curves shifted onto one, and the shifts that do so (paper, Figs. 5 to 7)."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import nan
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pandas import DataFrame, concat
+
+from ..finding import FAILS, Finding
+from ..page import Plot, Tables
+from ..statistics.collapse import Collapse
+from . import shades, style
+from .lettering import clear
+
+NAME = "shifted-curves"
+SHIFTS, POWERS, FITS = f"{NAME}-shifts", f"{NAME}-powers", f"{NAME}-fits"
+LOG10 = np.log(10)
+FITTED, EXPECTED = "fitted", "expected"
+# Lines of other powers of the speed, in the order in which they come.
+OTHERS = (("#009E73", ":"), ("#CC79A7", "-."))
+
+
+@dataclass(frozen=True)
+class ShiftedCurves:
+    """A row of the figure.
+
+    title : what the curves are
+    collapse : what shifts make of them
+    finding : on the collapse by horizontal shifts
+    expected : exponent of the shifts as a power of the speed that is expected; NaN if none is
+    powers : other exponents, by name
+    conditions : further columns of the points, in their order; where the column `holds` is false points are hollow
+    """
+
+    title: str
+    collapse: Collapse
+    finding: Finding
+    expected: float = nan
+    powers: Mapping[str, float] = field(default_factory=dict)
+    conditions: DataFrame | None = None
+
+    @property
+    def decided(self) -> bool:
+        """Whether the shifts mean anything: not of curves that they do not bring onto one, nor of those that part."""
+        return not self.collapse.horizontal.reason and self.finding.verdict != FAILS
+
+
+def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Plot | None:
+    """The plot of some sets of curves; None without any. about : a sentence added to the caption."""
+    if not rows:
+        return None
+    parts: dict[str, list[DataFrame]] = {NAME: [], SHIFTS: [], POWERS: [], FITS: []}
+    for each in rows:
+        for table, frame in _tables(each).items():
+            frame.insert(0, "curves", each.title)
+            parts[table].append(frame)
+    tables = {name + table.removeprefix(NAME): concat(frames, ignore_index=True) for table, frames in parts.items()}
+    caption = (
+        "Friction against normal force, a curve for each speed; the curves shifted along the force so as to come "
+        "closest to one (Eq. 23); and the shift. Bars are intervals of 95 %. Shifts of curves that do not collapse "
+        f"are hollow; curves that part are shifted as expected, if at all. {about}"
+    )
+    alternative = "; ".join(f"{each.title}: collapse {each.finding.verdict}" for each in rows)
+    return Plot(name, figure, tables, caption.strip(), alternative, {"name": name})
+
+
+def figure(tables: Tables, name: str = NAME) -> Figure:
+    """A row for each set of curves: as they are, shifted, and the shifts."""
+    points, shifts, powers, fits = (tables[name + each.removeprefix(NAME)] for each in (NAME, SHIFTS, POWERS, FITS))
+    count = len(fits)
+    drawing = style.canvas("double", 0.55 + 2.1 * count)
+    panels = drawing.subplots(count, 3, squeeze=False)
+    between = shades.between(shifts["speed"])
+    for row, (_, fit) in zip(panels, fits.iterrows(), strict=True):
+        own, moved, lines = (each[each["curves"] == fit["curves"]] for each in (points, shifts, powers))
+        row[1].sharey(row[0])
+        for axes, across in zip(row, ("normal_force", "shifted_force"), strict=False):
+            for speed, curve in own.groupby("speed"):
+                _curve(axes, curve, across, shades.SPEED(between(speed)))
+            axes.set(xscale="log", yscale="log")
+        if own["shifted_force"].isna().all():
+            row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
+        _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
+        row[0].set_title(fit["curves"])
+        row[2].set_title(_verdict(fit), loc="right", fontsize=style.small(), fontweight="normal")
+        row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
+        row[1].set(xlabel="shifted normal force [N]")
+        row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
+        for axes in row:
+            style.decades(axes)
+        for axis in (row[0].yaxis, row[1].yaxis, row[1].xaxis):
+            axis.set_major_formatter(lambda value, _: f"{value:g}")
+    place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
+    shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
+    clear(drawing, panels[:, 2])
+    return drawing
+
+
+def _tables(each):
+    """Tables of one row of the figure, by their names."""
+    found, exponent = each.collapse, each.collapse.horizontal.exponent
+    expected = found.horizontal.reason and np.isfinite(each.expected)
+    reference = found.speeds[found.speeds.size // 2]
+    points = found.points(each.expected * np.log(found.speeds / reference) if expected else None)
+    if each.conditions is not None:
+        points = points.join(each.conditions.reset_index(drop=True))
+    low, high = exponent.interval()
+    fitted = (exponent.value, low, high) if each.decided else (nan, nan, nan)
+    powers = {FITTED: fitted, EXPECTED: (each.expected, nan, nan)}
+    powers |= {name: (power, nan, nan) for name, power in each.powers.items()}
+    fit = {
+        "verdict": each.finding.verdict,
+        "misfit": each.finding.value,
+        "misfit_low": each.finding.interval[0],
+        "misfit_high": each.finding.interval[1],
+        "decided": each.decided,
+        "shifted_as": EXPECTED if expected else FITTED,
+        "reference_speed": reference,
+        "degree": found.degree,
+    }
+    return {
+        NAME: points,
+        SHIFTS: found.shifts,
+        POWERS: DataFrame(
+            [
+                {"power": name, "exponent": value, "exponent_low": low, "exponent_high": high}
+                for name, (value, low, high) in powers.items()
+                if np.isfinite(value)
+            ],
+            columns=["power", "exponent", "exponent_low", "exponent_high"],
+        ),
+        FITS: DataFrame([fit]),
+    }
+
+
+def _verdict(fit):
+    misfit = f", misfit {fit['misfit']:.2%}" if np.isfinite(fit["misfit"]) else ""
+    how = ", shifted as expected" if fit["shifted_as"] == EXPECTED else ""
+    return f"collapse {fit['verdict']}{how}{misfit}"
+
+
+def _curve(axes: Axes, curve: DataFrame, across: str, colour) -> None:
+    """A line with intervals; points filled where the conditions of the laws hold, or none are known."""
+    x, mu = curve[across], curve["friction_coefficient"]
+    if x.isna().any():
+        return
+    axes.errorbar(
+        x,
+        mu,
+        yerr=style.bars(mu, curve["friction_coefficient_low"], curve["friction_coefficient_high"]),
+        color=colour,
+        linewidth=style.width(0.45),
+        elinewidth=style.width(0.45),
+        capsize=0,
+    )
+    holds = curve["holds"].to_numpy(bool) if "holds" in curve else np.ones(len(curve), bool)
+    for at, inside in ((holds, colour), (~holds, style.paper())):
+        axes.scatter(
+            x[at], mu[at], s=style.mark(0.5) ** 2, c=[inside], edgecolors=[colour], linewidths=style.width(0.35), zorder=2.5
+        )
+
+
+def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> None:
+    """Shifts with intervals, hollow where curves do not collapse, and powers of the speed."""
+    speed, shift = shifts["speed"].to_numpy(), shifts["log_shift"] / LOG10
+    known = np.isfinite(shift)
+    ends = style.bars(shift, shifts["log_shift_low"] / LOG10, shifts["log_shift_high"] / LOG10)
+    if known.any():
+        axes.errorbar(speed, shift, yerr=ends, fmt="none", ecolor=colours, capsize=0)
+        inside = colours if fit["decided"] else style.paper()
+        axes.scatter(
+            speed, shift, s=style.mark(0.8) ** 2, facecolors=inside, edgecolors=colours, linewidths=style.width(0.8), zorder=2
+        )
+    decades, others = np.log10(speed / fit["reference_speed"]), iter(OTHERS)
+    for power in powers.itertuples():
+        label = f"{power.power} {power.exponent:.3g}"
+        if power.power == FITTED:
+            colour, line = style.grey(0.6), "-"
+            if np.isfinite(power.exponent_low):
+                label += f" ({power.exponent_low:.3g} to {power.exponent_high:.3g})"
+        elif power.power == EXPECTED:
+            colour, line = style.ink(), "--"
+        else:
+            colour, line = next(others, OTHERS[-1])
+        axes.plot(speed, power.exponent * decades, line, color=colour, linewidth=style.width(0.8), label=label)
+    axes.set(xscale="log", xlim=(speed[0] / 1.2, speed[-1] * 1.2))
+    if len(powers):
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + 0.5 * (high - low))
+        axes.legend(loc="upper right", fontsize=style.tiny(), borderaxespad=0.1, handlelength=1.5)
+    if not fit["decided"]:
+        axes.text(0.03, 0.05, "exponent undecided", transform=axes.transAxes, fontsize=style.small())

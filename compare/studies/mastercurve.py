@@ -1,0 +1,221 @@
+"""Friction that a user measured at several loads and speeds, shifted onto one curve: `crosscheck mastercurve`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import isfinite, nan, sqrt
+from pathlib import Path
+
+import numpy as np
+import xarray
+
+from scene.reading import InvalidInput
+from scene.table import read_rows
+
+from ..finding import EXACT, FAILS, Claim, Finding
+from ..outcome import Outcome
+from ..page import Block, Findings, Plot, Table
+from ..pipeline import Study
+from ..plots import shifted_curves
+from ..statistics import eq23
+from ..statistics.collapse import Collapse, collapse
+from ..statistics.frictioncurves import Curve, MeasuredCurves
+from ..task import Batch, Task
+from ..vocabulary import attributes
+
+COLUMNS = ("mu", "F_N", "v")
+# Names of the columns that a heading may have, in lower case.
+CALLED = {
+    "mu": ("mu", "µ", "μ", "friction", "friction_coefficient"),
+    "F_N": ("f_n", "fn", "load", "normal_force", "force"),
+    "v": ("v", "speed", "velocity"),
+}
+LEAST_LOADS = 2
+MEASURED = "measured"
+VARIABLES = dict(zip(COLUMNS, ("friction_coefficient", "normal_force", "speed"), strict=True))
+
+# Claims of Eq. 23 in the words of a measurement, by their own names.
+CLAIMS = {
+    eq23.COLLAPSE.id: ("mastercurve.horizontal", "Shifts along the load bring the curves onto one"),
+    eq23.VERTICAL.id: ("mastercurve.vertical", "No shift along friction is needed beside them"),
+    eq23.UNSHIFTED.id: ("mastercurve.unshifted", "Misfit to one curve before shifting"),
+    eq23.VERTICAL_ALONE.id: ("mastercurve.vertical-alone", "Misfit to one curve with shifts along friction alone"),
+    eq23.BOTH.id: ("mastercurve.both", "Misfit to one curve with both shifts"),
+}
+EXPONENT = Claim(
+    "mastercurve.exponent",
+    "Exponent of the shift along the load as a power of the speed",
+    meaning="Least squares in logarithms.",
+)
+BESIDE = Claim(
+    "mastercurve.exponent-beside-vertical",
+    "Exponent of the shift along the load where the curves are shifted along friction too",
+    meaning="Least squares in logarithms.",
+)
+VERTICAL_EXPONENT = Claim(
+    "mastercurve.vertical-exponent",
+    "Exponent of the shift along friction, beside that along the load, as a power of the speed",
+    meaning="Least squares in logarithms.",
+)
+NOT_REPEATED = "no point was measured more than once: the scatter is not known, and part of a misfit"
+NO_SHIFT = "none, as these shifts do not bring the curves onto one"
+
+
+@dataclass(frozen=True)
+class Mastercurve(Study):
+    """Shifts of measured friction.
+
+    path : of a table of friction, load and speed, a row a measurement
+    """
+
+    path: Path
+
+    command = "mastercurve"
+
+    @classmethod
+    def of(cls, table: str | Path) -> "Mastercurve":
+        """The study of a table. Raises InvalidInput naming file, line and what is allowed."""
+        study = cls(Path(table))
+        try:
+            study.data  # noqa: B018
+            study.collapse  # noqa: B018
+        except ValueError as error:
+            said = str(error)
+            raise InvalidInput(said if said.startswith(str(table)) else f"{table}: {said}") from error
+        return study
+
+    @property
+    def title(self) -> str:  # type: ignore[override]
+        """Heading of the page."""
+        return f"Friction of {self.path.stem} on one curve"
+
+    @property
+    def inputs(self) -> Mapping[str, str]:  # type: ignore[override]
+        """The file."""
+        return {"table": str(self.path)}
+
+    @cached_property
+    def data(self) -> xarray.Dataset:
+        """The table as a Dataset with a measurement a row."""
+        return read_measured(self.path)
+
+    @cached_property
+    def collapse(self) -> Collapse:
+        """Shifts of the curves."""
+        return collapse(curves_of(self.data))
+
+    def batches(self) -> Sequence[Batch]:
+        """None: nothing is solved."""
+        return ()
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """The measurements."""
+        return xarray.DataTree.from_dict({f"/{MEASURED}": self.data})
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Whether horizontal shifts suffice, whether vertical ones are needed, and the exponents of both."""
+        found, where = self.collapse, self.path.stem
+        raw = {
+            eq23.COLLAPSE.id: found.horizontal.rms,
+            eq23.UNSHIFTED.id: found.unshifted.rms,
+            eq23.VERTICAL_ALONE.id: found.vertical.rms,
+        }
+        findings = []
+        for each in eq23.findings(found, None, MEASURED, where=where, draws=0, plots=(shifted_curves.NAME,) * 2):
+            name, sentence = CLAIMS[each.claim.id]
+            if not isfinite(found.scatter):
+                each = replace(each, value=raw.get(each.claim.id, nan), reason=NOT_REPEATED)
+            findings.append(replace(each, claim=replace(each.claim, id=name, sentence=sentence)))
+        along, both = found.horizontal, found.both
+        no_shift = NO_SHIFT if findings[0].verdict == FAILS else ""
+        for claim, number, reason in (
+            (EXPONENT, along.exponent, along.reason or no_shift),
+            (BESIDE, both.exponent, both.reason),
+            (VERTICAL_EXPONENT, both.vertical_exponent, both.reason),
+        ):
+            low, high = number.interval()
+            findings.append(
+                Finding(
+                    claim=claim,
+                    value=nan if reason else float(number.value),
+                    scatter=(nan, nan) if reason else (float(low), float(high)),
+                    grid=0.0,
+                    grid_method=EXACT,
+                    where=where,
+                    reason=reason,
+                    plot=shifted_curves.NAME,
+                    dimension=MEASURED,
+                )
+            )
+        return findings
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        """The curves, shifted, and the shifts."""
+        row = shifted_curves.ShiftedCurves(self.path.stem, self.collapse, findings[0])
+        plot = shifted_curves.plot([row])
+        return [plot] if plot else []
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """Figure, findings, shifts."""
+        shifts = Table("shifts", self.collapse.shifts, "Natural logarithms of the shifts, with intervals of 95 %.")
+        return [*plots, Findings(findings), shifts]
+
+
+def read_measured(path: str | Path) -> xarray.Dataset:
+    """Table of friction coefficient mu, normal force F_N [N] and speed v [m/s], a row a measurement.
+
+    Columns stand in this order, or as a heading names them. Raises ValueError naming file, line and what is allowed.
+    """
+    heading, rows = read_rows(path, COLUMNS)
+    order = _order(heading)
+    columns = np.array(rows, float).reshape(-1, len(COLUMNS))[:, order].T
+    variables = {
+        name: ("measurement", column, attributes(name)) for name, column in zip(VARIABLES.values(), columns, strict=True)
+    }
+    return xarray.Dataset(variables)
+
+
+def curves_of(data: xarray.Dataset) -> MeasuredCurves:
+    """Curves of measurements.
+
+    Rows of equal load and speed are measurements of one point: their mean counts. Its standard error is that of a
+    scatter which, relative to friction, is the same everywhere: two or three measurements say too little of their
+    own. Where no point was measured twice, it is not known. Raises ValueError with too few speeds or loads.
+    """
+    points: dict[float, dict[float, list[float]]] = {}
+    columns = (data[name].values.tolist() for name in VARIABLES.values())
+    for friction, load, speed in zip(*columns, strict=True):
+        points.setdefault(speed, {}).setdefault(load, []).append(friction)
+    if len(points) < 2:
+        raise ValueError(f"{len(points)} speeds: at least 2 are needed")
+    for speed, loads in points.items():
+        if len(loads) < LEAST_LOADS:
+            raise ValueError(f"v = {speed:g} has {len(loads)} load: at least {LEAST_LOADS} are needed for a curve")
+    scatter, freedom = pooled_scatter([each for loads in points.values() for each in loads.values()])
+    return MeasuredCurves(tuple(_curve(speed, points[speed], scatter) for speed in sorted(points)), freedom)
+
+
+def pooled_scatter(repeated: Sequence[Sequence[float]]) -> tuple[float, int]:
+    """Standard deviation of a measurement relative to the mean of its point, and its degrees of freedom."""
+    freedom = sum(len(each) - 1 for each in repeated)
+    squares = sum(float(np.sum(np.square(np.array(each) / np.mean(each) - 1))) for each in repeated)
+    return (sqrt(squares / freedom), freedom) if freedom else (nan, 0)
+
+
+def _curve(speed, loads, scatter):
+    ordered = [loads[load] for load in sorted(loads)]
+    friction, error = zip(*((np.mean(each), scatter / sqrt(len(each))) for each in ordered), strict=True)
+    return Curve(speed, np.log(sorted(loads)), np.log(friction), np.array(error))
+
+
+def _order(heading):
+    """Columns of mu, F_N and v."""
+    if not heading:
+        return list(range(len(COLUMNS)))
+    meant = [next((name for name in COLUMNS if cell.lower() in CALLED[name]), cell) for cell in heading]
+    if sorted(meant) != sorted(COLUMNS):
+        names = "; ".join(f"{name} as {', '.join(called)}" for name, called in CALLED.items())
+        raise ValueError(f"the heading {heading} must name each of {', '.join(COLUMNS)} once: {names}")
+    return [meant.index(name) for name in COLUMNS]
