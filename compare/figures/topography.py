@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..topography import Description, mapped
+from ..statistics.spectra import Description, mapped
 from ..plots import style
 from ..plots.lettering import clear
 

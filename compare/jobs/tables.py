@@ -15,8 +15,8 @@ from ..paper.measured import read_measured
 from ..paper.shifts import Shifted
 from ..publish import draw
 from ..report import slug
-from ..sweep import SweepResult
-from ..topography import Description, describe, described
+from ..runner import SweepResult
+from ..statistics.spectra import Description, describe, described
 from ..wording import explain, explain_vertical, plus_minus
 from .job import Panel, Round
 

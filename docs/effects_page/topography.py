@@ -18,7 +18,7 @@ from compare.outcome import Outcome
 from compare.statistics.jackknife import student
 from compare.task import SceneTask as Task
 from compare.task import Task as AnyTask
-from compare.topography import Description, describe
+from compare.statistics.spectra import Description, describe
 from compare.wording import plus_minus
 from mdr1d import MDR
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere, Topography

@@ -1,4 +1,4 @@
-"""What a measured map says of itself: size, heights, slopes, spectrum and the self-affine law in it.
+"""Heights, slopes and spectra of a measured map, and the self-affine law in them.
 
 Spectra are two-sided, as on the page of conventions: <h^2> = 2 pi int q C_2D dq = 2 int C_1D dq.
 """
@@ -14,7 +14,7 @@ from scene import Topography
 from .powerlaw import LEAST, SelfAffineLaw, fit
 
 PER_DECADE = 10  # rings
-DECADE = 1.0  # of a band of wavelengths, below which an exponent says little
+DECADE = 1.0  # decades of wavelengths below which an exponent says little
 LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
 WHOLE = 1.05  # highest wave number of a map over that of its last wave with power, where there is no cut-off
 NOTHING = 1e-24  # of the greatest mean square of a wave: rounding
@@ -22,7 +22,7 @@ NOTHING = 1e-24  # of the greatest mean square of a wave: rounding
 
 @dataclass(frozen=True)
 class Rings:
-    """Spectrum averaged over directions, ring by ring; rings without power are left out.
+    """Spectrum averaged over directions, a ring of wave numbers each; rings without power are left out.
 
     edges : between the rings (N + 1,) [rad/m]
     q : mean wave numbers (N,) [rad/m]
@@ -50,7 +50,7 @@ class Profile:
 
 @dataclass(frozen=True)
 class Description:
-    """Of one map, levelled as it states.
+    """Heights, slopes and spectra of one map, levelled as it states.
 
     rms_height : of the pixels [m]
     slopes : rms of the differences between neighbours over a pixel, along x and along y [1]
@@ -68,22 +68,32 @@ class Description:
 
     @property
     def rms_slope(self) -> float:
-        """Of the full gradient, by differences [1]."""
+        """Rms slope of the full gradient, by differences [1]."""
         return hypot(*self.slopes)
 
     @property
     def rms_slope_spectral(self) -> float:
-        """Of the full gradient, by its waves [1]."""
+        """Rms slope of the full gradient, by its waves [1]."""
         return hypot(*self.spectral_slopes)
 
     @property
+    def band(self) -> str:
+        """Band of wavelengths of the law, in words; empty without a law."""
+        if self.law is None:
+            return ""
+        start = "below a roll-off" if self.law.rolloff else "from the longest wave"
+        end = "to a cut-off" if self.law.cutoff or not self.rings.whole else "to the shortest"
+        ends = f"{self.law.longest:.3g} to {self.law.shortest:.3g} m"
+        return f"{ends}, {self.law.decades:.2f} decades, {start} {end}"
+
+    @property
     def warnings(self) -> list[str]:
-        """What stands against taking the numbers at their word."""
+        """Reasons not to take the numbers at their word."""
         return [*_of_law(self.law), *_of_directions(self.spectral_slopes)]
 
 
 def describe(topography: Topography) -> Description:
-    """Everything. Raises ValueError for a map without heights, or without waves to average over directions."""
+    """Description of a map. Raises ValueError for a map without heights, or without waves to average over directions."""
     relief, waves = topography.relief, topography.waves
     if not relief.any():
         raise ValueError(f"heights are none once level = {topography.level!r} is taken off")
@@ -132,7 +142,7 @@ def rings_of(topography: Topography) -> Rings:
 
 
 def _freedoms(topography, shape):
-    """Of each wave: modulus and phase; of a mirrored map one number for the waves that are mirror images."""
+    """Independent numbers of each wave: modulus and phase; of a mirrored map one number for the waves that are mirror images."""
     if topography.repeat == "periodic":
         return np.full(shape, 2.0)
     freedoms = np.full(shape, 0.5)
@@ -181,25 +191,3 @@ def _of_directions(slopes) -> Iterator[str]:
 def mapped(rings: Rings) -> np.ndarray:
     """C_1D = pi q C_2D [m^3] of the rule of the MDR (N,)."""
     return pi * rings.q * rings.density
-
-
-def described(found: Description) -> list[str]:
-    """Lines for people."""
-    topography, law = found.topography, found.law
-    (columns, rows), (x, y) = topography.heights.shape[::-1], topography.size
-    (px, py), (sx, sy), (fx, fy) = topography.pixel, found.spectral_slopes, found.slopes
-    lines = [
-        f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
-        f'level: "{topography.level}" taken off; repeat: "{topography.repeat}"; peaks: "{topography.peaks}"',
-        f"rms height: {found.rms_height:.4g} m",
-        f"rms slope, full gradient: {found.rms_slope_spectral:.4g} spectral, {found.rms_slope:.4g} by differences",
-        f"rms slope along x, y: {sx:.4g}, {sy:.4g} spectral, {fx:.4g}, {fy:.4g} by differences",
-    ]
-    if law is not None:
-        lines += [
-            f"Hurst exponent: {law.hurst:.3f} ({law.low:.3f} to {law.high:.3f}, 95 %)",
-            f"its band: {law.longest:.3g} to {law.shortest:.3g} m, {law.decades:.2f} decades, "
-            f"{'below a roll-off' if law.rolloff else 'from the longest wave'} "
-            f"{'to a cut-off' if law.cutoff or not found.rings.whole else 'to the shortest'}",
-        ]
-    return lines + [f"warning: {each}" for each in found.warnings]

@@ -26,7 +26,7 @@ UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
 
 @dataclass(frozen=True)
 class SelfAffineLaw:
-    """What was found.
+    """Power law of a self-affine surface in a measured spectrum.
 
     hurst, low, high : Hurst exponent and its interval, 95 %
     plateau : C_2D below the roll-off, and of the law where there is none at its longest wave [m^4]
@@ -49,7 +49,7 @@ class SelfAffineLaw:
 
     @property
     def decades(self) -> float:
-        """Of wavelengths in the band."""
+        """Decades of wavelengths in the band."""
         return log10(self.longest / self.shortest)
 
     def density(self, q):
@@ -61,7 +61,7 @@ class SelfAffineLaw:
 def fit(
     q: np.ndarray, density: np.ndarray, freedoms: np.ndarray, edges: np.ndarray, seed: int = 0
 ) -> SelfAffineLaw:
-    """The law of a spectrum on rings.
+    """Law of a spectrum on rings.
 
     q, density, freedoms : of each ring (N,) [rad/m], [m^4], and of its mean density
     edges : between the rings (N + 1,) [rad/m]
@@ -104,7 +104,7 @@ def fit(
 
 
 def _bands(x, deviation):
-    """All that are tried: laws over as many rings as lie beyond, and a third of all."""
+    """Bands that are tried: laws over as many rings as lie beyond, and a third of all."""
     count = len(x)
     return [
         _Band(x, deviation, first, end)
@@ -122,7 +122,7 @@ def _tried(bands, spectra):
 
 
 def _best(bands, squares, slopes):
-    """Of least Bayesian information criterion, for each of many spectra, of the laws as steep as a surface."""
+    """Bands of least Bayesian information criterion, for each of many spectra, of the laws as steep as a surface."""
     unknowns = np.array([band.unknowns for band in bands])[:, None]
     criteria = squares + unknowns * np.log(bands[0].count)
     possible = (slopes >= -2 * STEEPEST - 2) & (slopes <= -2 * FLATTEST - 2)
@@ -144,11 +144,11 @@ class _Band:
         self.unknowns = len(columns) + (first > 0) + (end < len(x))
 
     def plateau(self, y):
-        """Its logarithm, of a spectrum (N,)."""
+        """Logarithm of the plateau of a spectrum (N,)."""
         return self._inverse[0] @ y
 
     def slope(self, y):
-        """Of the falling law; y (N, M)."""
+        """Slope of the falling law; y (N, M)."""
         return self._inverse[1] @ y
 
     def fitted(self, y):
@@ -156,5 +156,5 @@ class _Band:
         return self._columns @ (self._inverse @ y)
 
     def chi_square(self, y):
-        """About them; y (N, M)."""
+        """Chi square about law and parabola; y (N, M)."""
         return np.sum(((y - self.fitted(y)) / self._deviation) ** 2, axis=0)

@@ -1,0 +1,168 @@
+"""Heights, slopes and spectra of a map that a user measured: `crosscheck topography`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import nan
+from pathlib import Path
+from typing import Any
+
+import xarray
+from pydantic import TypeAdapter, ValidationError
+
+from scene import Topography
+from scene.reading import InvalidInput, mistakes
+
+from ..finding import EXACT, UNKNOWN, Claim, Finding
+from ..outcome import Outcome
+from ..page import Block, Findings, Plot, Text
+from ..pipeline import Study
+from ..plots import topography as plots
+from ..statistics.spectra import Description, describe
+from ..task import Batch, Task
+from ..vocabulary import attributes
+
+BY_WAVES = "Rms of the derivatives of its waves."
+BY_DIFFERENCES = "Rms of the differences between neighbours over a pixel."
+CLAIMS = {
+    claim.id: claim
+    for claim in (
+        Claim("topography.rms-height", "Rms height", unit="m", meaning="Rms of the pixels, levelled."),
+        Claim("topography.rms-slope", "Rms slope of the full gradient, spectral", meaning=BY_WAVES),
+        Claim("topography.rms-slope-x", "Rms slope along x, spectral", meaning=BY_WAVES),
+        Claim("topography.rms-slope-y", "Rms slope along y, spectral", meaning=BY_WAVES),
+        Claim("topography.rms-difference", "Rms slope of the full gradient, by differences", meaning=BY_DIFFERENCES),
+        Claim("topography.rms-difference-x", "Rms slope along x, by differences", meaning=BY_DIFFERENCES),
+        Claim("topography.rms-difference-y", "Rms slope along y, by differences", meaning=BY_DIFFERENCES),
+        Claim(
+            "topography.hurst",
+            "Hurst exponent",
+            meaning="Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it.",
+        ),
+        Claim("topography.longest", "Longest wavelength of the self-affine band", unit="m"),
+        Claim("topography.shortest", "Shortest wavelength of the self-affine band", unit="m"),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Map(Study):
+    """Description of a measured map of heights.
+
+    path : of the heights
+    stated : the other fields of a scene's `Topography`
+    """
+
+    path: Path
+    stated: Mapping[str, Any]
+
+    command = "topography"
+
+    @classmethod
+    def of(cls, file: str | Path, pixel: float | Sequence[float] | None = None, **stated: Any) -> "Map":
+        """The study of a file. Raises InvalidInput for what the file or a field of `Topography` does not allow.
+
+        pixel : side of a pixel [m], or sides along x and y; what is None, is left to the file or the default
+        """
+        sides = pixel if pixel is None or isinstance(pixel, int | float) else tuple(pixel)
+        if isinstance(sides, tuple) and len(sides) < 2:
+            sides = sides[0] if sides else None
+        stated |= {"pixel": sides}
+        study = cls(Path(file), {name: value for name, value in stated.items() if value is not None})
+        study.description  # noqa: B018
+        return study
+
+    @property
+    def title(self) -> str:  # type: ignore[override]
+        """Heading of the page."""
+        return f"Topography of {self.path.name}"
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """The file and what was stated of it."""
+        return {"file": str(self.path), **self.stated}
+
+    @cached_property
+    def description(self) -> Description:
+        """Sizes, slopes and spectra. Raises InvalidInput."""
+        content, adapter = {"file": str(self.path), **self.stated}, TypeAdapter(Topography)
+        try:
+            return describe(adapter.validate_python(content))
+        except ValidationError as error:
+            raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+        except ValueError as error:
+            raise InvalidInput(f"{self.path}: {error}") from error
+
+    def batches(self) -> Sequence[Batch]:
+        """None: nothing is solved."""
+        return ()
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Spectra of the map: on rings of wave numbers, and of its rows."""
+        rings, rows = self.description.rings, self.description.rows
+        spectra = {
+            "/rings": ("ring", {"q": rings.q, "density_2d": rings.density, "waves": rings.waves}),
+            "/rows": ("wave", {"q": rows.q, "density_1d": rows.density}),
+        }
+        return xarray.DataTree.from_dict(
+            {
+                place: xarray.Dataset({name: (dim, values, attributes(name)) for name, values in columns.items()})
+                for place, (dim, columns) in spectra.items()
+            }
+        )
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Height, slopes, and the self-affine law with its interval; nothing is claimed of them."""
+        found, law = self.description, self.description.law
+        numbers = {
+            "rms-height": found.rms_height,
+            "rms-slope": found.rms_slope_spectral,
+            "rms-slope-x": found.spectral_slopes[0],
+            "rms-slope-y": found.spectral_slopes[1],
+            "rms-difference": found.rms_slope,
+            "rms-difference-x": found.slopes[0],
+            "rms-difference-y": found.slopes[1],
+            "hurst": nan if law is None else law.hurst,
+            "longest": nan if law is None else law.longest,
+            "shortest": nan if law is None else law.shortest,
+        }
+        findings = []
+        for name, value in numbers.items():
+            hurst = name == "hurst"
+            known = hurst and law is not None
+            findings.append(
+                Finding(
+                    claim=CLAIMS[f"topography.{name}"],
+                    value=float(value),
+                    scatter=(law.low, law.high) if known else (nan, nan),
+                    grid=0.0 if known else nan,
+                    grid_method=EXACT if known else UNKNOWN,
+                    where=self.path.name,
+                    regime=found.band if hurst else "",
+                    reason="; ".join(found.warnings) if hurst else "",
+                    plot=plots.NAME,
+                    dimension="measured",
+                )
+            )
+        return findings
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        """Spectra of the map and of its rows."""
+        return [plots.plot(self.description)]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """What the map is, its spectra, its numbers."""
+        return [Text("\n".join(f"- {line}" for line in self.lines())), *plots, Findings(findings)]
+
+    def lines(self) -> list[str]:
+        """Size of the map, what was done to it, the band of the law, and warnings."""
+        found, map_ = self.description, self.description.topography
+        (rows, columns), (x, y), (px, py) = map_.heights.shape, map_.size, map_.pixel
+        return [
+            f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
+            f'level: "{map_.level}" taken off; repeat: "{map_.repeat}"; peaks: "{map_.peaks}"',
+            *([f"self-affine band: {found.band}"] if found.band else []),
+            *(f"warning: {each}" for each in found.warnings),
+        ]
