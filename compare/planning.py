@@ -8,7 +8,7 @@ from mdr1d import MDR
 from scene import Refused, Scene, SolveError, markup
 from scene.plan import Plan
 
-from .asked import Asked, case_of
+from .inputs import Asked, case_of
 
 
 @dataclass(frozen=True)

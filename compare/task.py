@@ -1,7 +1,7 @@
 """Task: what one worker solves in one go, and the scenes of one solver as such a task."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from math import nan
 from typing import Any, NamedTuple, Protocol
 
@@ -65,8 +65,8 @@ class SceneTask:
 
     solver: Solver
     scenes: tuple[Scene, ...]
-    keeps_fields: bool = False
-    work: float = 1.0
+    keeps_fields: bool = field(default=False, compare=False)
+    work: float = field(default=1.0, compare=False)
 
     @property
     def label(self) -> str:

@@ -1,41 +1,36 @@
-"""What is asked: scenes by path, by name or as objects, and folders that can be written into."""
+"""Scenes that a user gives: by path, by the name of a ready one, or as objects."""
 
-import errno
-import os
-import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields
 from importlib.resources import files
 from pathlib import Path
 from typing import TypeAlias
 
-from pydantic import ValidationError
-
-from scene import Scene, SolveError
+from scene import Scene
 from scene.reading import InvalidInput, parsed, read, text_of
 
 from .cases import Case, read_case, shipped_cases
 from .suggest import suggestion
 
-ASKS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
-# A file, the name of a ready scene, or what it says.
+COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
+# A scene as a file, as the name of a ready one, or as an object.
 Asked: TypeAlias = str | Path | Case | Scene
 
 
 def named_cases(asked: Asked | Mapping[str, Asked] | None = None) -> dict[str, Case]:
     """Cases by name: one, several by their names, or the paper's sphere and cone where nothing is asked.
 
-    Raises InvalidInput, Refused: nothing is solved of a case that cannot be compared.
+    Raises InvalidInput, and Refused of a case that cannot be compared.
     """
-    from .study import points  # a plan does without
-
-    try:
-        cases = _cases(asked)
-        for case in cases.values():
-            points(case)
-    except (ArithmeticError, SolveError, ValidationError) as error:
-        # The file is valid; what follows from it is not.
-        raise InvalidInput(f"{asked}: its numbers are so far apart that the contact leaves their range") from error
+    if asked is None:
+        return shipped_cases()
+    if isinstance(asked, str | Path):
+        path = located(asked)
+        return {path.stem: read_case(path)}
+    several = asked if isinstance(asked, Mapping) else {"scene": asked}
+    cases = {name: case_of(each) for name, each in several.items()}
+    for case in cases.values():
+        case.refuse()
     return cases
 
 
@@ -57,7 +52,7 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
         raise InvalidInput(f"{asked}: is a folder, and no {kind}")
     if path.exists():
         if (other := _other_kind(path, kind)) is not None:
-            raise InvalidInput(f"{asked}: is a {other}, and no {kind}: crosscheck {ASKS[other]} {asked}")
+            raise InvalidInput(f"{asked}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {asked}")
         return path
     every = ready()
     known = [name for name, each in every.items() if each.kind == kind]
@@ -81,34 +76,3 @@ def _other_kind(path: Path, kind: str) -> str | None:
     has = {"scene": "motion" in tables, "study": "series" in tables}
     other = "study" if kind == "scene" else "scene"
     return other if has[other] and not has[kind] else None
-
-
-def make_folders(folder: Path, names: Iterable[str] = (), written: Iterable[str] = ()) -> None:
-    """Make every folder that is going to be written into. Raises OSError, before anything is solved.
-
-    names : of folders below it; written : files that will be written into it, and are no folders
-    """
-    for below in (folder, *(folder / name for name in names)):
-        if below.exists() and not below.is_dir():
-            raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(below))
-        below.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=below):
-            pass
-    for path in (folder / name for name in written):
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-
-
-def _cases(asked):
-    if asked is None:
-        return shipped_cases()
-    if isinstance(asked, Mapping):
-        cases = {name: case_of(each) for name, each in asked.items()}
-    elif isinstance(asked, Case | Scene):
-        cases = {"scene": case_of(asked)}
-    else:
-        path = located(asked)
-        return {path.stem: read_case(path)}
-    for case in cases.values():
-        case.refuse()
-    return cases
