@@ -74,6 +74,10 @@ class Study:
         """What becomes of each claim."""
         return [judge(claim, answers) for claim in self.claims()]
 
+    def failed(self, findings: Sequence[Finding]) -> bool:
+        """Whether the command ends with status 1: a law or a stored value does not hold."""
+        return any(each.stated == FAILS for each in findings)
+
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
         """Figures of the page."""
         return ()
@@ -133,7 +137,7 @@ class Report:
     @property
     def failed(self) -> bool:
         """Whether a task broke, or a law or a stored value does not hold."""
-        return bool(self.swept.faults) or any(each.stated == FAILS for each in self.claims)
+        return bool(self.swept.faults) or self.study.failed(self.claims)
 
     @property
     def faults(self) -> list[str]:

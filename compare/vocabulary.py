@@ -16,6 +16,15 @@ LABELS: Mapping[str, Entry] = {
     "depth_reached": NUMBERS["depth"],
     "status": Entry("", "Whether a contact was solved, has no contact, failed, or was not asked for."),
     "reason": Entry("", "Why a solve failed; empty where it did not."),
+    # Of hard cases and of stored quantities.
+    "check": Entry("", "What is measured of a hard case and must not exceed its bound."),
+    "found": Entry("1", "Number of a check; of a refusal, how many of the words it must say are missing."),
+    "allowed": Entry("1", "Bound of a check, from the law of the case."),
+    "message": Entry("", "Error that came of what must be refused; in brackets what came instead of one."),
+    "quantity": Entry("", "Name of a ratio of two answers to one question."),
+    "side": Entry("", "Which of the two answers: numerator or denominator of the ratio."),
+    "measured": Entry("", "Number of one answer that a ratio is made of, in its SI unit."),
+    "stored": Entry("1", "Ratio as the baseline has it."),
 }
 
 

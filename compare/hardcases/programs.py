@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from scene import EmptyContact, Plane, Program, Refused, Scene, SolveError, Stage
 
-from .hardcase import HardCase, deviation, refusal
+from .hardcase import Group, deviation, refusal
 from .ordinary import (
     DEPTH,
     PACE,
@@ -21,9 +21,14 @@ from .ordinary import (
 )
 
 REFUSED = (Refused, SolveError)
+CASES = case = Group("programs")
 
 
-def _stages_apart(size):
+@case(
+    "Stages of 1e-15 and 1e15 s: after the long one steps of the short one are lost to rounding.",
+    "The short one first, force at rest within 1e-4, of the sums over pixels; last, refused by the durations.",
+)
+def stages_apart(size):
     solvers = line(size), space(size, points=24, steps=20)
     for solver in solvers:
         answer = solver.solve(program({"duration": 1e-15, "depth": DEPTH}, {"duration": 1e15}))
@@ -37,14 +42,22 @@ def _stages_apart(size):
         )
 
 
-def _too_many_steps(size):
+@case(
+    "A path of a thousand kilometres over pixels of micrometres.",
+    "Refused at once: the error says how many steps, the most allowed and what to change.",
+)
+def too_many_steps(size):
     scene = program({"duration": TIME, "depth": DEPTH}, {"duration": 1.0, "speed": 1e6 * PACE})
     for solver in (line(size), space(size)):
         names = ("steps on pixels", "1000000", "shorter path")
         yield refusal(f"{solver.name}: a path of 1000 km", REFUSED, names, partial(solver.solve, scene))
 
 
-def _never_touching(size):
+@case(
+    "A program that presses in by less than a pixel can see.",
+    "Refused: the error says so and what to do.",
+)
+def never_touching(size):
     scene = program({"duration": TIME, "depth": 1e-9 * DEPTH})
     names = ("nothing touches in the whole program", "press")
     yield refusal("BEM", EmptyContact, names, partial(space(size).solve, scene))
@@ -52,7 +65,11 @@ def _never_touching(size):
     yield refusal("MDR", SolveError, names, partial(line(size, extent=4 * RADIUS).solve, scene))
 
 
-def _no_programs(size):
+@case(
+    "Programs without stages, without load, of two quantities, backwards in time, below zero.",
+    "Refused: each error names the field, the value and what is allowed.",
+)
+def no_programs(size):
     asks = {
         "no stage": ((), ("stages", "at least 1")),
         "pressed nowhere": (({"duration": 1.0},), ("press nowhere",)),
@@ -72,32 +89,3 @@ def _no_programs(size):
         yield refusal(what, ValidationError, names, partial(program, *stages))
     gap = partial(Scene, Plane(), SOLID, Program(stages=(Stage(duration=1.0, load=1.0),)), ROUGH)
     yield refusal("a plane under a load in time", ValidationError, ("load", "Plane", "pressure"), gap)
-
-
-case = partial(HardCase, "programs")
-CASES = (
-    case(
-        "stages-apart",
-        "Stages of 1e-15 and 1e15 s: after the long one steps of the short one are lost to rounding.",
-        "The short one first, force at rest within 1e-4, of the sums over pixels; last, refused by the durations.",
-        _stages_apart,
-    ),
-    case(
-        "too-many-steps",
-        "A path of a thousand kilometres over pixels of micrometres.",
-        "Refused at once: the error says how many steps, the most allowed and what to change.",
-        _too_many_steps,
-    ),
-    case(
-        "never-touching",
-        "A program that presses in by less than a pixel can see.",
-        "Refused: the error says so and what to do.",
-        _never_touching,
-    ),
-    case(
-        "no-programs",
-        "Programs without stages, without load, of two quantities, backwards in time, below zero.",
-        "Refused: each error names the field, the value and what is allowed.",
-        _no_programs,
-    ),
-)

@@ -13,9 +13,9 @@ from mdr1d import MDR
 from scene import CrossedWaves, Cylinder, Indent, Plane, Scene, SelfAffine, Slide, SolveError, Wave
 from scene.scales import elastic_contact
 
-from .complementarity import Matrix, conditions, solved
 from .conditions import conditions as conditions_of
-from .hardcase import Check, HardCase, deviation, refusal
+from .hardcase import Check, Group, deviation, refusal
+from .matrix import Matrix, conditions, solved
 from .ordinary import (
     CONE,
     DEPTH,
@@ -35,22 +35,42 @@ from .ordinary import (
 
 PRIMES = (17, 31, 47)
 PERIOD = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=2.5e-4, seed=2)
+CASES = case = Group("grids")
 
 
-def _primes(size):
+class _WithRow(Matrix):
+    """A matrix that is asked for single columns too."""
+
+    def __init__(self, matrix):
+        self.values, self.shape, self.symmetric = matrix.values, matrix.shape, matrix.symmetric
+
+
+@case(
+    "Squares of 17, 31 and 47 points, which no transform divides.",
+    "Conditions of contact, computed anew, within twice the tolerance.",
+)
+def prime_squares(size):
     for points in PRIMES:
         for scene in (resting(), sliding(1.0, KELVIN, roughness=ROUGH)):
             answer = space(size, points=points).solve(scene)
             yield from conditions_of(answer, 2 * TOLERANCE, f"{points} points")
 
 
-def _next_to_even(size):
+@case(
+    "One point more or less puts the indenter's tip between pixels or on one.",
+    "Forces of three successive grids lie within 8/N^1.5: the edge of contact moves by parts of a pixel.",
+)
+def odd_next_to_even(size):
     even = size.square
     forces = [space(size, points=points).solve(sliding(1.0)).normal_force for points in range(even - 1, even + 2)]
     yield Check("force of three successive grids: spread", np.ptp(forces) / forces[1], 8 / even**1.5)
 
 
-def _periods(size):
+@case(
+    "A surface that repeats on 17, 31 and 47 points, where no wave stands at the Nyquist wave number.",
+    "Conditions of contact, computed anew wave by wave, within twice the tolerance.",
+)
+def prime_periods(size):
     modulus = SOLID.indentation_modulus
     for points in (17, 18, 31, 47):
         for pressure in (1e-3 * modulus, modulus):
@@ -59,7 +79,11 @@ def _periods(size):
             yield from conditions_of(answer, 2 * TOLERANCE, f"{points} points, {pressure:.0e} Pa")
 
 
-def _full_periods(size):
+@case(
+    "Full contact on 17 and 31 points.",
+    "Friction of the closed form within 10/N^2.",
+)
+def prime_periods_in_full_contact(size):
     for points in (17, 31, 32):
         wave = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
         closure = full_contact.crossed_closure(1e-6, 1e-3, SOLID, PACE)
@@ -70,7 +94,11 @@ def _full_periods(size):
         yield deviation(f"{points} points: friction of a cell", answer.friction_force, known, 10 / points**2)
 
 
-def _rows(size):
+@case(
+    "A line contact on single rows of 17 and 31 points; squares are the only other shape of a grid.",
+    "Hertz's half-width to a pixel, depth to 4/N^1.5 of itself; the answer has one row.",
+)
+def prime_rows(size):
     half_width, _ = line_contact.hertz(SPHERE.radius, ELASTIC.indentation_modulus, LOAD / RADIUS)
     for points in (17, 31, size.row - 1, size.row):
         scene = Scene(Cylinder(SPHERE.radius), ELASTIC, Indent(line_load=LOAD / RADIUS))
@@ -82,7 +110,11 @@ def _rows(size):
         yield Check(f"{points} points: rows of the answer", abs(answer.fields["pressure"].shape[0] - 1.0), 0.0)
 
 
-def _one_wave_is_a_row(size):
+@case(
+    "A plane with one wave is alike along y and is solved on one row, of 61, 63 and 64 points.",
+    "Westergaard's contact fraction to two pixels, of the two edges.",
+)
+def one_wave_on_a_row(size):
     wave = Wave(amplitude=1e-5, wavelength=1e-3)
     closure = waves.wave_closure(ELASTIC.indentation_modulus, 1e-5, 1e-3)
     for points in (63, 64, 61):
@@ -91,7 +123,11 @@ def _one_wave_is_a_row(size):
         yield Check(f"{points} points: contact fraction, in pixels", abs(apart) * points, 2.0)
 
 
-def _oblong(size):
+@case(
+    "Rectangles of 3 x 40 to 40 x 3 points and a row of 60, at rest and in a flow.",
+    "Conditions of contact by a plain product to 1e-9.",
+)
+def oblong_problems(size):
     """The complementarity problem itself is solved on any rectangle."""
     for ny, nx in ((3, 40), (40, 3), (7, 13), (1, 60)):
         for memory in (0.0, 4.0):
@@ -102,14 +138,11 @@ def _oblong(size):
             yield from conditions(matrix, heights, found, 1e-9, f"{ny} x {nx}, memory {memory:g}")
 
 
-class _WithRow(Matrix):
-    """A matrix that is asked for single columns too."""
-
-    def __init__(self, matrix):
-        self.values, self.shape, self.symmetric = matrix.values, matrix.shape, matrix.symmetric
-
-
-def _smallest(size):
+@case(
+    "16 points a side in 3D, 8 on a line in 1D, and one less.",
+    "Conditions of contact, computed anew; a cone exact to 1e-12; one point less is refused by name and number.",
+)
+def smallest_grids(size):
     answer = BEM(points=16, extent=2.4 * RADIUS, tolerance=TOLERANCE).solve(sliding(1.0))
     yield from conditions_of(answer, 2 * TOLERANCE, "16 points")
     answer = MDR(points=8, extent=2.4 * RADIUS).solve(resting(indenter=CONE, motion=Indent(depth=RADIUS / 4)))
@@ -122,7 +155,11 @@ def _smallest(size):
         )
 
 
-def _largest(size):
+@case(
+    "Grids too large, of half points or of True points, extents of 0 and inf, tolerances below rounding.",
+    "Refused: each error names the setting, its value and what is allowed.",
+)
+def settings_that_do_not_exist(size):
     asks = {
         "BEM: 16385 points": (partial(BEM, points=16385), ("points", "16385", "16384")),
         "BEM: 1e12 points": (partial(BEM, points=10**12), ("points", "16384")),
@@ -139,7 +176,11 @@ def _largest(size):
         yield refusal(what, ValidationError, names, ask)
 
 
-def _odd_lines(size):
+@case(
+    "Odd and prime numbers of points in 1D, which are rounded up to have a node at the tip.",
+    "Force on a cone exact to 1e-12: it is linear between nodes.",
+)
+def odd_lines(size):
     """A cone is linear between nodes, on whatever nodes."""
     known = 2 / np.pi * ELASTIC.indentation_modulus * DEPTH**2 / CONE.coefficient
     for points in (9, 31, 101, 997):
@@ -148,7 +189,12 @@ def _odd_lines(size):
         yield Check(f"{points} points: oddness of what is solved on", answer.settings["points"] % 2, 0.0)
 
 
-def _odd_periods(size):
+@case(
+    "An extent that is no rational part of the period of the roughness, on prime numbers of points.",
+    "Pixels divide the period to 1e-9, the rms height is h0 to 1e-12, friction by traction is the energy lost "
+    "to 1e-9.",
+)
+def lines_off_the_period(size):
     """Rough lines whose period the grid does not divide."""
     for points in (997, 1009):
         answer = MDR(points=points, extent=sqrt(2) * 3 * RADIUS).solve(sliding(1.0, KELVIN, roughness=ROUGH))
@@ -159,7 +205,12 @@ def _odd_periods(size):
         yield deviation(f"{points} points: friction by traction", driven, answer.friction_force, 1e-9)
 
 
-def _turned(size):
+@case(
+    "A surface with the symmetry of the square on an even and an odd grid.",
+    "Pressure is symmetric to 1e-4 of its peak: contact is solved to 1e-7 of the depth, which the shortest "
+    "waves feel some hundred times as much.",
+)
+def turned_grids(size):
     """At rest a surface and its transpose carry the same, on even and odd grids."""
     scene = resting(roughness=CrossedWaves(amplitude=DEPTH / 10, wavelength=RADIUS / 2))
     for points in (31, 32):
@@ -170,7 +221,11 @@ def _turned(size):
         yield Check(f"{points} points: pressure less its mirror image", apart, 1e-4)
 
 
-def _window(size):
+@case(
+    "A window sought on grids that halve to odd ones.",
+    "The contact lies inside of it, solved to the tolerance.",
+)
+def windows_of_odd_grids(size):
     """Sought without an extent, on grids that halve to odd ones."""
     for points in (size.square - 1, 65, 130):
         answer = replace(space(size, points=points), extent=None).solve(sliding(3.0, roughness=ROUGH))
@@ -180,101 +235,13 @@ def _window(size):
         yield Check(f"{points} points: residual", answer.residual, TOLERANCE)
 
 
-def _too_few_for_waves(size):
+@case(
+    "A hundred waves on 17 points.",
+    "Refused: the error names shortest and the points that carry it; with longer waves it is solved.",
+)
+def waves_beyond_a_coarse_grid(size):
     scene = Scene(Plane(), ELASTIC, Indent(pressure=1e5), replace(PERIOD, shortest=1e-5))
     ask = partial(BEM(points=17).solve, scene)
     yield refusal("100 waves on 17 points", (SolveError, ValueError), ("points = 200", "shortest"), ask)
     wide = BEM(points=17, tolerance=TOLERANCE).solve(replace(scene, roughness=PERIOD))
     yield from conditions_of(wide, 2 * TOLERANCE)
-
-
-case = partial(HardCase, "grids")
-CASES = (
-    case(
-        "prime-squares",
-        "Squares of 17, 31 and 47 points, which no transform divides.",
-        "Conditions of contact, computed anew, within twice the tolerance.",
-        _primes,
-    ),
-    case(
-        "odd-next-to-even",
-        "One point more or less puts the indenter's tip between pixels or on one.",
-        "Forces of three successive grids lie within 8/N^1.5: the edge of contact moves by parts of a pixel.",
-        _next_to_even,
-    ),
-    case(
-        "prime-periods",
-        "A surface that repeats on 17, 31 and 47 points, where no wave stands at the Nyquist wave number.",
-        "Conditions of contact, computed anew wave by wave, within twice the tolerance.",
-        _periods,
-    ),
-    case(
-        "prime-periods-in-full-contact",
-        "Full contact on 17 and 31 points.",
-        "Friction of the closed form within 10/N^2.",
-        _full_periods,
-    ),
-    case(
-        "prime-rows",
-        "A line contact on single rows of 17 and 31 points; squares are the only other shape of a grid.",
-        "Hertz's half-width to a pixel, depth to 4/N^1.5 of itself; the answer has one row.",
-        _rows,
-    ),
-    case(
-        "one-wave-on-a-row",
-        "A plane with one wave is alike along y and is solved on one row, of 61, 63 and 64 points.",
-        "Westergaard's contact fraction to two pixels, of the two edges.",
-        _one_wave_is_a_row,
-    ),
-    case(
-        "oblong-problems",
-        "Rectangles of 3 x 40 to 40 x 3 points and a row of 60, at rest and in a flow.",
-        "Conditions of contact by a plain product to 1e-9.",
-        _oblong,
-    ),
-    case(
-        "smallest-grids",
-        "16 points a side in 3D, 8 on a line in 1D, and one less.",
-        "Conditions of contact, computed anew; a cone exact to 1e-12; one point less is refused by name and "
-        "number.",
-        _smallest,
-    ),
-    case(
-        "settings-that-do-not-exist",
-        "Grids too large, of half points or of True points, extents of 0 and inf, tolerances below rounding.",
-        "Refused: each error names the setting, its value and what is allowed.",
-        _largest,
-    ),
-    case(
-        "odd-lines",
-        "Odd and prime numbers of points in 1D, which are rounded up to have a node at the tip.",
-        "Force on a cone exact to 1e-12: it is linear between nodes.",
-        _odd_lines,
-    ),
-    case(
-        "lines-off-the-period",
-        "An extent that is no rational part of the period of the roughness, on prime numbers of points.",
-        "Pixels divide the period to 1e-9, the rms height is h0 to 1e-12, friction by traction is the energy lost "
-        "to 1e-9.",
-        _odd_periods,
-    ),
-    case(
-        "turned-grids",
-        "A surface with the symmetry of the square on an even and an odd grid.",
-        "Pressure is symmetric to 1e-4 of its peak: contact is solved to 1e-7 of the depth, which the shortest "
-        "waves feel some hundred times as much.",
-        _turned,
-    ),
-    case(
-        "windows-of-odd-grids",
-        "A window sought on grids that halve to odd ones.",
-        "The contact lies inside of it, solved to the tolerance.",
-        _window,
-    ),
-    case(
-        "waves-beyond-a-coarse-grid",
-        "A hundred waves on 17 points.",
-        "Refused: the error names shortest and the points that carry it; with longer waves it is solved.",
-        _too_few_for_waves,
-    ),
-)

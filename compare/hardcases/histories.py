@@ -1,7 +1,6 @@
 """Long histories: marches without drift, separation and return, holds of ages."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from bem3d import BEM
 from compare.exact import indentation
 from scene import Indent
 
-from .hardcase import Check, HardCase, deviation
+from .hardcase import Check, Group, deviation
 from .ordinary import (
     CONE,
     DEPTH,
@@ -30,6 +29,8 @@ from .ordinary import (
     space,
 )
 
+CASES = case = Group("histories")
+
 
 def _balanced(what, answer):
     """Work is what was lost and what is stored, at every step."""
@@ -38,7 +39,12 @@ def _balanced(what, answer):
     return Check(f"{what}: balance of energy", off, 1e-10)
 
 
-def _no_drift(size):
+@case(
+    "Up to 1e5 steps of sliding: rounding and forgotten memory would add up.",
+    "Forces of the last quarter are those before to 1e-4, of the ripple of pixels; friction is that of steady "
+    "sliding within 0.02, of 400 points; work is energy lost and stored to 1e-10.",
+)
+def many_steps_1d(size):
     """The same window of elastomer after hundreds of its lengths: steady sliding."""
     solver = line(size, points=400, extent=2.4 * RADIUS, steps=size.steps)
     path = size.steps / 400 * 2.4 * RADIUS
@@ -55,7 +61,12 @@ def _no_drift(size):
     yield _balanced("all steps", answer)
 
 
-def _no_drift_in_space(size):
+@case(
+    "Thousands of steps on a small grid.",
+    "Friction spreads by at most 0.02 in the last third and is that of steady sliding within 0.05, of 24 "
+    "points; every step is solved to the tolerance.",
+)
+def many_steps_3d(size):
     points, pace = 24, 0.1
     solver = BEM(points=points, extent=3.2 * RADIUS, steps=size.march)
     path = size.march / points * 3.2 * RADIUS
@@ -71,7 +82,11 @@ def _no_drift_in_space(size):
     yield Check("worst residual of all steps", answer.residual, solver.tolerance)
 
 
-def _held_for_ages(size):
+@case(
+    "A load put on in a thousandth of the relaxation time and held for a billion of them.",
+    "The indenter never rises, and ends at the relaxed depth: within 1e-4 in 1D and 0.02 in 3D, of the grids.",
+)
+def held_for_ages(size):
     """A load held for a billion relaxation times creeps to its relaxed depth, monotonously."""
     for solver, allowed in (
         (line(size, points=400, steps=size.steps // 4), 1e-4),
@@ -84,7 +99,11 @@ def _held_for_ages(size):
         yield Check(f"{solver.name}: greatest rise of the indenter", sunk, 1e-6)
 
 
-def _creep(size):
+@case(
+    "A load that rises, rests and rises again.",
+    "Depth of Lee and Radok within 1e-3, as a load is met once a step.",
+)
+def load_up_hold_up(size):
     """Lee and Radok at every step of a load that rises, holds and rises."""
     times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
     scene = program({"duration": TIME, "load": LOAD}, {"duration": 2 * TIME}, {"duration": TIME, "load": 2 * LOAD})
@@ -95,7 +114,12 @@ def _creep(size):
     yield Check("1D: depth against Lee and Radok", apart, 1e-3)
 
 
-def _separation(size):
+@case(
+    "Drawn back faster than the elastomer recovers: contact is lost before depth zero.",
+    "Force of Lee, Radok and Ting at every step, within 1e-3 of the greatest in 1D and 0.1 in 3D, of 32 "
+    "points and 60 steps; no pull; zero at the end.",
+)
+def drawn_out(size):
     """Drawn back faster than the elastomer recovers, and out of it."""
     times, depths = (0.0, 2 * TIME, 4 * TIME), (0.0, DEPTH, 0.0)
     for name, shape in (("sphere", SPHERE), ("cone", CONE)):
@@ -118,7 +142,12 @@ def _separation(size):
             yield Check(f"{solver.name}, {name}: pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
 
 
-def _return(size):
+@case(
+    "Pressed in, drawn out, and pressed in again into a surface that has or has not recovered.",
+    "After 1000 relaxation times the force is that of the first time within 1e-3, what is left of it; after "
+    "one it is less.",
+)
+def separation_and_return(size):
     """After separation and a long rest the second pressing is like the first; after a short one it is lighter."""
     for solver in (line(size, points=400, steps=20), space(size, points=24, steps=20)):
         forces = []
@@ -135,7 +164,12 @@ def _return(size):
         yield Check(f"{solver.name}: after a short one, over the first", forces[1] / once, 1.0)
 
 
-def _no_load(size):
+@case(
+    "Without load nothing touches, or the indenter just rests on the surface.",
+    "No force beyond 1e-9 of the load while there is none, and the load at the end within 0.03, half of the "
+    "last step in 3D.",
+)
+def load_to_zero_and_back(size):
     """A load that falls to zero: the indenter lifts off, and comes back."""
     for solver in (line(size, points=400, steps=100), space(size, points=24, steps=60)):
         scene = program(
@@ -151,7 +185,11 @@ def _no_load(size):
         yield deviation(f"{solver.name}: force at the end", force[-1], LOAD, 0.03)
 
 
-def _cycles(size):
+@case(
+    "A rough body lifted to a fifth and pressed in again forty times, sliding half of the time.",
+    "Work is energy lost and stored to 1e-10; lost energy never comes back; no pull.",
+)
+def forty_cycles(size):
     """Forty cycles of load on a rough body in sliding."""
     stages = [{"duration": TIME, "depth": DEPTH}]
     for _ in range(40):
@@ -166,7 +204,11 @@ def _cycles(size):
     yield Check("pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
 
 
-def _stop(size):
+@case(
+    "Sliding that ends at once, and a rest of a thousand relaxation times.",
+    "Friction falls to a hundredth of its greatest at least.",
+)
+def stop(size):
     """Sliding, then standing still for a thousand relaxation times: friction goes."""
     for solver in (line(size, points=400, steps=200), space(size, points=24, steps=60)):
         scene = program(
@@ -179,7 +221,12 @@ def _stop(size):
         yield Check(f"{solver.name}: friction left, over the greatest", abs(friction[-1]) / friction.max(), 0.01)
 
 
-def _elastic_march(size):
+@case(
+    "An elastic solid in time has no modes to follow.",
+    "No energy is lost, to 1e-12 of the work; force after all of it as at rest, within 1e-3 in 1D and 0.03 "
+    "in 3D, of the sums over pixels.",
+)
+def elastic_march(size):
     """Nothing is remembered and nothing lost."""
     scene = program(
         {"duration": TIME, "depth": DEPTH},
@@ -200,7 +247,11 @@ def _elastic_march(size):
         )
 
 
-def _kelvin_march(size):
+@case(
+    "A Kelvin body held after a ramp: its force jumps within a millionth of the relaxation time.",
+    "Force at rest in the end, within 1e-4; work is energy lost and stored to 1e-10.",
+)
+def dashpot_march(size):
     """A dashpot answers a change of rate with a jump of force."""
     scene = program(
         {"duration": TIME, "depth": DEPTH}, {"duration": 1e-6 * TIME}, {"duration": 50 * TIME}, elastomer=KELVIN
@@ -209,80 +260,3 @@ def _kelvin_march(size):
     still = line(size).solve(resting()).normal_force
     yield deviation("1D: force at the end", answer.normal_force, still, 1e-4)
     yield _balanced("1D", answer)
-
-
-case = partial(HardCase, "histories")
-CASES = (
-    case(
-        "many-steps-1d",
-        "Up to 1e5 steps of sliding: rounding and forgotten memory would add up.",
-        "Forces of the last quarter are those before to 1e-4, of the ripple of pixels; friction is that of steady "
-        "sliding within 0.02, of 400 points; work is energy lost and stored to 1e-10.",
-        _no_drift,
-    ),
-    case(
-        "many-steps-3d",
-        "Thousands of steps on a small grid.",
-        "Friction spreads by at most 0.02 in the last third and is that of steady sliding within 0.05, of 24 "
-        "points; every step is solved to the tolerance.",
-        _no_drift_in_space,
-    ),
-    case(
-        "held-for-ages",
-        "A load put on in a thousandth of the relaxation time and held for a billion of them.",
-        "The indenter never rises, and ends at the relaxed depth: within 1e-4 in 1D and 0.02 in 3D, of the grids.",
-        _held_for_ages,
-    ),
-    case(
-        "load-up-hold-up",
-        "A load that rises, rests and rises again.",
-        "Depth of Lee and Radok within 1e-3, as a load is met once a step.",
-        _creep,
-    ),
-    case(
-        "drawn-out",
-        "Drawn back faster than the elastomer recovers: contact is lost before depth zero.",
-        "Force of Lee, Radok and Ting at every step, within 1e-3 of the greatest in 1D and 0.1 in 3D, of 32 "
-        "points and 60 steps; no pull; zero at the end.",
-        _separation,
-    ),
-    case(
-        "separation-and-return",
-        "Pressed in, drawn out, and pressed in again into a surface that has or has not recovered.",
-        "After 1000 relaxation times the force is that of the first time within 1e-3, what is left of it; after "
-        "one it is less.",
-        _return,
-    ),
-    case(
-        "load-to-zero-and-back",
-        "Without load nothing touches, or the indenter just rests on the surface.",
-        "No force beyond 1e-9 of the load while there is none, and the load at the end within 0.03, half of the "
-        "last step in 3D.",
-        _no_load,
-    ),
-    case(
-        "forty-cycles",
-        "A rough body lifted to a fifth and pressed in again forty times, sliding half of the time.",
-        "Work is energy lost and stored to 1e-10; lost energy never comes back; no pull.",
-        _cycles,
-    ),
-    case(
-        "stop",
-        "Sliding that ends at once, and a rest of a thousand relaxation times.",
-        "Friction falls to a hundredth of its greatest at least.",
-        _stop,
-    ),
-    case(
-        "elastic-march",
-        "An elastic solid in time has no modes to follow.",
-        "No energy is lost, to 1e-12 of the work; force after all of it as at rest, within 1e-3 in 1D and 0.03 "
-        "in 3D, of the sums over pixels.",
-        _elastic_march,
-    ),
-    case(
-        "dashpot-march",
-        "A Kelvin body held after a ramp: its force jumps within a millionth of the relaxation time.",
-        "Force at rest in the end, within 1e-4; work is energy lost and stored to 1e-10.",
-        _kelvin_march,
-    ),
-)

@@ -23,7 +23,7 @@ from scene import (
 )
 
 from .conditions import conditions, kelvin_surface
-from .hardcase import Check, HardCase, deviation, refusal
+from .hardcase import Check, Group, deviation, refusal
 from .ordinary import (
     DEPTH,
     KELVIN,
@@ -40,8 +40,14 @@ from .ordinary import (
     space,
 )
 
+CASES = case = Group("roughness")
 
-def _no_height(size):
+
+@case(
+    "Roughness of height zero, of 1e-300 m and of 1e-20 m, a part in 1e16 of the depth.",
+    "Force of the smooth body: to the last bit at 0 and 1e-300 m, to 1e-12 at 1e-20 m.",
+)
+def height_zero(size):
     for height, allowed in ((0.0, 0.0), (1e-300, 0.0), (1e-20, 1e-12)):
         flat = replace(ROUGH, rms_height=height)
         for solver in (line(size, extent=4 * RADIUS), space(size)):
@@ -50,7 +56,12 @@ def _no_height(size):
             yield Check(f"{solver.name}: force, h0 = {height:g} m", apart, allowed)
 
 
-def _hurst(size):
+@case(
+    "At H = 0 and 1 moments of the spectrum are logarithms, limits of powers that cancel.",
+    "The rms height is h0 to 1e-12 on line and surface; the rms slope is that of H 1e-9 away to 1e-7; "
+    "conditions of contact, computed anew.",
+)
+def hurst_zero_and_one(size):
     for hurst in (0.0, 1.0):
         rough = replace(ROUGH, hurst=hurst)
         drawn = draw(rough, size.line)
@@ -64,18 +75,11 @@ def _hurst(size):
         yield from conditions(answer, 2 * TOLERANCE, f"H = {hurst:g}")
 
 
-def _surface_of_kelvin(size):
-    for hurst in (0.0, 1.0):
-        for pace in (1e-3, 1.0, 1e3):
-            scene = sliding(pace, KELVIN, roughness=replace(ROUGH, hurst=hurst, rms_height=DEPTH))
-            answer = line(size).solve(scene)
-            apart = np.abs(kelvin_surface(answer) - answer.fields["displacement"]).max() / answer.depth
-            yield Check(f"H = {hurst:g}, v tau/a = {pace:g}: displacement", apart, 1e-12)
-            lost, driven = answer.friction_force, answer.measures["friction_by_traction"]
-            yield deviation(f"H = {hurst:g}, v tau/a = {pace:g}: friction by traction", driven, lost, 1e-9)
-
-
-def _shallow(size):
+@case(
+    "A load that one asperity carries: the depth is less than h0.",
+    "The load is met to 1e-10 in 1D and 1e-9 in 3D; conditions of contact, computed anew.",
+)
+def rougher_than_deep(size):
     """A load that one asperity carries: the depth is far less than the roughness."""
     for load in (1e-6, 1e-3):
         scene = resting(motion=Indent(load=load * LOAD), roughness=replace(ROUGH, rms_height=DEPTH))
@@ -88,7 +92,27 @@ def _shallow(size):
     yield from conditions(found, 2 * TOLERANCE)
 
 
-def _above_the_peaks(size):
+@case(
+    "H = 0 and 1 with h0 = d, sliding from v tau/a = 1e-3 to 1e3: most of the line is lifted off and lands again.",
+    "Displacement is the greatest of all that was pressed before and has relaxed, to 1e-12 of the depth; "
+    "friction by traction is the energy lost to 1e-9.",
+)
+def ends_of_hurst_in_a_flow(size):
+    for hurst in (0.0, 1.0):
+        for pace in (1e-3, 1.0, 1e3):
+            scene = sliding(pace, KELVIN, roughness=replace(ROUGH, hurst=hurst, rms_height=DEPTH))
+            answer = line(size).solve(scene)
+            apart = np.abs(kelvin_surface(answer) - answer.fields["displacement"]).max() / answer.depth
+            yield Check(f"H = {hurst:g}, v tau/a = {pace:g}: displacement", apart, 1e-12)
+            lost, driven = answer.friction_force, answer.measures["friction_by_traction"]
+            yield deviation(f"H = {hurst:g}, v tau/a = {pace:g}: friction by traction", driven, lost, 1e-9)
+
+
+@case(
+    "A depth at which the highest asperity does not reach the surface.",
+    "Refused as an empty contact: the error names motion.depth and its value.",
+)
+def above_the_peaks(size):
     steep, crest = Cone(radians(88)), CrossedWaves(amplitude=DEPTH / 10, wavelength=RADIUS)
     for solver, rough in ((line(size, extent=4 * RADIUS), replace(ROUGH, seed=4)), (space(size), crest)):
         for depth in (DEPTH / 100, 1e-300):
@@ -97,7 +121,11 @@ def _above_the_peaks(size):
             yield refusal(f"{solver.name}: {depth:g} m", EmptyContact, names, partial(solver.solve, scene))
 
 
-def _two_pixels_a_wave(size):
+@case(
+    "The shortest wave is at the Nyquist wave number of the grid.",
+    "Conditions of contact, computed anew; rms height of the line to 1e-12.",
+)
+def two_pixels_a_wave(size):
     period = 2 * RADIUS
     scene = Scene(
         Plane(), SOLID, Slide(speed=PACE, pressure=3e5), replace(ROUGH, shortest=2 * period / size.dense)
@@ -107,7 +135,11 @@ def _two_pixels_a_wave(size):
     yield deviation("rms height of the line on two nodes a wave", line_of.rms_height, ROUGH.rms_height, 1e-12)
 
 
-def _unresolved(size):
+@case(
+    "The shortest wave is far less than a pixel.",
+    "Refused: the error names shortest, its value and the points that carry it.",
+)
+def unresolved_waves(size):
     rough = replace(ROUGH, shortest=1e-6 * RADIUS)
     names = ("shortest", f"{rough.shortest:g}", "points = ")
     for solver in (line(size, extent=4 * RADIUS), space(size)):
@@ -115,7 +147,11 @@ def _unresolved(size):
         yield refusal(f"{solver.name}: a wave of {rough.shortest:g} m", Refused, names, ask)
 
 
-def _too_broad(size):
+@case(
+    "Roughness from millimetres to picometres fits no memory.",
+    "Refused at once: the error names what to change.",
+)
+def nine_decades_of_waves(size):
     rough = replace(ROUGH, shortest=1e-12)
     yield refusal(
         "MDR: nine decades of waves",
@@ -128,14 +164,22 @@ def _too_broad(size):
     yield refusal("BEM: 4000 waves each way", SolveError, ("4000 waves", "fit in memory", "take"), ask)
 
 
-def _one_wave(size):
+@case(
+    "A spectrum of one octave, all of it in the roll-off.",
+    "The rms height is h0 to 1e-12; conditions of contact, computed anew.",
+)
+def a_single_octave(size):
     rough = replace(ROUGH, shortest=ROUGH.longest / 2, rolloff=ROUGH.longest)
     drawn = draw(rough, size.line)
     yield deviation("rms height of the line", drawn.rms_height, ROUGH.rms_height, 1e-12)
     yield from conditions(dense(size).solve(sliding(1.0, roughness=rough)), 2 * TOLERANCE)
 
 
-def _steep(size):
+@case(
+    "Slopes of 1e11: linear theory has no scale for them.",
+    "Stretched by 2^40 force and depth grow by as much, friction by its square, to 1e-12, rounding.",
+)
+def steep_beyond_sense(size):
     """Both solvers are linear: heights, depth and force may be stretched alike."""
     factor = 2.0**40
     stretched = replace(ROUGH, rms_height=factor * ROUGH.rms_height)
@@ -150,7 +194,11 @@ def _steep(size):
         yield deviation(f"{solver.name}: friction over its square", ratio, flat.friction_force, 1e-12)
 
 
-def _huge_seed(size):
+@case(
+    "Seeds beyond 64 bits.",
+    "The same seed gives the same force, to the last bit.",
+)
+def huge_seeds(size):
     for seed in (2**63, 10**60):
         rough = replace(ROUGH, seed=seed)
         for solver in (line(size), space(size)):
@@ -158,7 +206,11 @@ def _huge_seed(size):
             yield Check(f"{solver.name}, seed {float(seed):g}: force of a second solve", abs(one - two), 0.0)
 
 
-def _paper(size):
+@case(
+    "H = 0 down to the Nyquist wave number, as in the paper: each interval of the line has its own slope.",
+    "Displacement and energy as of ends-of-hurst-in-a-flow.",
+)
+def as_rough_as_the_grid(size):
     """Waves down to the Nyquist wave number of the grid, and a rms slope of thousands."""
     rough = SelfAffine(hurst=0.0, rms_height=DEPTH, longest=2 * RADIUS)
     answer = MDR(points=size.line, extent=4.5 * RADIUS).solve(sliding(1.0, KELVIN, roughness=rough))
@@ -166,83 +218,3 @@ def _paper(size):
     yield Check("displacement against the greatest of what was pressed before", apart, 1e-12)
     driven = answer.measures["friction_by_traction"]
     yield deviation("friction by traction against energy", driven, answer.friction_force, 1e-9)
-
-
-case = partial(HardCase, "roughness")
-CASES = (
-    case(
-        "height-zero",
-        "Roughness of height zero, of 1e-300 m and of 1e-20 m, a part in 1e16 of the depth.",
-        "Force of the smooth body: to the last bit at 0 and 1e-300 m, to 1e-12 at 1e-20 m.",
-        _no_height,
-    ),
-    case(
-        "hurst-zero-and-one",
-        "At H = 0 and 1 moments of the spectrum are logarithms, limits of powers that cancel.",
-        "The rms height is h0 to 1e-12 on line and surface; the rms slope is that of H 1e-9 away to 1e-7; "
-        "conditions of contact, computed anew.",
-        _hurst,
-    ),
-    case(
-        "rougher-than-deep",
-        "A load that one asperity carries: the depth is less than h0.",
-        "The load is met to 1e-10 in 1D and 1e-9 in 3D; conditions of contact, computed anew.",
-        _shallow,
-    ),
-    case(
-        "ends-of-hurst-in-a-flow",
-        "H = 0 and 1 with h0 = d, sliding from v tau/a = 1e-3 to 1e3: most of the line is lifted off and lands "
-        "again.",
-        "Displacement is the greatest of all that was pressed before and has relaxed, to 1e-12 of the depth; "
-        "friction by traction is the energy lost to 1e-9.",
-        _surface_of_kelvin,
-    ),
-    case(
-        "above-the-peaks",
-        "A depth at which the highest asperity does not reach the surface.",
-        "Refused as an empty contact: the error names motion.depth and its value.",
-        _above_the_peaks,
-    ),
-    case(
-        "two-pixels-a-wave",
-        "The shortest wave is at the Nyquist wave number of the grid.",
-        "Conditions of contact, computed anew; rms height of the line to 1e-12.",
-        _two_pixels_a_wave,
-    ),
-    case(
-        "unresolved-waves",
-        "The shortest wave is far less than a pixel.",
-        "Refused: the error names shortest, its value and the points that carry it.",
-        _unresolved,
-    ),
-    case(
-        "nine-decades-of-waves",
-        "Roughness from millimetres to picometres fits no memory.",
-        "Refused at once: the error names what to change.",
-        _too_broad,
-    ),
-    case(
-        "a-single-octave",
-        "A spectrum of one octave, all of it in the roll-off.",
-        "The rms height is h0 to 1e-12; conditions of contact, computed anew.",
-        _one_wave,
-    ),
-    case(
-        "steep-beyond-sense",
-        "Slopes of 1e11: linear theory has no scale for them.",
-        "Stretched by 2^40 force and depth grow by as much, friction by its square, to 1e-12, rounding.",
-        _steep,
-    ),
-    case(
-        "huge-seeds",
-        "Seeds beyond 64 bits.",
-        "The same seed gives the same force, to the last bit.",
-        _huge_seed,
-    ),
-    case(
-        "as-rough-as-the-grid",
-        "H = 0 down to the Nyquist wave number, as in the paper: each interval of the line has its own slope.",
-        "Displacement and energy as of ends-of-hurst-in-a-flow.",
-        _paper,
-    ),
-)

@@ -11,10 +11,11 @@ from scene import Cone, Indent, Plane, PowerLaw, Scene, Slide, SolveError, Spher
 from scene.scales import elastic_contact
 
 from .conditions import conditions
-from .hardcase import Check, HardCase, deviation, refusal
+from .hardcase import Check, Group, deviation, refusal
 from .ordinary import CONE, DEPTH, ELASTIC, KELVIN, PACE, RADIUS, SOLID, SPHERE, TOLERANCE, dense, line
 
 STIFFNESS = ELASTIC.indentation_modulus
+CASES = case = Group("shapes")
 
 
 def sneddon(coefficient, exponent, radius):
@@ -35,57 +36,20 @@ def _at_rest(size, shape, radius, allowed_1d, allowed_3d):
     yield deviation(f"BEM under load, {name}: depth", answer.depth, depth, allowed_3d)
 
 
-def _needle(size):
+@case(
+    "Cones of 89 degrees and of a millionth and less short of a right angle.",
+    "Sneddon's load and depth: to 1e-10 in 1D, where a cone is linear between nodes, and within 3/N in 3D.",
+)
+def needle(size):
     for angle in (radians(89), pi / 2 - 1e-6, pi / 2 - 1e-12):
         yield from _at_rest(size, Cone(angle), RADIUS, 1e-10, 3 / size.square)
 
 
-def _blunt(size):
-    for angle in (1e-6, 1e-150):
-        yield from _at_rest(size, Cone(angle), RADIUS, 1e-10, 3 / size.square)
-    for radius in (1e6, 1e12):
-        yield from _at_rest(size, Sphere(radius), RADIUS, 20 / size.line**1.5, 3 / size.square)
-
-
-def _punch(size):
-    for exponent in (10.0, 100.0):
-        shape = PowerLaw(coefficient=DEPTH * RADIUS**-exponent, exponent=exponent)
-        yield from _at_rest(size, shape, RADIUS, exponent**2 * 10 / size.line**2, 3 / size.square)
-
-
-def _named_and_general(size):
-    for named in (SPHERE, CONE):
-        general = PowerLaw(coefficient=named.coefficient, exponent=named.exponent)
-        for solver in (line(size), dense(size)):
-            motion = Slide(speed=PACE, depth=DEPTH)
-            one, two = (solver.solve(Scene(shape, SOLID, motion)) for shape in (named, general))
-            for of in ("normal_force", "friction_force"):
-                apart = abs(getattr(one, of) - getattr(two, of))
-                yield Check(f"{solver.name}, {type(named).__name__}: {of}", apart, 0.0)
-
-
-def _between_exponents(size):
-    """A sphere lies between bodies of exponents a little below and above."""
-    for solver in (line(size), dense(size)):
-        forces = []
-        for exponent in (2 - 1e-9, 2.0, 2 + 1e-9):
-            shape = PowerLaw(coefficient=DEPTH / RADIUS**exponent, exponent=exponent)
-            forces.append(solver.solve(Scene(shape, SOLID, Slide(speed=PACE, depth=DEPTH))).normal_force)
-        yield Check(f"{solver.name}: spread of force", np.ptp(forces) / forces[1], 1e-8 + 3 * TOLERANCE)
-
-
-def _tip(size):
-    """Pressure at the tip of a cone is infinite; sums are not."""
-    scene = Scene(CONE, KELVIN, Slide(speed=PACE, depth=CONE.mdr_coefficient * RADIUS))
-    for points in (size.dense - 1, size.dense):
-        answer = dense(size, points=points).solve(scene)
-        yield from conditions(answer, 2 * TOLERANCE, f"{points} points")
-        yield Check(
-            f"{points} points: peak over mean", answer.fields["pressure"].max() * 4e-6 / answer.normal_force, 100
-        )
-
-
-def _needle_in_a_flow(size):
+@case(
+    "The same sliding on a Kelvin body.",
+    "Force and mu over the slope are those of a blunt cone to 1e-9: the theory is linear in heights.",
+)
+def needle_in_a_flow(size):
     for angle in (radians(89), pi / 2 - 1e-6):
         shape = Cone(angle)
         depth = shape.mdr_coefficient * RADIUS
@@ -102,7 +66,76 @@ def _needle_in_a_flow(size):
                 yield deviation(f"{what}: mu over the slope", mu, known.friction_coefficient, 1e-9)
 
 
-def _underflowing(size):
+@case(
+    "Cones of 1e-6 and 1e-150 rad, spheres of a thousand kilometres and more.",
+    "Sneddon's and Hertz's load and depth: to 1e-10 or 20/N^1.5 in 1D, within 3/N in 3D.",
+)
+def blunt(size):
+    for angle in (1e-6, 1e-150):
+        yield from _at_rest(size, Cone(angle), RADIUS, 1e-10, 3 / size.square)
+    for radius in (1e6, 1e12):
+        yield from _at_rest(size, Sphere(radius), RADIUS, 20 / size.line**1.5, 3 / size.square)
+
+
+@case(
+    "Exponents 10 and 100: flat where it touches, a wall at its edge, pressure peaking there.",
+    "Sneddon's load and depth: within 10 n^2/N^2 in 1D and 3/N in 3D.",
+)
+def nearly_a_flat_punch(size):
+    for exponent in (10.0, 100.0):
+        shape = PowerLaw(coefficient=DEPTH * RADIUS**-exponent, exponent=exponent)
+        yield from _at_rest(size, shape, RADIUS, exponent**2 * 10 / size.line**2, 3 / size.square)
+
+
+@case(
+    "A sphere and a cone stated as powers.",
+    "Forces are the same to the last bit.",
+)
+def named_and_general(size):
+    for named in (SPHERE, CONE):
+        general = PowerLaw(coefficient=named.coefficient, exponent=named.exponent)
+        for solver in (line(size), dense(size)):
+            motion = Slide(speed=PACE, depth=DEPTH)
+            one, two = (solver.solve(Scene(shape, SOLID, motion)) for shape in (named, general))
+            for of in ("normal_force", "friction_force"):
+                apart = abs(getattr(one, of) - getattr(two, of))
+                yield Check(f"{solver.name}, {type(named).__name__}: {of}", apart, 0.0)
+
+
+@case(
+    "Exponents 1e-9 below and above 2.",
+    "Forces lie within 1e-8 and the tolerance of contact.",
+)
+def next_to_a_sphere(size):
+    """A sphere lies between bodies of exponents a little below and above."""
+    for solver in (line(size), dense(size)):
+        forces = []
+        for exponent in (2 - 1e-9, 2.0, 2 + 1e-9):
+            shape = PowerLaw(coefficient=DEPTH / RADIUS**exponent, exponent=exponent)
+            forces.append(solver.solve(Scene(shape, SOLID, Slide(speed=PACE, depth=DEPTH))).normal_force)
+        yield Check(f"{solver.name}: spread of force", np.ptp(forces) / forces[1], 1e-8 + 3 * TOLERANCE)
+
+
+@case(
+    "Pressure is infinite at the tip, on a pixel or between pixels.",
+    "Conditions of contact, computed anew; the peak is at most a hundred times the mean.",
+)
+def tip_of_a_cone(size):
+    """Pressure at the tip of a cone is infinite; sums are not."""
+    scene = Scene(CONE, KELVIN, Slide(speed=PACE, depth=CONE.mdr_coefficient * RADIUS))
+    for points in (size.dense - 1, size.dense):
+        answer = dense(size, points=points).solve(scene)
+        yield from conditions(answer, 2 * TOLERANCE, f"{points} points")
+        yield Check(
+            f"{points} points: peak over mean", answer.fields["pressure"].max() * 4e-6 / answer.normal_force, 100
+        )
+
+
+@case(
+    "r^100: heights span hundreds of decades, depths are 1e-50 and 1e-100 m, coefficients 1e-150 and 1e150.",
+    "Sneddon's force within 3/N; a load of 1e-100 N is met to 1e-9.",
+)
+def powers_that_vanish(size):
     """z = c r^100: a tenth of the radius is a height of 1e-100 of that at the edge."""
     solvers = line(size), BEM(points=size.dense)
     for depth in (1e-50, 1e-100):
@@ -117,13 +150,21 @@ def _underflowing(size):
             yield deviation(f"{solver.name}, c = {coefficient:g}: force", answer.normal_force, 1e-100, 1e-9)
 
 
-def _squares_that_vanish(size):
+@case(
+    "At a depth of 1e-300 m squares of pressures, by which iterations go, are no numbers.",
+    "Refused: the error carries the violation that was left and the one wanted.",
+)
+def squares_that_vanish(size):
     shape = PowerLaw(coefficient=1.0, exponent=100.0)
     ask = partial(BEM(points=size.dense).solve, Scene(shape, ELASTIC, Indent(depth=1e-300)))
     yield refusal("a depth of 1e-300 m", SolveError, ("violation", "wanted"), ask)
 
 
-def _not_shapes(size):
+@case(
+    "Right angles, radii of zero, exponents out of range, planes without roughness, loads that press no plane.",
+    "Refused: each error names the field, the value and what is allowed.",
+)
+def no_shapes(size):
     asks = {
         "a cone of pi/2": (partial(Cone, angle=pi / 2), ("angle", "1.57", "less than")),
         "a cone of 0": (partial(Cone, angle=0.0), ("angle", "greater than 0")),
@@ -152,69 +193,3 @@ def _not_shapes(size):
     }
     for what, (ask, names) in asks.items():
         yield refusal(what, ValidationError, names, ask)
-
-
-case = partial(HardCase, "shapes")
-CASES = (
-    case(
-        "needle",
-        "Cones of 89 degrees and of a millionth and less short of a right angle.",
-        "Sneddon's load and depth: to 1e-10 in 1D, where a cone is linear between nodes, and within 3/N in 3D.",
-        _needle,
-    ),
-    case(
-        "needle-in-a-flow",
-        "The same sliding on a Kelvin body.",
-        "Force and mu over the slope are those of a blunt cone to 1e-9: the theory is linear in heights.",
-        _needle_in_a_flow,
-    ),
-    case(
-        "blunt",
-        "Cones of 1e-6 and 1e-150 rad, spheres of a thousand kilometres and more.",
-        "Sneddon's and Hertz's load and depth: to 1e-10 or 20/N^1.5 in 1D, within 3/N in 3D.",
-        _blunt,
-    ),
-    case(
-        "nearly-a-flat-punch",
-        "Exponents 10 and 100: flat where it touches, a wall at its edge, pressure peaking there.",
-        "Sneddon's load and depth: within 10 n^2/N^2 in 1D and 3/N in 3D.",
-        _punch,
-    ),
-    case(
-        "named-and-general",
-        "A sphere and a cone stated as powers.",
-        "Forces are the same to the last bit.",
-        _named_and_general,
-    ),
-    case(
-        "next-to-a-sphere",
-        "Exponents 1e-9 below and above 2.",
-        "Forces lie within 1e-8 and the tolerance of contact.",
-        _between_exponents,
-    ),
-    case(
-        "tip-of-a-cone",
-        "Pressure is infinite at the tip, on a pixel or between pixels.",
-        "Conditions of contact, computed anew; the peak is at most a hundred times the mean.",
-        _tip,
-    ),
-    case(
-        "powers-that-vanish",
-        "r^100: heights span hundreds of decades, depths are 1e-50 and 1e-100 m, coefficients 1e-150 and 1e150.",
-        "Sneddon's force within 3/N; a load of 1e-100 N is met to 1e-9.",
-        _underflowing,
-    ),
-    case(
-        "squares-that-vanish",
-        "At a depth of 1e-300 m squares of pressures, by which iterations go, are no numbers.",
-        "Refused: the error carries the violation that was left and the one wanted.",
-        _squares_that_vanish,
-    ),
-    case(
-        "no-shapes",
-        "Right angles, radii of zero, exponents out of range, planes without roughness, loads that press no "
-        "plane.",
-        "Refused: each error names the field, the value and what is allowed.",
-        _not_shapes,
-    ),
-)

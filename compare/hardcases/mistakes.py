@@ -26,7 +26,7 @@ from scene import (
 )
 from scene.reading import InvalidInput, read
 
-from .hardcase import Check, HardCase, refusal
+from .hardcase import Check, Group, refusal
 from .ordinary import (
     CONE,
     ELASTIC,
@@ -55,6 +55,7 @@ PARTS = (
     Slide(speed=1.0, depth=1e-4),
     ROUGH,
 )
+CASES = case = Group("mistakes")
 
 
 def _numbers(part) -> Iterator[str]:
@@ -70,23 +71,39 @@ def _in_every_field(size, value, said):
             yield refusal(f"{type(part).__name__}.{name} = {value}", ValidationError, names, ask)
 
 
-def _nan(size):
+@case(
+    "NaN in every real field of every part of a scene.",
+    "Refused: the error names the field, the value and that it must be finite.",
+)
+def nan(size):
     return _in_every_field(size, float("nan"), ("finite number", "nan"))
 
 
-def _infinite(size):
+@case(
+    "Plus and minus infinity in every real field.",
+    "Refused: the error names the field, the value and that it must be finite.",
+)
+def infinite(size):
     yield from _in_every_field(size, float("inf"), ("finite number", "inf"))
     yield from _in_every_field(size, -float("inf"), ("finite number", "-inf"))
 
 
-def _negative(size):
+@case(
+    "-1 in every real field but Poisson's ratio.",
+    "Refused: the error names the field.",
+)
+def negative(size):
     for refused in _in_every_field(size, -1.0, ()):
         # The only number that may be negative is one of Poisson's.
         if ".poisson_ratio" not in refused.what:
             yield refused
 
 
-def _zero(size):
+@case(
+    "0 in every real field that must not be zero.",
+    "Refused: the error names the field and that it must be greater.",
+)
+def zero(size):
     may = {"hurst", "rms_height", "speed", "poisson_ratio"}
     for part in PARTS:
         for name in set(_numbers(part)) - may:
@@ -94,7 +111,11 @@ def _zero(size):
             yield refusal(f"{type(part).__name__}.{name} = 0", ValidationError, names, ask)
 
 
-def _no_numbers(size):
+@case(
+    "Words, truth values, complex numbers, nothing, lists and arrays for a number; numpy's scalars.",
+    "Refused by field and kind; numpy's scalars are taken as they are.",
+)
+def no_numbers(size):
     for value in ("1e6", True, 1 + 0j, None, [1.0], np.array([1.0, 2.0])):
         for kind in (Elastic, Sphere):
             name = next(iter(fields(kind))).name
@@ -104,7 +125,11 @@ def _no_numbers(size):
         yield Check(f"{type(number).__name__} as a modulus", abs(Elastic(number).modulus - 1e6), 0.0)
 
 
-def _both_or_neither(size):
+@case(
+    "Both load and depth, or neither, wavelengths out of order, unknown names, moduli without times.",
+    "Refused: each error names the fields and values that contradict each other.",
+)
+def contradictions(size):
     asks = {
         "no load, no depth": (partial(Indent), ("none given", "exactly one", "load [N]", "depth [m]")),
         "load and depth": (
@@ -139,7 +164,11 @@ def _both_or_neither(size):
         yield refusal(what, ValidationError, names, ask)
 
 
-def _not_for_this_solver(size):
+@case(
+    "Planes, cylinders and waves in 1D, rough cylinders in 3D.",
+    "Refused before anything is solved, by the name of what is lacking.",
+)
+def not_for_this_solver(size):
     plane = Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH)
     cylinder = Scene(Cylinder(1e-2), SOLID, Indent(line_load=1e3))
     wave = resting(roughness=Wave(amplitude=1e-6, wavelength=1e-3))
@@ -158,7 +187,11 @@ def _not_for_this_solver(size):
         yield refusal(what, Refused, names, partial(solver.solve, scene))
 
 
-def _files(size):
+@case(
+    "Scene files with several mistakes, tables with words, commas, zeros, nan and nothing.",
+    "Refused: every mistake by its place in the file, its value and what is allowed.",
+)
+def files_with_mistakes(size):
     """Every mistake of a file at once, by its place."""
     scene = (
         '[indenter]\ntype = "sphere"\nradius = -1.0\n[elastomer]\ntype = "kelvin"\nmodulus = nan\n'
@@ -189,53 +222,3 @@ def _files(size):
         for what, (content, names) in tables.items():
             path.write_text(content, encoding="utf-8")
             yield refusal(what, ValueError, names, partial(read_table, path))
-
-
-case = partial(HardCase, "mistakes")
-CASES = (
-    case(
-        "nan",
-        "NaN in every real field of every part of a scene.",
-        "Refused: the error names the field, the value and that it must be finite.",
-        _nan,
-    ),
-    case(
-        "infinite",
-        "Plus and minus infinity in every real field.",
-        "Refused: the error names the field, the value and that it must be finite.",
-        _infinite,
-    ),
-    case(
-        "negative", "-1 in every real field but Poisson's ratio.", "Refused: the error names the field.", _negative
-    ),
-    case(
-        "zero",
-        "0 in every real field that must not be zero.",
-        "Refused: the error names the field and that it must be greater.",
-        _zero,
-    ),
-    case(
-        "no-numbers",
-        "Words, truth values, complex numbers, nothing, lists and arrays for a number; numpy's scalars.",
-        "Refused by field and kind; numpy's scalars are taken as they are.",
-        _no_numbers,
-    ),
-    case(
-        "contradictions",
-        "Both load and depth, or neither, wavelengths out of order, unknown names, moduli without times.",
-        "Refused: each error names the fields and values that contradict each other.",
-        _both_or_neither,
-    ),
-    case(
-        "not-for-this-solver",
-        "Planes, cylinders and waves in 1D, rough cylinders in 3D.",
-        "Refused before anything is solved, by the name of what is lacking.",
-        _not_for_this_solver,
-    ),
-    case(
-        "files-with-mistakes",
-        "Scene files with several mistakes, tables with words, commas, zeros, nan and nothing.",
-        "Refused: every mistake by its place in the file, its value and what is allowed.",
-        _files,
-    ),
-)

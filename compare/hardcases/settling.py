@@ -7,13 +7,19 @@ from scipy.optimize import nnls
 
 from bem3d import contact
 
-from .complementarity import Matrix, Ring, conditions, rounds_at_once, solved
-from .hardcase import Check, HardCase, refusal
+from .hardcase import Check, Group, refusal
+from .matrix import Matrix, Ring, conditions, rounds_at_once, solved
 
 FINE = 1e-9  # tolerance of problems given as a matrix
+CASES = case = Group("settling")
 
 
-def _flat(size):
+@case(
+    "All heights are the same: no point is deeper than any other, and at rest all touch.",
+    "At rest pressure as by elimination, to 1e-6 of its peak, as contact is solved to 1e-9; in a flow, which "
+    "lifts the trailing points, conditions of contact by a plain product.",
+)
+def flat_punch_of_ties(size):
     """Everything ties: the whole grid is a flat punch."""
     still, heights = Matrix(10, 13), np.zeros((10, 13))
     known = np.linalg.solve(still.values, np.ones(heights.size))
@@ -23,7 +29,12 @@ def _flat(size):
     yield from conditions(flowing, heights, solved(flowing, heights, FINE, load=1.0), FINE, "flowing")
 
 
-def _terraces(size):
+@case(
+    "Heights take few values: most pixels tie with many others.",
+    "Conditions of contact by a plain product to 1e-9; pressure as of nonnegative least squares, another "
+    "algorithm, to 1e-6 of its peak.",
+)
+def terraces(size):
     """Heights that take five values: every pixel ties with many."""
     n = 16
     y, x = np.mgrid[:n, :n] - (n - 1) / 2
@@ -38,7 +49,11 @@ def _terraces(size):
         yield Check(f"depth {depth:g}: against least squares", apart, 1e-6)
 
 
-def _checkerboard(size):
+@case(
+    "Every second pixel is high: the shortest wave of the grid, all crests tied.",
+    "Conditions of contact by a plain product to 1e-9.",
+)
+def checkerboard(size):
     heights = np.indices((14, 14)).sum(axis=0) % 2 * 1.0
     for memory in (0.0, 3.0):
         matrix = Matrix(14, 14, memory)
@@ -47,7 +62,11 @@ def _checkerboard(size):
             yield from conditions(matrix, heights, found, FINE, f"memory {memory:g}, load {load:g}")
 
 
-def _wrong_start(size):
+@case(
+    "The search starts on the highest point, on all, on those that will not touch, at 1e150 and at 1e-300.",
+    "The same pressure from each start to 1e-6 of its peak: contact is unique, and solved to 1e-9.",
+)
+def wrong_start(size):
     n = 16
     rough = np.random.default_rng(7).standard_normal((n, n))
     starts = {
@@ -66,7 +85,11 @@ def _wrong_start(size):
             yield Check(f"memory {memory:g}, from {name}", apart, 1e-6)
 
 
-def _many_sets(size):
+@case(
+    "On rough bodies under memories up to 1e4 pixels all trailing edges shed and gain points in each round.",
+    "Conditions of contact by a plain product to 1e-9.",
+)
+def rough_and_fast(size):
     """Rough and fast: at once, the set of contact takes many rounds to settle."""
     n = 24
     y, x = np.mgrid[:n, :n] - (n - 1) / 2
@@ -78,7 +101,11 @@ def _many_sets(size):
             yield from conditions(matrix, heights, found, FINE, f"memory {memory:g}, seed {seed}")
 
 
-def _cycle(size):
+@case(
+    "Rings of three points, each pushed by the next: dropping and adding at once never ends.",
+    "It does cycle at once, and conditions of contact hold to 1e-9 all the same.",
+)
+def contact_set_cycles(size):
     ring = Ring(copies=8, coupling=1.5)
     heights = np.zeros(ring.shape) + 1e-3 * np.arange(3)
     start = np.zeros(ring.shape)
@@ -91,7 +118,11 @@ def _cycle(size):
     yield from conditions(ring, heights, found, FINE, "ring")
 
 
-def _noisy(size):
+@case(
+    "An operator of seven digits is to be solved to thirteen.",
+    "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
+)
+def tolerance_out_of_reach(size):
     """An operator in single precision cannot be solved to twelve digits."""
     matrix = Matrix(12, 12)
 
@@ -107,7 +138,11 @@ def _noisy(size):
     )
 
 
-def _indefinite(size):
+@case(
+    "An operator that is not positive definite: there may be no answer, or several.",
+    "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
+)
+def attracting_half_space(size):
     matrix = Matrix(12, 12)
     matrix.values = -matrix.values
     heights = np.random.default_rng(2).standard_normal((12, 12))
@@ -115,58 +150,3 @@ def _indefinite(size):
     for symmetric in (True, False):
         ask = partial(contact.solve, matrix, heights, start, FINE, depth=1.0, symmetric=symmetric)
         yield refusal("an attracting half-space", contact.NotConverged, ("violation", "1.00e-09"), ask)
-
-
-case = partial(HardCase, "settling")
-CASES = (
-    case(
-        "flat-punch-of-ties",
-        "All heights are the same: no point is deeper than any other, and at rest all touch.",
-        "At rest pressure as by elimination, to 1e-6 of its peak, as contact is solved to 1e-9; in a flow, which "
-        "lifts the trailing points, conditions of contact by a plain product.",
-        _flat,
-    ),
-    case(
-        "terraces",
-        "Heights take few values: most pixels tie with many others.",
-        "Conditions of contact by a plain product to 1e-9; pressure as of nonnegative least squares, another "
-        "algorithm, to 1e-6 of its peak.",
-        _terraces,
-    ),
-    case(
-        "checkerboard",
-        "Every second pixel is high: the shortest wave of the grid, all crests tied.",
-        "Conditions of contact by a plain product to 1e-9.",
-        _checkerboard,
-    ),
-    case(
-        "wrong-start",
-        "The search starts on the highest point, on all, on those that will not touch, at 1e150 and at 1e-300.",
-        "The same pressure from each start to 1e-6 of its peak: contact is unique, and solved to 1e-9.",
-        _wrong_start,
-    ),
-    case(
-        "rough-and-fast",
-        "On rough bodies under memories up to 1e4 pixels all trailing edges shed and gain points in each round.",
-        "Conditions of contact by a plain product to 1e-9.",
-        _many_sets,
-    ),
-    case(
-        "contact-set-cycles",
-        "Rings of three points, each pushed by the next: dropping and adding at once never ends.",
-        "It does cycle at once, and conditions of contact hold to 1e-9 all the same.",
-        _cycle,
-    ),
-    case(
-        "tolerance-out-of-reach",
-        "An operator of seven digits is to be solved to thirteen.",
-        "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
-        _noisy,
-    ),
-    case(
-        "attracting-half-space",
-        "An operator that is not positive definite: there may be no answer, or several.",
-        "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
-        _indefinite,
-    ),
-)

@@ -1,16 +1,17 @@
 """One and the same contact from nanometres to kilometres, from pascals to terapascals, in any unit of time."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
 from scene import Cylinder, Program, Prony, Scene, Slide, Stage
 
-from .hardcase import HardCase, deviation
+from .hardcase import Group, deviation
 from .ordinary import DEPTH, LOAD, MODULUS, PACE, RADIUS, ROUGH, SPHERE, TIME, dense, line
 
 MODES = (1e6, 3e6), (TIME, TIME / 50)
+CASES = case = Group("units")
+BITS = "Depth, force and friction scale by powers of two to the last bit."
 
 
 def _scaled(length, modulus, time, motion, rough=ROUGH):
@@ -66,41 +67,77 @@ def _steps(motion):
     return {"steps": 20} if motion is _program else {}
 
 
-def _nanometres(size):
+@case(
+    "Lengths from micrometres to a thousandth of a nanometre.",
+    BITS,
+)
+def nanometres(size):
     return _compared(size, _slide, [(2.0**-k, 1.0, 1.0) for k in (10, 20, 30)], 0.0)
 
 
-def _kilometres(size):
+@case(
+    "Lengths from a metre to a million kilometres.",
+    BITS,
+)
+def kilometres(size):
     return _compared(size, _slide, [(2.0**k, 1.0, 1.0) for k in (10, 20, 40)], 0.0)
 
 
-def _pascals(size):
+@case(
+    "Moduli from 1e-12 to 1e24 Pa.",
+    BITS,
+)
+def pascals_to_exapascals(size):
     return _compared(size, _slide, [(1.0, 2.0**k, 1.0) for k in (-20, -60, 20, 60)], 0.0)
 
 
-def _ages(size):
+@case(
+    "Relaxation times from 1e-18 to 1e12 s.",
+    BITS,
+)
+def femtoseconds_to_ages(size):
     return _compared(size, _slide, [(1.0, 1.0, 2.0**k) for k in (-50, -20, 20, 50)], 0.0)
 
 
-def _all_at_once(size):
+@case(
+    "Nanometres, terapascals and picoseconds; kilometres, pascals and ages.",
+    BITS,
+)
+def all_units_at_once(size):
     return _compared(size, _slide, [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)], 0.0)
 
 
-def _loads(size):
+@case(
+    "A load is a product of all units, and the depth is sought.",
+    "Depth, force and friction scale to 1e-12: powers other than squares round.",
+)
+def loads_in_all_units(size):
     return _compared(size, _loaded, [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)], 1e-12)
 
 
-def _decimal(size):
+@case(
+    "Factors that are no powers of two: nanometres, kilometres, inches and psi; every number rounds anew.",
+    "Depth, force and friction scale to 1e-9: the set of contact is the same, and rounding is carried through.",
+)
+def decimal_units(size):
     factors = [(1e-9, 1.0, 1e-6), (1e3, 1e6, 1e3), (25.4e-3, 6894.757, 3600.0)]
     return _compared(size, _slide, factors, 1e-9)
 
 
-def _marches(size):
+@case(
+    "A program in time, cut into steps by pixels and durations in other units.",
+    "Depth, force and friction scale to 1e-9: steps round.",
+)
+def marches_in_all_units(size):
     factors = [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)]
     return _compared(size, _program, factors, 1e-9)
 
 
-def _lines(size):
+@case(
+    "Forces of a line are per length, and depths count from a logarithm.",
+    "Depth and mu scale to 1e-9: the logarithm rounds.",
+)
+def lines_in_all_units(size):
     """Forces of a line are per length."""
     one = dense(size, points=size.row, extent=None)
 
@@ -116,7 +153,11 @@ def _lines(size):
         yield deviation(f"{what}: mu", found.friction_coefficient, known.friction_coefficient, 1e-9)
 
 
-def _fields(size):
+@case(
+    "Sums may agree where points do not.",
+    "Displacement in 1D and pressure in 3D scale at every point, to the last bit.",
+)
+def fields_in_all_units(size):
     """Point by point, not only in the sum."""
     for build in (line, dense):
         one = build(size, extent=4 * RADIUS)
@@ -126,50 +167,3 @@ def _fields(size):
         name, unit = names[one.name]
         apart = np.abs(found.fields[name] / unit - known.fields[name]).max()
         yield deviation(f"{one.name}: {name}", 1 + apart / known.fields[name].max(), 1.0, 0.0)
-
-
-case = partial(HardCase, "units")
-BITS = "Depth, force and friction scale by powers of two to the last bit."
-CASES = (
-    case("nanometres", "Lengths from micrometres to a thousandth of a nanometre.", BITS, _nanometres),
-    case("kilometres", "Lengths from a metre to a million kilometres.", BITS, _kilometres),
-    case("pascals-to-exapascals", "Moduli from 1e-12 to 1e24 Pa.", BITS, _pascals),
-    case("femtoseconds-to-ages", "Relaxation times from 1e-18 to 1e12 s.", BITS, _ages),
-    case(
-        "all-units-at-once",
-        "Nanometres, terapascals and picoseconds; kilometres, pascals and ages.",
-        BITS,
-        _all_at_once,
-    ),
-    case(
-        "loads-in-all-units",
-        "A load is a product of all units, and the depth is sought.",
-        "Depth, force and friction scale to 1e-12: powers other than squares round.",
-        _loads,
-    ),
-    case(
-        "decimal-units",
-        "Factors that are no powers of two: nanometres, kilometres, inches and psi; every number rounds anew.",
-        "Depth, force and friction scale to 1e-9: the set of contact is the same, and rounding is carried "
-        "through.",
-        _decimal,
-    ),
-    case(
-        "marches-in-all-units",
-        "A program in time, cut into steps by pixels and durations in other units.",
-        "Depth, force and friction scale to 1e-9: steps round.",
-        _marches,
-    ),
-    case(
-        "lines-in-all-units",
-        "Forces of a line are per length, and depths count from a logarithm.",
-        "Depth and mu scale to 1e-9: the logarithm rounds.",
-        _lines,
-    ),
-    case(
-        "fields-in-all-units",
-        "Sums may agree where points do not.",
-        "Displacement in 1D and pressure in 3D scale at every point, to the last bit.",
-        _fields,
-    ),
-)

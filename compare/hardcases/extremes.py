@@ -23,7 +23,7 @@ from scene import (
     Wave,
 )
 
-from .hardcase import Check, HardCase, deviation, refusal
+from .hardcase import Check, Group, deviation, refusal
 from .ordinary import (
     DEPTH,
     LOAD,
@@ -38,6 +38,7 @@ from .ordinary import (
 )
 
 REFUSED = (Refused, SolveError, ValidationError)
+CASES = case = Group("extremes")
 
 
 def _answered_or_refused(solver, scene):
@@ -68,17 +69,29 @@ def _everywhere(size, value, *others):
             yield _answered_or_refused(solver, scene)
 
 
-def _huge(size):
+@case(
+    "1e150 to 1.7e308 as radius, depth, load, modulus, relaxation time and speed.",
+    "A force that is finite and positive, or a refusal in words that says what to change.",
+)
+def huge(size):
     for value in (1e150, 1e300, 1.7e308):
         yield from _everywhere(size, value, sliding(value / 1e300 + 1e100))
 
 
-def _denormal(size):
+@case(
+    "The least numbers that there are, as radius, depth, load, modulus and relaxation time.",
+    "A force that is finite and positive, or a refusal in words that says what to change.",
+)
+def denormal(size):
     for value in (5e-324, 1e-310, 1e-160):
         yield from _everywhere(size, value)
 
 
-def _denormal_waves(size):
+@case(
+    "Wavelengths whose wave numbers overflow, heights whose squares vanish.",
+    "Wavelengths are refused by name and bound; without height the force is that of the smooth body to 1e-9.",
+)
+def denormal_waves(size):
     for value in (5e-324, 1e-310):
         for build, name in (
             (partial(SelfAffine, hurst=0.5, rms_height=1e-6), "longest"),
@@ -92,14 +105,22 @@ def _denormal_waves(size):
         yield deviation(f"{solver.name}: force at a rms height of 5e-324 m", rough, smooth, 1e-9)
 
 
-def _extent_off(size):
+@case(
+    "Extents of 5e-324, 1e-5, 1e4 and 1e300 m around a contact of a millimetre.",
+    "Refused: the error names the extent, says what to take, or asks for the units.",
+)
+def extents_that_miss(size):
     for extent, said in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units")):
         for solver in (line(size, extent=extent), space(size, extent=extent)):
             ask = partial(solver.solve, resting())
             yield refusal(f"{solver.name}: extent = {extent:g} m", SolveError, (said,), ask)
 
 
-def _mixed_extremes(size):
+@case(
+    "Kilometres of glass under piconewtons, nanometres of it under micronewtons, planets of jelly.",
+    "Hertz's depth within 1/N of the 3D grid.",
+)
+def mixed_extremes(size):
     """A kilometre of glass under a picometre of load beside its opposite."""
     for radius, modulus, load in ((1e3, 1e12, 1e-12), (1e-9, 1.0, 1e-15), (1e6, 1e-6, 1e6), (1e-9, 1e12, 1e-6)):
         scene = resting(indenter=Sphere(radius), elastomer=Elastic(modulus), motion=Indent(load=load))
@@ -109,7 +130,11 @@ def _mixed_extremes(size):
             yield deviation(f"{what}: depth", solver.solve(scene).depth, known, 1 / size.dense)
 
 
-def _denormal_history(size):
+@case(
+    "Stages of 1e-300 s.",
+    "Force of Ting within 1e-3 of the grid in 1D; a load is met to 1e-9.",
+)
+def history_of_1e_300_s(size):
     stages = (Stage(duration=1e-300, depth=DEPTH), Stage(duration=1e-300, depth=DEPTH / 2))
     scene = resting(elastomer=SOLID, motion=Program(stages=stages))
     times, depths = (0.0, 1e-300, 2e-300), (0.0, DEPTH, DEPTH / 2)
@@ -117,44 +142,3 @@ def _denormal_history(size):
     yield deviation("MDR: force after 2e-300 s", MDR(points=size.line).solve(scene).normal_force, known, 1e-3)
     heavy = replace(scene, motion=Program(stages=(Stage(duration=1e-300, load=LOAD),)))
     yield deviation("MDR: load after 1e-300 s", line(size).solve(heavy).normal_force, LOAD, 1e-9)
-
-
-case = partial(HardCase, "extremes")
-CASES = (
-    case(
-        "huge",
-        "1e150 to 1.7e308 as radius, depth, load, modulus, relaxation time and speed.",
-        "A force that is finite and positive, or a refusal in words that says what to change.",
-        _huge,
-    ),
-    case(
-        "denormal",
-        "The least numbers that there are, as radius, depth, load, modulus and relaxation time.",
-        "A force that is finite and positive, or a refusal in words that says what to change.",
-        _denormal,
-    ),
-    case(
-        "denormal-waves",
-        "Wavelengths whose wave numbers overflow, heights whose squares vanish.",
-        "Wavelengths are refused by name and bound; without height the force is that of the smooth body to 1e-9.",
-        _denormal_waves,
-    ),
-    case(
-        "extents-that-miss",
-        "Extents of 5e-324, 1e-5, 1e4 and 1e300 m around a contact of a millimetre.",
-        "Refused: the error names the extent, says what to take, or asks for the units.",
-        _extent_off,
-    ),
-    case(
-        "mixed-extremes",
-        "Kilometres of glass under piconewtons, nanometres of it under micronewtons, planets of jelly.",
-        "Hertz's depth within 1/N of the 3D grid.",
-        _mixed_extremes,
-    ),
-    case(
-        "history-of-1e-300-s",
-        "Stages of 1e-300 s.",
-        "Force of Ting within 1e-3 of the grid in 1D; a load is met to 1e-9.",
-        _denormal_history,
-    ),
-)

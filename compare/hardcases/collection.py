@@ -18,7 +18,7 @@ from . import (
 )
 from .hardcase import HardCase
 
-GROUPS = (
+MODULES = (
     motion,
     roughness,
     contact,
@@ -32,4 +32,4 @@ GROUPS = (
     mistakes,
     extremes,
 )
-CASES: Mapping[str, HardCase] = {case.name: case for group in GROUPS for case in group.CASES}
+CASES: Mapping[str, HardCase] = {each.name: each for module in MODULES for each in module.CASES}

@@ -1,0 +1,125 @@
+"""A hard case: what is hard, what must hold, and how it is examined."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from math import inf, nan
+
+
+@dataclass(frozen=True)
+class Size:
+    """How large the grids and histories of the collection are.
+
+    line, square, row : points of a 1D grid, a side of a 3D one, and along a single row of pixels
+    dense : points a side of grids on which the conditions of contact are computed anew, point by point
+    steps : of the longest march in one dimension
+    march : of the longest in three dimensions, on a square of 24 points
+    """
+
+    line: int
+    square: int
+    row: int
+    dense: int
+    steps: int
+    march: int
+
+
+SIZES = {
+    "quick": Size(line=1000, square=48, row=128, dense=24, steps=2000, march=60),
+    "standard": Size(line=5000, square=96, row=512, dense=24, steps=20_000, march=600),
+    "full": Size(line=20_000, square=192, row=1024, dense=48, steps=100_000, march=3000),
+}
+
+
+@dataclass(frozen=True)
+class Check:
+    """One number that must not exceed another; NaN never holds.
+
+    message : error that came of what must be refused; what came instead, in brackets, where it was the wrong one
+        or none; absent where an answer was due
+    """
+
+    what: str
+    found: float
+    allowed: float
+    message: str | None = None
+
+    @property
+    def holds(self) -> bool:
+        """Whether the number stays within its bound."""
+        return bool(self.found <= self.allowed)
+
+    @property
+    def nearness(self) -> tuple[bool, float]:
+        """Broken checks are greatest, then those that took most of what is allowed."""
+        if self.found != self.found:
+            return True, inf
+        return not self.holds, self.found / self.allowed if self.allowed > 0 else self.found
+
+
+@dataclass(frozen=True)
+class HardCase:
+    """One hard case.
+
+    group, name : the name in kebab-case, unique in the collection
+    about : what is hard, one sentence
+    law : what must hold, with the tolerance and where it comes from
+    examine : size -> what was found, one check at least; raises what a solve raises
+    """
+
+    group: str
+    name: str
+    about: str
+    law: str
+    examine: Callable[[Size], Iterable[Check]]
+
+
+class Group(list[HardCase]):
+    """Hard cases of one kind. Called with `about` and `law` it makes a function of a size the case of its name."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.name = name
+
+    def add(self, name: str, about: str, law: str, examine: Callable[[Size], Iterable[Check]]) -> None:
+        """Add a case."""
+        self.append(HardCase(self.name, name, about, law, examine))
+
+    def __call__(self, about: str, law: str) -> Callable[[Callable], Callable]:
+        def decorated(examine):
+            self.add(examine.__name__.replace("_", "-"), about, law, examine)
+            return examine
+
+        return decorated
+
+
+def refusal(
+    what: str, error: type[Exception] | tuple, names: Iterable[str], ask: Callable, *given, **named
+) -> Check:
+    """What cannot be answered must be refused with an error whose message contains some names.
+
+    It counts how many of them are missing; NaN with the wrong error or none.
+    """
+    try:
+        answer = ask(*given, **named)
+    except error as said:
+        message = " ".join(str(said).split())
+        return Check(what, float(sum(name not in message for name in names)), 0.0, message)
+    except Exception as said:
+        return Check(what, nan, 0.0, f"({type(said).__name__}: {said})")
+    return Check(what, nan, 0.0, f"(answered: {answer!s:.80})")
+
+
+def deviation(what: str, found: float, expected: float, allowed: float) -> Check:
+    """A number is another to within a relative deviation."""
+    return Check(f"{what}: relative deviation", abs(found - expected) / abs(expected), allowed)
+
+
+def alike(what: str, found, known, allowed: float, of=("normal_force", "friction_force")) -> Iterable[Check]:
+    """Two answers have the same forces, to within a relative deviation."""
+    return [deviation(f"{what}: {name}", getattr(found, name), getattr(known, name), allowed) for name in of]
+
+
+def energy_is_lost(what: str, answer, allowed: float) -> Check:
+    """Friction by the traction on the slopes is friction by the energy that is lost."""
+    found = answer.measures["friction_by_traction"]
+    return deviation(f"{what}friction by traction", found, answer.friction_force, allowed)

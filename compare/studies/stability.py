@@ -1,0 +1,149 @@
+"""The named hard cases, each held against its law: `crosscheck stability`."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import xarray
+from pandas import DataFrame
+
+from ..finding import FAILS, HOLDS, Claim, Finding
+from ..hardcases.collection import CASES
+from ..hardcases.examination import Examination
+from ..hardcases.hardcase import SIZES, Check
+from ..outcome import Outcome
+from ..page import Block, Page, Section, Table, Text
+from ..pipeline import Study
+from ..suggest import known
+from ..task import Batch, Task
+from ..vocabulary import attributes
+
+SOLVED, REFUSED, BROKEN = "solved", "refused as it should", "broken"
+CHECKS = ("case", "group", "check", "found", "allowed", "message", "reason", "seconds")
+# Where a file lay when a case was examined: all before its name, of a path from the root.
+FOLDERS = re.compile(r"(?<![\w.])/(?:[^\s/]+/)+")
+LONGEST = 120  # characters of a message in a table
+ABOUT = """Each case is a contact in which a solver may fail, with what must hold: a closed form, a limit,
+exact scaling, a balance, or the conditions of contact computed anew by plain sums, in both dimensionalities
+wherever both can be asked. Tolerances are part of the law and say where they come from; N is the number of points
+of the grid. What cannot be answered must be refused by an error that names what is wrong.
+
+A row shows the check that came nearest to its bound, or the message of a refusal; found and allowed are
+relative numbers unless the law says otherwise. Refused, and not answered: lines far beyond v τ/a = 10⁴, depths
+whose squares are no numbers, memories beyond 1e150 pixels, contacts of less than nine pixels in 3D or five in
+1D."""
+
+
+@dataclass(frozen=True)
+class Stability(Study):
+    """Every hard case at a size: "quick", "standard" or "full"."""
+
+    size: str = "quick"
+
+    command = "stability"
+    title = "Where it is hard"
+    about = "Contacts in which a solver may fail, each with the law that its answer must keep."
+
+    @classmethod
+    def of(cls, size: str) -> "Stability":
+        """Study of a size. Raises InvalidInput where there is no such size."""
+        known("size", size, SIZES)
+        return cls(size)
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """The size."""
+        return {"size": self.size}
+
+    def batches(self) -> Sequence[Batch]:
+        """Every case, a task each."""
+        return (Batch([Examination(name, self.size) for name in CASES]),)
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Every check of every case, in the order of the collection."""
+        of = {task.case: outcome for task, outcome in outcomes.items() if isinstance(task, Examination)}
+        rows = [each for name in CASES if name in of for each in _checks(name, of[name])]
+        columns = {
+            name: ("row", list(column)) for name, column in zip(CHECKS, zip(*rows, strict=True), strict=True)
+        }
+        dataset = xarray.Dataset(columns, attrs={"size": self.size})
+        for name in CHECKS:
+            dataset[name].attrs = attributes(name)
+        return xarray.DataTree.from_dict({"/checks": dataset})
+
+    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
+        """One a case: the check that came nearest to its bound, or a broken one."""
+        return [finding for finding, _ in self._judged(answers)]
+
+    def _judged(self, answers) -> Iterator[tuple[Finding, Mapping]]:
+        """Finding of each case, and its row of the table."""
+        every = answers["checks"].to_dataset().to_dataframe()
+        for name, rows in every.groupby("case", sort=False):
+            case, first = CASES[str(name)], rows.iloc[0]
+            checks = [
+                Check(row.check, row.found, row.allowed, row.message or None)
+                for row in rows.itertuples()
+                if not row.reason
+            ]
+            nearest = max(
+                checks, key=lambda each: each.nearness, default=Check("the case itself", first.found, 0.0)
+            )
+            told = nearest.message or first.reason
+            broken = sum(not check.holds for check in checks) or not checks
+            refused = all(check.message for check in checks)
+            claim = Claim(
+                id=f"stability.{name}",
+                sentence=case.law.removesuffix("."),
+                expected=0.0,
+                tolerance=nearest.allowed,
+                meaning=f"{case.about} Shown is the check nearest to its bound: {nearest.what}.",
+            )
+            stated = FAILS if broken else HOLDS
+            yield (
+                Finding(claim, nearest.found, where=case.group, stated=stated, reason=told),
+                {
+                    "case": name,
+                    "hard because": case.about,
+                    "must hold": case.law,
+                    "check": nearest.what,
+                    "found": nearest.found,
+                    "allowed": nearest.allowed,
+                    "outcome": BROKEN if broken else REFUSED if refused else SOLVED,
+                    "message": told if len(told) <= LONGEST else f"{told[: LONGEST - 1]}…",
+                    "checks": len(rows),
+                    "seconds": first.seconds,
+                },
+            )
+
+    def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
+        """How many keep their law, then a table a group."""
+        judged = list(self._judged(answers))
+        groups = list(dict.fromkeys(finding.where for finding, _ in judged))
+        frames = {group: DataFrame([row for found, row in judged if found.where == group]) for group in groups}
+        counts = [
+            {"group": group, "cases": len(frame), "checks": int(frame["checks"].sum())}
+            | {outcome: int((frame["outcome"] == outcome).sum()) for outcome in (SOLVED, REFUSED, BROKEN)}
+            for group, frame in frames.items()
+        ]
+        blocks: list[Block] = [Text(ABOUT), Table("groups", DataFrame(counts), f"Hard cases, size {self.size}.")]
+        blocks += [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
+        return Page(self.title, self.answer(findings), blocks)
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """How many cases keep their law, and a sentence for each that does not."""
+        broken = [each for each in findings if each.stated == FAILS]
+        told = f"{len(findings) - len(broken)} of {len(findings)} hard cases keep their law"
+        told += ", solved or refused as they should." if broken else ": all of them."
+        return [told] + [
+            f"{each.claim.id.partition('.')[2]} is broken: found {each.value:.2g}, allowed "
+            f"{each.claim.tolerance:.2g}. {each.claim.sentence}. {each.reason}".strip()
+            for each in broken
+        ]
+
+
+def _checks(name: str, outcome: Outcome) -> Iterator[tuple]:
+    """Values of CHECKS of one case."""
+    for row in outcome.rows:
+        found, allowed = (row.measures.get(number, float("nan")) for number in ("found", "allowed"))
+        message, reason = (FOLDERS.sub("", text or "") for text in (row.settings.get("message"), row.reason))
+        yield name, CASES[name].group, row.settings.get("what", ""), found, allowed, message, reason, row.seconds
