@@ -64,12 +64,9 @@ class Store:
 
         Raises OSError, which names the file; ValueError, TypeError for what no file can hold.
         """
-        from .taskfile import written
-
         question = task.question
         text = canonical(question)
-        about = {"title": task.label, "source": "mdr-bem-crosscheck", **_code_texts(tuple(task.packages))}
-        content = written(outcome, question, text, about, task.keeps_fields)
+        content = _content(task, outcome, question, text)
         self.folder.mkdir(parents=True, exist_ok=True)
         _tidy(self.folder)
         write(self._path(task, text), lambda file: file.write(content))
@@ -131,6 +128,18 @@ def _read(path, task, text):
     # What something else has written under this name raises nearly anything.
     except Exception:
         return NONE
+
+
+def stored_size(task: Task, outcome: Outcome) -> int:
+    """Bytes that an outcome takes in a store."""
+    return len(_content(task, outcome, task.question, canonical(task.question)))
+
+
+def _content(task, outcome, question, text):
+    from .taskfile import written
+
+    about = {"title": task.label, "source": "mdr-bem-crosscheck", **_code_texts(tuple(task.packages))}
+    return written(outcome, question, text, about, task.keeps_fields)
 
 
 def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:

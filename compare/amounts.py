@@ -1,0 +1,45 @@
+"""Times, errors and settings in words."""
+
+from math import isfinite
+
+HOUR = 3600.0
+
+
+def seconds(value: float) -> str:
+    """A time in two digits with a unit."""
+    if not isfinite(value):
+        return "an unknown time"
+    if value < 0.995e-4:
+        return f"{1e6 * value:.2g} µs"
+    if value < 0.0995:
+        return f"{1e3 * value:.2g} ms"
+    if value < 2 * HOUR:
+        return f"{value:.2g} s" if value < 99.5 else f"{value:.0f} s"
+    return f"{value / HOUR:.2g} h" if value < 99.5 * HOUR else f"{value / HOUR:.0f} h"
+
+
+def share(value: float) -> str:
+    """A relative error, per cent while they are readable."""
+    if not isfinite(value):
+        return "an unknown error"
+    if value >= 0.995:
+        return f"{100 * value:.0f} %"
+    return f"{100 * value:.2g} %" if value >= 0.99e-4 else f"{value:.0e}".replace("e-0", "e-")
+
+
+def digits(value: float) -> str:
+    """A setting as it is written at a point: 1024, 0.5, 1e-3."""
+    return f"{value:g}" if value >= 0.01 else f"{value:.0e}".replace("e-0", "e-")
+
+
+def setting(name: str, value: float) -> str:
+    """A setting with its name: 64 points, tolerance 1e-3."""
+    if name in ("points", "steps"):
+        return f"{digits(value)} {name if value != 1 else name[:-1]}"
+    return f"{name}{' ' if name == 'tolerance' else ' = '}{digits(value)}"
+
+
+def short(value: float) -> str:
+    """Two digits, without powers of ten where there need be none."""
+    rounded = float(f"{value:.2g}")
+    return f"{rounded:.0f}" if 10 <= rounded < 1e6 else f"{rounded:g}"

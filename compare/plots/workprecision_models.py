@@ -1,0 +1,248 @@
+"""Error against the true answer of three dimensions over time: both models in one picture, in several regimes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, isfinite
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..page import Plot, Tables
+from ..statistics.convergence import observed
+from ..statistics.sampling import SamplingPlan, envelope
+from . import style
+from .lettering import Letter, letter, write
+from .workprecision import Curve, corner, dots, guide
+from .workprecision import panels as smooth_panels
+from .workprecision_surfaces import Means, means, plan_look
+
+# Size of a panel [inch], and of what surrounds them all.
+HEIGHT, AROUND = 1.75, 0.55
+# Errors below are drawn there: the solvers stop before.
+LEAST = 1e-7
+# Times that curves of a mean are drawn to, over that of one surface.
+LONGEST = 1e5
+# Numbers of surfaces that are marked on a curve.
+MARKED = np.array([1.0, 10, 100, 1000, 10_000])
+# Errors of the first and the last step by less than this factor apart are labelled together.
+CLOSE = 3.0
+# Least order of an error of which the power is drawn.
+FALLS = 0.3
+
+
+def plot(name: str, tables: Tables) -> Plot:
+    """Plot of all regimes, from its tables of steps, plans and answers."""
+    kinds = {name.split("-")[2]: name for name in tables}
+    return Plot(
+        name, figure, tables,
+        "Error against the true answer of three dimensions, over processor time. Smooth: points of the grid; grey, "
+        "error of the reference. Rough: expected error of a mean of 1, 10, 100, ... surfaces on so many points; "
+        "thick, cheapest plan in 3D. Blue, interval of 95 % of the error that 1D keeps.",
+        "Panels of error over time: 1D is quick and level, 3D slower and falling.",
+        {kind: kinds.get(kind, "") for kind in ("steps", "plans")},
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Smooth:
+    """One quantity of a smooth contact: a curve a solver."""
+
+    title: str
+    quantity: str
+    reference_error: float
+    curves: tuple[Curve, ...]
+    rough = False
+
+    def draw(self, axes: Axes) -> None:
+        """Errors of both ladders, and the powers they follow."""
+        for curve in self.curves:
+            colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
+            line = {"color": colour, "linestyle": style.LINE[curve.solver], "linewidth": style.width(0.8)}
+            axes.plot(curve.seconds, errors, **line)
+            hollow = errors <= self.reference_error
+            dots(axes, curve.seconds, errors, hollow, style.MARKER[curve.solver], colour, 0.8)
+            order = observed(curve.values, curve.errors, self.reference_error)
+            if order.order > FALLS:
+                solved = np.isfinite(curve.seconds)
+                guide(axes, curve.seconds[solved], np.maximum(order.at(curve.values)[solved], LEAST))
+        if self.reference_error > 0:
+            axes.axhspan(LEAST / 10, self.reference_error, color=style.grey(0.9), zorder=0, linewidth=0)
+        if failed := sum(len(curve.failed) for curve in self.curves):
+            corner(axes, f"not solved: {failed}")
+
+    def letters(self) -> list[Letter]:
+        """Points of the grids, the first and the last of each ladder first."""
+        return [Letter(*each) for curve in self.curves for each in _settings(curve)]
+
+
+@dataclass(frozen=True)
+class Rough:
+    """One quantity of a rough contact: plans to its mean."""
+
+    means: Means
+    rough = True
+
+    @property
+    def title(self) -> str:
+        """Contact for people."""
+        return self.means.title
+
+    @property
+    def quantity(self) -> str:
+        """Name of the quantity."""
+        return self.means.quantity
+
+    def draw(self, axes: Axes) -> None:
+        """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
+        for own in (self.means.plain, self.means.of("MDR")[-1:]):
+            for plan in own:
+                _mean_curve(axes, plan, plan_look(plan, own))
+        every = self.means.of("BEM")
+        known = [plan.least_seconds for plan in every if isfinite(plan.least_seconds)]
+        if known:
+            seconds = np.geomspace(min(known), LONGEST * min(known), 200)
+            axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
+        for plan in self.means.of("MDR")[-1:]:
+            if isfinite(plan.bias.most):
+                band = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
+                axes.axhspan(max(plan.bias.least, LEAST), plan.bias.most, **band)
+        if self.means.grid_error > 0:
+            axes.axhspan(LEAST / 10, self.means.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
+        if self.means.failed:
+            corner(axes, f"not solved: {self.means.failed}")
+
+    def letters(self) -> list[Letter]:
+        """Points at the first marks of the coarsest and of the finest grid."""
+        ends = [plan for own in (self.means.plain, self.means.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])]
+        found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
+        return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
+
+
+def figure(tables: Tables, steps: str, plans: str) -> Figure:
+    """All regimes, smooth ones above rough ones, and one legend below.
+
+    steps, plans : names of the tables, empty where there is none
+    """
+    drawn = sorted(_panels(tables, steps, plans), key=lambda panel: (panel.rough, panel.quantity != "friction"))
+    rows, columns, places = _places(drawn)
+    drawing = style.canvas("double" if columns > 1 else "single", rows * HEIGHT + AROUND)
+    first: dict[bool, Axes] = {}
+    for k, (panel, place) in enumerate(zip(drawn, places, strict=True)):
+        beside = first.get(panel.rough)
+        axes = drawing.add_subplot(rows, columns, place + 1, sharex=beside, sharey=beside)
+        first.setdefault(panel.rough, axes)
+        style.head(axes, f"({letter(k)}) {_headed(panel)}", columns)
+        axes.set(xscale="log", yscale="log")
+        panel.draw(axes)
+        if place % columns == 0 or beside is None:
+            axes.set_ylabel("relative error [1]")
+        if place + columns not in places or (not panel.rough and drawn[places.index(place + columns)].rough):
+            axes.set_xlabel("processor time [s]")
+    for rough in (False, True):
+        _share([axes for axes, panel in zip(drawing.axes, drawn, strict=True) if panel.rough == rough], rough)
+    _legend(drawing, drawn)
+    drawing.draw_without_rendering()
+    for axes, panel in zip(drawing.axes, drawn, strict=True):
+        write(axes, panel.letters(), style.tiny())
+    return drawing
+
+
+def _panels(tables, steps, plans) -> list[Smooth | Rough]:
+    found: list[Smooth | Rough] = []
+    if steps:
+        names = tables[steps].groupby(["contact", "label"], sort=False)["quantity"].first()
+        for panel, name in zip(smooth_panels(tables[steps]), names, strict=True):
+            found.append(Smooth(panel.title.partition("\n")[0], name, panel.reference_error, panel.curves))
+    if plans:
+        found += [Rough(each) for each in means(tables[plans])]
+    return found
+
+
+def _headed(panel) -> str:
+    """The body, and below it the motion and the quantity."""
+    body, _, motion = panel.title.rpartition(", ")
+    return f"{body}\n{motion}: {panel.quantity}" if body else f"{motion}\n{panel.quantity}"
+
+
+def _settings(curve: Curve):
+    """First and last first, all in one where the error stays the same."""
+    solved = [((x, max(y, LEAST)), f"{value:g}") for (x, y), value in curve.points]
+    if not solved:
+        return []
+    x, y = np.array([point for point, _ in solved]).T
+    values = [value for _, value in solved]
+    if len(values) > 1 and np.ptp(np.log(y)) < np.log(CLOSE):
+        return [(f"{values[0]} to {values[-1]}", (x[np.argsort(x)[len(x) // 2]], y.max()))]
+    order = sorted(range(len(values)), key=lambda k: min(k, len(values) - 1 - k))
+    return [(values[k], (x[k], y[k])) for k in order]
+
+
+def _mean_curve(axes, plan: SamplingPlan, look):
+    """Expected error as the number of surfaces grows."""
+    (level,) = plan.levels
+    if not (isfinite(level.seconds) and isfinite(plan.bias.size) and isfinite(level.scatter.value)):
+        return
+    counts = np.geomspace(1, LONGEST, 120)
+    axes.plot(counts * level.seconds, plan.error_of(counts), **look, zorder=3)
+    marks = {"marker": style.MARKER[plan.solver], "markersize": style.mark(0.65), "color": look["color"]}
+    axes.plot(MARKED * level.seconds, plan.error_of(MARKED), linestyle="none", zorder=4, **marks)
+
+
+def _cheapest():
+    return {"color": style.grey(0.1), "linewidth": style.width(2), "alpha": 0.35, "linestyle": "-"}
+
+
+def _share(group: Sequence[Axes], rough):
+    """The same limits for all panels of a kind: errors and times are compared across regimes."""
+    lines = [line for axes in group for line in axes.lines]
+    if not lines:
+        return
+    x, y = (np.concatenate([np.asarray(line.get_data()[k], float) for line in lines]) for k in (0, 1))
+    known = np.isfinite(x) & np.isfinite(y) & (y > 0)
+    if not known.any():
+        return
+    for axes in group:
+        axes.set_xlim(x[known].min() / 2.5, x[known].max() * (1.5 if rough else 2.5))
+        axes.set_ylim(max(y[known].min() / (2 if rough else 5), LEAST / 5), y[known].max() * (2 if rough else 4))
+        style.decades(axes)
+
+
+def _legend(drawing, drawn):
+    entries: list = [
+        Line2D(
+            [],
+            [],
+            color=style.COLOUR[solver],
+            marker=style.MARKER[solver],
+            linestyle=style.LINE[solver],
+            markersize=style.mark(0.8),
+            label=style.LABEL[solver],
+        )
+        for solver in ("MDR", "BEM")
+    ]
+    if any(panel.rough for panel in drawn):
+        entries.append(Line2D([], [], **_cheapest(), label="cheapest plan in 3D"))
+        entries.append(Patch(color=style.COLOUR["MDR"], alpha=0.2, linewidth=0, label="error that 1D keeps, 95 %"))
+    entries.append(Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"))
+    style.legend(drawing, entries, "outside lower center", len(entries))
+
+
+def _places(drawn):
+    """Rows, columns, and the place of each panel: kinds begin a row of their own, unless all fit into one."""
+    counts = [count for rough in (False, True) if (count := sum(panel.rough == rough for panel in drawn))]
+    if len(drawn) <= 4:
+        return 1, len(drawn), list(range(len(drawn)))
+
+    def size(columns):
+        rows = sum(ceil(count / columns) for count in counts)
+        return rows, rows * columns
+
+    columns = min((3, 4), key=size)
+    places, start = [], 0
+    for count in counts:
+        places += range(start, start + count)
+        start += ceil(count / columns) * columns
+    return start // columns, columns, places

@@ -1,0 +1,193 @@
+"""Expected error of a mean over rough surfaces: what grid and scatter leave, and what either costs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, inf, isfinite, nan, sqrt
+from typing import Self
+
+import numpy as np
+from scipy import stats
+
+from .jackknife import student
+
+LEVEL = 0.95
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Standard deviation between surfaces, from so many degrees of freedom; NaN from none."""
+
+    value: float
+    freedom: int
+
+    @classmethod
+    def of(cls, values: Sequence[float] | np.ndarray) -> Self:
+        """Scatter of the finite ones of some values."""
+        known = np.asarray(values, float)
+        known = known[np.isfinite(known)]
+        return cls(float(known.std(ddof=1)) if known.size > 1 else nan, max(known.size - 1, 0))
+
+    def interval(self) -> tuple[float, float]:
+        """Interval of 95 % by the chi-square distribution of normal deviates; what is skewed scatters more."""
+        if self.freedom < 1:
+            return nan, nan
+        low, high = stats.chi2.ppf([(1 + LEVEL) / 2, (1 - LEVEL) / 2], self.freedom)
+        return self.value * sqrt(self.freedom / low), self.value * sqrt(self.freedom / high)
+
+    @property
+    def of_mean(self) -> float:
+        """Standard error of the mean of as many values."""
+        return self.value / sqrt(self.freedom + 1)
+
+
+@dataclass(frozen=True)
+class Bias:
+    """Error that remains however many surfaces are averaged, of which only the size counts.
+
+    value : signed, found less true
+    reach : half of its interval of 95 %, with what the truth itself may be off by; NaN where that is not known
+    """
+
+    value: float
+    reach: float
+
+    @property
+    def size(self) -> float:
+        """Magnitude of the bias."""
+        return abs(self.value)
+
+    @property
+    def least(self) -> float:
+        """Smallest size in the interval."""
+        return max(self.size - self.reach, 0.0)
+
+    @property
+    def most(self) -> float:
+        """Largest size in the interval."""
+        return self.size + self.reach
+
+
+@dataclass(frozen=True)
+class Level:
+    """Surfaces that are drawn independently of others, of which a mean is taken.
+
+    points : of the grid, or of both grids whose difference is taken on the same surface
+    scatter : of one surface
+    seconds : processor time of one surface [s]
+    """
+
+    points: tuple[int, ...]
+    scatter: Scatter
+    seconds: float
+
+    @property
+    def label(self) -> str:
+        """Grids in words."""
+        return " against ".join(str(points) for points in self.points)
+
+
+@dataclass(frozen=True)
+class SamplingPlan:
+    """One way to the mean over surfaces: a mean of answers, or of coarse answers and of their corrections.
+
+    With n_k surfaces on each level the expected error is sqrt(bias^2 + sum_k s_k^2 / n_k), and n_k ~ s_k / sqrt(t_k)
+    gives the least for the time sum_k n_k t_k: sqrt(bias^2 + (sum_k s_k sqrt(t_k))^2 / time). Giles, Oper. Res. 56,
+    607 (2008). Scatter and bias are relative, as errors are.
+
+    solver : by name
+    """
+
+    solver: str
+    bias: Bias
+    levels: tuple[Level, ...]
+
+    @property
+    def label(self) -> str:
+        """Grids of its levels in words, the finest of a correction first."""
+        return " + ".join(level.label for level in self.levels)
+
+    @property
+    def corrected(self) -> bool:
+        """Whether coarse answers are corrected by finer ones."""
+        return len(self.levels) > 1
+
+    def error(self, seconds: np.ndarray | float) -> np.ndarray | float:
+        """Error expected after so much processor time [s]; numbers of surfaces count as if they were no integers."""
+        return np.sqrt(self.bias.size**2 + self._work**2 / seconds)
+
+    def error_of(self, counts: np.ndarray | float) -> np.ndarray | float:
+        """Error expected of so many answers of the first level, corrections aside."""
+        return np.sqrt(self.bias.size**2 + self.levels[0].scatter.value ** 2 / counts)
+
+    def reaching(self, level: float) -> "Effort | None":
+        """Effort for a wanted error (rms) with the largest bias of its interval; None where that is more.
+
+        Corrections are few, and scatter by as much as their interval allows.
+        """
+        scatters = [self.levels[0].scatter.value, *(each.scatter.interval()[1] for each in self.levels[1:])]
+        drawn = list(zip(scatters, self.levels, strict=True))
+        work, room = sum(scatter * sqrt(each.seconds) for scatter, each in drawn), level**2 - self.bias.most**2
+        if not (room > 0 and isfinite(work)):
+            return None
+        shares = [scatter * work / sqrt(each.seconds) / room for scatter, each in drawn]
+        counts = tuple(max(1, ceil(share)) for share in shares)
+        return Effort(
+            self, counts, sum(count * each.seconds for count, each in zip(counts, self.levels, strict=True))
+        )
+
+    @property
+    def least_seconds(self) -> float:
+        """Shortest time at which there is one surface on each level, shared out as it should be [s]."""
+        shared = [
+            self._work * sqrt(level.seconds) / level.scatter.value
+            for level in self.levels
+            if level.scatter.value > 0
+        ]
+        return max([sum(level.seconds for level in self.levels), *shared])
+
+    @property
+    def _work(self):
+        return sum(level.scatter.value * sqrt(level.seconds) for level in self.levels)
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Numbers of surfaces on the levels of a plan by which it reaches a wanted error, and the time [s]."""
+
+    plan: SamplingPlan
+    counts: tuple[int, ...]
+    seconds: float
+
+    @property
+    def settings(self) -> str:
+        """Surfaces and points in words."""
+        what = "profiles" if self.plan.solver == "MDR" else "surfaces"
+        (count, *more), (level, *finer) = self.counts, self.plan.levels
+        told = f"{count:,} {what if count > 1 else what[:-1]} of {level.points[0]} points"
+        for number, correction in zip(more, finer, strict=True):
+            told += f", corrected by {number:,} of {correction.points[0]}"
+        return told
+
+
+def cheapest(plans: Sequence[SamplingPlan], level: float) -> Effort | None:
+    """Least effort of all plans that reach a wanted error; None if none does."""
+    found = [effort for plan in plans if (effort := plan.reaching(level)) is not None]
+    return min(found, key=lambda effort: effort.seconds, default=None)
+
+
+def envelope(plans: Sequence[SamplingPlan], seconds: np.ndarray) -> np.ndarray:
+    """Least expected error of all plans after so much time; infinite before the first surface is solved.
+
+    Plans whose bias has no interval do not count.
+    """
+    best = np.full(np.shape(seconds), inf)
+    for plan in plans:
+        if isfinite(plan.least_seconds) and isfinite(plan.bias.most):
+            known = np.where(seconds >= plan.least_seconds, plan.error(seconds), inf)
+            best = np.fmin(best, known)
+    return best
+
+
+def half_width(error: float, freedom: float) -> float:
+    """Half of the interval of 95 % of a mean with a standard error."""
+    return float(student(LEVEL, freedom)) * error if freedom > 0 else nan

@@ -1,0 +1,1 @@
+"""Accuracy over cost: errors, times and memory along ladders of settings."""

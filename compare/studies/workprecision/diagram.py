@@ -1,0 +1,231 @@
+"""A diagram: contacts solved along ladders of settings, the findings on them, their plots and tables."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite, nan
+from typing import Any, Protocol
+
+import xarray
+from pandas import DataFrame
+
+from ...amounts import seconds, share, short
+from ...finding import EXACT, REPORTED, Claim, Finding, sentences
+from ...page import Block, Plot, Table
+from ...plots import workprecision
+from ...task import Task
+from .convergence import DIMENSIONS, Convergence, MeasuredLadder, answers, ladders, orders_table, steps_table
+from .reference import Outcomes
+
+# Wanted errors of which tables say what they take, and the one of which findings do.
+LEVELS, WANTED = (1e-1, 3e-2, 1e-2, 1e-3, 1e-4), 1e-2
+# Observed orders scatter, as the edge of a contact moves by whole pixels.
+ORDER_TOLERANCE = 0.35
+
+
+class Diagram(Protocol):
+    """What the command measures and tells under one name.
+
+    name : of the command and of files
+    title, about : what is compared, how and why, for people
+    """
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def title(self) -> str: ...
+
+    @property
+    def about(self) -> str: ...
+
+    def untimed(self, size: str) -> list[Task]:
+        """Tasks solved besides, each once."""
+
+    def timed(self, size: str) -> list[Task]:
+        """Solves that are measured alone, each once."""
+
+    def datasets(self, size: str, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
+        """Everything measured, by the path below the name of the diagram."""
+
+    def findings(self, node: xarray.DataTree) -> list[Finding]:
+        """Findings from these Datasets."""
+
+    def plots(self, node: xarray.DataTree) -> list[Plot]:
+        """Figures with their tables; none where nothing can be drawn."""
+
+    def tables(self, node: xarray.DataTree) -> list[Block]:
+        """Tables that people read."""
+
+
+@dataclass(frozen=True)
+class ConvergenceDiagram:
+    """Errors over time of contacts, by points, tolerance, steps or whatever else is set.
+
+    contacts : at a size
+    more : findings on all contacts besides orders and times, from their ladders by contact
+    """
+
+    name: str
+    title: str
+    about: str
+    contacts: Callable[[str], Sequence[Convergence]]
+    more: Callable[[Mapping[str, list[MeasuredLadder]]], Iterable[Finding]] = lambda found: ()
+
+    def untimed(self, size: str) -> list[Task]:
+        """Tasks of the references, each once."""
+        return list(dict.fromkeys(task for each in self.contacts(size) for task in each.untimed))
+
+    def timed(self, size: str) -> list[Task]:
+        """Solves that are measured alone, each once."""
+        return list(dict.fromkeys(task for each in self.contacts(size) for task in each.timed))
+
+    def datasets(self, size: str, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
+        """A Dataset a contact."""
+        return {name: dataset for each in self.contacts(size) for name, dataset in each.datasets(outcomes).items()}
+
+    def findings(self, node: xarray.DataTree) -> list[Finding]:
+        """Orders, times to a wanted error, and what more the diagram finds."""
+        found = [each for dataset in _datasets(node) for each in answers(dataset)]
+        plot = f"workprecision-{self.name}"
+        whole = {dataset.attrs["contact"]: list(ladders(dataset)) for dataset in _datasets(node)}
+        return [
+            *(order_finding(self.name, each, plot) for each in found if each.setting in ("points", "steps")),
+            *(time_finding(self.name, each, plot) for each in found if each.setting == "points"),
+            *(enough_finding(self.name, each, plot) for each in found if each.setting != "points"),
+            *self.more(whole),
+        ]
+
+    def plots(self, node: xarray.DataTree) -> list[Plot]:
+        """One figure, a panel a contact and quantity."""
+        found = [each for dataset in _datasets(node) for each in ladders(dataset)]
+        if not found:
+            return []
+        name = f"workprecision-{self.name}"
+        tables = {name: steps_table(found), f"workprecision-orders-{self.name}": orders_table(found)}
+        return [workprecision.plot(name, {key: DataFrame(rows) for key, rows in tables.items()})]
+
+    def tables(self, node: xarray.DataTree) -> list[Block]:
+        """Settings for wanted errors."""
+        rows = [
+            {
+                "contact": each.title,
+                "quantity": each.label,
+                "ladder": each.ladder,
+                **{f"within {share(level)}": each.cell(level) for level in LEVELS},
+            }
+            for dataset in _datasets(node)
+            for each in answers(dataset)
+        ]
+        caption = "The cheapest setting for each wanted error, from which on all finer ones keep it too."
+        return [Table(f"workprecision-settings-{self.name}", DataFrame(rows), caption)] if rows else []
+
+
+def order_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
+    """Order at which the error of a ladder falls, against the one expected where there is one."""
+    expected = each.dataset["expected_order"].item() if each.setting == "points" else nan
+    judged = isfinite(expected)
+    claim = Claim(
+        f"workprecision.{diagram}.order" + (f"-{short(expected)}" if judged else ""),
+        f"The error falls with the power {short(expected)} of the points" if judged else "Observed order of the error",
+        expected,
+        ORDER_TOLERANCE if judged else nan,
+        "Exponent fitted to the errors well above that of the reference",
+        dimension=DIMENSIONS[each.solver],
+    )
+    order = each.order
+    why = "" if isfinite(order.order) else each.unsolved or "too few steps show an error of their own"
+    grid = 0.0 if isfinite(order.order) else nan
+    return Finding(claim, order.order, order.interval, grid, EXACT, where_of(each), reason=why, plot=plot)
+
+
+def time_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
+    """Processor time to the wanted error."""
+    claim = Claim(
+        f"workprecision.{diagram}.time",
+        f"Processor time to {share(WANTED)}",
+        meaning="Least processor time of the cheapest step from which on all steps keep the error",
+        unit="s",
+        dimension=DIMENSIONS[each.solver],
+    )
+    k = None if each.reference_error > WANTED else each.reaching(WANTED)
+    value = nan if k is None else float(each.processor[k])
+    return Finding(claim, value, where=where_of(each), reason="" if k is not None else each.cell(WANTED), plot=plot)
+
+
+def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
+    """Setting from which on nothing is gained, as what is left is of another origin."""
+    claim = Claim(
+        f"workprecision.{diagram}.enough-{each.setting.split()[0]}",
+        f"The {each.setting} beyond which nothing is gained",
+        meaning="Cheapest step from which on errors are within 1.5 times that of the last",
+        dimension=DIMENSIONS[each.solver],
+    )
+    k = each.enough
+    why = each.unsolved or ("" if k is not None else "the last step failed")
+    if k == len(each.values) - 1:
+        why = "every step gains"
+    return Finding(claim, nan if k is None else float(each.values[k]), where=where_of(each), reason=why, plot=plot)
+
+
+def where_of(each: MeasuredLadder) -> str:
+    """Contact and quantity in words."""
+    return f"{each.title}: {each.label}"
+
+
+def reported(
+    id: str, sentence: str, value: float, where: str = "", unit: str = "1", dimension: str = "3D", **more: Any
+) -> Finding:
+    """Finding of a number that is reported without a claim."""
+    return Finding(Claim(f"workprecision.{id}", sentence, unit=unit, dimension=dimension), value, where=where, **more)
+
+
+def advice(findings: Sequence[Finding]) -> list[str]:
+    """One sentence for each claim: verdicts of what is claimed, the range of what is reported."""
+    told = []
+    for name in dict.fromkeys(each.claim.id for each in findings):
+        own = [each for each in findings if each.claim.id == name]
+        told += [_range(own)] if own[0].claim.unit and all(e.verdict == REPORTED for e in own) else _counts(own)
+    return told
+
+
+def _range(own):
+    sentence, unit = own[0].claim.sentence, own[0].claim.unit
+    known = sorted((each for each in own if isfinite(each.value)), key=lambda each: each.value)
+    missing = [each for each in own if not isfinite(each.value)]
+    told = []
+    if len(known) > 1 and _amount(known[0].value, unit) != _amount(known[-1].value, unit):
+        told += [f"{_amount(e.value, unit)} ({_place(e)})" for e in (known[0], known[-1])]
+        told = [" to ".join(told)]
+    elif known:
+        told = [f"{_amount(known[0].value, unit)} ({_place(known[0]) if len(known) == 1 else 'all'})"]
+    if missing:
+        why = f", {missing[0].reason}" if missing[0].reason else ""
+        told.append(f"not known for {len(missing)} of {len(own)} ({_place(missing[0])}{why})")
+    return f"{sentence}: {'; '.join(told)}."
+
+
+def _counts(own):
+    """Verdicts one by one of few findings, else how many, with the number that is furthest off."""
+    if len(own) <= 3:
+        return sentences(own)
+    verdicts = [each.verdict for each in own]
+    told = [f"{name} in {verdicts.count(name)} of {len(own)}" for name in dict.fromkeys(verdicts)]
+    known = [each for each in own if isfinite(each.value)]
+    claim = own[0].claim
+    most = max(known, key=lambda each: abs(each.value - claim.expected), default=None)
+    last = f"; furthest off {short(most.value)} ({_place(most)})" if most and isfinite(claim.expected) else ""
+    return [f"{claim.sentence}: {', '.join(told)}{last}."]
+
+
+def _amount(value, unit):
+    if unit == "s":
+        return seconds(value)
+    return share(abs(value)) if unit == "%" else f"{short(value)}{'' if unit == '1' else ' ' + unit}"
+
+
+def _place(each):
+    return " ".join(part for part in (each.dimension or each.claim.dimension, each.where) if part)
+
+
+def _datasets(node):
+    return [each.to_dataset(inherit=False) for each in node.children.values()]

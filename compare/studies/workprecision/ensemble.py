@@ -1,0 +1,341 @@
+"""A rough scene whose answer is the mean over its surfaces: draws of both solvers, and plans to the mean."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import hypot, inf, nan, sqrt
+from typing import Any
+
+import numpy as np
+import xarray
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Scene
+
+from ...rectangle import FAILED, NOT_ASKED, SOLVED
+from ...statistics.sampling import Bias, Level, SamplingPlan, Scatter, half_width
+from ...task import SceneTask, Task, draws_of
+from ...vocabulary import attributes
+from .reference import Known, Outcomes, Quantity
+from .timed_solve import COSTS, TimedSolve, work
+
+# Share of failed surfaces above which a mean over the others is not that over all.
+MOST_FAILED = 0.02
+# Variables of the Datasets by the quantity's name.
+VARIABLES = {"friction": "friction_coefficient", "depth": "depth_reached", "force": "normal_force"}
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """A rough scene with the grids on which both models answer it; the counterpart of a Convergence.
+
+    name, title : see Convergence
+    quantities : of which the mean over surfaces is asked for
+    grids : points of the 3D solver, ascending, at least two; the last is that of the truth, the first that on
+        which its scatter is averaged out
+    surfaces, paired : drawn on the first grid; the first so many of them are solved on all grids
+    lines : points of the 1D solver, ascending
+    profiles : drawn on each
+    timed_surfaces : of which the time is measured on each grid of the 3D solver
+    scales : by the quantity's name, what errors are relative to; absent, the true mean
+    """
+
+    name: str
+    title: str
+    scene: Scene
+    quantities: tuple[Quantity, ...]
+    grids: tuple[int, ...]
+    surfaces: int
+    paired: int
+    lines: tuple[int, ...]
+    profiles: int
+    timed_surfaces: int = 1
+    scales: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def timed(self) -> list[Task]:
+        """Solves that have to be measured alone."""
+        return [task for solver in self._solvers for task in self._timed_of(solver)]
+
+    @property
+    def untimed(self) -> list[Task]:
+        """Tasks solved besides: one a surface in 3D, one for all profiles in 1D."""
+        return [task for solver in self._solvers for task in self._tasks_of(solver)]
+
+    def datasets(self, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
+        """Answers (points, draw) of each solver, with the costs (points,) of one draw, at name/solver."""
+        return {
+            f"{self.name}/{name}": self._dataset(name, [each for each in self._solvers if each.name == name], outcomes)
+            for name in ("BEM", "MDR")
+        }
+
+    @property
+    def _solvers(self):
+        return (*(BEM(points=points) for points in self.grids), *(MDR(points=points) for points in self.lines))
+
+    def _timed_of(self, solver):
+        count = self.timed_surfaces if isinstance(solver, BEM) else 1
+        return [TimedSolve.of(solver, scene) for scene in draws_of(self.scene, count)]
+
+    def _tasks_of(self, solver):
+        if isinstance(solver, MDR):
+            return [SceneTask(solver, draws_of(self.scene, self.profiles), work=work(solver) * self.profiles)]
+        count = self.surfaces if solver.points == self.grids[0] else self.paired
+        return [SceneTask(solver, (scene,), work=work(solver)) for scene in draws_of(self.scene, count)]
+
+    def _dataset(self, name, solvers, outcomes):
+        grids = [[row for task in self._tasks_of(each) for row in outcomes[task].rows] for each in solvers]
+        draws = max(map(len, grids))
+
+        def filled(of, empty, kind=float):
+            rows = [[of(row) for row in grid] + [empty] * (draws - len(grid)) for grid in grids]
+            return ("points", "draw"), np.array(rows, kind)
+
+        found = {VARIABLES[each.name]: filled(lambda row, of=each.of: of(row, {}), nan) for each in self.quantities}
+        found["status"] = filled(lambda row: SOLVED if row.reason is None else FAILED, NOT_ASKED, object)
+        found["reason"] = filled(lambda row: row.reason or "", "", object)
+        measured = [[outcomes[task].rows[0] for task in self._timed_of(each)] for each in solvers]
+        for cost in COSTS:
+            found[cost] = "points", [np.mean([row.measures.get(cost, nan) for row in rows]) for rows in measured]
+        found["applications"] = "points", [np.mean([row.applications for row in rows]) for rows in measured]
+        first = self.scene.roughness.seed
+        coordinates = {
+            "points": [solver.points for solver in solvers],
+            "draw": list(range(first, first + draws)),
+        }
+        about = {"contact": self.name, "title": self.title, "solver": name}
+        dataset = xarray.Dataset(found, coordinates, about)
+        for label in dataset.variables:
+            dataset[label].attrs = attributes(str(label), self.scene)
+        for each in self.quantities:
+            dataset[VARIABLES[each.name]].attrs |= {"quantity": each.name, "label": each.label}
+            if each.name in self.scales:
+                dataset[VARIABLES[each.name]].attrs["scale"] = self.scales[each.name]
+        return dataset
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Answers of one solver on one grid.
+
+    values : by the quantity's name, (surfaces,), NaN where a solve failed or nothing touched
+    costs : of one surface, the mean of those measured: processor, wall [s], memory [bytes], applications; NaN
+        where one failed
+    reasons : why solves failed, one each
+    """
+
+    solver: str
+    points: int
+    values: Mapping[str, np.ndarray]
+    costs: Mapping[str, float]
+    reasons: tuple[str, ...]
+
+    @property
+    def count(self) -> int:
+        """Surfaces that were to be solved."""
+        return next(iter(self.values.values())).size
+
+    @classmethod
+    def of(cls, dataset: xarray.Dataset, points: int) -> "Sample":
+        """Sample of one grid of a solver."""
+        grid = dataset.sel(points=points)
+        grid = grid.isel(draw=np.flatnonzero(grid["status"].values != NOT_ASKED))
+        values = {each.attrs["quantity"]: each.values for each in grid.values() if "quantity" in each.attrs}
+        costs = {name: grid[name].item() for name in (*COSTS, "applications")}
+        reasons = tuple(str(reason) for reason in grid["reason"].values if reason)
+        return cls(dataset.attrs["solver"], points, values, costs, reasons)
+
+
+@dataclass(frozen=True)
+class Mean:
+    """Mean over surfaces of one quantity, and where both models stand with it.
+
+    contact, title : of the regime; quantity, label : see Quantity
+    truth : mean with its whole error: half of the interval of 95 % and that of the grid
+    statistical, discretisation : the two parts of that error, relative: the standard error, and what the finest
+        grid leaves if the error falls with the first power of its points: as much as halving them changes; NaN,
+        and with it the error of the truth, where more than MOST_FAILED of the surfaces have no answer
+    freedom : degrees of freedom of the first
+    plans : to it; relative to the scale of the truth
+    samples : of all grids of both solvers
+    """
+
+    contact: str
+    title: str
+    quantity: str
+    label: str
+    truth: Known
+    statistical: float
+    discretisation: float
+    freedom: float
+    plans: tuple[SamplingPlan, ...]
+    samples: tuple[Sample, ...]
+
+    def of(self, solver: str) -> list[SamplingPlan]:
+        """Plans of one solver."""
+        return [plan for plan in self.plans if plan.solver == solver]
+
+    @property
+    def plain(self) -> list[SamplingPlan]:
+        """Plans of the 3D solver on one grid each."""
+        return [plan for plan in self.of("BEM") if not plan.corrected]
+
+    @property
+    def floor(self) -> Bias:
+        """Error of the 1D model on its finest grid: no number of profiles passes it."""
+        own = self.of("MDR")
+        return own[-1].bias if own else Bias(nan, nan)
+
+
+def means(bem: xarray.Dataset, mdr: xarray.Dataset) -> list[Mean]:
+    """Means of every quantity of a regime."""
+    grids, lines = ([Sample.of(each, int(points)) for points in each["points"].values] for each in (bem, mdr))
+    return [_mean_of(each, bem.attrs, grids, lines) for each in bem.values() if "quantity" in each.attrs]
+
+
+def plans_table(found: Sequence[Mean]) -> list[dict[str, Any]]:
+    """A row for each level of each plan, relative to the scale of the truth, with the failures and costs."""
+    return [row for each in found for row in _plan_rows(each)]
+
+
+def _plan_rows(mean):
+    samples = {(sample.solver, sample.points): sample for sample in mean.samples}
+    for plan in mean.plans:
+        for level in plan.levels:
+            own = samples[plan.solver, level.points[0]]
+            low, high = level.scatter.interval()
+            yield {
+                "contact": mean.contact,
+                "title": mean.title,
+                "quantity": mean.quantity,
+                "label": mean.label,
+                "truth": mean.truth.value,
+                "scale": mean.truth.scale,
+                "truth_standard_error": mean.statistical,
+                "truth_freedom": mean.freedom,
+                "truth_grid_error": mean.discretisation,
+                "solver": plan.solver,
+                "plan": plan.label,
+                "points": level.points[0],
+                "coarser_points": level.points[1] if len(level.points) > 1 else 0,
+                "bias": plan.bias.value,
+                "bias_least": plan.bias.least,
+                "bias_most": plan.bias.most,
+                "scatter": level.scatter.value,
+                "scatter_low": low,
+                "scatter_high": high,
+                "scatter_freedom": level.scatter.freedom,
+                "surfaces": own.count,
+                "failed": len(own.reasons),
+                "reason": own.reasons[0] if own.reasons else "",
+                "processor": level.seconds,
+                "wall": own.costs["wall"],
+                "memory": own.costs["memory"],
+                "applications": own.costs["applications"],
+            }
+
+
+def _mean_of(variable, about, grids, lines):
+    """Two levels for the truth: the scatter is averaged out on the first grid, corrected on the same surfaces."""
+    name = variable.attrs["quantity"]
+    first, finest = grids[0].values[name], grids[-1].values[name]
+    many = Scatter.of(first)
+    corrections = finest - first[: finest.size]
+    few = Scatter.of(corrections)
+    value = _mean(first) + _mean(corrections)
+    error, freedom = _combined(first, corrections, many, few)
+    unit = variable.attrs.get("scale", abs(value) or nan)
+    discretisation = _left(grids[-1], grids[-2], name) / unit
+    if _failed(first, corrections) > MOST_FAILED:
+        discretisation = nan
+    statistical = error / unit
+    reach = half_width(statistical, freedom)
+    plans = (
+        *_plain(grids, name, unit, many, discretisation),
+        *_corrected(grids, name, unit, many, discretisation),
+        *(_line(each, name, unit, value, statistical, freedom, discretisation) for each in lines),
+    )
+    truth = Known(value, unit * (reach + discretisation), unit)
+    told = about["contact"], about["title"], name, variable.attrs["label"]
+    return Mean(*told, truth, statistical, discretisation, freedom, plans, (*grids, *lines))
+
+
+def _combined(first, corrections, many, few):
+    """Standard error of the sum of both means, which share surfaces, and its degrees of freedom."""
+    shared = first[: corrections.size]
+    both = np.isfinite(shared) & np.isfinite(corrections)
+    if both.sum() < 2:
+        return nan, 0.0
+    covariance = float(np.cov(shared[both], corrections[both])[0, 1]) / (many.freedom + 1)
+    parts = many.of_mean**2, few.of_mean**2
+    whole = sum(parts)
+    freedom = whole**2 / (parts[0] ** 2 / many.freedom + parts[1] ** 2 / few.freedom) if whole else inf
+    return sqrt(max(whole + 2 * covariance, 0.0)), freedom
+
+
+def _failed(first, corrections):
+    """Share of the surfaces that lack an answer, or the correction that they were drawn for."""
+    known = np.isfinite(first)
+    known[: corrections.size] &= np.isfinite(corrections)
+    return 1 - known.mean()
+
+
+def _left(finest, less, name):
+    """Error of the finest grid at first order, from what it changes on the same surfaces."""
+    best = finest.values[name]
+    return abs(_mean(best - less.values[name][: best.size])) / (finest.points / less.points - 1)
+
+
+def _plain(grids, name, unit, many, discretisation):
+    """A mean on one grid. Biases are those on the same surfaces: what they share does not count."""
+    for sample in grids:
+        bias = _grid_bias(sample, grids[-1], name, unit, discretisation)
+        scatter = _scatter_on(sample.values[name], grids[0].values[name], many, unit)
+        yield SamplingPlan("BEM", bias, (Level((sample.points,), scatter, sample.costs["processor"]),))
+
+
+def _corrected(grids, name, unit, many, discretisation):
+    """A mean on the first grid, with what finer ones change on surfaces of their own."""
+    first = grids[0]
+    coarse = Level((first.points,), Scatter(many.value / unit, many.freedom), first.costs["processor"])
+    for sample in grids[1:]:
+        changes = sample.values[name] - first.values[name][: sample.values[name].size]
+        scatter = Scatter.of(changes / unit)
+        seconds = sample.costs["processor"] + first.costs["processor"]
+        bias = _grid_bias(sample, grids[-1], name, unit, discretisation)
+        yield SamplingPlan("BEM", bias, (coarse, Level((sample.points, first.points), scatter, seconds)))
+
+
+def _grid_bias(sample, best, name, unit, discretisation):
+    """Bias of a grid; of the finest grid it is what the truth's own may be."""
+    if sample is best:
+        return Bias(discretisation, 0.0)
+    finest = best.values[name]
+    changes = (sample.values[name][: finest.size] - finest) / unit
+    scatter = Scatter.of(changes)
+    return Bias(_mean(changes), half_width(scatter.of_mean, scatter.freedom) + discretisation)
+
+
+def _scatter_on(values, first, many, unit):
+    """Scatter on any grid: that of the first, which many surfaces tell, times its change on the same surfaces."""
+    both = np.isfinite(values) & np.isfinite(first[: values.size])
+    here, there = (Scatter.of(each[: values.size][both]) for each in (values, first))
+    return Scatter(many.value * here.value / there.value / unit if there.value else nan, many.freedom)
+
+
+def _line(sample, name, unit, value, statistical, freedom, discretisation):
+    """Plan of the 1D model, its bias its own mean less the truth: two independent numbers."""
+    scatter = Scatter.of(sample.values[name] / unit)
+    parts = scatter.of_mean, statistical
+    error = hypot(*parts)
+    known = scatter.freedom > 0 and error > 0
+    both = error**4 / sum(p**4 / f for p, f in zip(parts, (scatter.freedom, freedom), strict=True)) if known else 0
+    bias = Bias(_mean(sample.values[name]) / unit - value / unit, half_width(error, both) + discretisation)
+    return SamplingPlan("MDR", bias, (Level((sample.points,), scatter, sample.costs["processor"]),))
+
+
+def _mean(values):
+    """Mean of the finite ones; NaN of none."""
+    known = np.asarray(values, float)
+    known = known[np.isfinite(known)]
+    return float(known.mean()) if known.size else nan

@@ -1,0 +1,107 @@
+"""BEM in time: points and steps, against closed forms and against the steady solver."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from math import nan
+
+import numpy as np
+
+from bem3d import BEM
+from scene import Program, Scene, Stage
+
+from ...exact import indentation
+from .convergence import Convergence, Ladder, MeasuredLadder
+from .diagram import ConvergenceDiagram, reported
+from .reference import FORCE, FRICTION, ClosedForm, Finer, Known, Quantity
+from .scenes import CONTACT, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, slid
+from .timed_solve import TimedSolve
+
+POINTS = {"quick": (32, 64, 128), "full": powers(32, 256)}
+STEPS = {"quick": (40, 80, 160), "full": powers(40, 320)}
+SLID = {"quick": (32, 64), "full": (32, 64, 128)}
+PATHS = {"quick": (2, 8, 16), "full": (1, 2, 4, 8, 16, 32)}  # over the radius of contact, at the least points
+REFERENCE = {"quick": 256, "full": 1024}
+# Pressed in for two relaxation times and drawn back for less than one.
+TOP, IN, BACK = depth(SPHERE), 2 * TIME, 0.5 * TIME
+TIMES, DEPTHS = (0.0, IN, IN + BACK), (0.0, TOP, TOP * (1 - BACK / IN))
+# Of v tau / a; the solid creeps for ten times as long.
+FLOW = 0.1
+
+
+def contacts(size: str) -> Sequence[Convergence]:
+    """Pressed in and drawn back; set in motion."""
+    return [_withdrawal(size), _started(size)]
+
+
+def _off_ting(row, fields):
+    """Deviation from the closed form, rms over the steps, over the greatest force."""
+    if row.reason is not None:
+        return nan
+    force, _ = indentation.force_of_depth(SPHERE, STANDARD_LINEAR, TIMES, DEPTHS, fields["time"])
+    return float(np.sqrt(np.mean(np.square(fields["normal_force"] - force))) / force.max())
+
+
+HISTORY = Quantity("history", "normal force, all history", _off_ting)
+
+
+def _withdrawal(size):
+    stages = Stage(duration=IN, depth=TOP), Stage(duration=BACK, depth=DEPTHS[-1])
+    scene = Scene(SPHERE, STANDARD_LINEAR, Program(stages=stages))
+    points, steps, keeps = at(POINTS, size), at(STEPS, size), ("time", "normal_force")
+    made = partial(Ladder.of, scene=scene, keeps=keeps)
+    both = [BEM(points=n, steps=s) for n, s in zip(points, steps, strict=True)]
+    ladders = (
+        made(f"BEM, by points at {steps[-1]} steps", solver=BEM(steps=steps[-1]), setting="points", values=points),
+        made(f"BEM, by steps at {points[-1]}²", solver=BEM(points=points[-1]), setting="steps", values=steps),
+        Ladder.through("BEM, points and steps together", scene, both, "points", points, keeps=keeps),
+    )
+    truth = ClosedForm("Lee and Radok, Ting", {HISTORY.name: Known(0.0, scale=1.0)})
+    return Convergence("withdrawal", "sphere pressed in and drawn back", truth, (HISTORY,), ladders)
+
+
+def _started(size):
+    steady = slid(SPHERE, STANDARD_LINEAR, FLOW)
+    reference = BEM(points=at(REFERENCE, size), tolerance=1e-7)
+    truth = Finer.of(steady, reference, f"the steady solver, {reference.points} points")
+    paths, slides = at(PATHS, size), at(SLID, size)
+    few, longest = BEM(points=slides[0], steps=20), paths[-1]
+    ladders = (
+        Ladder.of("BEM, steady, by points", steady, BEM(), "points", (*slides, 2 * slides[-1])),
+        Ladder.of(f"BEM, marched {longest} a, by points", _set_in_motion(longest), few, "points", slides),
+        Ladder(
+            f"BEM, marched, by path over a at {few.points}²",
+            "path over a",
+            paths,
+            tuple(TimedSolve.of(few, _set_in_motion(path)) for path in paths),
+        ),
+    )
+    return Convergence("started", "sphere set in motion", truth, (FORCE, FRICTION), ladders)
+
+
+def _set_in_motion(path):
+    """Pressed in at once and slid along so many radii of contact."""
+    speed = FLOW * CONTACT / TIME
+    pressed, moving = Stage(duration=TIME, depth=TOP), Stage(duration=path * CONTACT / speed, speed=speed)
+    return replace(slid(SPHERE, STANDARD_LINEAR, FLOW), motion=Program(stages=(pressed, moving)))
+
+
+def price(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
+    """Time of marching to the steady state over that of solving at once, on the same points."""
+    steady, marched = (each for each in found["started"] if each.quantity == FORCE.name and each.setting == "points")
+    times = dict(zip(steady.values, steady.processor, strict=True))
+    for value, spent in zip(marched.values, marched.processor, strict=True):
+        ratio = float(spent / times[value])
+        why = "" if np.isfinite(ratio) else "one of both was not solved"
+        sentence = "Time of marching to the steady state over that of the steady solver"
+        yield reported("marching.price", sentence, ratio, f"{value:g} points", reason=why)
+
+
+DIAGRAM = ConvergenceDiagram(
+    "marching",
+    "Three dimensions in time: error against points and steps",
+    "BEM marched through a program: a sphere pressed in and drawn back against Lee, Radok and Ting, by points, by "
+    "steps and by both together; and a sphere set in motion, against the steady solver and its cost.",
+    contacts,
+    price,
+)

@@ -1,0 +1,87 @@
+"""MDR against points: how far it is from what one dimension itself would answer."""
+
+from collections.abc import Sequence
+
+from mdr1d import MDR
+from scene import Program, Scene, Stage
+from scene.scales import elastic_contact
+
+from ...exact import foundation, indentation
+from .convergence import Convergence, Ladder
+from .diagram import ConvergenceDiagram
+from .reference import FORCE, FRICTION, ClosedForm, Finer, Known
+from .scenes import CONE, KELVIN, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, pressed, rough, slid, some
+
+POINTS = {"quick": (32, 512, 8192), "full": powers(16, 65536, 4)}
+ROUGH_POINTS = {"quick": (256, 1024, 8192), "full": powers(256, 65536, 4)}
+HISTORY_POINTS = {"quick": (64, 512, 4096), "full": powers(16, 16384, 4)}
+REFERENCE = MDR(points=2**20)
+STEPS = {"quick": (1, 100), "full": (1, 10, 100, 1000)}
+# Pressed in for two relaxation times and drawn back as fast, for less than one.
+IN, BACK = 2 * TIME, 0.2 * TIME
+SMOOTH = {
+    "quick": (("sphere", SPHERE, "Kelvin", KELVIN), ("cone", CONE, "standard linear", STANDARD_LINEAR)),
+    "full": (
+        ("sphere", SPHERE, "Kelvin", KELVIN),
+        ("sphere", SPHERE, "standard linear", STANDARD_LINEAR),
+        ("cone", CONE, "Kelvin", KELVIN),
+        ("cone", CONE, "standard linear", STANDARD_LINEAR),
+    ),
+}
+
+
+def contacts(size: str) -> Sequence[Convergence]:
+    """Rest, sliding, a rough sphere, and a withdrawal."""
+    smooth = (_sliding(*each, size) for each in some(SMOOTH, size))
+    return [_at_rest(size), *smooth, _rough(size), _withdrawal(size)]
+
+
+def _points(scene, values):
+    return Ladder.of("MDR, by points", scene, MDR(), "points", values)
+
+
+def _at_rest(size):
+    scene = pressed(SPHERE)
+    truth = ClosedForm("Hertz", {FORCE.name: Known(elastic_contact(scene).load)})
+    ladders = (_points(scene, at(POINTS, size)),)
+    return Convergence("rest-sphere", "sphere at rest", truth, (FORCE,), ladders, {FORCE.name: 2.0})
+
+
+def _sliding(name, shape, solid_name, solid, size):
+    scene = slid(shape, solid, 1.0)
+    normal, friction = foundation.sliding_forces(shape, solid, scene.motion.speed, scene.motion.depth)
+    values = {FORCE.name: Known(normal), FRICTION.name: Known(friction / normal)}
+    truth = ClosedForm("the closed form of the foundation", values)
+    ladders = (_points(scene, at(POINTS, size)),)
+    title = f"{name}, {solid_name}, v τ = a"
+    return Convergence(f"{name}-{solid_name.split()[0].lower()}", title, truth, (FORCE, FRICTION), ladders)
+
+
+def _rough(size):
+    scene = rough(0.1)
+    truth = Finer.of(scene, REFERENCE, f"{REFERENCE.points} points on the same profile")
+    ladders = (_points(scene, at(ROUGH_POINTS, size)),)
+    return Convergence("rough-sphere", "rough sphere, 0.1 m/s", truth, (FRICTION,), ladders)
+
+
+def _withdrawal(size):
+    top = depth(SPHERE)
+    end = top * (1 - BACK / IN)
+    stages = Stage(duration=IN, depth=top), Stage(duration=BACK, depth=end)
+    scene = Scene(SPHERE, STANDARD_LINEAR, Program(stages=stages))
+    times, depths = (0.0, IN, IN + BACK), (0.0, top, end)
+    (force,), _ = indentation.force_of_depth(SPHERE, STANDARD_LINEAR, times, depths, IN + BACK)
+    truth = ClosedForm("Ting", {FORCE.name: Known(float(force))})
+    by_points = Ladder.of("MDR, by points", scene, MDR(steps=50), "points", at(HISTORY_POINTS, size))
+    by_steps = Ladder.of("MDR, by steps", scene, MDR(points=512), "steps", at(STEPS, size))
+    title = "sphere pressed in and drawn back"
+    return Convergence("withdrawal", title, truth, (FORCE,), (by_points, by_steps), {FORCE.name: 2.0})
+
+
+DIAGRAM = ConvergenceDiagram(
+    "mdr",
+    "One dimension: error against points",
+    "The errors of MDR against what one dimension itself would answer: closed forms of the foundation, or the "
+    "same rough profile on far more points. They say nothing of three dimensions.",
+    contacts,
+)
