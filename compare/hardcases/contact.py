@@ -1,7 +1,6 @@
 """Contacts of one point and of all points, nearly closed and hardly touching."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -49,8 +48,8 @@ def few_pixels(size):
     for solver in (line(size), space(size)):
         asked, pixel = f"{solver.name}: a contact of three pixels across", 4 * RADIUS / solver.points
         scene = resting(motion=Indent(depth=DEPTH * (1.2 * pixel / RADIUS) ** 2))
-        ask = partial(replace(solver, extent=4 * RADIUS).solve, scene)
-        yield refusal(asked, SolveError, ("needed", "take more points"), ask)
+        wide = replace(solver, extent=4 * RADIUS)
+        yield refusal(asked, SolveError, "needed | take more points", wide.solve, scene)
 
 
 @case(
@@ -105,10 +104,9 @@ def just_closed(size):
 )
 def gap_to_nothing(size):
     for gap in (1e-9, 1e-300):
-        scene = _plane(CROSSED, gap=gap * AMPLITUDE)
-        ask = partial(BEM(points=size.square).solve, scene)
-        names = ("motion.gap", f"{gap * AMPLITUDE:g}", "prescribe the pressure")
-        yield refusal(f"a mean gap of {gap:g} h0", SolveError, names, ask)
+        scene, solver = _plane(CROSSED, gap=gap * AMPLITUDE), BEM(points=size.square)
+        words = f"motion.gap | {gap * AMPLITUDE:g} | prescribe the pressure"
+        yield refusal(f"a mean gap of {gap:g} h0", SolveError, words, solver.solve, scene)
 
 
 @case(
@@ -117,9 +115,8 @@ def gap_to_nothing(size):
 )
 def load_to_nothing(size):
     for fraction in (1e-9, 1e-300):
-        scene = _plane(CROSSED, pressure=fraction * CROSSED_CLOSURE)
-        ask = partial(BEM(points=size.square).solve, scene)
-        yield refusal(f"p/p* = {fraction:g}", SolveError, ("covers", "take more points"), ask)
+        scene, solver = _plane(CROSSED, pressure=fraction * CROSSED_CLOSURE), BEM(points=size.square)
+        yield refusal(f"p/p* = {fraction:g}", SolveError, "covers | take more points", solver.solve, scene)
 
 
 @case(
@@ -144,9 +141,8 @@ def mirrored_plateaus(size):
 def beyond_the_window(size):
     for solver in (line(size, extent=RADIUS), space(size, extent=RADIUS)):
         for motion in (Indent(depth=DEPTH), Indent(load=LOAD), Slide(speed=PACE, depth=DEPTH)):
-            names = ("contact", f"{RADIUS:g}", "extent")
-            ask = partial(solver.solve, resting(elastomer=SOLID, motion=motion))
-            yield refusal(f"{solver.name}: {motion}", SolveError, names, ask)
+            what, words = f"{solver.name}: {motion}", f"contact | {RADIUS:g} | extent"
+            yield refusal(what, SolveError, words, solver.solve, resting(elastomer=SOLID, motion=motion))
 
 
 @case(

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import inf, nan
 
+from pydantic import ValidationError
+
 
 @dataclass(frozen=True)
 class Size:
@@ -92,10 +94,8 @@ class Group(list[HardCase]):
         return decorated
 
 
-def refusal(
-    what: str, error: type[Exception] | tuple, names: Iterable[str], ask: Callable, *given, **named
-) -> Check:
-    """What cannot be answered must be refused with an error whose message contains some names.
+def refusal(what: str, error: type[Exception] | tuple, words: str, ask: Callable, *given, **named) -> Check:
+    """What cannot be answered must be refused with an error whose message contains some words, split by " | ".
 
     It counts how many of them are missing; NaN with the wrong error or none.
     """
@@ -103,10 +103,15 @@ def refusal(
         answer = ask(*given, **named)
     except error as said:
         message = " ".join(str(said).split())
-        return Check(what, float(sum(name not in message for name in names)), 0.0, message)
+        return Check(what, float(sum(word not in message for word in words.split(" | "))), 0.0, message)
     except Exception as said:
         return Check(what, nan, 0.0, f"({type(said).__name__}: {said})")
     return Check(what, nan, 0.0, f"(answered: {answer!s:.80})")
+
+
+def invalid(what: str, words: str, ask: Callable, *given, **named) -> Check:
+    """What no part of a scene and no setting takes must be refused when it is made."""
+    return refusal(what, ValidationError, words, ask, *given, **named)
 
 
 def deviation(what: str, found: float, expected: float, allowed: float) -> Check:

@@ -27,6 +27,7 @@ from .ordinary import (
     resting,
     sliding,
     space,
+    stage,
 )
 
 CASES = case = Group("histories")
@@ -48,7 +49,7 @@ def many_steps_1d(size):
     """The same window of elastomer after hundreds of its lengths: steady sliding."""
     solver = line(size, points=400, extent=2.4 * RADIUS, steps=size.steps)
     path = size.steps / 400 * 2.4 * RADIUS
-    scene = program({"duration": TIME, "depth": DEPTH}, {"duration": path / PACE, "speed": PACE}, elastomer=SOLID)
+    scene = program(stage(TIME, depth=DEPTH), stage(path / PACE, speed=PACE), elastomer=SOLID)
     answer = solver.solve(scene)
     yield Check("steps less those wanted, negative", size.steps - answer.measures["time_steps"], 0.0)
     half = len(answer.fields["time"]) // 2
@@ -70,10 +71,7 @@ def many_steps_3d(size):
     points, pace = 24, 0.1
     solver = BEM(points=points, extent=3.2 * RADIUS, steps=size.march)
     path = size.march / points * 3.2 * RADIUS
-    scene = program(
-        {"duration": TIME, "depth": DEPTH},
-        {"duration": path / (pace * PACE), "speed": pace * PACE},
-    )
+    scene = program(stage(TIME, depth=DEPTH), stage(path / (pace * PACE), speed=pace * PACE))
     answer = solver.solve(scene)
     steady = solver.solve(sliding(pace))
     friction = answer.fields["friction_force"][-(len(answer.fields["time"]) // 3) :]
@@ -92,7 +90,7 @@ def held_for_ages(size):
         (line(size, points=400, steps=size.steps // 4), 1e-4),
         (space(size, points=24, steps=40), 0.02),
     ):
-        scene = program({"duration": 1e-3 * TIME, "load": LOAD}, {"duration": 1e9 * TIME})
+        scene = program(stage(1e-3 * TIME, load=LOAD), stage(1e9 * TIME))
         answer = solver.solve(scene)
         yield deviation(f"{solver.name}: depth at the end", answer.depth, DEPTH, allowed)
         sunk = -np.diff(answer.fields["depth"]).min() / DEPTH
@@ -106,7 +104,7 @@ def held_for_ages(size):
 def load_up_hold_up(size):
     """Lee and Radok at every step of a load that rises, holds and rises."""
     times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
-    scene = program({"duration": TIME, "load": LOAD}, {"duration": 2 * TIME}, {"duration": TIME, "load": 2 * LOAD})
+    scene = program(stage(TIME, load=LOAD), stage(2 * TIME), stage(TIME, load=2 * LOAD))
     answer = line(size, points=1000, steps=200).solve(scene)
     at = answer.fields["time"][20::20]
     known = indentation.loading_depth(SPHERE, SOLID, times, loads, at)
@@ -127,9 +125,7 @@ def drawn_out(size):
             (line(size, points=500, steps=100), 1e-3),
             (space(size, points=32, steps=60), 0.1),
         ):
-            scene = program(
-                {"duration": 2 * TIME, "depth": DEPTH}, {"duration": 2 * TIME, "depth": 0.0}, indenter=shape
-            )
+            scene = program(stage(2 * TIME, depth=DEPTH), stage(2 * TIME, depth=0.0), indenter=shape)
             solver = replace(solver, extent=4 * RADIUS)
             answer = solver.solve(scene)
             yield Check(
@@ -153,13 +149,10 @@ def separation_and_return(size):
         forces = []
         for rest in (1e3 * TIME, TIME):
             scene = program(
-                {"duration": TIME, "depth": DEPTH},
-                {"duration": TIME, "depth": 0.0},
-                {"duration": rest, "depth": 0.0},
-                {"duration": TIME, "depth": DEPTH},
+                stage(TIME, depth=DEPTH), stage(TIME, depth=0.0), stage(rest, depth=0.0), stage(TIME, depth=DEPTH)
             )
             forces.append(solver.solve(scene).normal_force)
-        once = solver.solve(program({"duration": TIME, "depth": DEPTH})).normal_force
+        once = solver.solve(program(stage(TIME, depth=DEPTH))).normal_force
         yield deviation(f"{solver.name}: after a long rest", forces[0], once, 1e-3)
         yield Check(f"{solver.name}: after a short one, over the first", forces[1] / once, 1.0)
 
@@ -172,12 +165,7 @@ def separation_and_return(size):
 def load_to_zero_and_back(size):
     """A load that falls to zero: the indenter lifts off, and comes back."""
     for solver in (line(size, points=400, steps=100), space(size, points=24, steps=60)):
-        scene = program(
-            {"duration": TIME, "load": LOAD},
-            {"duration": TIME, "load": 0.0},
-            {"duration": TIME},
-            {"duration": TIME, "load": LOAD},
-        )
+        scene = program(stage(TIME, load=LOAD), stage(TIME, load=0.0), stage(TIME), stage(TIME, load=LOAD))
         answer = solver.solve(scene)
         force, time = answer.fields["normal_force"], answer.fields["time"]
         away = (time > 2.05 * TIME) & (time < 2.95 * TIME)
@@ -191,12 +179,9 @@ def load_to_zero_and_back(size):
 )
 def forty_cycles(size):
     """Forty cycles of load on a rough body in sliding."""
-    stages = [{"duration": TIME, "depth": DEPTH}]
+    stages = [stage(TIME, depth=DEPTH)]
     for _ in range(40):
-        stages += [
-            {"duration": TIME / 5, "depth": DEPTH / 5, "speed": PACE / 10},
-            {"duration": TIME / 5, "depth": DEPTH},
-        ]
+        stages += [stage(TIME / 5, depth=DEPTH / 5, speed=PACE / 10), stage(TIME / 5, depth=DEPTH)]
     answer = line(size, points=500, extent=4 * RADIUS, steps=40).solve(program(*stages, roughness=ROUGH))
     yield _balanced("80 stages", answer)
     gained = -np.diff(answer.fields["dissipated"]).min() / answer.fields["dissipated"][-1]
@@ -211,11 +196,7 @@ def forty_cycles(size):
 def stop(size):
     """Sliding, then standing still for a thousand relaxation times: friction goes."""
     for solver in (line(size, points=400, steps=200), space(size, points=24, steps=60)):
-        scene = program(
-            {"duration": TIME, "depth": DEPTH},
-            {"duration": 2 * TIME, "speed": PACE},
-            {"duration": 1e3 * TIME},
-        )
+        scene = program(stage(TIME, depth=DEPTH), stage(2 * TIME, speed=PACE), stage(1e3 * TIME))
         answer = solver.solve(scene)
         friction = answer.fields["friction_force"]
         yield Check(f"{solver.name}: friction left, over the greatest", abs(friction[-1]) / friction.max(), 0.01)
@@ -229,9 +210,9 @@ def stop(size):
 def elastic_march(size):
     """Nothing is remembered and nothing lost."""
     scene = program(
-        {"duration": TIME, "depth": DEPTH},
-        {"duration": TIME, "speed": PACE},
-        {"duration": TIME, "depth": DEPTH / 2},
+        stage(TIME, depth=DEPTH),
+        stage(TIME, speed=PACE),
+        stage(TIME, depth=DEPTH / 2),
         elastomer=ELASTIC,
         roughness=ROUGH,
     )
@@ -253,9 +234,7 @@ def elastic_march(size):
 )
 def dashpot_march(size):
     """A dashpot answers a change of rate with a jump of force."""
-    scene = program(
-        {"duration": TIME, "depth": DEPTH}, {"duration": 1e-6 * TIME}, {"duration": 50 * TIME}, elastomer=KELVIN
-    )
+    scene = program(stage(TIME, depth=DEPTH), stage(1e-6 * TIME), stage(50 * TIME), elastomer=KELVIN)
     answer = line(size, points=1000, steps=200).solve(scene)
     still = line(size).solve(resting()).normal_force
     yield deviation("1D: force at the end", answer.normal_force, still, 1e-4)

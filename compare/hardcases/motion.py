@@ -1,7 +1,5 @@
 """Speeds and relaxation times from nothing to beyond all bounds."""
 
-from functools import partial
-
 import numpy as np
 
 from bem3d import BEM
@@ -178,14 +176,11 @@ def relaxation_time_to_infinity(size):
 def speed_beyond_numbers(size):
     scene = moved(sliding(1.0, KELVIN), speed=1e308)
     for solver in (line(size), space(size)):
-        asked, ask = f"{solver.name} at 1e308 m/s", partial(solver.solve, scene)
-        yield refusal(asked, SolveError, ("numbers of the scene", "units"), ask)
+        what, words = f"{solver.name} at 1e308 m/s", "numbers of the scene | units"
+        yield refusal(what, SolveError, words, solver.solve, scene)
 
 
-@case(
-    "The smallest number that there is, as a speed.",
-    "Force at rest within the tolerance of contact.",
-)
+@case("The smallest number that there is, as a speed.", "Force at rest within the tolerance of contact.")
 def speed_denormal(size):
     return _as_another(size, SOLID, Slide(speed=5e-324, depth=DEPTH), ELASTIC, 3 * TOLERANCE)
 
@@ -240,7 +235,7 @@ def line_at_all_speeds(size):
 )
 def line_beyond_digits(size):
     scene = Scene(Cylinder(SPHERE.radius), KELVIN, Slide(speed=1e9 * PACE, line_load=LINE_LOAD))
-    yield refusal("v tau/a = 1e9", SolveError, ("take",), lambda: BEM(points=size.row).solve(scene))
+    yield refusal("v tau/a = 1e9", SolveError, "take", BEM(points=size.row).solve, scene)
 
 
 @case(

@@ -49,8 +49,13 @@ def program(*stages, elastomer=SOLID, **changed) -> Scene:
     return resting(elastomer=elastomer, motion=motion, **changed)
 
 
+def stage(duration, **values) -> dict[str, float]:
+    """Values of a Stage, for `program`."""
+    return {"duration": duration, **values}
+
+
 def moved(scene: Scene, **motion) -> Scene:
-    """The same with some values of its motion replaced."""
+    """A scene with some values of its motion replaced."""
     return replace(scene, motion=replace(scene.motion, **motion))
 
 
@@ -65,5 +70,5 @@ def space(size: Size, **settings) -> BEM:
 
 
 def dense(size: Size, **settings) -> BEM:
-    """The same on a grid whose conditions can be computed anew."""
+    """The three-dimensional solver on a grid whose conditions can be computed anew."""
     return space(size, **{"points": size.dense} | settings)

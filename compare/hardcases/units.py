@@ -67,42 +67,27 @@ def _steps(motion):
     return {"steps": 20} if motion is _program else {}
 
 
-@case(
-    "Lengths from micrometres to a thousandth of a nanometre.",
-    BITS,
-)
+@case("Lengths from micrometres to a thousandth of a nanometre.", BITS)
 def nanometres(size):
     return _compared(size, _slide, [(2.0**-k, 1.0, 1.0) for k in (10, 20, 30)], 0.0)
 
 
-@case(
-    "Lengths from a metre to a million kilometres.",
-    BITS,
-)
+@case("Lengths from a metre to a million kilometres.", BITS)
 def kilometres(size):
     return _compared(size, _slide, [(2.0**k, 1.0, 1.0) for k in (10, 20, 40)], 0.0)
 
 
-@case(
-    "Moduli from 1e-12 to 1e24 Pa.",
-    BITS,
-)
+@case("Moduli from 1e-12 to 1e24 Pa.", BITS)
 def pascals_to_exapascals(size):
     return _compared(size, _slide, [(1.0, 2.0**k, 1.0) for k in (-20, -60, 20, 60)], 0.0)
 
 
-@case(
-    "Relaxation times from 1e-18 to 1e12 s.",
-    BITS,
-)
+@case("Relaxation times from 1e-18 to 1e12 s.", BITS)
 def femtoseconds_to_ages(size):
     return _compared(size, _slide, [(1.0, 1.0, 2.0**k) for k in (-50, -20, 20, 50)], 0.0)
 
 
-@case(
-    "Nanometres, terapascals and picoseconds; kilometres, pascals and ages.",
-    BITS,
-)
+@case("Nanometres, terapascals and picoseconds; kilometres, pascals and ages.", BITS)
 def all_units_at_once(size):
     return _compared(size, _slide, [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)], 0.0)
 
