@@ -14,14 +14,17 @@ from effects_page import costs
 from effects_page.asked import Effect, effects
 from effects_page.catalogue import STUDIES
 from effects_page.chapter import Chapter
+from pandas import DataFrame
 from rich.console import Console
 from tables import table
 
 import bem3d.plan
 import mdr1d.plan
+from compare import csvfiles
+from compare.manifest import machine, versions
 from compare.plots import style
+from compare.plots.rendering import rendered
 from compare.progress import watch
-from compare.publish import machine, save, versions, write_csv, write_text
 from compare.runner import sweep
 from compare.store import Store
 from scene.costs import two_digits
@@ -57,12 +60,12 @@ def main() -> None:
     timed = _swept(console, store, costs.tasks(), 1, tasks_each=1)
     billed = costs.costs(timed)
     for name, rows in costs.tables(billed).items():
-        write_csv(TABLES[name], rows)
+        _write_csv(TABLES[name], rows)
     with style.applied():
         chapters = {study.TITLE: study.chapter(outcomes) for study in STUDIES}
         chapters[costs.TITLE] = costs.chapter(timed)
         sections = [_section(title, each) for title, each in chapters.items()]
-    write_text(FOLDER.with_suffix(".md"), "\n".join([_introduction(billed), *sections]))
+    csvfiles.write_text(FOLDER.with_suffix(".md"), "\n".join([_introduction(billed), *sections]))
 
 
 def _swept(console, store, tasks, workers=None, **how):
@@ -104,17 +107,21 @@ def _refused() -> Iterator[str]:
 def _section(title: str, chapter: Chapter) -> str:
     parts = [f"## {title}", chapter.text]
     for name, figure in chapter.figures.items():
-        save(FOLDER, name, figure)
+        (FOLDER / f"{name}.png").write_bytes(rendered(figure, ("png",)).files["png"])
         parts.append(f"![{name}]({FOLDER.name}/{name}.png)")
     for heading, rows in chapter.tables.items():
         parts += [f"### {heading}", table("|".join(rows[0]), (tuple(map(str, row.values())) for row in rows))]
     for name, rows in chapter.data.items():
-        write_csv(FOLDER / f"{name}.csv", rows)
+        _write_csv(FOLDER / f"{name}.csv", rows)
     if chapter.data:
         parts.append(
             "Numbers: " + ", ".join(f"[{name}.csv]({FOLDER.name}/{name}.csv)" for name in chapter.data) + "."
         )
     return "\n\n".join(parts) + "\n"
+
+
+def _write_csv(path, rows):
+    csvfiles.write_text(path, csvfiles.text(DataFrame(rows)))
 
 
 def _anchor(title: str) -> str:

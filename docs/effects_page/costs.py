@@ -1,6 +1,7 @@
 """What every effect costs on top of a plain contact: each solve measured alone, in both dimensionalities.
 
-These tasks want a process each and a quiet machine, as all that is timed: see `workprecision.rung`.
+These tasks want a process each and a quiet machine, as all that is timed: see
+`compare.studies.workprecision.timed_solve`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -8,10 +9,10 @@ from dataclasses import dataclass
 from math import isfinite, nan
 
 from bem3d import BEM
+from compare.amounts import seconds
 from compare.outcome import Outcome, Row
+from compare.studies.workprecision.timed_solve import TimedSolve
 from compare.task import Task
-from compare.workprecision.rung import Rung
-from compare.workprecision.wording import seconds
 from mdr1d import MDR
 from scene.costs import COSTS, two_digits
 from scene.plan import size
@@ -65,10 +66,10 @@ class Cost:
         return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
 
 
-def tasks() -> list[Rung]:
+def tasks() -> list[TimedSolve]:
     """One a solver and effect that it does not refuse."""
     return [
-        Rung(solver, effect.scene, work=_work(solver, effect))
+        TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
         for solver in SOLVERS.values()
         for effect in effects()
         if not solver.refusals(effect.scene)
@@ -113,7 +114,7 @@ def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
 def _of(solver, outcomes):
     rows = {}
     for effect in effects():
-        outcome = outcomes.get(Rung(solver, effect.scene, work=_work(solver, effect)))
+        outcome = outcomes.get(TimedSolve(solver, (effect.scene,), work=_work(solver, effect)))
         rows[effect.title] = outcome.rows[0] if outcome else Row(reason=effect.verdict(solver))
     return [Cost(each, rows[each.title], rows[each.over or each.title]) for each in effects()]
 

@@ -13,7 +13,6 @@ import numpy as np
 from bem3d import BEM
 from compare.cases import shipped_cases
 from compare.exact import tangential
-from compare.metrics import estimate
 from compare.outcome import Outcome
 from compare.task import SceneTask as Task
 from compare.task import Task as AnyTask
@@ -22,7 +21,7 @@ from scene import Coulomb, Indent, Kelvin, Scene, Shear, Sphere
 
 from .chapter import Chapter, Rows
 from .figures import shear as drawing
-from .means import half, mean
+from .means import estimate, half, mean
 
 NAME, TITLE = "shear", "Tangential loading and partial slip"
 DEPTH, FRICTION, NU = 4e-4, 0.5, 0.5

@@ -13,20 +13,18 @@ import numpy as np
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.metrics import Estimate, estimate, ratio
 from compare.outcome import Outcome
 from compare.statistics.jackknife import student
+from compare.statistics.spectra import Description, describe
 from compare.task import SceneTask as Task
 from compare.task import Task as AnyTask
-from compare.statistics.spectra import Description, describe
-from compare.wording import plus_minus
 from mdr1d import MDR
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere, Topography
 from scene.scales import elastic_contact
 
 from .chapter import Chapter, Rows
 from .figures import topography as drawing
-from .means import LEVEL, half, written
+from .means import LEVEL, Estimate, estimate, half, plus_minus, ratio, written
 
 NAME, TITLE = "topography", "Measured topography"
 BODY = Scene(Sphere(radius=10e-3), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(depth=1e-4))
