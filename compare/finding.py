@@ -7,6 +7,8 @@ from typing import Any
 
 import pandas
 
+from . import digits
+
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
 # How the share of the grid in an interval is known.
 HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exact", "unknown"
@@ -129,7 +131,7 @@ class Finding:
             "tolerance": self.claim.tolerance,
             "scatter_low": self.scatter[0],
             "scatter_high": self.scatter[1],
-            "grid": self.grid,
+            "grid_error": self.grid,
             "grid_method": self.grid_method,
             "draws": self.draws,
             "regime": self.regime,
@@ -158,7 +160,8 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
                 place = " ".join(part for part in (each.dimension or each.claim.dimension, each.where) if part)
                 places.setdefault(each.verdict, []).append(f"{place} {number(each)}")
         told = [f"{name}: {', '.join(places[name])}" for name in VERDICTS if name in places]
-        found.append(f"{sentence}. {'; '.join(told).capitalize()}.")
+        said = "; ".join(told)
+        found.append(f"{sentence}. {said[:1].upper()}{said[1:]}.")
     return found
 
 
@@ -167,7 +170,4 @@ def number(found: Finding) -> str:
     if not isfinite(found.value):
         return "not measured"
     unit = "" if found.claim.unit in ("", "1") else f" {found.claim.unit}"
-    low, high = found.interval
-    if not (isfinite(low) and isfinite(high)):
-        return f"{found.value:.3g}{unit}"
-    return f"{found.value:.3g}{unit} ({low:.3g} to {high:.3g})"
+    return digits.interval(found.value, *found.interval, 3) + unit

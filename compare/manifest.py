@@ -1,53 +1,110 @@
-"""What a command leaves beside its page: how it was called, with which versions, and where what it solved lies."""
+"""Manifest of a folder: what wrote it, with which versions, and what lies in it."""
 
 import json
 import os
+import platform
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, is_dataclass
+from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
 
 from scene.reading import InvalidInput
 
-from .publish import machine, versions, write_json
+from .csvfiles import write_text
+from .page import Page, Plot, Table
+from .store import PACKAGES, finite
+
+if TYPE_CHECKING:
+    from .pipeline import Study
+    from .runner import SweepResult
 
 NAME = "manifest.json"
+FINDINGS = "findings"
+VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
+
+
+class PlotEntry(BaseModel):
+    """A figure in a manifest: its name, the function that draws it from its tables, and the options of that."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    module: str
+    function: str
+    tables: tuple[str, ...]
+    options: dict[str, Any]
+
+    @field_validator("name", "tables")
+    @classmethod
+    def _inside(cls, given):
+        for name in (given,) if isinstance(given, str) else given:
+            if not name or "\\" in name or ":" in name or any(part in ("", ".", "..") for part in name.split("/")):
+                raise ValueError(f"{name!r} names no file of the folder")
+        return given
+
+
+class Manifest(BaseModel):
+    """What the manifest of a folder says, of which more may stand in it.
+
+    command, inputs : what wrote it, and of what
+    solved : folder of what was solved, from that of the manifest
+    plots : figures that can be drawn again
+    tables : names of the CSV files, without ending
+    """
+
+    model_config = ConfigDict(extra="ignore", frozen=True)
+
+    command: str
+    inputs: dict[str, Any]
+    solved: str
+    plots: tuple[PlotEntry, ...]
+    tables: tuple[str, ...]
+
+    _inside = field_validator("tables")(PlotEntry._inside.__func__)  # type: ignore[attr-defined]
 
 
 @dataclass(frozen=True)
-class Manifest:
-    """Of one folder.
+class Folder:
+    """A folder that a command left, and its manifest."""
 
-    folder : that holds it
-    command, arguments : what wrote it, and of what
-    solved : folder of what was solved
-    versions : of the packages then
-    """
-
-    folder: Path
-    command: str
-    arguments: Mapping[str, Any]
-    solved: Path
-    versions: Mapping[str, str]
+    path: Path
+    manifest: Manifest
 
 
-def stamp(folder: Path, command: str, arguments: Mapping[str, Any], solved: Path) -> None:
-    """Say in the manifest of a folder, which may hold more, what wrote it."""
-    path = folder / NAME
-    written = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    how = {
-        "command": command,
-        "arguments": arguments,
-        # The folder may be moved as a whole.
-        "solved": Path(os.path.relpath(solved, folder)).as_posix(),
+def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved: str) -> None:
+    """Write the manifest of a folder, last of all: what it lists is there. Raises OSError."""
+    content = {
+        "command": study.command,
+        "title": page.title,
+        "inputs": study.inputs,
         "versions": versions(),
         "platform": machine(),
+        "solved": Path(solved).as_posix(),
+        "tasks": {"solved": swept.solved, "reused": swept.reused},
+        "seconds": swept.seconds,
+        "plots": [_entry(plot) for plot in page.every(Plot)],
+        "tables": tables(page),
     }
-    write_json(path, how | written)
+    write_text(folder / NAME, json.dumps(_storable(content), indent=1, allow_nan=False, ensure_ascii=False))
 
 
-def manifests(folder: str | Path) -> Iterator[Manifest]:
-    """Of a folder, or of those just below it, as a folder of studies has. Raises InvalidInput if there is none."""
+def tables(page: Page) -> list[str]:
+    """Names of all tables that a page leaves as CSV files, without ending, each once."""
+    behind = (f"{plot.folder}{name}" for plot in page.every(Plot) for name in plot.tables)
+    return list(dict.fromkeys([FINDINGS, *(table.name for table in page.every(Table)), *behind]))
+
+
+def remove(folder: Path) -> None:
+    """Take the manifest away, while what it lists is written anew. Raises OSError."""
+    (folder / NAME).unlink(missing_ok=True)
+
+
+def folders(folder: str | Path) -> Iterator[Folder]:
+    """A folder with a manifest, or those just below it. Raises InvalidInput where there is none or it is damaged."""
     folder = Path(folder)
     if not folder.is_dir():
         raise InvalidInput(f"{folder}: no such folder")
@@ -55,21 +112,51 @@ def manifests(folder: str | Path) -> Iterator[Manifest]:
     paths = [own] if own.exists() else sorted(folder.glob(f"*/{NAME}"))
     if not paths:
         raise InvalidInput(f"{folder}: no {NAME} here or just below: no command left anything in it")
-    for path in paths:
-        yield _read(path)
+    return (Folder(path.parent, _read(path)) for path in paths)
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages that numbers and figures depend on."""
+    return {"python": platform.python_version()} | {package: version(package) for package in VERSIONS}
+
+
+def machine() -> dict[str, Any]:
+    """What the numbers were computed on."""
+    return {"system": platform.system(), "machine": platform.machine(), "processors": os.cpu_count()}
+
+
+def _entry(plot):
+    return PlotEntry(
+        name=plot.name,
+        module=plot.draw.__module__,
+        function=plot.draw.__name__,
+        tables=tuple(plot.tables),
+        options=dict(plot.options),
+    ).model_dump()
 
 
 def _read(path):
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-        return Manifest(
-            path.parent,
-            content["command"],
-            content["arguments"],
-            path.parent / content["solved"],
-            content["versions"],
-        )
-    except (OSError, ValueError, LookupError, TypeError) as error:
-        raise InvalidInput(
-            f"{path}: is none that a command of this version wrote, run the command again"
-        ) from error
+        return Manifest.model_validate_json(path.read_bytes())
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, first["loc"]))
+        reason = f"{where}: {first['msg']}" if where else first["msg"]
+    except (OSError, RecursionError) as error:
+        reason = str(error)
+    raise InvalidInput(f"{path}: is none that a command of this version wrote: {reason}")
+
+
+def _storable(value):
+    """What JSON can hold: null for NaN, and what is no value of JSON as its fields or as text."""
+    if is_dataclass(value) and not isinstance(value, type):
+        value = asdict(value)
+    if isinstance(value, Mapping):
+        return {str(name): _storable(entry) for name, entry in value.items()}
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list | tuple | set | frozenset):
+        return [_storable(entry) for entry in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    return finite(value) if value is None or isinstance(value, str | int | float) else str(value)

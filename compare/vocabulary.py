@@ -1,13 +1,27 @@
 """Vocabulary of the judge: unit and definition of every variable of a Dataset and every column of a table."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from scene import Scene
 from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 
+THEORY, PAPER = "theory, Eq. ", "Popov et al. 2014, Eq. "
+
+
+@dataclass(frozen=True)
+class Term(Entry):
+    """Entry with the formula, in symbols, and the equation of docs/theory.md or of the paper that it comes from."""
+
+    formula: str = ""
+    source: str = ""
+
+
 # Of Datasets: coordinates, and what scene.vocabulary has under another name.
 LABELS: Mapping[str, Entry] = {
-    "grid": Entry("", "Which grid of the solver: fine, as the settings say, or coarse, with half the points a side."),
+    "grid": Entry(
+        "", "Which grid of the solver: fine, as the settings say, or coarse, with half the points a side."
+    ),
     "points": Entry("1", "Points of the grid along a side."),
     "speed": Entry("m/s", "Speed of sliding that was prescribed, or rate of pressing in; 0 is rest."),
     "load": Entry("N", "Normal force that was prescribed.", along_line="N/m"),
@@ -25,12 +39,182 @@ LABELS: Mapping[str, Entry] = {
     "side": Entry("", "Which of the two answers: numerator or denominator of the ratio."),
     "measured": Entry("", "Number of one answer that a ratio is made of, in its SI unit."),
     "stored": Entry("1", "Ratio as the baseline has it."),
+    # Of findings.
+    "claim": Entry("", "Name of the claim, which never changes."),
+    "sentence": Entry("", "What is claimed."),
+    "meaning": Entry("", "How the number is measured, and what a deviation from it says."),
+    "where": Entry("", "Case, series or diagram in which it was measured."),
+    "dimension": Entry(
+        "",
+        "1D: the method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: one over the other.",
+    ),
+    "verdict": Entry(
+        "",
+        "holds: the whole interval of 95 % lies within the tolerance around the number expected; fails: none of it does; "
+        "undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value "
+        "the verdict is whether the number is within its bound.",
+    ),
+    "value": Entry(
+        "",
+        "Number measured, with its interval of 95 % in brackets: scatter of surfaces, wider at both ends by the error of the grid.",
+    ),
+    "low": Entry("", "Lower end of the interval of 95 %: scatter of surfaces, widened by the error of the grid."),
+    "high": Entry("", "Upper end of the interval of 95 %: scatter of surfaces, widened by the error of the grid."),
+    "unit": Entry("", "Unit of the number; 1 of a ratio."),
+    "expected": Entry("", "Number that is claimed."),
+    "tolerance": Entry("", "How far from the number claimed still counts as it."),
+    "scatter_low": Entry(
+        "",
+        "Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out one or a group of them.",
+    ),
+    "scatter_high": Entry(
+        "",
+        "Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out one or a group of them.",
+    ),
+    "grid_error": Entry("", "Error of discretisation, by which the interval is wider at both ends."),
+    "grid_method": Entry(
+        "", "How the error of the grid is known: change on halving the points, extrapolated, exact, or unknown."
+    ),
+    "draws": Entry("1", "Number of rough surfaces behind a number; 0 of smooth bodies."),
+    "regime": Entry("", "Range of the dimensionless groups in which a number was measured."),
+    "plot": Entry("", "Figure that shows it."),
+    # Of points, and of curves through them.
+    "solver": Entry(
+        "", "MDR: the method of dimensionality reduction, 1D. BEM: boundary elements, 3D. exact: closed form."
+    ),
+    "body": Entry("", "Rough, or smooth: the same body without its roughness."),
+    "curve": Entry("", "Curve that a point belongs to."),
+    "friction": Term(
+        "1",
+        "Coefficient of friction: mean friction force over mean normal force.",
+        formula="μ = F_x / F_N",
+        source=f"{THEORY}2",
+    ),
+    "force": Entry("N", "Mean normal force.", along_line="N/m"),
+    "reached": Entry("m", "Mean depth that was reached, above zero into the elastomer."),
+    "surfaces": Entry("1", "Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D."),
+    "failures": Entry("1", "Solves that ended with an error and are left out of the means."),
+    "contact": Entry("", "Real contact, where pressure is not zero: a length [m] in 1D, an area [m²] in 3D."),
+    "friction_spread": Term(
+        "1",
+        "Friction by traction less friction by energy lost, over the friction force, mean over surfaces.",
+        formula="|F_traction − F_loss| / |F_x|",
+        source=f"{THEORY}5d",
+    ),
+    "log_shift": Term(
+        "1", "Shift of a curve along ln F_N that brings it onto the common curve.", source=f"{PAPER}23"
+    ),
+    # Dimensionless groups.
+    "depth_over_height": Term(
+        "1", "Depth of the smooth relaxed contact over the rms height of the roughness.", formula="d / h₀"
+    ),
+    "height_over_depth": Term(
+        "1", "Rms height of the roughness over the depth of the smooth relaxed contact.", formula="h₀ / d"
+    ),
+    "shortest_in_contact": Term(
+        "1",
+        "Radius of the smooth relaxed contact times the highest wave number of the roughness.",
+        formula="a q_s",
+    ),
+    "pressure_over_slope": Term(
+        "1",
+        "Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D.",
+        formula="F_N / (π a² E* h′)",
+    ),
+    "memory_over_contact": Term(
+        "1", "Length slid in the mean lag τ of the solid over the radius of the contact.", formula="v τ / a"
+    ),
+    "memory_over_shortest": Term(
+        "1", "Length slid in the mean lag τ times the highest wave number.", formula="v τ q_s"
+    ),
+    "macro_over_rough": Term(
+        "1", "Rms slope of the smooth profile over its contact, over that of the roughness.", formula="r"
+    ),
+    "xi": Term(
+        "1",
+        "Variable of the law; friction over its plateau in the limit of low speed.",
+        formula="ξ = (v τ s / √2) (8 G₀ / F_N)^(n/(n+1)) ((n+1) / (c n))^(1/(n+1))",
+        source=f"{PAPER}18",
+    ),
+    "normalised_friction": Term(
+        "1",
+        "Friction over that of the plateau, s the rms slope of the roughness.",
+        formula="μ̃ = μ / (√2 s)",
+        source=f"{PAPER}14",
+    ),
+    "alpha": Term(
+        "1",
+        "Exponent of the law that joins low speed and plateau.",
+        formula="μ̃ = (1 + ξ^−α)^(−1/α)",
+        source=f"{PAPER}19",
+    ),
+    # Of cost and accuracy.
+    "relative_error": Term(
+        "1",
+        "Error of a quantity against a closed form, or against a far finer solution whose own error is stated.",
+        formula="|y / y_true − 1|",
+    ),
+    "reference_error": Entry(
+        "1", "Relative error of the reference; what is at or below it is only known to be as good as that."
+    ),
+    "processor": Entry(
+        "s",
+        "Processor time of one thread from the scene to the result: the least of several repeats, each alone in a "
+        "process that has loaded compiled code.",
+    ),
+    "wall": Entry("s", "Least time of repeated solves by the clock."),
+    "memory": Entry("B", "By how much a solve raises the peak memory of its process."),
+    "order": Entry("1", "Power of the setting with which the error falls."),
+    "change": Entry("1", "Relative change of a quantity from half the points to all."),
+    "padded_product": Entry("s", "Least processor time of one product in Fourier space, padded with zeros."),
+    "plain_product": Entry("s", "Least processor time of one product in Fourier space."),
+    "promised_seconds": Entry("s", "Processor time that was expected of the settings chosen."),
+    "promised_error": Entry("1", "Relative error that was expected of the settings chosen."),
+    "repeats": Entry("1", "How often the solve was repeated."),
+    # Of many contacts at once.
+    "length": Entry("m", "Length of real contact along the profile."),
+    "span": Entry("m", "Distance from the first to the last point of real contact."),
+    "sweeps": Entry("1", "Sweeps along the profile."),
+}
+
+# What an ending adds to the meaning of a name.
+ENDINGS = {
+    "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
+    "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
+    "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",
+    "_deviation": "Standard deviation of one surface. ",
+    "_1d": "In one dimension (MDR). ",
+    "_3d": "In three dimensions (BEM). ",
 }
 
 
-def entry(name: str) -> Entry | None:
+def stem(name: str) -> str:
+    """Name that an entry is found under: without its ending where the whole has none."""
+    for ending in ENDINGS:
+        if name.endswith(ending) and _entry(name) is None:
+            return stem(name.removesuffix(ending))
+    return name
+
+
+def entry(name: str) -> Term | None:
     """Entry of a name, of the judge first and then of the solvers; None of a name that explains itself."""
-    return LABELS.get(name) or NUMBERS.get(name) or MEASURES.get(name) or FIELDS.get(name)
+    whose = stem(name)
+    found = _entry(whose)
+    if found is None or whose == name:
+        return found
+    said = "".join(text for ending, text in ENDINGS.items() if ending in name.removeprefix(whose))
+    return replace(found, text=said + found.text)
+
+
+def _entry(name):
+    found = LABELS.get(name) or NUMBERS.get(name) or MEASURES.get(name) or FIELDS.get(name)
+    return Term(**vars(found)) if found else None
+
+
+def head(name: str) -> str:
+    """Name of a column in words, with its unit."""
+    found, plain = entry(name), name.replace("_", " ")
+    return plain if found is None or found.unit in ("", "1") else f"{plain} [{found.unit.replace('^2', '²')}]"
 
 
 def attributes(name: str, scene: Scene | None = None) -> dict[str, str]:

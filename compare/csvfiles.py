@@ -1,0 +1,38 @@
+"""Tables as CSV files: every digit is written, and what is read back is the same table."""
+
+import io
+from pathlib import Path
+
+import pandas
+from pandas import DataFrame
+
+from scene.reading import InvalidInput
+
+from .store import write
+
+NOT_KNOWN = "nan"
+
+
+def text(frame: DataFrame) -> str:
+    """A table as the text of its file; the index is left out."""
+    return frame.to_csv(index=False, na_rep=NOT_KNOWN, lineterminator="\n")
+
+
+def write_text(path: Path, content: str) -> None:
+    """Write a text whole or not at all; the folder is made. Raises OSError."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write(path, lambda file: file.write(content.encode()))
+
+
+def read(path: Path) -> DataFrame:
+    """A table from its file, numbers exact. Raises InvalidInput where there is none or it is damaged."""
+    try:
+        content = path.read_text(encoding="utf-8")
+        if not content.strip():
+            return DataFrame()
+        return pandas.read_csv(
+            io.StringIO(content), float_precision="round_trip", keep_default_na=False, na_values=[NOT_KNOWN]
+        )
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise InvalidInput(f"{path}: is no table as a command leaves it: {reason}") from error

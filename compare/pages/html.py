@@ -1,0 +1,165 @@
+"""A page as one HTML file that needs nothing else: images and tables inside, usable offline and without scripts."""
+
+import base64
+from collections.abc import Callable, Iterator, Mapping
+from html import escape
+from typing import Any
+from urllib.parse import quote
+
+import jinja2
+from markupsafe import Markup
+from pandas import DataFrame
+
+from ..finding import VERDICTS
+from ..manifest import FINDINGS, machine, versions
+from ..page import Block, Findings, Page, Plot, Section, Table, Text
+from ..plots.rendering import Picture
+from ..vocabulary import Term, entry, stem
+from . import prose
+from .columns import Row, columns
+
+# A longer table is no reading, and a larger file is not put into the page.
+MOST_ROWS, MOST_BYTES = 400, 1_000_000
+# Digits of numbers that are there to be looked up.
+DIGITS = 6
+# Need no escape within a data URI.
+SAFE = " ,;:/()[]{}=+*@!'~?|^$&"
+# A word that is longer may be broken into lines.
+LONG = 30
+
+
+def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
+    """The page.
+
+    pictures : of the plots, by name; tables : text of every CSV file beside the page, by name
+    """
+    definitions = Definitions()
+    shown = {table.name for table in page.every(Table)}
+    behind = {
+        f"{plot.folder}{name}": frame
+        for plot in page.every(Plot)
+        for name, frame in plot.tables.items()
+        if f"{plot.folder}{name}" not in shown
+    }
+    return _template("page.html").render(
+        page=page,
+        contents=[
+            (anchor("section", each.title), each.title) for each in page.blocks if isinstance(each, Section)
+        ],
+        data={name: _rows(frame, definitions) for name, frame in behind.items()},
+        about={**page.about, **_made()},
+        **_content(definitions, pictures, tables, {plot.name for plot in page.every(Plot)}),
+    )
+
+
+def fragment(page: Page) -> str:
+    """Answer, findings and tables of a page, without its figures, as a part of another page."""
+    return _template("fragment.html").render(page=page, **_content(Definitions(shown=False), {}, {}, set()))
+
+
+class Definitions:
+    """What a page uses of the vocabulary, in the order of use.
+
+    shown : whether the page has them
+    """
+
+    def __init__(self, shown: bool = True) -> None:
+        self.shown = shown
+        self._used: dict[str, Term] = {}
+
+    def use(self, name: str) -> str:
+        """Anchor of the definition of a name, which the page then has; empty of one that explains itself."""
+        whose = stem(name)
+        found = entry(whose)
+        if found is None or not self.shown:
+            return ""
+        self._used[whose] = found
+        return anchor("def", whose)
+
+    def __iter__(self) -> Iterator[tuple[str, Term]]:
+        return iter(self._used.items())
+
+
+def anchor(*parts: str) -> str:
+    """Parts as one anchor: a fragment that needs no escape and begins with a letter."""
+    return "-".join("".join(c if c.isascii() and c.isalnum() else "-" for c in part) for part in parts if part)
+
+
+def _content(definitions, pictures, tables, figures) -> dict[str, Any]:
+    """What the templates need beside the page."""
+    return {
+        "kind": lambda block: type(block).__name__,
+        "anchor": anchor,
+        "definitions": definitions,
+        "pictures": pictures,
+        "figures": figures,
+        "prose": lambda markdown: Markup(prose.html(markdown)),
+        "rows": lambda table: _rows(table.frame, definitions, people=True),
+        "findings": lambda block: [Row(finding) for finding in block.findings],
+        "counts": _counts,
+        "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),
+        "download": lambda name: _download(name, tables),
+        "FINDINGS": FINDINGS,
+    }
+
+
+def _counts(block: Findings) -> str:
+    """How often each verdict stands in a block."""
+    verdicts = [finding.verdict for finding in block.findings]
+    return ", ".join(f"{verdict} {verdicts.count(verdict)}" for verdict in VERDICTS if verdict in verdicts)
+
+
+def _rows(frame: DataFrame, definitions: Definitions, people: bool = False) -> Markup | None:
+    """Head and body of a table; None of one that is too long to be read."""
+    if len(frame) > MOST_ROWS:
+        return None
+    shown = columns(frame) if people else columns(frame, DIGITS, merged=False)
+    heads = "".join(_head(column.title, definitions.use(column.name)) for column in shown)
+    cells = [[_cell(column, *each) for each in zip(column.values, column.texts, strict=True)] for column in shown]
+    body = "\n".join(f"<tr>{''.join(row)}</tr>" for row in zip(*cells, strict=True))
+    return Markup(f"<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}\n</tbody>")
+
+
+def _head(title, definition):
+    mark = (
+        f'<a class="mark" href="#{definition}" aria-label="Definition: {escape(title)}">?</a>'
+        if definition
+        else ""
+    )
+    return f'<th scope="col"><span class="label">{escape(title)}</span>{mark}</th>'
+
+
+def _cell(column, value, shown):
+    label = f' data-label="{escape(column.title)}"'
+    if isinstance(value, float):
+        return f'<td class="number"{label} data-value="{value!r}">{escape(shown)}</td>'
+    words = ' class="words"' if len(shown) > LONG else ""
+    return f"<td{words}{label}>{escape(shown)}</td>"
+
+
+def _download(name: str, tables: Mapping[str, str]) -> str:
+    """Where a table is: within the page, or beside it if it is large."""
+    content = tables[name]
+    if len(content) > MOST_BYTES:
+        return quote(f"{name}.csv")
+    return f"data:text/csv;charset=utf-8,{quote(content, safe=SAFE)}"
+
+
+def _made() -> dict[str, str]:
+    """What the page was made with and on."""
+    where = machine()
+    return {
+        "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
+        "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
+    }
+
+
+def _template(name: str) -> jinja2.Template:
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("compare", "pages"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template(name)

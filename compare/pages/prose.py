@@ -1,0 +1,48 @@
+"""Text of a page, which is Markdown, in other forms: emphasis, code, links and lists."""
+
+from collections.abc import Callable, Mapping
+
+from markdown_it import MarkdownIt
+
+_PARSER = MarkdownIt("commonmark", {"html": False})
+# Before and behind what is marked, by the names of markdown-it; `{href}` is where a link leads to.
+Marks = Mapping[str, tuple[str, str]]
+PLAIN: Marks = {
+    "paragraph": ("", "\n\n"),
+    "list_item": ("- ", ""),
+    "softbreak": (" ", ""),
+    "hardbreak": ("\n", ""),
+}
+
+
+def html(markdown: str) -> str:
+    """As HTML; what is HTML already is shown as text."""
+    return _PARSER.render(markdown)
+
+
+def converted(markdown: str, marks: Marks, escaped: Callable[[str], str] = str) -> str:
+    """With other marks around what Markdown marks; a mark that is not given is left out."""
+    return "".join(_parts(_PARSER.parse(markdown), {**PLAIN, **marks}, escaped)).strip()
+
+
+def _parts(tokens, marks, escaped):
+    links = []
+    for token in tokens:
+        kind = token.type.removesuffix("_open").removesuffix("_close")
+        before, behind = marks.get(kind, ("", ""))
+        if token.type == "inline":
+            yield from _parts(token.children, marks, escaped)
+        elif token.type == "text":
+            yield escaped(token.content)
+        elif token.type in ("code_inline", "fence", "code_block"):
+            before, behind = marks.get("code_inline", ("", ""))
+            yield before + escaped(token.content) + behind
+        elif token.nesting > 0:
+            before = "" if token.hidden else before
+            links.append(str(token.attrs.get("href", "")))
+            yield before.replace("{href}", links[-1])
+        elif token.nesting < 0:
+            behind = "\n" if token.hidden else behind
+            yield behind.replace("{href}", links.pop())
+        else:
+            yield before

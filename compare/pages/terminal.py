@@ -1,0 +1,68 @@
+"""A page as plain text, which a command prints: the answer, findings and short tables."""
+
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..page import Findings, Page, Plot, Section, Table, Text
+from . import prose
+from .columns import Row, columns
+
+WIDTH = 100
+MOST_ROWS = 40
+
+
+def text(page: Page, path: Path | None = None) -> str:
+    """The page; path : of its file, named at the end."""
+    parts = [_headed(page.title, "="), *map(_filled, page.answer), *_blocks(page.blocks, "-")]
+    if path is not None:
+        parts.append(f"Page: {path.resolve()}")
+    return "\n\n".join(part for part in parts if part)
+
+
+def _blocks(blocks, rule) -> Iterator[str]:
+    for block in blocks:
+        match block:
+            case Text(markdown):
+                yield "\n\n".join(_filled(part) for part in prose.converted(markdown, {}).split("\n\n"))
+            case Table() if not block.long and len(block.frame) <= MOST_ROWS:
+                yield "\n".join(part for part in (_filled(block.caption), _table(block.frame)) if part)
+            case Findings(findings, caption):
+                lines = (line for finding in findings for line in _finding(Row(finding)))
+                yield "\n".join([*([_filled(caption)] if caption else []), *lines])
+            case Section(title, inside):
+                parts = [part for part in _blocks(inside, "") if part]
+                if parts:
+                    yield "\n\n".join([_headed(title, rule), *parts])
+            case Plot() | Table():
+                pass
+
+
+def _finding(row) -> Iterator[str]:
+    """A finding in a line or a few: verdict, claim, place, number found and number claimed."""
+    claimed = f", claimed {row.claimed}" if row.claimed else ""
+    place = " ".join(part for part in (row.dimension, row.finding.where) if part)
+    yield _filled(f"{row.verdict:<9}  {row.claim} [{place}]: {row.found}{claimed}", 11)
+    if row.reason:
+        yield _filled(f"{'':<11}{row.reason}", 11)
+
+
+def _table(frame) -> str:
+    shown = columns(frame)
+    cells = [[each.title, *(text.replace("\n", " ") for text in each.texts)] for each in shown]
+    widths = [max(map(len, column)) for column in cells]
+    sides = [str.rjust if each.numeric else str.ljust for each in shown]
+    return "\n".join(
+        "  ".join(side(cell, width) for side, cell, width in zip(sides, row, widths, strict=True)).rstrip()
+        for row in zip(*cells, strict=True)
+    )
+
+
+def _headed(title, rule):
+    return f"{title}\n{rule * len(title)}" if rule else title
+
+
+def _filled(words, indent=0):
+    return textwrap.fill(
+        words, WIDTH, subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False
+    )

@@ -1,0 +1,97 @@
+"""Figures drawn again from their tables, for a journal or in a style of one's own; nothing is solved or judged."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from os import PathLike
+from pathlib import Path
+from pkgutil import walk_packages
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from scene.reading import InvalidInput
+
+from . import csvfiles, manifest, plots
+from .page import Plot
+from .plots import style as looks
+from .plots.journals import journal as find_journal
+from .plots.rendering import FORMS, picture
+from .store import write
+
+FIGURES = "figures"
+# What a function of a table that was changed may raise.
+UNDRAWABLE = (LookupError, ValueError, TypeError, AttributeError, ArithmeticError, RuntimeError)
+
+
+def redraw(
+    folder: str | Path,
+    journal: str = "default",
+    style: str | PathLike | Mapping[str, Any] | None = None,
+    output: str | Path | None = None,
+    told: Callable[[str], Any] = lambda name: None,
+) -> list[Path]:
+    """Draw every figure of a folder again as PDF, SVG and PNG; returns the files.
+
+    folder : that a command left, or that has such folders
+    journal : a name of compare.plots.journals.JOURNALS
+    style : a style of matplotlib on top: a file, a name, or settings
+    output : where to; `figures` in the folder if absent
+    told : called with the name of each figure that is drawn
+
+    Raises InvalidInput where there is nothing to draw, where a file is damaged, or for no such journal or style.
+    """
+    target, drawn = Path(output or Path(folder) / FIGURES), []
+    try:
+        chosen = looks.chosen(looks.Look(find_journal(journal), style))
+        with chosen:
+            for each in manifest.folders(folder):
+                place = each.path.relative_to(folder)
+                for entry in each.manifest.plots:
+                    told(entry.name)
+                    drawn += _draw(each.path, entry, target / place)
+    except InvalidInput:
+        raise
+    except ValueError as error:
+        raise InvalidInput(str(error)) from error
+    if not drawn:
+        raise InvalidInput(f"{folder}: what is left here has no figures")
+    return drawn
+
+
+def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
+    """The files of one figure."""
+    draw = function(entry, folder / manifest.NAME)
+    below = entry.name[: entry.name.rfind("/") + 1]
+    tables = {name: csvfiles.read(folder / f"{below}{name}.csv") for name in entry.tables}
+    plot = Plot(entry.name, draw, tables, "", options=entry.options)
+    try:
+        drawn = picture(plot, FORMS)
+    except InvalidInput:
+        raise
+    except UNDRAWABLE as error:
+        raise InvalidInput(f"{folder}: figure {entry.name} cannot be drawn from its tables: {error!r}") from error
+    paths = []
+    for form, content in drawn.files.items():
+        paths.append(target / f"{entry.name}.{form}")
+        paths[-1].parent.mkdir(parents=True, exist_ok=True)
+        write(paths[-1], lambda file, content=content: file.write(content))
+    return paths
+
+
+def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
+    """The function that draws a figure; InvalidInput of all but the functions of compare.plots that return a Figure."""
+    prefix = f"{plots.__name__}."
+    if entry.module in {found.name for found in walk_packages(plots.__path__, prefix)}:
+        draw = getattr(import_module(entry.module), entry.function, None)
+        if (
+            inspect.isfunction(draw)
+            and draw.__module__ == entry.module
+            and draw.__annotations__.get("return") in (Figure, "Figure")
+            and not entry.function.startswith("_")
+        ):
+            return draw
+    raise InvalidInput(
+        f"{path}: figure {entry.name} is drawn by {entry.module}.{entry.function}, which is no figure of "
+        f"{plots.__name__}: it cannot be drawn again"
+    )
