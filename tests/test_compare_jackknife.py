@@ -10,7 +10,7 @@ from compare.statistics.jackknife import (
     MOST_GROUPS,
     Estimated,
     Replicates,
-    Size,
+    RmsMisfit,
     groups,
     interval,
     left_out,
@@ -114,9 +114,8 @@ def test_one_surface_gives_a_value_and_no_error():
     assert np.isfinite(found.estimated.value)
     assert np.isnan(found.estimated.error)
     assert np.all(np.isnan(found.estimated.interval()))
-    assert np.isnan(found.size.value)
-    assert np.all(np.isnan(found.size.interval()))
-    assert found.size.verdict(1.0) == "undecided"
+    assert np.isnan(found.rms.value)
+    assert np.all(np.isnan(found.rms.interval()))
 
 
 def test_what_knows_no_surface_is_exact():
@@ -124,9 +123,7 @@ def test_what_knows_no_surface_is_exact():
     found = Replicates.first_order(np.array([3.0, 4.0]), np.empty((0, 2)))
     assert found.estimated.freedom == inf
     np.testing.assert_array_equal(found.estimated.error, 0.0)
-    assert found.size.interval() == pytest.approx((sqrt(12.5), sqrt(12.5)), rel=1e-15)
-    assert found.size.verdict(4.0) == "holds"
-    assert found.size.verdict(3.0) == "fails"
+    assert found.rms.interval() == pytest.approx((sqrt(12.5), sqrt(12.5)), rel=1e-15)
 
 
 def test_a_statistic_that_fails_without_a_surface_has_no_error():
@@ -135,7 +132,7 @@ def test_a_statistic_that_fails_without_a_surface_has_no_error():
 
     found = resample(fragile, Columns(np.array([[1.0, 3.0, 2.0], [1.0, 1.0, 1.0]])))[""]
     assert np.isnan(found.estimated.error)
-    assert np.isnan(found.size.value)
+    assert np.isnan(found.rms.value)
 
 
 # Standard deviations of independent components of the scatter: one, a few alike, ever smaller ones, many.
@@ -157,7 +154,7 @@ def vectors(rng, modes, surfaces, size):
 def size_of(samples, scatter=1.0):
     """scatter : factor that its deviations are wrong by."""
     middle = samples.mean(axis=0)
-    return Replicates.first_order(middle, scatter * (samples - middle)).size
+    return Replicates.first_order(middle, scatter * (samples - middle)).rms
 
 
 @pytest.mark.parametrize("surfaces", [3, 10])
@@ -208,20 +205,33 @@ def test_a_size_is_nil_for_all_that_is_known_where_there_is_less_than_the_scatte
     assert np.mean(np.array(seen) < 0) > 0.3
 
 
-def test_a_size_is_within_a_tolerance_only_if_its_whole_interval_is():
-    samples, _ = vectors(np.random.default_rng(10), MODES["three"], 10, 20.0)
-    found = size_of(samples)
-    low, high = found.interval()
-    assert low < found.value < high
-    assert [found.verdict(at) for at in (0.9 * low, found.value, 1.1 * high)] == ["fails", "undecided", "holds"]
+@pytest.mark.parametrize("freedom", [4, 40])
+def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_as_stated(freedom):
+    rng, truth = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5)
+    kept = dict.fromkeys((True, False), 0)
+    for _ in range(DRAWS):
+        scatter = 0.2 * sqrt(rng.chisquare(freedom) / freedom)
+        value = truth + 0.2 * rng.normal(size=truth.size)
+        for right in kept:
+            error = scatter * (1.0 if right else 0.5) * sqrt(truth.size)
+            low, high = Replicates(value, error * np.eye(truth.size), freedom).rms.interval()
+            kept[right] += low <= sqrt(0.125) <= high
+    assert kept[True] >= LEAST * DRAWS
+    assert kept[False] < LEAST * DRAWS
+
+
+def test_a_scatter_that_is_known_exactly_is_one_of_many_freedoms():
+    value, errors = np.array([0.1, -0.2, 0.05]), 0.1 * np.eye(3)
+    ends = [Replicates(value, errors, freedom).rms.interval() for freedom in (np.inf, 1e7)]
+    assert ends[0] == pytest.approx(ends[1], rel=1e-5)
 
 
 def test_sizes_of_nil_are_apart_by_what_their_squares_are():
     # scatter explains both, and yet one grid is not the other
-    fine, coarse = (Size(square, 1e-3, 0.0, 4.0, 9) for square in (-1e-4, -4e-4))
+    fine, coarse = (RmsMisfit(square, 1e-3, 0.0, 4.0, 9) for square in (-1e-4, -4e-4))
     assert fine.value == coarse.value == 0
     assert fine.apart(coarse) == pytest.approx(0.01)
-    large, larger = (Size(square, 1e-3, 0.0, 4.0, 9) for square in (0.01, 0.04))
+    large, larger = (RmsMisfit(square, 1e-3, 0.0, 4.0, 9) for square in (0.01, 0.04))
     assert large.apart(larger) == pytest.approx(larger.value - large.value)
-    assert np.isnan(large.apart(Size.unknown()))
+    assert np.isnan(large.apart(RmsMisfit.unknown()))
     assert Estimated(1.0, 0.1, 9).apart(Estimated(3.0, 0.5, 9)) == 2.0

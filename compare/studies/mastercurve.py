@@ -12,7 +12,7 @@ import xarray
 from scene.reading import InvalidInput
 from scene.table import read_rows
 
-from ..finding import EXACT, FAILS, Claim, Finding
+from ..finding import EXACT, FAILS, REPORTED, Claim, Finding, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Table
 from ..pipeline import Study
@@ -148,6 +148,10 @@ class Mastercurve(Study):
                 )
             )
         return findings
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """The claims and the exponent."""
+        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id == EXPONENT.id])
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         """The curves, shifted, and the shifts."""

@@ -13,7 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 from scene import Topography
 from scene.reading import InvalidInput, mistakes
 
-from ..finding import EXACT, UNKNOWN, Claim, Finding
+from ..finding import EXACT, UNKNOWN, Claim, Finding, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Text
 from ..pipeline import Study
@@ -145,6 +145,11 @@ class Map(Study):
                 )
             )
         return findings
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """Height, slope and Hurst exponent."""
+        told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
+        return sentences([each for each in findings if each.claim.id in told])
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         """Spectra of the map and of its rows."""
