@@ -10,6 +10,7 @@ from scene import Scene
 from scene.reading import InvalidInput, parsed, read, text_of
 
 from .cases import Case, read_case, shipped_cases
+from .library import FOLDERS, ready
 from .suggest import suggestion
 
 COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
@@ -45,8 +46,6 @@ def case_of(asked: Asked) -> Case:
 
 def located(asked: str | Path, kind: str = "scene") -> Path:
     """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
-    from .library import FOLDERS, ready
-
     path = Path(asked)
     if path.is_dir():
         raise InvalidInput(f"{asked}: is a folder, and no {kind}")

@@ -15,8 +15,6 @@ from scene import Measured, Plane, Program, Scene, Slide
 from scene.motion import pressed as pressed_in
 from scene.scales import elastic_contact
 
-from .verdict import Judgement
-
 Fields = Mapping[str, np.ndarray]
 
 # Of the greater of the contact's length and the smooth relaxed contact's: seen before it, beside it, and behind
@@ -99,11 +97,6 @@ def view(scene: Scene, bem: BEM, fields: Mapping[str, Fields]) -> View | None:
         span, aside = _worth_seeing(scene, touched, radius or 0.0)
     space = None if plane is None else _space(scene, bem, plane, span, aside)
     return View(scene, line and _prolonged(scene, line, span), space, radius, span, aside)
-
-
-def of_judgement(judgement: Judgement) -> View | None:
-    """The scene's own point of a judged case."""
-    return view(judgement.case.scene, judgement.case.bem, judgement.fields)
 
 
 def smooth_radius(scene: Scene, pressed: float | None = None) -> float | None:

@@ -1,12 +1,14 @@
 """Panels of a contact: sections through both bodies, and maps of it seen from above."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.image import AxesImage
 from matplotlib.typing import ColorType
+from pandas import DataFrame
 
 from ..views import Section
 from . import materials, style
@@ -15,6 +17,31 @@ from .prefixes import prefixed
 # Elements that are drawn of a row; heights above and below what is shown of the surfaces, of their range.
 ELEMENTS, ABOVE, BELOW = 48, 0.45, 0.35
 HIGHEST = 99  # percentile of the pressures in contact at which colours end
+
+Fields: TypeAlias = Mapping[str, np.ndarray]
+
+
+def section_of(table: DataFrame) -> Section:
+    """Section that a table holds."""
+    x, indenter, surface = (table[name].to_numpy(float) for name in ("x", "indenter", "surface"))
+    return Section(x, indenter, surface, table["touching"].to_numpy(bool))
+
+
+def gridded(table: DataFrame, name: str, pixel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x (N,), y (M,) and values (M, N) of pixels of which a table has some; zero of those it has not."""
+    if table.empty:
+        ends = np.array([-pixel, pixel]) / 2
+        return ends, ends, np.zeros((2, 2))
+    places = []
+    for along in ("x", "y"):
+        values = table[along].to_numpy()
+        index = np.rint((values - values.min()) / pixel).astype(int)
+        # At least two, as an image needs the side of a pixel.
+        places.append((values.min() + pixel * np.arange(max(index.max(), 1) + 1), index))
+    (x, column), (y, row) = places
+    found = np.zeros((len(y), len(x)))
+    found[row, column] = table[name]
+    return x, y, found
 
 
 def heights(sections: Sequence[Section], span: tuple[float, float]) -> tuple[float, float]:

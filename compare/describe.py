@@ -1,0 +1,67 @@
+"""Parts of a scene in words with units, and names that may stand in a path."""
+
+import re
+import unicodedata
+from dataclasses import asdict
+from math import degrees
+from typing import Any
+
+from matplotlib.ticker import EngFormatter
+
+from scene import Indent, Slide
+from scene.quantities import unit_of
+
+# Units that take prefixes: 10 mm for 0.01 m.
+PREFIXED = ("m", "Pa", "s", "N", "N/m", "Hz")
+WORDS = {
+    "hurst": "Hurst exponent",
+    "longest": "longest wave",
+    "rolloff": "roll-off",
+    "shortest": "shortest wave",
+    "shortest_kept": "shortest wave kept",
+    "poisson_ratio": "Poisson ratio",
+    "reference": "stated at",
+}
+KINDS = {"wlf": "WLF"}
+
+
+def described(part: Any) -> str:
+    """A part of a scene in words with units: Sphere, radius 10 mm; what is absent is not named."""
+    name = getattr(part, "type", type(part).__name__)
+    kind = KINDS.get(name, name.replace("-", " ").capitalize())
+    if isinstance(part, Indent | Slide):
+        moved = f" at {_quantity(part, 'speed')}" if isinstance(part, Slide) else ""
+        return (
+            f"{kind}{moved} {'to' if part.pressed_by == 'depth' else 'under'} {_quantity(part, part.pressed_by)}"
+        )
+    said = [
+        f"{WORDS.get(name, name.replace('_', ' '))} {_quantity(part, name)}"
+        for name, value in asdict(part).items()
+        if value is not None and name != "type"
+    ]
+    return ", ".join([kind, *said])
+
+
+def slug(name: str) -> str:
+    """Name as it may stand in a path."""
+    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    return re.sub(r"[^a-z0-9]+", "-", plain.lower()).strip("-") or "case"
+
+
+def _quantity(part, name):
+    value = asdict(part)[name]
+    if name == "heights":
+        return "of {} x {} pixels".format(*value["shape"])
+    if isinstance(value, dict):
+        return f"of {len(next(iter(value.values())))} rows"
+    unit, several = unit_of(type(part), name), value if isinstance(value, tuple) else (value,)
+    return " ".join(_written(each, unit) for each in several)
+
+
+def _written(value, unit):
+    """A number with its unit, and whatever else as it is."""
+    if not isinstance(value, float):
+        return str(value)
+    if unit == "rad":
+        return f"{degrees(value):.4g}°"
+    return EngFormatter(unit)(value) if unit in PREFIXED else f"{value:.6g} {unit or ''}".strip()

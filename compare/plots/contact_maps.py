@@ -1,0 +1,190 @@
+"""One contact: pressure, gap and real contact with the wake from above, and sections in both dimensionalities."""
+
+from collections.abc import Mapping, Sequence
+from math import ceil
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from scene import Cylinder, Plane, Program
+
+from ..page import Plot, Tables
+from ..views import Section, View
+from . import style, touching
+from .prefixes import prefixed
+
+NAME = "contact-maps"
+SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
+PRESSURE, SURFACE = f"{NAME}-pressure", f"{NAME}-surface"
+TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: profile and elements"}
+MOST_PIXELS = 10_000  # of the maps of the surface: of a finer grid every second one, or third, is shown
+HEIGHT = 1.9  # of the panels below [inch]
+LETTERED, TALLEST = (0.5, 1.15), 1.2  # what is written beside and around a map [inch]; of a map, height over width
+CLOSED = 1e-6  # of the relief of the indenter: a gap of less is none
+
+
+def plot(view: View | None, folder: str = "") -> Plot | None:
+    """Plot of a view, of whichever of the two dimensionalities it has; None without a view."""
+    if view is None:
+        return None
+    found = {} if view.space is None else {"BEM": view.space.section}
+    found = found if view.line is None else {**found, "MDR": view.line}
+    tables = {SECTIONS[solver]: _section(each, view.span) for solver, each in found.items()}
+    options: dict[str, Any] = {"span": list(view.span), "aside": view.aside, "radius": view.radius, "flow": _flow(view)}
+    if view.space is not None:
+        around, pressure = view.space.around, view.space.pressure
+        y, x = np.meshgrid(around.y, around.x, indexing="ij")
+        pressed = (pressure > 0) | (len(around.y) == 1)
+        tables[PRESSURE] = DataFrame({"x": x[pressed], "y": y[pressed], "pressure": pressure[pressed]})
+        options |= {"pixel": float(around.x[1] - around.x[0]), "alike": len(around.y) == 1}
+        options |= {"line_contact": isinstance(view.scene.indenter, Cylinder)}
+        options |= {"deepest": _deepest(view), "highest_gap": _highest_gap(view)}
+        if len(around.y) > 1:
+            tables[SURFACE] = _surface(view, x, y)
+    alternative = "Maps of pressure, gap and real contact above; below, sections through indenter and elastomer."
+    return Plot(f"{folder}{NAME}", figure, tables, _caption(view), alternative, options)
+
+
+def figure(
+    tables: Tables,
+    span: Sequence[float],
+    aside: float,
+    radius: float | None,
+    flow: str,
+    pixel: float = 0.0,
+    alike: bool = False,
+    line_contact: bool = False,
+    deepest: float = 1.0,
+    highest_gap: float = 1.0,
+) -> Figure:
+    """Above: pressure, gap and real contact in three dimensions. Below: the section y = 0, and the 1D contact.
+
+    span, aside : first and last x, farthest y [m]; radius : of the smooth relaxed contact [m]; flow : in words
+    pixel : of the maps [m]; alike : whether the contact is alike along y, and the pressure stands in place of the maps
+    deepest, highest_gap : displacement and gap at which colours end [m]
+    """
+    sections = {solver: touching.section_of(tables[name]) for solver, name in SECTIONS.items() if name in tables}
+    maps = SURFACE in tables
+    tall = 2 * aside / (span[1] - span[0])
+    height = (style.across("double") / 3 - LETTERED[0]) * min(tall, TALLEST) + LETTERED[1] if maps else 0.0
+    drawing = style.canvas("double", height + HEIGHT)
+    below = drawing
+    if maps:
+        above, below = drawing.subfigures(2, 1, squeeze=False, height_ratios=(height, HEIGHT))[:, 0]
+        _maps(above, tables, span, aside, radius, flow, pixel, deepest, highest_gap)
+    panels = below.subplots(1, len(sections) + alike, sharex=alike, squeeze=False)[0]
+    if alike:
+        _pressure(panels[0], tables[PRESSURE], span, radius if line_contact else None)
+    limits = touching.heights(list(sections.values()), (span[0], span[1]))
+    for axes, (solver, each) in zip(panels[alike:], sections.items(), strict=True):
+        touching.section(axes, each, solver, (span[0], span[1]), limits, 0.0 if solver == "MDR" else None)
+        axes.set_title(TITLES[solver])
+        touching.remark(axes, flow)
+    drawing.draw_without_rendering()  # the layout finds places for maps of equal scales in a second pass alone
+    return drawing
+
+
+def _section(section: Section, span) -> DataFrame:
+    inside = (span[0] <= section.x) & (section.x <= span[1])
+    columns = {name: getattr(section, name)[inside] for name in ("x", "indenter", "surface", "touching")}
+    return DataFrame(columns)
+
+
+def _surface(view, x, y) -> DataFrame:
+    """Gap and displacement that are shown, on no more points than are told apart."""
+    around = view.space.around
+    rows, columns = (
+        np.flatnonzero((low <= values) & (values <= high))
+        for values, (low, high) in ((around.y, (-view.aside, view.aside)), (around.x, view.span))
+    )
+    step = max(1, ceil((len(rows) * len(columns) / MOST_PIXELS) ** 0.5))
+    shown = slice(rows[0], rows[-1] + 1, step), slice(columns[0], columns[-1] + 1, step)
+    found = {"x": x + around.lag, "y": y, "gap": around.gap, "displacement": around.displacement}
+    return DataFrame({name: values[shown].ravel() for name, values in found.items()})
+
+
+def _maps(drawing, tables: Mapping[str, DataFrame], span, aside, radius, flow, pixel, deepest, highest_gap) -> None:
+    """Three panels to one scale, each with its bar below."""
+    scale, unit = prefixed([*span, aside], "m")
+    panels = drawing.subplots(1, 3, sharex=True, sharey=True)
+    x, y, pressure = touching.gridded(tables[PRESSURE], "pressure", pixel)
+    surface = {name: tables[SURFACE].pivot(index="y", columns="x", values=name) for name in ("gap", "displacement")}
+    at = scale * surface["gap"].columns.to_numpy(), scale * surface["gap"].index.to_numpy()
+    highest = touching.highest_pressure(pressure)
+    up, name = prefixed(highest, "Pa")
+    image = touching.pressure_map(panels[0], scale * x, scale * y, up * pressure, up * highest)
+    _bar(drawing, image, panels[0], f"pressure [{name}]")
+    up, name = prefixed(highest_gap, "m")
+    image = touching.gap_map(panels[1], *at, up * np.maximum(surface["gap"], 0.0), up * highest_gap)
+    _bar(drawing, image, panels[1], f"gap [{name}]")
+    up, name = prefixed(deepest, "m")
+    pairs = (scale * x, at[0]), (scale * y, at[1])
+    lowered = up * surface["displacement"].to_numpy()
+    image = touching.contact_map(panels[2], *pairs, pressure > 0, lowered, up * deepest, style.COLOUR["BEM"])
+    _bar(drawing, image, panels[2], f"displacement [{name}]", extend="neither")
+    titles, inks = ("3D: pressure", "3D: gap", "3D: real contact"), (style.ink(), style.paper(), style.ink())
+    for axes, title, ink in zip(panels, titles, inks, strict=True):
+        touching.edge(axes, radius and scale * radius, ink)
+        axes.set(title=title, xlabel=f"x [{unit}]")
+        axes.set(xlim=[scale * end for end in span], ylim=(-scale * aside, scale * aside))
+        if tables[PRESSURE].empty:
+            axes.text(0.5, 0.5, "nothing touches", transform=axes.transAxes, ha="center", fontsize=style.small())
+    panels[0].set_ylabel(f"y [{unit}]")
+    touching.remark(panels[0], flow)
+
+
+def _bar(drawing, image, axes, label, extend="max"):
+    bar = drawing.colorbar(image, ax=axes, location="bottom", extend=extend, shrink=0.9, aspect=28)
+    bar.set_label(label)
+    bar.outline.set_linewidth(style.width(0.45))
+
+
+def _pressure(axes, pressed: DataFrame, span, half_width) -> None:
+    """Pressure of a contact that is alike along y, which has no map."""
+    (along, unit), (up, name) = prefixed(span, "m"), prefixed(pressed["pressure"], "Pa")
+    axes.plot(along * pressed["x"], up * pressed["pressure"], color=style.COLOUR["BEM"])
+    touching.sides(axes, half_width and along * half_width)
+    axes.set(xlim=[along * end for end in span], xlabel=f"x [{unit}]", ylabel=f"pressure [{name}]")
+    axes.set_ylim(bottom=0)
+    axes.set_title("3D: pressure")
+
+
+def _deepest(view) -> float:
+    """The greatest displacement that is not hidden by the contact [m]; of all where nothing is free."""
+    displacement, touched = view.space.around.displacement, view.space.touching
+    free = displacement if touched.all() else displacement[~touched]
+    return float(np.nanmax(free, initial=0.0)) or 1.0
+
+
+def _highest_gap(view) -> float:
+    """Gap at which colours end [m]: the greatest displacement, of a plane the greatest gap."""
+    gap, relief = view.space.around.gap, float(np.ptp(view.space.around.indenter))
+    greatest = float(np.nanmax(gap, initial=0.0))
+    if not isinstance(view.scene.indenter, Plane):
+        greatest = min(greatest, float(np.nanmax(view.space.around.displacement, initial=0.0)))
+    return greatest if greatest > CLOSED * relief else relief
+
+
+def _flow(view) -> str:
+    """Which way the elastomer passes, seen from the indenter."""
+    motion = view.scene.motion
+    speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
+    return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"
+
+
+def _caption(view) -> str:
+    told, plane = [], isinstance(view.scene.indenter, Plane)
+    if view.space is not None and len(view.space.around.y) > 1:
+        told.append("Pressure, colours cut at the 99th percentile; gap; and real contact, the surface darker where deeper.")
+    elif view.space is not None:
+        told.append("Left: contact pressure.")
+    told.append("Sections: rigid indenter and elastomer, real contact in bold; heights are exaggerated.")
+    if view.radius is not None:
+        told.append("Dashed: the smooth relaxed contact.")
+    if view.line is not None:
+        told.append("In 1D some of the independent elements are drawn.")
+    if _flow(view) != "at rest" and view.space is not None and not plane:
+        told.append("Behind the contact is the wake.")
+    return " ".join([*told, *(["One cell, which repeats."] if plane else [])])

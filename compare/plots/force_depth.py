@@ -1,0 +1,104 @@
+"""Normal force against depth at rest, rough and smooth, and the deviation of one dimension from three."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..finding import Finding
+from ..page import Plot, Tables
+from . import style
+from .means import averaged, line
+
+NAME = "force-depth"
+DEVIATIONS = f"{NAME}-deviations"
+MICRONS = 1e6
+
+
+def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], folder: str = "") -> Plot | None:
+    """Plot of force against depth; None without points.
+
+    deviations : body, depth [m], and the finding on 1D over 3D less one
+    """
+    own = points[points["curve"].str.startswith(NAME)].dropna(axis=1, how="all")
+    if own.empty:
+        return None
+    rows = [
+        {"body": body, "depth": depth, "deviation": found.value, "deviation_low": low, "deviation_high": high}
+        for body, depth, found in deviations
+        for low, high in [found.interval]
+    ]
+    names = ["body", "depth", "deviation", "deviation_low", "deviation_high"]
+    caption = (
+        "Force against depth, pressed in at rest. Below: the force in 1D over that in 3D, less one; an arrow marks a "
+        f"bar that goes on. {averaged(own)}"
+    )
+    alternative = "Force grows with depth; below, deviations of 1D from 3D around zero."
+    tables = {NAME: own, DEVIATIONS: DataFrame(rows, columns=names)}
+    return Plot(f"{folder}{NAME}", figure, tables, caption, alternative)
+
+
+def figure(tables: Tables) -> Figure:
+    """Above: force. Below: 1D over 3D."""
+    points = tables[NAME]
+    drawing = style.canvas("single", 3.9)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    above.set(ylabel="normal force [N]", xscale="log", yscale="log")
+    style.span(above, MICRONS * points["depth"])
+    exact = points[points["solver"] == "exact"]
+    if len(exact):
+        look = {"color": style.grey(0.45), "linewidth": style.width(0.8), "label": "smooth, closed form"}
+        above.plot(MICRONS * exact["depth"], exact["normal_force"], "-", **look)
+    for solver in ("MDR", "BEM"):
+        for body in ("smooth", "rough"):
+            curve = points[(points["solver"] == solver) & (points["body"] == body)]
+            if curve.empty:
+                continue
+            look: dict[str, Any] = {"markerfacecolor": style.paper(), "linestyle": "none"} if body == "smooth" else {}
+            if body == "smooth" and solver == "BEM":
+                look |= {"markersize": style.mark(1.6), "zorder": 1}
+            label = f"{style.LABEL[solver]}, {body}"
+            line(above, curve, "depth", "normal_force", solver, MICRONS, label=label, **look)
+    _deviations(below, tables[DEVIATIONS])
+    below.set(xlabel="depth [µm]", ylabel="1D / 3D - 1 [%]")
+    style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 2)
+    for axes in (above, below):
+        style.decades(axes)
+    return drawing
+
+
+def _deviations(axes: Axes, found: DataFrame) -> None:
+    axes.axhline(0, color=style.grey(0.6), linewidth=style.width(0.55))
+    looks: dict[str, dict[str, Any]] = {
+        "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
+        "smooth": {"color": style.grey(0.45), "marker": "D", "linestyle": ":"},
+    }
+    for body, look in looks.items():
+        curve = found[found["body"] == body]
+        if curve.empty:
+            continue
+        depth, value, low, high = (
+            curve[name].to_numpy(float) * times
+            for name, times in (("depth", MICRONS), ("deviation", 100), ("deviation_low", 100), ("deviation_high", 100))
+        )
+        axes.errorbar(depth, value, yerr=style.bars(value, low, high), label=body, **look)
+        if body == "rough" and np.isfinite(high - low).any():
+            _limit(axes, depth, value, low, high)
+    if len(found):
+        axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
+
+
+def _limit(axes, depths, values, low, high):
+    """Limits from all values and the shorter half of the bars; an arrow where a bar goes on beyond them."""
+    short = (high - low) <= np.nanmedian(high - low)
+    bottom = min(0, np.nanmin(np.where(short, low, values)))
+    top = max(0, np.nanmax(np.where(short, high, values)))
+    margin = 0.15 * (top - bottom) or 1.0
+    bottom, top = bottom - margin, top + margin
+    axes.set_ylim(bottom, top)
+    for edge, marker, beyond in ((bottom, "v", low < bottom), (top, "^", high > top)):
+        look = {"color": style.ink(), "markersize": style.mark(), "clip_on": False, "linestyle": "none"}
+        axes.plot(depths[beyond], np.full(beyond.sum(), edge), marker=marker, **look)

@@ -1,0 +1,142 @@
+"""Coefficient of friction against speed, and against load at several speeds, in one and in three dimensions."""
+
+from collections.abc import Callable, Sequence
+from math import nan
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..finding import Finding
+from ..page import Plot, Tables
+from . import style
+from .lettering import clear
+from .means import averaged, line
+
+SPEED, LOAD = "friction-speed", "friction-load"
+RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
+EQ_19 = (
+    "Eq. 19 with exponent 1.5 and the rms slope that the 1D profiles have; it leaves the slope of the smooth shape out."
+)
+# mu of Eq. 19 at loads [N], speeds [m/s] and an rms slope.
+Law = Callable[[Any, Any, float], Any]
+
+
+def against_speed(
+    points: DataFrame, ratios: Sequence[tuple[float, Finding]], law: Law, held: str, folder: str = ""
+) -> Plot | None:
+    """Plot of friction against speed; None unless something slides.
+
+    ratios : speed [m/s], and the finding on 1D over 3D
+    law : Eq. 19; held : what is prescribed at all speeds, in words
+    """
+    own = points[points["curve"] == SPEED].dropna(axis=1, how="all")
+    if own.empty:
+        return None
+    rows = [
+        {"speed": speed, "ratio": found.value, "ratio_low": low, "ratio_high": high}
+        for speed, found in ratios
+        for low, high in [found.interval]
+    ]
+    tables = {SPEED: own, RATIO: DataFrame(rows), LAW: _law(own, law)}
+    told = f" Dotted: {EQ_19}" if len(tables[LAW]) else ""
+    caption = f"Coefficient of friction against speed at a {held}; below, 1D over 3D.{told} {averaged(own)}"
+    alternative = "Friction of both models rises to a maximum and falls; below, their ratio."
+    return Plot(f"{folder}{SPEED}", speed_figure, tables, caption, alternative)
+
+
+def speed_figure(tables: Tables) -> Figure:
+    """Above: friction. Below: 1D over 3D."""
+    points, ratios, law = tables[SPEED], tables[RATIO], tables[LAW]
+    drawing = style.canvas("single", 3.9)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
+    above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
+    style.span(above, points["speed"])
+    for solver, curve in points.groupby("solver", sort=False):
+        line(above, curve.sort_values("speed"), "speed", "friction_coefficient", str(solver))
+    lowest = above.get_ylim()[0]
+    if len(law):
+        look = {"color": style.grey(0.3), "linewidth": style.width(0.9), "label": "Eq. 19, roughness alone"}
+        above.plot(law["speed"], law["friction_coefficient"], ":", **look)
+    # Where the smooth shape rules, Eq. 19 lies decades below: it must not press the curves together.
+    above.set_ylim(bottom=max(above.get_ylim()[0], lowest / 3))
+    above.legend()
+    below.axhline(1, color=style.grey(0.6), linewidth=style.width(0.55))
+    bars = style.bars(ratios["ratio"], ratios["ratio_low"], ratios["ratio_high"])
+    below.errorbar(ratios["speed"], ratios["ratio"], yerr=bars, color=style.ink(), marker="o")
+    below.set(xlabel="speed [m/s]", ylabel="1D / 3D [1]", ylim=(0, None))
+    for axes in (above, below):
+        style.decades(axes)
+    clear(drawing, (above,))
+    return drawing
+
+
+def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
+    """Plot of friction against load at several speeds; None unless something slides."""
+    own = points[points["curve"] == LOAD].dropna(axis=1, how="all")
+    if own.empty:
+        return None
+    slope = _slope(own)
+    known = (own["solver"] == "MDR") & np.isfinite(slope)
+    own = own.assign(eq_19=np.where(known, law(own["normal_force"], own["speed"], slope), nan))
+    pressed = "" if "load" in own else " The depth is prescribed: loads are means."
+    told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
+    caption = f"Coefficient of friction against normal force, a curve for each speed.{pressed}{told} {averaged(own)}"
+    alternative = "Friction of both models against load in two panels of the same axes, a curve for each speed."
+    return Plot(f"{folder}{LOAD}", load_figure, {LOAD: own}, caption, alternative)
+
+
+def load_figure(tables: Tables) -> Figure:
+    """Left 1D, right 3D, the same axes."""
+    points = tables[LOAD]
+    drawing = style.canvas("double", 2.9)
+    panels = drawing.subplots(1, 2, sharex=True, sharey=True)
+    panels[0].set(xscale="log", yscale="log")
+    style.span(panels[0], points["normal_force"][points["normal_force"] > 0])
+    for axes, solver in zip(panels, ("MDR", "BEM"), strict=True):
+        axes.set(xlabel="normal force [N]", title=style.LABEL[solver])
+        curves = list(points[points["solver"] == solver].groupby("speed"))
+        for index, (shade, (speed, curve)) in enumerate(zip(style.shades(solver, len(curves)), curves, strict=True)):
+            look: dict[str, Any] = {
+                "color": shade,
+                "marker": style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
+                "linestyle": style.SERIES_LINES[index % len(style.SERIES_LINES)],
+                "label": f"{speed:.3g} m/s",
+            }
+            line(axes, curve.sort_values("normal_force"), "normal_force", "friction_coefficient", solver, **look)
+    _eq_19(panels[0], points[points["eq_19"].notna()])
+    for axes in panels:
+        axes.legend()
+        style.decades(axes)
+    panels[0].set_ylabel("coefficient of friction [1]")
+    clear(drawing, panels)
+    return drawing
+
+
+def _eq_19(axes, points):
+    """Eq. 19 at each speed, without pressing the curves together where it lies far below them."""
+    lowest, curves = axes.get_ylim()[0], list(points.groupby("speed"))
+    for shade, (_, curve) in zip(style.shades("MDR", len(curves)), curves, strict=True):
+        curve = curve.sort_values("normal_force")
+        axes.plot(curve["normal_force"], curve["eq_19"], ":", color=shade, linewidth=style.width(1.1))
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], lowest / 3))
+    if curves:  # one entry for the lines of all speeds
+        seen = "" if points["eq_19"].max() > axes.get_ylim()[0] else ": below"
+        look = {"color": style.grey(0.3), "linewidth": style.width(1.1), "label": f"Eq. 19 at each speed{seen}"}
+        axes.plot([], [], ":", **look)
+
+
+def _slope(points) -> float:
+    """Rms slope of the 1D profiles; NaN of a smooth body."""
+    profiles = points[points["solver"] == "MDR"]
+    return float(profiles["rms_slope"].iloc[0]) if "rms_slope" in profiles and len(profiles) else nan
+
+
+def _law(points, law) -> DataFrame:
+    """Eq. 19 from the lowest to the highest speed; empty of a smooth body, where a depth is prescribed, or at one speed."""
+    slope = _slope(points)
+    if not np.isfinite(slope) or "load" not in points or points["speed"].nunique() < 2:
+        return DataFrame(columns=["speed", "friction_coefficient"])
+    speed = np.geomspace(points["speed"].min(), points["speed"].max(), 101)
+    return DataFrame({"speed": speed, "friction_coefficient": law(points["load"].iloc[0], speed, slope)})

@@ -1,0 +1,146 @@
+"""Means over draws at every point of a Dataset, and ratios of two solvers, with intervals of 95 % that count the grid."""
+
+from dataclasses import dataclass
+from math import nan
+from typing import NamedTuple
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from ..rectangle import COARSE, EMPTY, FAILED, FINE
+from .jackknife import Estimated, Sample, mean, mean_ratio, resample
+
+# Of a mean: what is averaged, or the two forces of which the means are divided.
+FRICTION = ("friction_force", "normal_force")
+RATIOS = {"friction_coefficient": FRICTION}
+# Told with deviation and interval, told as a mean alone.
+ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope")
+AVERAGED = ("friction_spread", "pixel", "points_across_contact")
+
+
+class Interval(NamedTuple):
+    """Numbers at every point, and the ends of their intervals of 95 %, scatter and grid; NaN where unknown."""
+
+    value: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+def pressed(dataset: xarray.Dataset) -> str:
+    """What is prescribed: the name of the dimension."""
+    return next(name for name in map(str, dataset.dims) if name not in ("grid", "speed", "draw"))
+
+
+def with_spread(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Dataset with the spread of both estimates of friction in 3D, where it has both."""
+    if not {"friction_by_traction", "friction_by_loss"} <= set(dataset.variables):
+        return dataset
+    force = dataset["friction_force"].where(dataset["friction_force"] != 0)
+    apart = dataset["friction_by_traction"] - dataset["friction_by_loss"]
+    return dataset.assign(friction_spread=abs(apart) / abs(force))
+
+
+def means(dataset: xarray.Dataset) -> DataFrame:
+    """A row for each speed, and load or depth, on the fine grid.
+
+    Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid.
+    """
+    dataset = with_spread(dataset)
+    grids = {str(name): dataset.sel(grid=name) for name in dataset["grid"].values}
+    fine, prescribed = grids[FINE], pressed(dataset)
+    speed, value = np.meshgrid(dataset["speed"].values, dataset[prescribed].values, indexing="ij")
+    columns = {"points": np.full(speed.size, int(fine["points"])), "speed": speed, prescribed: value}
+    for name in ESTIMATED:
+        above, below = RATIOS.get(name, (name, None))
+        if above not in fine:
+            continue
+        found = _interval(grids, above, below)
+        one = fine[above] if below is None else fine[above] / fine[below].where(fine[below] != 0)
+        deviation = one.std("draw", ddof=1) if "draw" in one.dims else xarray.full_like(one, nan)
+        columns |= {name: found.value, f"{name}_deviation": deviation.transpose("speed", prescribed).values}
+        columns |= {f"{name}_low": found.low, f"{name}_high": found.high}
+    for name in AVERAGED:
+        if name in fine:
+            columns[name] = _over_draws(fine[name], "mean")
+    columns["residual"] = _over_draws(fine["residual"], "max")
+    columns["seconds"] = _over_draws(fine["seconds"], "sum")
+    columns["surfaces"] = _over_draws(fine["normal_force"].notnull(), "sum")
+    columns["failures"] = _over_draws(fine["status"] == FAILED, "sum")
+    return DataFrame({name: np.ravel(values) for name, values in columns.items()})
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One quantity of two solvers, one over the other, at every speed, and load or depth: arrays (S, P).
+
+    value, low, high : ratio, and the ends of its interval of 95 % from the scatter of draws alone
+    grid : change of the ratio from half the points to all; NaN if not solved there
+    draws : of the solver with fewer; 0 of smooth bodies
+    """
+
+    value: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    grid: np.ndarray
+    draws: int
+
+
+def compared(
+    above: xarray.Dataset, below: xarray.Dataset | None, over: str, under: str | None = None
+) -> Compared:
+    """Ratio of two solvers in a mean, or in a ratio of two means; the number of one where `below` is None.
+
+    over, under : variables
+    """
+    names = [over] if under is None else [over, under]
+    parts = {str(k): each[names] for k, each in enumerate((above, below)) if each is not None}
+
+    def ratio(sample):
+        values = [mean(sample[name], over, under) for name in parts]
+        return values[0] / values[1] if len(values) > 1 else values[0]
+
+    with np.errstate(invalid="ignore", divide="ignore"):
+        fine = Sample({name: each.sel(grid=FINE) for name, each in parts.items()})
+        found = resample(lambda sample: {"": ratio(sample)}, fine)[""].estimated
+        grid = np.full(np.shape(found.value), nan)
+        if all(COARSE in each["grid"].values for each in parts.values()):
+            grid = np.abs(ratio({name: each.sel(grid=COARSE) for name, each in parts.items()}) - found.value)
+    low, high = found.interval()
+    return Compared(found.value, low, high, grid, fine.draws)
+
+
+def failures(dataset: xarray.Dataset) -> DataFrame:
+    """Solves that failed: grid, speed, load or depth, draw and reason."""
+    frame = dataset[["status", "reason"]].to_dataframe().reset_index()
+    return frame[frame["status"] == FAILED].drop(columns=["status", "points"], errors="ignore")
+
+
+def touches(dataset: xarray.Dataset) -> np.ndarray:
+    """Whether anything touches on the fine grid (S, P)."""
+    return _over_draws(dataset["status"].sel(grid=FINE) != EMPTY, "any")
+
+
+def _interval(grids, above, below) -> Interval:
+    found = {name: _estimated(each, above, below) for name, each in grids.items()}
+    fine = found[FINE]
+    low, high = fine.interval()
+    grid = np.abs(fine.value - found[COARSE].value) if COARSE in found else nan
+    return Interval(fine.value, low - grid, high + grid)
+
+
+def _estimated(dataset, above, below):
+    order = ("speed", pressed(dataset), *(["draw"] if "draw" in dataset.dims else []))
+    over = dataset[above].transpose(*order).values
+    under = np.ones_like(over) if below is None else dataset[below].transpose(*order).values
+    if "draw" in dataset.dims:
+        return mean_ratio(over, under)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        value = over / under
+    return Estimated.exact(value)
+
+
+def _over_draws(array, how):
+    """A number over the draws of each point (S, P); that of the point where there are none."""
+    array = array.transpose("speed", ...)
+    return (getattr(array, how)("draw") if "draw" in array.dims else array).values

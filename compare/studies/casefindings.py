@@ -1,0 +1,309 @@
+"""Claims on one scene in one and in three dimensions, and what its curves say of them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import isfinite, nan
+
+import numpy as np
+import xarray
+from pandas import DataFrame, concat
+
+from ..cases import Case
+from ..finding import HALVED, UNKNOWN, Claim, Finding
+from ..rectangle import COARSE, FINE
+from ..statistics import eq23, means
+from ..statistics.collapse import Collapse, collapse
+from ..statistics.frictioncurves import SimulatedCurves
+from ..statistics.means import FRICTION, Compared, compared, failures
+from .casecurves import (
+    CURVES,
+    LOAD,
+    OWN,
+    ROUGH_DEPTH,
+    SMOOTH_DEPTH,
+    SMOOTH_SPEED,
+    SPEED,
+    predicted_exponent,
+    scaled_speed,
+)
+
+DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+TOLERANCE = 0.05
+AS_HALVED = "The change on halving understates the error by 1 / (1 - 2^-p) at order p: twice at first order."
+
+SLOW = Claim(
+    "run.friction.smooth-slow",
+    "Slow friction of the smooth body is twice as high in 1D as in 3D",
+    2.0,
+    2 * TOLERANCE,
+    "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
+)
+OWN_FRICTION = Claim(
+    "run.friction.own",
+    "Friction of the scene as it stands is the same in 1D and 3D",
+    1.0,
+    TOLERANCE,
+    "Friction in 1D over 3D, ratio of the means over surfaces.",
+)
+ROUGH_FORCE = Claim(
+    "run.force-depth.rough",
+    "The force on the rough body at the same depth is the same in 1D and 3D",
+    0.0,
+    TOLERANCE,
+    "Force in 1D over 3D less one, at rest; ratio of the means over surfaces, at every depth.",
+)
+SMOOTH_FORCE = Claim(
+    "run.force-depth.smooth",
+    "The force on the smooth body at the same depth is the same in 1D and 3D",
+    0.0,
+    TOLERANCE,
+    "Force in 1D over 3D less one, at rest, at every depth.",
+)
+# Numbers that tell how far those above can be trusted.
+AT_SPEEDS = Claim("run.friction.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
+CLOSED_FORM = Claim(
+    "run.force-depth.exact",
+    "Force on the smooth body over the closed form, less one",
+    meaning="At rest, where the closed form is the truth.",
+)
+GRID = Claim(
+    "run.grid",
+    "Change of the scene's own answer from half the points to all",
+    meaning=f"Relative, of friction, else of the depth under a load or the force at a depth. {AS_HALVED}",
+)
+SPREAD = Claim(
+    "run.friction.spread",
+    "Spread of both estimates of 3D friction",
+    meaning="Friction by traction less friction by energy lost, over friction: an indicator of the error of "
+    "discretisation, no bound.",
+    dimension="3D",
+)
+
+
+@dataclass(frozen=True)
+class Shifted:
+    """Curves of friction against load of one solver, shifted onto one.
+
+    collapse : on the fine grid; findings : on it
+    """
+
+    solver: str
+    collapse: Collapse
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
+class CaseFindings:
+    """What the answers to one case say.
+
+    name : of the case; folder : of its figures
+    datasets : by "curve/solver"
+    """
+
+    name: str
+    folder: str
+    case: Case
+    datasets: Mapping[str, xarray.Dataset]
+
+    @property
+    def claims(self) -> list[Finding]:
+        """Findings on claims, then numbers that tell how far these can be trusted."""
+        return [
+            *self.slow,
+            *self.own,
+            *self.forces(ROUGH_FORCE).values(),
+            *self.forces(SMOOTH_FORCE).values(),
+            *(each for shifted in self.shifted for each in shifted.findings),
+            *self.unshifted,
+            *self.at_speeds.values(),
+            *self.closed_form,
+            *self.grid,
+            *self.spread,
+        ]
+
+    @cached_property
+    def slow(self) -> list[Finding]:
+        """Friction of the smooth body at its lowest speed."""
+        if f"{SMOOTH_SPEED}/BEM" not in self.datasets:
+            return []
+        found, speeds = self._friction(SMOOTH_SPEED), self._of(SMOOTH_SPEED, "BEM")["speed"].values
+        lowest = int(np.argmin(speeds))
+        regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
+        return [self._finding(SLOW, found, (lowest, 0), plot="smooth-limit", regime=regime)]
+
+    @cached_property
+    def own(self) -> list[Finding]:
+        """Friction of the scene as it stands."""
+        if not (self.case.slides and self.case.motion.speed > 0):
+            return []
+        return [self._finding(OWN_FRICTION, self._friction(OWN), (0, 0), plot="friction-speed")]
+
+    @cached_property
+    def at_speeds(self) -> dict[float, Finding]:
+        """Friction at every speed."""
+        if f"{SPEED}/BEM" not in self.datasets:
+            return {}
+        found, speeds = self._friction(SPEED), self._of(SPEED, "BEM")["speed"].values.tolist()
+        return {
+            speed: self._finding(AT_SPEEDS, found, (k, 0), f"v = {speed:.3g} m/s", "friction-speed")
+            for k, speed in enumerate(speeds)
+        }
+
+    def forces(self, claim: Claim) -> dict[float, Finding]:
+        """Force at every depth at which anything touches in three dimensions, 1D over 3D less one."""
+        curve = ROUGH_DEPTH if claim is ROUGH_FORCE else SMOOTH_DEPTH
+        return self._deviations(claim, curve, "MDR", "BEM") if f"{curve}/BEM" in self.datasets else {}
+
+    @cached_property
+    def closed_form(self) -> list[Finding]:
+        """Force on the smooth body over the closed form, less one."""
+        if f"{SMOOTH_DEPTH}/exact" not in self.datasets:
+            return []
+        return [
+            found
+            for solver, dimension in DIMENSIONS.items()
+            for found in self._deviations(CLOSED_FORM, SMOOTH_DEPTH, solver, "exact", dimension).values()
+        ]
+
+    @cached_property
+    def grid(self) -> list[Finding]:
+        """Change of the scene's own answer from half the points to all."""
+        over, under = FRICTION
+        if not (self.case.slides and self.case.motion.speed > 0):
+            over, under = ("normal_force" if self.case.motion.load is None else "depth_reached"), None
+        found = []
+        for solver, dimension in DIMENSIONS.items():
+            number = compared(self._of(OWN, solver), None, over, under)
+            value = float((number.grid / np.abs(number.value))[0, 0])
+            found.append(Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension))
+        return found
+
+    @cached_property
+    def spread(self) -> list[Finding]:
+        """Spread of both estimates of friction in three dimensions, at every speed."""
+        if f"{SPEED}/BEM" not in self.datasets:
+            return []
+        dataset = means.with_spread(self._of(SPEED, "BEM"))
+        if "friction_spread" not in dataset:
+            return []
+        found = compared(dataset, None, "friction_spread")
+        return [
+            self._finding(SPREAD, found, (k, 0), f"v = {speed:.3g} m/s", "friction-speed")
+            for k, speed in enumerate(dataset["speed"].values)
+            if isfinite(found.value[k, 0])
+        ]
+
+    @cached_property
+    def shifted(self) -> list[Shifted]:
+        """Curves of friction against load shifted onto one, of each solver where there are points enough."""
+        found = []
+        for solver, dimension in DIMENSIONS.items():
+            fine, coarse = (self._collapse(solver, grid) for grid in (FINE, COARSE))
+            if fine is None:
+                continue
+            exponent = predicted_exponent(self.case)
+            shifts = exponent * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
+            told = eq23.findings(
+                fine,
+                coarse,
+                dimension,
+                shifts,
+                exponent,
+                where=self.name,
+                draws=0 if self.case.roughness is None else fine.data.surfaces,
+                plots=(f"{self.folder}/collapse", f"{self.folder}/collapse"),
+            )
+            if coarse is None:  # for want of an answer: data without a grid are exact, this is not
+                told = (replace(each, grid=nan, grid_method=UNKNOWN) for each in told)
+            found.append(Shifted(solver, fine, tuple(told)))
+        return found
+
+    @property
+    def unshifted(self) -> list[Finding]:
+        """Curves that cannot be shifted for want of answers."""
+        asked = self.datasets.get(f"{LOAD}/BEM")
+        if asked is None or not eq23.shiftable(asked.sizes["speed"], asked.sizes[means.pressed(asked)]):
+            return []
+        known = {each.solver for each in self.shifted}
+        return [eq23.too_few(DIMENSIONS[solver], self.name) for solver in DIMENSIONS if solver not in known]
+
+    @cached_property
+    def points(self) -> DataFrame:
+        """Every point of every curve on the fine grid, a row each."""
+        rows = []
+        for curve in CURVES:
+            for solver in (*DIMENSIONS, "exact"):
+                if f"{curve}/{solver}" in self.datasets:
+                    dataset = self._of(curve, solver)
+                    frame = means.means(dataset)
+                    rough = "draw" in dataset.dims or (self.case.roughness and "smooth" not in curve)
+                    frame.insert(0, "body", "rough" if rough else "smooth")
+                    frame.insert(0, "solver", solver)
+                    frame.insert(0, "curve", curve)
+                    rows.append(frame)
+        every = concat(rows, ignore_index=True)
+        first = [name for name in ("curve", "solver", "body", "points", "speed", "load", "depth") if name in every]
+        return every[[*first, *(name for name in every if name not in first)]]
+
+    @cached_property
+    def failures(self) -> DataFrame:
+        """Every solve that failed, with its reason."""
+        rows = []
+        for place, dataset in self.datasets.items():
+            curve, _, solver = place.partition("/")
+            if curve in CURVES:
+                frame = failures(dataset)
+                frame.insert(0, "solver", solver)
+                frame.insert(0, "curve", curve)
+                rows.append(frame)
+        return concat([each for each in rows if len(each)] or rows[:1], ignore_index=True)
+
+    def _of(self, curve, solver):
+        return self.datasets[f"{curve}/{solver}"]
+
+    def _friction(self, curve) -> Compared:
+        return compared(self._of(curve, "MDR"), self._of(curve, "BEM"), *FRICTION)
+
+    def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
+        """Force of one over that of another less one, by depth."""
+        reference = self._of(curve, below)
+        touched, depths = means.touches(reference)[0], reference["depth"].values.tolist()
+        found = compared(self._of(curve, above), reference, "normal_force")
+        place = {"plot": "force-depth", "less": 1.0, "dimension": dimension}
+        return {
+            depth: self._finding(claim, found, (0, k), f"{depth * 1e6:.3g} µm", **place)
+            for k, depth in enumerate(depths)
+            if touched[k]
+        }
+
+    def _finding(self, claim, found: Compared, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
+        value, low, high, grid = (
+            float(each[at]) for each in (found.value, found.low, found.high, np.broadcast_to(found.grid, found.value.shape))
+        )
+        return Finding(
+            claim=claim,
+            value=value - less,
+            scatter=(low - less, high - less),
+            grid=grid,
+            grid_method=HALVED if isfinite(grid) else UNKNOWN,
+            where=f"{self.name}, {place}" if place else self.name,
+            draws=found.draws,
+            regime=regime,
+            plot=f"{self.folder}/{plot}" if plot else "",
+            dimension=dimension,
+        )
+
+    def _collapse(self, solver, grid) -> Collapse | None:
+        """None with too few speeds or points."""
+        if f"{LOAD}/{solver}" not in self.datasets:
+            return None
+        dataset = self._of(LOAD, solver)
+        if grid not in dataset["grid"].values:
+            return None
+        try:
+            return collapse(SimulatedCurves.of(dataset.sel(grid=grid)))
+        except ValueError:
+            return None
+
+

@@ -1,0 +1,256 @@
+"""Scenes in one and in three dimensions: `crosscheck run`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+from pydantic import ValidationError
+
+from scene import Refused, Scene, SolveError
+from scene.reading import InvalidInput
+from scene.scales import elastic_contact
+
+from .. import finding, rectangle
+from ..cases import Case
+from ..describe import described, slug
+from ..finding import Finding
+from ..inputs import Asked, named_cases
+from ..outcome import Outcome
+from ..page import Block, Findings, Plot, Section, Table, Text
+from ..pipeline import Study
+from ..plots import contact, contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
+from ..rectangle import Rectangle
+from ..task import SceneTask, Task
+from ..taskfile import along_axes
+from ..views import view
+from ..vocabulary import attributes
+from ..written import as_json
+from .casecurves import CURVES, OWN, curves, edge_slope, friction_law, predicted_exponent, scaled_speed, slow_friction
+from .casefindings import DIMENSIONS, ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
+
+FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"
+
+
+@dataclass(frozen=True)
+class Run(Study):
+    """Scenes, each with the curves around it.
+
+    cases : by name
+    """
+
+    cases: Mapping[str, Case]
+    _found: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    command, title = "run", "One dimension against three"
+
+    @classmethod
+    def of(cls, scene: Asked | Mapping[str, Asked] | None = None) -> "Run":
+        """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
+        asked = "scene" if isinstance(scene, Scene | Case) else scene
+        try:
+            run = cls(named_cases(scene))
+            run.rectangles()
+        except Refused as error:
+            if not isinstance(scene, str | Path):
+                raise
+            alone = "crosscheck plan says what each solver makes of it, and crosscheck animate shows motion in time"
+            raise Refused(f"{error}. So {scene} cannot be compared; {alone}") from error
+        except (ArithmeticError, SolveError, ValidationError) as error:
+            # The file is valid; what follows from it is not.
+            raise InvalidInput(
+                f"{asked}: its numbers are so far apart that the contact leaves their range"
+            ) from error
+        return run
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """Every case, as JSON can hold it."""
+        return {"cases": {name: as_json(Case, case) for name, case in self.cases.items()}}
+
+    @cached_property
+    def _curves(self) -> Mapping[str, Mapping[str, Rectangle]]:
+        return {name: curves(case) for name, case in self.cases.items()}
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Every curve of every case, by "case/curve"."""
+        return {
+            f"{slug(name)}/{curve}": each for name, found in self._curves.items() for curve, each in found.items()
+        }
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Every curve, the fields of each scene's own contact, and the processor time of each solver."""
+        parts: dict[str, xarray.Dataset] = {}
+        for name, found in self._curves.items():
+            folder = slug(name)
+            for solver, kept in found[OWN].fields(outcomes).items():
+                parts[f"/{folder}/{FIELDS}/{solver}"] = _fields(kept, self.cases[name].indenter.type)
+            parts[f"/{folder}/{TIMES}"] = _times(rectangle.unique(found), outcomes)
+        return xarray.DataTree.from_dict(
+            {node.path: node.to_dataset(inherit=False) for node in super().answers(outcomes).subtree} | parts
+        )
+
+    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
+        """Findings of each case."""
+        return [each for case in self.judged(answers) for each in case.claims]
+
+    def judged(self, answers: xarray.DataTree) -> Sequence[CaseFindings]:
+        """What the answers to each case say."""
+        if self._found.get("answers") is not answers:
+            self._found.update(answers=answers, cases=[self._judged(name, answers) for name in self.cases])
+        return self._found["cases"]
+
+    def _judged(self, name, answers) -> CaseFindings:
+        below = answers[slug(name)]
+        datasets = {
+            f"{node.parent.name}/{node.name}": node.to_dataset(inherit=False)
+            for node in below.subtree
+            if node.parent is not None and node.parent.name in CURVES
+        }
+        return CaseFindings(name, slug(name), self.cases[name], datasets)
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """A sentence for each claim, those that contradict included."""
+        return finding.sentences([each for each in findings if np.isfinite(each.claim.tolerance)])
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
+    ) -> Sequence[Block]:
+        """A summary across cases, then a section each."""
+        cases = self.judged(answers)
+        sections = [Section(case.case.title or case.name, _blocks(case, answers[case.folder])) for case in cases]
+        return [Table("summary", summary(cases), "Every claim in every case."), *sections]
+
+
+def _blocks(found: CaseFindings, answers) -> list[Block]:
+    case, folder = found.case, f"{found.folder}/"
+    claims = [each for each in found.claims if np.isfinite(each.claim.tolerance)]
+    others = [each for each in found.claims if not np.isfinite(each.claim.tolerance)]
+    blocks: list[Block] = [
+        Text(_asked(case)),
+        *_plots(found, answers),
+        Findings(claims, "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid."),
+        Findings(others, "Numbers that tell how far these can be trusted."),
+        Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
+    ]
+    if len(found.failures):
+        blocks.append(Table(f"{folder}failures", found.failures, "Solves without an answer."))
+    times = answers[TIMES].to_dataset(inherit=False).to_dataframe().reset_index()
+    return [*blocks, Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included.")]
+
+
+def summary(cases: Sequence[CaseFindings]) -> DataFrame:
+    """A row for each claim and dimension, a column for each case: the number and the verdict, or counts of verdicts."""
+    rows: dict[tuple[str, str], dict[str, str]] = {}
+    for case in cases:
+        several: dict[tuple[str, str], list[Finding]] = {}
+        for each in case.claims:
+            if np.isfinite(each.claim.tolerance):
+                several.setdefault((each.claim.sentence, each.dimension or each.claim.dimension), []).append(each)
+        for place, found in several.items():
+            rows.setdefault(place, {})[case.name] = _cell(found)
+    return DataFrame(
+        [
+            {"sentence": sentence, "dimension": dimension} | {case.name: told.get(case.name, "") for case in cases}
+            for (sentence, dimension), told in rows.items()
+        ],
+        columns=["sentence", "dimension", *(case.name for case in cases)],
+    )
+
+
+def _cell(found: Sequence[Finding]) -> str:
+    """One number with its verdict, or how often each verdict stands."""
+    if len(found) == 1:
+        return f"{finding.number(found[0])}, {found[0].verdict}"
+    counts = {name: sum(each.verdict == name for each in found) for name in finding.VERDICTS}
+    return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
+
+
+def _asked(case: Case) -> str:
+    """What was asked, in words, and how it departs from the paper: a list in Markdown."""
+    plan = case.plan()
+    parts = [(each.name, getattr(case, each.name)) for each in fields(Scene)]
+    lines = [f"- {name}: {described(part)}" for name, part in parts if part is not None]
+    counts = f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
+    lines.append(f"- averaged: {counts}")
+    lines.append(f"- grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
+    return "\n".join([*lines, "", *(f"- {note}" for note in case.notes)]).strip()
+
+
+def _plots(found: CaseFindings, answers) -> list[Plot]:
+    """Figures of a case."""
+    case, folder, points = found.case, f"{found.folder}/", found.points
+    motion, law = case.motion, partial(friction_law, case)
+    fields = {
+        solver: {str(name): each.values for name, each in answers[f"{FIELDS}/{solver}"].variables.items()}
+        for solver in DIMENSIONS
+        if f"{FIELDS}/{solver}" in answers
+    }
+    pressed = f"load of {motion.load:g} N" if motion.load is not None else f"depth of {motion.greatest * 1e6:g} µm"
+    moved = f"at a {pressed}, sliding at {motion.speed:g} m/s" if motion.speed else f"at a {pressed}, at rest"
+    flow, radius = ("elastomer flows →" if case.slides else "elastomer"), elastic_contact(case.scene).radius
+    forces = [
+        (body, depth, each)
+        for claim, body in ((ROUGH_FORCE, "rough"), (SMOOTH_FORCE, "smooth"))
+        for depth, each in found.forces(claim).items()
+    ]
+    plots = [
+        contact.plot(fields, radius, flow, moved, folder),
+        contact_maps.plot(view(case.scene, case.bem, fields), folder),
+        force_depth.plot(points, forces, folder),
+        friction_curves.against_speed(points, list(found.at_speeds.items()), law, pressed, folder),
+        friction_curves.against_load(points, law, folder),
+        _shifted_curves(found),
+        _smooth_limit(found),
+    ]
+    return [each for each in plots if each is not None]
+
+
+def _shifted_curves(found: CaseFindings) -> Plot | None:
+    """Friction against load shifted onto one curve."""
+    expected = predicted_exponent(found.case)
+    rows = [
+        shifted_curves.ShiftedCurves(DIMENSIONS[each.solver], each.collapse, each.findings[0], expected)
+        for each in found.shifted
+    ]
+    plot = shifted_curves.plot(rows, COLLAPSE)
+    return plot and replace(plot, name=f"{found.folder}/{COLLAPSE}")
+
+
+def _smooth_limit(found: CaseFindings) -> Plot | None:
+    """Friction of the smooth body from slow to fast."""
+    points = found.points[found.points["curve"] == SMOOTH_SPEED]
+    if points.empty:
+        return None
+    table = DataFrame(
+        {
+            "solver": points["solver"],
+            "v_tau_over_a": [scaled_speed(found.case, speed) for speed in points["speed"]],
+            "speed": points["speed"],
+            "friction_coefficient": points["friction_coefficient"],
+            "friction_over_slope": points["friction_coefficient"] / edge_slope(found.case),
+        }
+    )
+    return smooth_limit.plot(table, slow_friction(found.case), f"{found.folder}/")
+
+
+def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
+    """Fields of one contact along their axes."""
+    variables = along_axes(kept, indenter).variables
+    return xarray.Dataset({name: (each.dimensions, each.values, each.attributes) for name, each in variables.items()})
+
+
+def _times(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
+    """Processor time of all solves by solver, each contact once."""
+    spent: dict[str, float] = {}
+    for task in tasks:
+        seconds = float(np.nansum([row.seconds for row in outcomes[task].rows]))
+        spent[task.solver.name] = spent.get(task.solver.name, 0.0) + seconds
+    dataset = xarray.Dataset({"seconds": ("solver", list(spent.values()))}, {"solver": list(spent)})
+    for name in ("solver", "seconds"):
+        dataset[name].attrs = attributes(name)
+    return dataset
