@@ -170,7 +170,7 @@ def unique(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
     found: dict = {}
     for rectangle in rectangles.values():
         for task in rectangle.tasks():
-            if not found.get((task.solver, task.scenes), task).keeps_fields:
+            if (task.solver, task.scenes) not in found or task.keeps_fields:
                 found[task.solver, task.scenes] = task
     return list(found.values())
 

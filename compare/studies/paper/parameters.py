@@ -12,6 +12,7 @@ from math import radians
 import numpy as np
 from scipy.fft import next_fast_len
 
+from mdr1d import equations
 from scene import Cone, Fractional, Kelvin, Scene, SelfAffine, Slide, Sphere
 
 LENGTH, POINTS = 1e-2, 5000
@@ -65,11 +66,10 @@ LOSSES = (
 
 
 @dataclass(frozen=True)
-class Study:
-    """One parameter varied, all others held: its name, symbol, unit, and values in SI units."""
+class ParameterStudy:
+    """One parameter varied, all others held: its name, unit, and values in SI units."""
 
     name: str
-    symbol: str
     unit: str
     values: tuple[float, ...]
 
@@ -85,12 +85,12 @@ def _between(low, high):
 
 
 STUDIES = (
-    Study("load", "F_N", "N", _between(1e-1, 1e1)),
-    Study("modulus", "G", "Pa", _between(1e5, 1e7)),
-    Study("rms height", "h_0", "m", _between(1e-6, 1e-4)),
-    Study("spacing", r"\Delta x", "m", _pixels()),
-    Study("angle", r"\theta", "rad", tuple(radians(degrees) for degrees in np.linspace(5, 75, 20))),
-    Study("relaxation time", r"\tau", "s", _between(1e-4, 1e-2)),
+    ParameterStudy("load", "N", _between(1e-1, 1e1)),
+    ParameterStudy("modulus", "Pa", _between(1e5, 1e7)),
+    ParameterStudy("rms height", "m", _between(1e-6, 1e-4)),
+    ParameterStudy("spacing", "m", _pixels()),
+    ParameterStudy("angle", "rad", tuple(radians(degrees) for degrees in np.linspace(5, 75, 20))),
+    ParameterStudy("relaxation time", "s", _between(1e-4, 1e-2)),
 )
 
 
@@ -99,7 +99,7 @@ def base(shape: str, speed: float = LOW_SPEED, load: float = LOAD) -> Scene:
     return Scene(SHAPES[shape], SOLID, Slide(speed=speed, load=load), ROUGH)
 
 
-def varied(study: Study, value: float, hurst: float) -> tuple[Scene, int]:
+def varied(study: ParameterStudy, value: float, hurst: float) -> tuple[Scene, int]:
     """A scene of Fig. 3, a cone, and the points over its length."""
     rough, points = replace(ROUGH, hurst=hurst), POINTS
     scene = replace(base("cone"), roughness=rough)
@@ -141,3 +141,17 @@ def lossy(loss: Loss, load: float, speed: float) -> Scene:
         tolerance=1e-2,
     )
     return Scene(SHAPES["sphere"], solid, Slide(speed=speed, load=load), LOSS_ROUGH)
+
+
+def variable(scene: Scene, rms_slope: float) -> float:
+    """Variable xi of a scene on a Kelvin solid, Eq. 18."""
+    body, solid, motion = scene.indenter, scene.elastomer, scene.motion
+    return equations.similarity_variable(
+        motion.load,
+        solid.modulus,
+        solid.relaxation_time,
+        motion.speed,
+        rms_slope,
+        body.mdr_coefficient,
+        body.exponent,
+    )

@@ -1,4 +1,4 @@
-"""Why alpha depends on the shape: Fig. 4 with every place of the contact a rough plane.
+"""Fig. 4 with every place of the contact a rough plane, which tells why alpha depends on the shape.
 
 A place is pressed as deep as it is in the contact, and the less deep, the sooner it loses contact as the speed
 grows, Eq. 13. A cone has more of the shallow places than a sphere: its friction bends towards the plateau over a
@@ -15,9 +15,9 @@ from scipy.optimize import brentq
 from mdr1d import draw, sweep
 from scene.scales import elastic_contact
 
-from ..outcome import Outcome, Row
-from ..study import SCENES
+from ...task import SCENES
 from . import parameters
+from .arrays import ArrayTask
 
 PROFILES = 8
 # Depths of a plane, in rms heights: none touches below the first, and few miss above the second.
@@ -27,44 +27,40 @@ PLACES = 2001
 
 
 @dataclass(frozen=True)
-class Planes:
-    """A task: friction of one shape from planes, at speeds [m/s]. Needs a memory short beside the contact."""
+class Planes(ArrayTask):
+    """Task of the friction of one shape from planes, at speeds [m/s]. Needs a memory short beside the contact."""
 
-    shape: str
+    shape_name: str
     speeds: tuple[float, ...]
-    keeps_fields = True
-    packages = ("scene", "mdr1d")
+    names = ("friction",)
 
     @property
     def label(self) -> str:
-        """Which shape."""
-        return f"Fig. 4, {self.shape} as rough planes"
+        """Name of the shape."""
+        return f"Fig. 4, {self.shape_name} as rough planes"
 
     @property
     def work(self) -> float:
-        """As of store: a sweep of two periods at every depth."""
+        """Rough cost: a sweep of two periods at every depth."""
         return 2.0 * 2 * STEPS * PROFILES * len(self.speeds) * parameters.POINTS
 
     @property
     def question(self) -> Mapping:
-        """The scene, its speeds, and how it is solved."""
-        scene = SCENES.dump_python((parameters.base(self.shape),), mode="json")
+        """Scene, speeds, and how it is solved."""
+        scene = SCENES.dump_python((parameters.base(self.shape_name),), mode="json")
         return {"scene": scene, "speeds": self.speeds, "planes": (PROFILES, AIR, DEEP, STEPS, PLACES)}
 
-    def solve(self) -> Outcome:
-        """Outcome.fields has the friction coefficient at each speed."""
-        return Outcome((), {"friction": np.array([self._friction(speed) for speed in self.speeds])})
+    @property
+    def shape(self) -> tuple[int]:
+        """Speeds."""
+        return (len(self.speeds),)
 
-    def failed(self, reason: str) -> Outcome:
-        """NaN at every speed, and a row for the reason."""
-        return Outcome((Row(reason=reason),), {"friction": np.full(len(self.speeds), np.nan)})
-
-    def fits(self, outcome: Outcome) -> bool:
-        """A number a speed."""
-        return np.shape(outcome.fields.get("friction", 0.0)) == (len(self.speeds),)
+    def arrays(self) -> Mapping[str, np.ndarray]:
+        """Friction coefficient at each speed."""
+        return {"friction": np.array([self._friction(speed) for speed in self.speeds])}
 
     def _friction(self, speed):
-        scene = parameters.base(self.shape, speed)
+        scene = parameters.base(self.shape_name, speed)
         body, relaxed = scene.indenter, elastic_contact(scene)
         height = scene.roughness.rms_height
         deepest = relaxed.depth + DEEP * height

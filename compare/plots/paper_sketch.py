@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..plots import materials, style
+from ..page import Plot, Tables
+from . import materials, style
 
 NAME = "paper-sketch"
 # The cone g = SLOPE |x| at the depth 1 in units of the depth, and the memory of the elastomer, l = v tau.
@@ -14,8 +15,23 @@ ELEMENTS = np.arange(-2.5, 4.5, 0.5)
 FLOOR, TOP = -2.6, 0.9
 
 
-def figure(_: None = None) -> Figure:
-    """Left: depth, ends of contact, speed. Right: springs and dashpots. Needs no data."""
+def plot() -> Plot:
+    """The plot, which needs no data."""
+    return Plot(
+        NAME,
+        figure,
+        {},
+        "(a) A rigid cone at the depth d moves to the left at the speed v. The elastomer, a Kelvin solid, "
+        f"meets it at −a₁, leaves it at a₂, and returns over the length v τ (here v τ/d = {MEMORY:g}). (b) The "
+        "elastomer is a row of elements, each a spring 4 G Δx beside a dashpot 4 η Δx, η = G τ; those pressed "
+        "are dark.",
+        "Left, a cone in an elastomer with depth, ends of contact and speed. Right, a row of springs and "
+        "dashpots.",
+    )
+
+
+def figure(tables: Tables) -> Figure:
+    """Left: depth, ends of contact, speed. Right: springs and dashpots. Needs no table."""
     drawing = style.canvas("double", 2.6)
     left, right = drawing.subplots(1, 2)
     for axes, title in ((left, "(a) contact on the large scale"), (right, "(b) model of the elastomer")):
@@ -27,26 +43,8 @@ def figure(_: None = None) -> Figure:
     return drawing
 
 
-def sheets(_: None = None) -> dict:
-    """None: nothing was measured."""
-    return {}
-
-
-def caption(_: None = None) -> str:
-    """What the figure shows."""
-    return (
-        "(a) A rigid cone, pressed into the elastomer to the depth d below its undisturbed level (dashed), moves "
-        "to the left at the speed v. In its frame the elastomer flows to the right: it meets the cone at −a₁ and "
-        "leaves it at a₂, where elastic and viscous force cancel, and returns exponentially over the length v τ. "
-        f"The surface is that of a Kelvin solid, g = c |x|, with v τ/d = {MEMORY:g} and c = {SLOPE:g}. "
-        "(b) The elastomer is a row of independent elements a spacing Δx apart on a rigid base, each a spring of "
-        "stiffness 4 G Δx in parallel with a dashpot of damping constant 4 η Δx, with the shear modulus G and the "
-        "viscosity η = G τ. Those in dark are pressed by the profile."
-    )
-
-
 def displacement(x):
-    """u/d into the elastomer at x/d: d - g from -a1 to a2, where d = g + l g', and exponential behind it."""
+    """Displacement u/d into the elastomer at x/d: d - g from -a1 to a2, where d = g + l g', and exponential behind it."""
     left_behind = (1 - SLOPE * TRAILING) * np.exp(-(np.maximum(x, TRAILING) - TRAILING) / MEMORY)
     return np.where(x <= TRAILING, np.maximum(0, 1 - SLOPE * np.abs(x)), left_behind)
 

@@ -1,19 +1,16 @@
 """The contact of a rough cone and a rough sphere in one dimension, whole and close up (paper, Fig. 1)."""
 
 from collections.abc import Mapping
-from dataclasses import fields
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
+from pandas import DataFrame
 
-from scene import Cone, Regime
-from scene.regime import SMALL_SLOPE
-
-from ..paper.contacts import Configuration
-from ..plots import materials, style
+from ..page import Plot, Tables
+from . import materials, style
 
 NAME = "paper-contacts"
 # Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].
@@ -25,19 +22,42 @@ EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 4), (1, 2, 3, 4, 5, 6, 8)).ravel(
 SCALES, LEG = np.outer(10.0 ** np.arange(-9, 0), (1, 2, 5)).ravel(), 0.22
 
 
-def figure(contacts: Mapping[str, Configuration]) -> Figure | None:
-    """A column for each shape. Above: the contact. Below: where it ends most often. None without any."""
-    solved = _solved(contacts)
-    if not solved:
+def plot(contacts: DataFrame, lines: Mapping[str, DataFrame]) -> Plot | None:
+    """The plot of some contacts; None without any.
+
+    contacts : a row for each shape; lines : x, indenter, surface, contact at the nodes, by the name of the shape
+    """
+    if contacts.empty:
         return None
+    return Plot(
+        NAME,
+        figure,
+        {NAME: contacts, **{f"{NAME}-{shape}": line for shape, line in lines.items()}},
+        "Rigid rough profile and surface of the elastomer in steady sliding, heights from the undeformed "
+        "surface (dashed). The elastomer flows to the right; real contact is bold. Both legs of a scale have "
+        f"the length beside them. Below, {CLOSE * 1e3:g} mm (boxed above) in which the elastomer leaves the "
+        "indenter most often: behind each asperity it is free and returns exponentially.",
+        " ".join(
+            f"Rough {row.shape}: friction coefficient {row.friction_coefficient:.3g}, real contact "
+            f"{row.contact_length * 1e3:.3g} mm; breaks {row.conditions_broken or 'no condition'}."
+            for row in contacts.itertuples()
+        ),
+    )
+
+
+def figure(tables: Tables) -> Figure:
+    """A column for each shape. Above: the contact. Below: where it ends most often."""
+    contacts = tables[NAME]
     drawing = style.canvas("double", 4.4)
-    panels = drawing.subplots(2, len(solved), squeeze=False)
-    for (above, below), letter, (shape, at) in zip(panels.T, "ab", solved.items(), strict=False):
-        heights = _heights(at)
-        whole, close = SHOWN * at.relaxed.radius * np.array([-1, 1]), _close_up(at)
+    panels = drawing.subplots(2, len(contacts), squeeze=False)
+    for (above, below), letter, row in zip(panels.T, "ab", contacts.itertuples(), strict=False):
+        line = tables[f"{NAME}-{row.shape}"]
+        heights = [line[name].to_numpy() for name in ("x", "indenter", "surface")]
+        heights.append(line["contact"].to_numpy() == 1)
+        whole = SHOWN * row.smooth_half_width * np.array([-1, 1])
         for axes, limits, name, width in (
-            (above, whole, f"({letter}) rough {shape}", 0.8),
-            (below, close, "close-up", 1.3),
+            (above, whole, f"({letter}) rough {row.shape}", 0.8),
+            (below, _close_up(heights[0], heights[3]), "close-up", 1.3),
         ):
             _frame(axes, limits, *heights)
             _bodies(axes, *heights, width)
@@ -54,71 +74,8 @@ def figure(contacts: Mapping[str, Configuration]) -> Figure | None:
     return drawing
 
 
-def sheets(contacts: Mapping[str, Configuration]) -> dict[str, dict[str, np.ndarray]]:
-    """Columns of each shape: x, indenter and surface [m], heights above the undeformed surface, and contact."""
-    found = {}
-    for shape, at in _solved(contacts).items():
-        x, body, surface, contact = _heights(at)
-        found[f"{NAME}-{shape}"] = {"x": x, "indenter": body, "surface": surface, "contact": contact.astype(int)}
-    return found
-
-
-def caption(contacts: Mapping[str, Configuration]) -> str:
-    """What the figure shows."""
-    parameters = " ".join(f"Rough {shape}: {_parameters(at)}" for shape, at in contacts.items())
-    steep = any(at.row.measures["rms_slope"] > SMALL_SLOPE for at in _solved(contacts).values())
-    outside = (
-        f" Slopes above {SMALL_SLOPE:g} lie outside what a linear theory of contact presupposes." if steep else ""
-    )
-    return (
-        "Rigid rough profile and surface of the elastomer at its nodes in steady sliding, in one dimension. "
-        "Heights are those above the undeformed surface (dashed). Both legs of a scale are of the length beside "
-        "it: where the upright one is longer, heights are stretched. In the frame of the indenter the elastomer "
-        f"flows to the right; real contact is in bold. Below, {CLOSE * 1e3:g} mm (boxed above) in which the "
-        "elastomer leaves the indenter most often: behind each asperity it is free and returns exponentially. "
-        f"{parameters}{outside}"
-    )
-
-
-def _solved(contacts):
-    return {shape: at for shape, at in contacts.items() if at.row.reason is None}
-
-
-def _parameters(at):
-    scene, row = at.scene, at.row
-    body, solid, motion, rough = scene.indenter, scene.elastomer, scene.motion, scene.roughness
-    shape = f"θ = {np.degrees(body.angle):g}°" if isinstance(body, Cone) else f"R = {body.radius * 1e3:g} mm"
-    given = (
-        f"{shape}, H = {rough.hurst:g}, load {motion.load:g} N, G = {solid.modulus:g} Pa, "
-        f"τ = {solid.relaxation_time:g} s, v = {motion.speed:g} m/s, rms height {rough.rms_height * 1e6:g} µm, "
-        f"one profile (seed {rough.seed})"
-    )
-    if row.reason is not None:
-        return f"{given}; it failed and is left out: {row.reason}."
-    return (
-        f"{given}; found: depth of the macroscopic tip {row.depth * 1e6:.3g} µm, real contact "
-        f"{row.measures['contact_length'] * 1e3:.3g} mm, rms slope {row.measures['rms_slope']:.3g}, friction "
-        f"coefficient {row.friction_coefficient:.3g}. Smooth and at rest the half-width is "
-        f"{at.relaxed.radius * 1e3:.3g} mm and the depth {at.relaxed.depth * 1e6:.3g} µm. {_broken(row)}"
-    )
-
-
-def _broken(row):
-    """Conditions of the laws that break."""
-    regime = Regime(*(row.measures[field.name] for field in fields(Regime)))
-    broken = [name for name, holds in regime.flags.items() if not holds]
-    return f"Of the conditions of the laws it breaks {', '.join(broken) or 'none'}."
-
-
-def _heights(at: Configuration) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """x, rigid profile and surface [m] above the undeformed surface, and where they touch."""
-    fields = at.fields
-    return fields["x"], fields["profile"] - at.row.depth, -fields["displacement"], fields["contact"]
-
-
-def _close_up(at):
-    """The stretch [m] with the most ends of contact."""
-    x, contact = at.fields["x"], at.fields["contact"]
+def _close_up(x, contact):
+    """Ends [m] of the stretch with the most ends of contact."""
     nodes = max(2, round(CLOSE / (x[1] - x[0])))
     ends = np.convolve(np.abs(np.diff(contact.astype(int))), np.ones(nodes), "valid")
     first = int(np.argmax(ends))

@@ -1,0 +1,105 @@
+"""Friction from slow to the plateau for a rough cone and a rough sphere against Eq. 19 (paper, Fig. 4)."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame, concat
+
+from mdr1d.equations import interpolation
+
+from ..page import Plot, Tables
+from . import style
+from .lettering import clear
+
+NAME = "paper-law"
+ALPHA = f"{NAME}-alpha"
+# Marker, its size and line of the shapes, in the order in which they come: the first, small and dark, is drawn
+# over the second.
+LOOKS = (("o", 0.65, "--"), ("s", 1.15, "-."))
+
+
+def plot(points: Sequence[DataFrame], fits: DataFrame) -> Plot | None:
+    """The plot of some shapes; None without any.
+
+    points : of each shape; fits : exponents of Eq. 19, a row for each shape
+    """
+    if not points:
+        return None
+    told = [
+        f"{fit.shape}: best α {fit.alpha:.2f} ({fit.alpha_low:.2f} to {fit.alpha_high:.2f}), of planes "
+        f"{fit.alpha_of_planes:.2f}"
+        for fit in fits.itertuples()
+    ]
+    return Plot(
+        NAME,
+        figure,
+        {NAME: concat(points, ignore_index=True), ALPHA: fits},
+        "μ̃ against ξ: means over profiles with intervals of 95 %, and Eq. 19 with α = 1.5. Below: how far the "
+        "points, and Eq. 19 with the best α of each shape, are from it. Dotted: every place of the contact "
+        "taken for a rough plane pressed as deep as it is there; places of a cone differ more in depth. "
+        "Hollow: a condition breaks.",
+        f"Friction follows one law up to its plateau. {'; '.join(told)}.",
+    )
+
+
+def figure(tables: Tables) -> Figure:
+    """Above: mu-tilde with Eq. 19. Below: its deviation from Eq. 19 with alpha = 1.5."""
+    points, fits = tables[NAME], tables[ALPHA]
+    drawing = style.canvas("single", 5.0)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
+    xi = np.geomspace(points["xi"].min(), points["xi"].max(), 201)
+    above.plot(
+        xi, interpolation(xi), color=style.grey(0.5), linewidth=style.width(0.8), label="Eq. 19, α = 1.5", zorder=1
+    )
+    below.axhline(0, color=style.grey(0.6), linewidth=style.width(0.45), zorder=0)
+    for fit, (colour, tint), (marker, size, line) in zip(fits.itertuples(), _colours(), LOOKS, strict=False):
+        own = points[points["shape"] == fit.shape]
+        own = own[np.isfinite(own["normalised_friction"])]
+        unit = interpolation(own["xi"].to_numpy())
+        ends = [own["normalised_friction" + end].to_numpy() for end in ("", "_low", "_high")]
+        look = {
+            "color": colour,
+            "marker": marker,
+            "linestyle": "none",
+            "markersize": style.mark(size),
+            "elinewidth": style.width(0.7),
+            "markerfacecolor": tint if own["holds"].all() else style.paper(),
+            "markeredgewidth": style.width(0.7),
+            "zorder": 3 - size / 2,
+        }
+        label = f"{fit.shape}: best α = {fit.alpha:.2f} ({fit.alpha_low:.2f} to {fit.alpha_high:.2f})"
+        above.errorbar(own["xi"], ends[0], yerr=style.bars(*ends), label=label, **look)
+        off = [100 * (end / unit - 1) for end in ends]
+        below.errorbar(own["xi"], off[0], yerr=style.bars(*off), **look)
+        best = interpolation(xi, fit.alpha) / interpolation(xi) - 1
+        below.plot(
+            xi, 100 * best, line, color=colour, linewidth=style.width(0.8), zorder=1, label=f"{fit.shape}, best α"
+        )
+        below.plot(
+            own["xi"],
+            100 * (own["normalised_friction_of_planes"] / unit - 1),
+            ":",
+            color=colour,
+            linewidth=style.width(),
+            zorder=1,
+            label=f"{fit.shape}, planes",
+        )
+    style.span(above, xi)
+    above.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}$ [1]")
+    above.legend(loc="lower right")
+    slopes = ", ".join(f"{slope:.2g}" for slope in sorted(set(points["rms_slope"])))
+    above.text(0.03, 0.95, f"rms slope {slopes}", transform=above.transAxes, va="top", fontsize=style.small())
+    below.set(xlabel=r"$\xi$ [1]", ylabel="deviation from Eq. 19,\nα = 1.5 [%]")
+    labels = below.get_legend_handles_labels()[1]
+    columns = style.columns(labels, 0.8 * drawing.get_figwidth(), 2)
+    below.legend(ncols=columns, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
+    for axes in (above, below):
+        style.decades(axes)
+    clear(drawing, (above,))
+    return drawing
+
+
+def _colours():
+    """Colours of the shapes: of lines and edges, and of the inside of markers."""
+    return (style.ink(), style.ink()), ("#009E73", "#A6DCCB")

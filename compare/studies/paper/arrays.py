@@ -1,0 +1,56 @@
+"""Tasks of which the answer is arrays, in place of rows for single scenes."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from ...outcome import Outcome, Row
+
+
+class ArrayTask(ABC):
+    """A task whose answer is some arrays of one shape, see `task.Task`; NaN where there is no answer.
+
+    names : of the arrays
+    """
+
+    names: ClassVar[tuple[str, ...]]
+    keeps_fields = True
+    packages = ("scene", "mdr1d")
+
+    @property
+    @abstractmethod
+    def label(self) -> str:
+        """Short description for people."""
+
+    @property
+    @abstractmethod
+    def work(self) -> float:
+        """Rough cost, in passes over a node."""
+
+    @property
+    @abstractmethod
+    def question(self) -> Mapping:
+        """Everything that the answer depends on but for code."""
+
+    @property
+    @abstractmethod
+    def shape(self) -> tuple[int, ...]:
+        """Shape of every array."""
+
+    @abstractmethod
+    def arrays(self) -> Mapping[str, np.ndarray]:
+        """Solve, and return the arrays by name."""
+
+    def solve(self) -> Outcome:
+        """Outcome without rows, whose fields are the arrays."""
+        return Outcome((), dict(self.arrays()))
+
+    def failed(self, reason: str) -> Outcome:
+        """Outcome of NaN everywhere, with a row for the reason."""
+        return Outcome((Row(reason=reason),), {name: np.full(self.shape, np.nan) for name in self.names})
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether every array is there and has its shape."""
+        return all(np.shape(outcome.fields.get(name, 0.0)) == self.shape for name in self.names)

@@ -1,0 +1,50 @@
+"""Conditions that the laws of the paper presuppose, as columns of a table of points: ratios, and which hold."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from pandas import DataFrame
+
+from scene import Regime
+
+# A model that is linear and knows no length has the same contact whatever the scale of heights, slopes and loads:
+# where slopes are not small the equations describe no body, but what they say of one another stands.
+SCALE_FREE = "small slopes"
+FLAG = "holds: "
+
+
+def with_conditions(
+    points: DataFrame, regime: Regime, others: Mapping[str, tuple[str, np.ndarray, np.ndarray]] | None = None
+) -> DataFrame:
+    """Points with the ratios of their regime, a column for each condition, and whether all hold.
+
+    `holds` leaves out the condition of small slopes, without which the model itself still is one.
+
+    others : by the name of a further condition, the name of its ratio, the ratio, and where it holds
+    """
+    flags: dict[str, np.ndarray] = {}
+    ratios: dict[str, np.ndarray] = dict(vars(regime))
+    for condition, (name, ratio, flag) in (others or {}).items():
+        ratios[name], flags[condition] = ratio, flag
+    flags |= regime.flags
+    shape = (len(points),)
+    columns = {name: np.broadcast_to(ratio, shape) for name, ratio in ratios.items() if name not in points}
+    columns |= {FLAG + name: np.broadcast_to(flag, shape) for name, flag in flags.items()}
+    scale_bound = [np.broadcast_to(flag, shape) for name, flag in flags.items() if name != SCALE_FREE]
+    return points.assign(**columns, holds=np.logical_and.reduce(scale_bound))
+
+
+def broken(points: DataFrame) -> str:
+    """Conditions that break and at how many points, in words."""
+    flags = {name.removeprefix(FLAG): points[name] for name in points if str(name).startswith(FLAG)}
+    counts = {name: int((~flag.astype(bool)).sum()) for name, flag in flags.items()}
+    said = [
+        f"{name} ({'everywhere' if count == len(points) else count})" for name, count in counts.items() if count
+    ]
+    return f"conditions that break, of {len(points)} points: {', '.join(said)}" if said else "all conditions hold"
+
+
+def between(values) -> str:
+    """Least and greatest of some numbers, in words."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    return f"{low:.2g}" if np.isclose(low, high, rtol=1e-6) else f"{low:.2g} to {high:.2g}"

@@ -1,0 +1,219 @@
+"""The study of the command `paper`: what is solved for the figures of the paper, and its page."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from scene.reading import InvalidInput
+
+from ... import rectangle
+from ...finding import Finding
+from ...outcome import Outcome
+from ...page import Block, Findings, Plot, Section, Table, Text
+from ...pipeline import Study
+from ...plots import paper_contacts, paper_law, paper_losses, paper_sketch, paper_studies, shifted_curves
+from ...rectangle import FAILED, Rectangle
+from ...statistics import eq23
+from ...task import Batch, Task
+from . import law, losses, parameter_studies, parameters
+from .claims import findings, lines
+from .contacts import contact_rectangle, contact_tables, with_nodes
+from .parameter_studies import ParameterStudies
+from .text import ABOUT, OPEN, SHIFTS
+
+SIZES = {"quick": 20, "standard": 50, "full": parameters.PROFILES}
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """Data of every figure, from what was solved.
+
+    slow : Fig. 3; fits : straight lines through it
+    laws : Fig. 4, one a shape; rubbers : Figs. 5 to 7
+    """
+
+    slow: parameter_studies.SlowFriction
+    fits: Mapping[str, parameter_studies.Line]
+    laws: tuple[law.Law, ...]
+    rubbers: tuple[losses.Lossy, ...]
+
+
+@dataclass(frozen=True)
+class Paper(Study):
+    """The paper simulated again in one dimension.
+
+    profiles : averaged at most, 3 or more
+    values : of each parameter study of Fig. 3; 20 as published
+    """
+
+    profiles: int = parameters.PROFILES
+    values: int = 20
+    _last: dict[int, tuple[Any, Reproduction]] = field(default_factory=dict, repr=False, compare=False)
+
+    command, title, about = "paper", "The paper in one dimension", ABOUT
+
+    @classmethod
+    def of(cls, size: str = "full", profiles: int | None = None) -> "Paper":
+        """The study at a size, or on so many profiles. Raises InvalidInput."""
+        if size not in SIZES:
+            raise InvalidInput(f"size = {size!r}: one of {', '.join(SIZES)}")
+        if profiles is not None and not (isinstance(profiles, int) and profiles >= 3):
+            raise InvalidInput(f"profiles = {profiles!r}: a whole number from 3")
+        return cls(SIZES[size] if profiles is None else profiles)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """Number of profiles."""
+        return {"profiles": self.profiles}
+
+    @property
+    def _studies(self) -> ParameterStudies:
+        return ParameterStudies(values=self.values, profiles=self.profiles)
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Contacts of Fig. 1, of Fig. 4, and of Figs. 5 to 7."""
+        found = {f"contact-{shape}": contact_rectangle(shape) for shape in parameters.SHAPES}
+        found |= {f"law-{shape}": law.rectangle(shape, self.profiles) for shape in parameters.SHAPES}
+        for loss in parameters.LOSSES:
+            found |= losses.rectangles(loss, min(self.profiles, parameters.LOSS_PROFILES))
+        return found
+
+    def batches(self) -> Sequence[Batch]:
+        """Everything that is solved: rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
+        own = [*self._studies.tasks(), *(law.planes(shape) for shape in parameters.SHAPES)]
+        return (Batch([*own, *rectangle.unique(self.rectangles())]),)
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Everything that was solved: a Dataset for each figure, shape and rubber."""
+        rectangles = self.rectangles()
+        tree = rectangle.tree(rectangles, outcomes)
+        parts = {parameter_studies.NODE: self._studies.dataset(outcomes)}
+        for shape in parameters.SHAPES:
+            parts[f"law-{shape}/planes"] = law.planes_dataset(shape, outcomes)
+            name = f"contact-{shape}"
+            parts[f"{name}/MDR"] = with_nodes(_dataset(tree, f"{name}/MDR"), rectangles[name].fields(outcomes))
+        for path, dataset in parts.items():
+            tree[path] = xarray.DataTree(dataset)
+        return tree
+
+    def reproduction(self, answers: xarray.DataTree) -> Reproduction:
+        """Data of every figure; kept for the last answers. Raises SolveError where all of a figure is missing."""
+        kept = self._last.get(id(answers))
+        if kept is None or kept[0] is not answers:
+            slow = parameter_studies.slow_friction(self._studies, _dataset(answers, parameter_studies.NODE))
+            found = Reproduction(
+                slow=slow,
+                fits=lines(slow),
+                laws=tuple(
+                    law.law(shape, *(_dataset(answers, f"law-{shape}/{model}") for model in ("MDR", "planes")))
+                    for shape in parameters.SHAPES
+                ),
+                rubbers=tuple(
+                    losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.rectangles(loss)))
+                    for loss in parameters.LOSSES
+                ),
+            )
+            self._last.clear()
+            self._last[id(answers)] = kept = answers, found
+        return kept[1]
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Claims of the paper, in its order."""
+        found = self.reproduction(answers)
+        return findings(found.slow, found.fits, found.laws, found.rubbers)
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        """Figures of the paper, in its order."""
+        found = self.reproduction(answers)
+        contacts = {shape: _dataset(answers, f"contact-{shape}/MDR") for shape in parameters.SHAPES}
+        drawn = [
+            paper_contacts.plot(*contact_tables(contacts)),
+            paper_sketch.plot(),
+            paper_studies.plot(found.slow.points, _fits(found.fits)),
+            paper_law.plot([each.points for each in found.laws], DataFrame([each.row for each in found.laws])),
+            *(self._shifted(each, findings) for each in found.rubbers),
+            paper_losses.plot([each.points for each in found.rubbers]),
+        ]
+        return [each for each in drawn if each is not None]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """Findings, figures, what becomes of the shift, and what the paper leaves open."""
+        found = self.reproduction(answers)
+        return [
+            Text(ABOUT),
+            *plots,
+            Findings(findings, "Claims of the paper, with intervals of 95 % over rough profiles."),
+            Section(
+                "What becomes of the shift",
+                [Text(SHIFTS), Table("shifts", _shifts(found.rubbers, findings), "Exponents of the shift of Eq. 23.")],
+            ),
+            Section("What the paper leaves open", [Text(OPEN)]),
+            Section("What was solved", [Text(_solved(answers, found.slow))]),
+        ]
+
+    def _shifted(self, lossy, findings):
+        where = {each.where: each for each in findings if each.claim.id == eq23.COLLAPSE.id}
+        rows = [
+            shifted_curves.ShiftedCurves(
+                title=f"{lossy.loss.symbols}, {of}",
+                collapse=found,
+                finding=where[f"{lossy.loss.symbols}, {of}"],
+                expected=lossy.exponent,
+                powers={name: lossy.powers[name] for name in losses.comparable(of)},
+                conditions=lossy.conditions(of),
+            )
+            for of, found in lossy.collapses.items()
+        ]
+        return shifted_curves.plot(rows, f"shifted-curves{lossy.loss.suffix}")
+
+
+def _dataset(answers, path):
+    return answers[path].to_dataset(inherit=False)
+
+
+def _fits(fits):
+    rows = [{"points_fitted": name, **fit.row} for name, fit in fits.items() if np.isfinite(fit.slope)]
+    return DataFrame(rows, columns=["points_fitted", *next(iter(fits.values())).row])
+
+
+def _shifts(rubbers, findings):
+    """Exponents of the shift: expected, of each form of Eq. 22, and simulated."""
+    rows = []
+    for lossy in rubbers:
+        ratio = lossy.points[losses.STIFFNESS]
+        row = {
+            "rubber": lossy.loss.symbols,
+            "least_modulus": ratio.min(),
+            "greatest_modulus": ratio.max(),
+            "exponent_expected": lossy.exponent,
+            **{f"exponent_of_{name.replace(' ', '_')}": power for name, power in lossy.powers.items()},
+        }
+        for of, name in ((losses.WHOLE, "whole"), (losses.ROUGH, "excess")):
+            found = {
+                each.claim.id: each for each in findings if each.where == f"{lossy.loss.symbols}, {of}"
+            }
+            exponent = found[eq23.EXPONENT.id]
+            row |= {
+                f"collapse_{name}": found[eq23.COLLAPSE.id].verdict,
+                f"exponent_{name}": exponent.value,
+                f"exponent_{name}_low": exponent.interval[0],
+                f"exponent_{name}_high": exponent.interval[1],
+            }
+        rows.append(row)
+    return DataFrame(rows)
+
+
+def _solved(answers, slow):
+    """How much was solved, and what failed."""
+    failed = sum(int((node["status"] == FAILED).sum()) for node in answers.subtree if "status" in node)
+    left = f"{failed} solves failed and are left out of the averages." if failed else "No solve failed."
+    return (
+        f"Fig. 3 alone is {slow.samples.size} contacts under a prescribed load, {slow.sweeps:.1f} sweeps along "
+        f"the profile for each. {left} Profiles have the seeds from 0 on."
+    )
