@@ -1,241 +1,201 @@
-"""Shifts put into synthetic curves are found again, and what no shift can mend is not called collapsed."""
+"""Friction that a user measured: the table is read or refused by its line, and shifted onto one curve."""
 
-from dataclasses import replace
+from io import StringIO
 
 import numpy as np
+import pandas
 import pytest
 
-from compare.commoncurve import LEAST_OVERLAP, Curve, Fit
-from compare.mastercurve import DEGREE, collapse, misfit_at, shifted
-from compare.vertical import vertical_shifts
-from mdr1d.equations import force_shift_exponent, interpolation
-
-LOADS = np.log(np.geomspace(0.2, 10.0, 6))
-SPEEDS = (0.1, 0.3, 1.0)
-# A polynomial within the reach of the fit is found to rounding.
-RECOVERED = 1e-6
+import compare
+from compare.finding import EXACT, FAILS, HOLDS, REPORTED, UNDECIDED
+from compare.page import Plot
+from compare.plots import shifted_curves, style
+from compare.studies.mastercurve import NO_SHIFT, NOT_REPEATED, Mastercurve
+from scene.reading import InvalidInput
 
 
-def cubic(x):
-    return -0.3 * x - 0.05 * x**2 + 0.004 * x**3
+def table(repeats=3, seed=4, order=(0, 1, 2), vertical=0.0):
+    """Rows of friction on one curve shifted by v^-1.5 along the load, with 1 % of scatter."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for speed in np.geomspace(3e-3, 2e-2, 4):
+        for load in np.geomspace(1.0, 100.0, 8):
+            friction = (1 + 3e-4 * load * speed**-1.5) ** -0.6 * speed**-vertical
+            for scatter in 1 + 0.01 * rng.normal(size=repeats):
+                rows.append(",".join(str((friction * scatter, load, speed)[i]) for i in order))
+    return "\n".join(rows)
 
 
-def eq_19(xi, exponent):
-    return lambda x: np.log(interpolation(xi * np.exp(-x * exponent / (exponent + 1))))
+def study(tmp_path, text, name="ball.csv"):
+    (tmp_path / name).write_text(text)
+    return Mastercurve.of(tmp_path / name)
 
 
-def parabola(x):
-    return -0.3 * (x - 0.5) ** 2
+def found(study):
+    return {each.claim.id.removeprefix("mastercurve."): each for each in study.findings(study.answers({}))}
 
 
-def curves(law, power, vertical=0.0, error=0.01, noise=0.0, loads=LOADS, speeds=SPEEDS):
-    rng = np.random.default_rng(7)
-    return [
-        Curve(
-            speed,
-            loads,
-            law(loads + power * np.log(speed)) + vertical * np.log(speed) + noise * rng.normal(size=loads.size),
-            np.full(loads.size, error),
-        )
-        for speed in speeds
+def test_shifts_of_a_table_are_found_with_their_intervals(tmp_path):
+    told = found(study(tmp_path, table()))
+    assert (told["horizontal"].verdict, told["vertical"].verdict) == (HOLDS, HOLDS)
+    low, high = told["exponent"].interval
+    assert -1.5 == pytest.approx(told["exponent"].value, abs=2 * (high - low))
+    assert high - low < 0.1
+    assert told["unshifted"].value > 0.3
+    assert {each.grid_method for each in told.values()} == {EXACT}
+
+
+def test_a_shift_along_friction_is_measured_beside_that_along_the_load(tmp_path):
+    told = found(study(tmp_path, table(vertical=0.2)))
+    low, high = told["vertical-exponent"].interval
+    assert 0 < low <= 0.2 <= high
+    low, high = told["exponent-beside-vertical"].interval
+    assert low <= -1.5 <= high
+    assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
+    assert told["both"].value < told["horizontal"].interval[0]
+
+
+def test_one_scatter_stands_behind_all_points(tmp_path):
+    lines = [line for index, line in enumerate(table().splitlines()) if index % 3 == 0 or index > 40]
+    data = study(tmp_path, "\n".join(lines)).collapse.data
+    errors = np.concatenate([curve.error for curve in data.curves])
+    assert errors.max() / errors.min() == pytest.approx(np.sqrt(3), rel=1e-12)
+    assert errors.min() == pytest.approx(0.01 / np.sqrt(3), rel=0.3)
+    assert data.freedom == len(lines) - errors.size
+
+
+def test_two_measurements_of_each_point_do_not_reject_a_law_that_holds(tmp_path):
+    verdicts = [found(study(tmp_path, table(2, seed)))["horizontal"].verdict for seed in range(6)]
+    assert verdicts == [HOLDS] * 6
+
+
+def test_single_measurements_leave_the_verdict_open(tmp_path):
+    told = found(study(tmp_path, table(repeats=1)))
+    assert (told["horizontal"].verdict, told["horizontal"].reason) == (UNDECIDED, NOT_REPEATED)
+    assert 0 < told["horizontal"].value < 0.03
+    assert told["exponent"].value == pytest.approx(-1.5, abs=0.1)
+    assert np.isnan(told["exponent"].interval).all()
+
+
+def test_curves_pulled_apart_claim_no_exponent(tmp_path):
+    # Loads that span a factor of 3 and shifts of a factor of 100: no two curves share a stretch.
+    rows = [
+        f"{(1 + load * v**-6.6) ** -0.5 * scatter},{load},{v}"
+        for v in (1, 2, 4)
+        for load in np.geomspace(1, 3, 6)
+        for scatter in (0.9999, 1.0001)
     ]
+    told = found(study(tmp_path, "\n".join(rows)))
+    assert told["horizontal"].verdict != HOLDS
+    assert np.isnan(told["exponent"].value)
+    assert "overlap" in told["exponent"].reason
 
 
-@pytest.mark.parametrize("power", [-2.0, -1.5, -0.5, 0.0, 0.7])
-def test_shifts_of_a_common_curve_are_recovered(power):
-    found = collapse(curves(cubic, power))
-    assert found.shifts == pytest.approx(power * np.log(np.array(SPEEDS) / SPEEDS[1]), abs=RECOVERED)
-    assert found.exponent == pytest.approx(power, abs=RECOVERED)
-    assert found.after.rms < RECOVERED
-    assert found.overlaps
-    assert found.separable
-    assert found.verdict == "holds"
-
-
-@pytest.mark.parametrize("exponent", [1.0, 2.0])
-@pytest.mark.parametrize("xi", [0.05, 0.3, 1.0])
-def test_shifts_of_eq_19_are_recovered_within_what_a_polynomial_can_follow(exponent, xi):
-    power = force_shift_exponent(1.0, exponent)
-    found = collapse(curves(eq_19(xi, exponent), power))
-    # The fourth degree follows Eq. 19 to 0.6 % here; the shifts suffer less, since it errs alike at every speed.
-    assert found.after.rms < 6e-3
-    assert found.exponent == pytest.approx(power, abs=5e-3)
-    assert misfit_at(found, power).rms == pytest.approx(found.after.rms, abs=1e-3)
-    assert found.before.rms > 0.3
-
-
-MANY = np.log(np.geomspace(0.1, 100.0, 16))
-
-
-def test_small_scatter_frees_the_curve_and_large_scatter_does_not():
-    for noise, free in ((1e-3, True), (3e-2, False)):
-        found = collapse(curves(eq_19(0.3, 2.0), -1.5, error=noise, noise=noise, loads=MANY))
-        assert (found.degree > DEGREE) == free
-        assert found.verdict == "holds"
-        assert found.exponent == pytest.approx(-1.5, abs=4 * found.exponent_error)
-
-
-def test_a_freer_curve_does_not_hide_that_curves_differ():
-    noisy = curves(eq_19(0.3, 2.0), -1.5, error=1e-3, noise=1e-3, loads=MANY)
-    bent = [replace(c, log_friction=c.log_friction + 0.02 * k * c.log_load) for k, c in enumerate(noisy)]
-    assert collapse(bent).verdict == "fails"
-
-
-def test_a_law_that_holds_is_rejected_no_more_often_than_stated_however_small_the_scatter():
-    rng, draws = np.random.default_rng(5), 30
-    for noise in (1e-3, 1e-2):
-        verdicts = []
-        for _ in range(draws):
-            exact = curves(eq_19(0.3, 2.0), -1.5, error=noise, loads=MANY)
-            noisy = [replace(c, log_friction=c.log_friction + noise * rng.normal(size=MANY.size)) for c in exact]
-            verdicts.append(collapse(noisy).verdict)
-        # Chi square is beyond two standard deviations in 3 %. With the fourth degree alone, all and a third fail.
-        assert verdicts.count("holds") >= draws - 4
-
-
-@pytest.mark.parametrize("degree", [4, 10])
-def test_slopes_of_the_misfits_are_those_of_differences_outside_the_polynomials(degree):
-    fit = Fit(curves(eq_19(0.3, 2.0), -1.5, noise=0.03, loads=MANY, speeds=(0.1, 0.3, 1.0, 2.0)), degree)
-    at, step = np.array([0.4, -0.7, 1.1]), 1e-5
-    differences = np.transpose(
-        [(fit.residuals(at + by) - fit.residuals(at - by)) / (2 * step) for by in step * np.eye(at.size)]
+def bent():
+    """Each speed bends in its own way, and measurements hardly scatter: no shift helps."""
+    return "\n".join(
+        f"{(1 + load**power) ** -0.5 * scatter},{load},{speed}"
+        for speed, power in ((1.0, 1.0), (2.0, 2.0), (4.0, 3.0))
+        for load in np.geomspace(0.1, 10.0, 9)
+        for scatter in (0.999, 1.0, 1.001)
     )
-    polynomials, _, _ = fit._projected(at)
-    outside = differences - polynomials @ (polynomials.T @ differences)
-    slopes = fit.jacobian(at)
-    # Central differences of this step, to rounding.
-    np.testing.assert_allclose(slopes, outside, atol=1e-7 * np.abs(slopes).max())
-    np.testing.assert_allclose(slopes.T @ fit.residuals(at), differences.T @ fit.residuals(at), rtol=1e-6)
 
 
-def test_the_order_of_the_curves_does_not_matter():
-    given = curves(cubic, -1.5, noise=0.01)
-    assert collapse(given[::-1]).shifts == pytest.approx(collapse(given).shifts, abs=1e-9)
+def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
+    made = study(tmp_path, bent())
+    told = found(made)
+    assert told["horizontal"].verdict == FAILS
+    assert (told["exponent"].verdict, told["exponent"].reason) == (REPORTED, NO_SHIFT)
+    assert np.isnan(told["exponent"].value)
+    # which the fit has, and which means nothing
+    assert np.isfinite(made.collapse.horizontal.exponent.value)
 
 
-def test_errors_of_the_shifts_are_those_of_repeated_draws():
-    rng = np.random.default_rng(3)
-    noise, exponents, errors = 0.01, [], []
-    for _ in range(100):
-        noisy = [
-            Curve(c.speed, c.log_load, c.log_friction + noise * rng.normal(size=c.log_load.size), c.error)
-            for c in curves(cubic, -1.5, error=noise)
-        ]
-        found = collapse(noisy)
-        exponents.append(found.exponent)
-        errors.append(found.exponent_error)
-    # 100 draws know their deviation to 7 %; each draw's misfit widens errors, by 8 % on average.
-    assert 0.85 < np.mean(errors) / np.std(exponents) < 1.35
-    assert np.mean(exponents) == pytest.approx(-1.5, abs=3 * np.std(exponents) / np.sqrt(100))
+def test_a_heading_says_what_the_columns_are(tmp_path):
+    plain = study(tmp_path, table())
+    named = study(tmp_path, "speed, mu, F_N\n" + table(order=(2, 0, 1)), "named.csv")
+    assert named.data.equals(plain.data)
 
 
-@pytest.mark.parametrize("power", [-1.5, -1.0, -0.5])
-def test_curves_that_need_a_vertical_shift_are_rejected(power):
-    found = collapse(curves(parabola, power, vertical=0.3))
-    assert found.overlaps
-    assert found.after.rms > 5 * found.scatter
-    assert found.verdict == "fails"
-    assert collapse(curves(parabola, power)).verdict == "holds"
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("mu,F,w\n1,2,3\n", "must name each of mu, F_N, v once"),
+        ("1,2\n", "line 1: 2 columns; mu, F_N and v are needed"),
+        ("0,5;1,0;3,2\n", "line 1: 6 columns.*numbers have decimal points"),
+        ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
+        ("1,2,3\n1,x,3\n", "line 2: F_N = 'x' is not a number"),
+        ("1,2,3\n1,3,3\n", "1 speeds: at least 2"),
+        ("1,2,3\n1,3,3\n1,3,4\n", "v = 4 has 1 load: at least 2"),
+        ("", "0 speeds"),
+        ("1,2,3\n1,3,3\n1,3,4\n1,5,4\n", "too few points"),
+    ],
+)
+def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
+    path = tmp_path / "ball.csv"
+    path.write_text(text)
+    with pytest.raises(InvalidInput, match=said) as refused:
+        compare.mastercurve(path, tmp_path / "out")
+    assert str(path) in str(refused.value)
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(InvalidInput, match="No such file"):
+        compare.mastercurve(tmp_path / "none.csv", tmp_path / "out")
 
 
-def test_falling_curves_that_need_a_vertical_shift_never_pass():
-    for by in (-0.3, 0.3):
-        found = collapse(curves(cubic, -1.5, vertical=by, error=0.005))
-        assert found.verdict != "holds"
-        assert misfit_at(found, -1.5).verdict == "fails"
-    assert misfit_at(found, -1.5).rms > 5 * found.scatter
-    assert misfit_at(collapse(curves(cubic, -1.5)), -1.5).verdict == "holds"
+def again(plot):
+    """Tables of a plot as their CSV files have them."""
+    return {name: pandas.read_csv(StringIO(frame.to_csv(index=False))) for name, frame in plot.tables.items()}
 
 
-def test_curves_that_share_no_stretch_are_undecided():
-    narrow = np.linspace(0, 1.0, 6)
-    found = collapse(curves(cubic, -2.5, loads=narrow))
-    assert not found.overlaps
-    assert found.verdict == "undecided"
-    # What the demand for overlap decides has no error.
-    assert np.all(np.isnan([*found.shift_errors, found.exponent_error]))
-    assert misfit_at(found, -2.5).verdict == "undecided"
+@pytest.mark.parametrize("text", [table(), bent(), table(repeats=1)], ids=["holds", "fails", "unknown"])
+def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
+    made = study(tmp_path, text)
+    findings = made.findings(made.answers({}))
+    (plot,) = made.page(made.answers({}), findings).every(Plot)
+    tables = again(plot)
+    with style.applied():
+        drawing = shifted_curves.figure(tables, **plot.options)
+    left, middle, right, _ = drawing.axes
+    points = plot.tables[shifted_curves.NAME]
+    for axes, across in ((left, "normal_force"), (middle, "shifted_force")):
+        shown = np.concatenate([np.asarray(line.get_xdata(), float) for line in axes.lines])
+        np.testing.assert_allclose(np.sort(shown), np.sort(points[across]), rtol=1e-12)
+    assert ("undecided" in [each.get_text()[-9:] for each in right.texts]) == (findings[0].verdict == FAILS)
+    assert findings[0].verdict in right.get_title(loc="right")
+    assert len(plot.caption.split()) <= 60
 
 
-def test_neighbours_keep_the_least_overlap_whatever_the_misfit():
-    found = collapse(curves(cubic, -1.5, vertical=0.5))
-    for left, right in zip(shifted(found)[1:], shifted(found)[:-1], strict=True):
-        shared = min(left.max(), right.max()) - max(left.min(), right.min())
-        assert shared >= LEAST_OVERLAP * np.ptp(LOADS) * (1 - 1e-9)
+def test_rows_of_the_figure_show_what_is_expected_where_curves_part_and_other_powers():
+    from test_compare_collapse import cubic, friction, knee, smooth
+
+    from compare.statistics import eq23
+    from compare.statistics.collapse import collapse
+
+    rows = []
+    for title, law, power in (("kept", knee, -1.5), ("parted", cubic, -9.0)):
+        fit = collapse(smooth(friction(law, power=power)))
+        collapsed = next(eq23.findings(fit, None, "1D"))
+        holds = pandas.DataFrame({"holds": np.arange(40) % 2 == 0})
+        rows.append(shifted_curves.ShiftedCurves(title, fit, collapsed, -4.0, {"Eq. 22": -1.4}, holds))
+    plot = shifted_curves.plot(rows, "losses/shifted-curves-1")
+    with style.applied():
+        drawing = shifted_curves.figure(again(plot), **plot.options)
+    powers = plot.tables["losses/shifted-curves-1-powers"]
+    assert powers["power"].tolist() == ["fitted", "expected", "Eq. 22", "expected", "Eq. 22"]
+    points = plot.tables["losses/shifted-curves-1"].query("curves == 'parted'")
+    by = (points["speed"] / points["speed"].unique()[2]) ** -4.0
+    np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
+    assert "shifted as expected" in drawing.axes[5].get_title(loc="right")
+    assert shifted_curves.plot([]) is None
 
 
-def test_straight_lines_cannot_tell_horizontal_from_vertical():
-    found = collapse(curves(lambda x: -0.4 * x, -1.0, noise=0.01))
-    assert not found.separable
-    assert found.verdict == "undecided"
-    assert collapse(curves(cubic, -1.0, noise=0.01)).separable
-
-
-def test_without_errors_there_is_a_fit_but_no_verdict():
-    found = collapse(curves(cubic, -1.5, error=np.nan))
-    assert found.exponent == pytest.approx(-1.5, abs=RECOVERED)
-    assert np.isnan(found.scatter)
-    assert np.isnan(found.exponent_error)
-    assert found.verdict == "undecided"
-
-
-def test_too_few_points_are_no_fit():
-    with pytest.raises(ValueError, match="too few points"):
-        collapse(curves(cubic, -1.5, loads=LOADS[:2]))
-    with pytest.raises(ValueError, match="1 curves"):
-        collapse(curves(cubic, -1.5, speeds=(0.1,)))
-
-
-WIDE = tuple(0.1 * 2.0**k for k in range(6))
-
-
-def raised(by, noise, rng):
-    """Curves that need a vertical shift c_v = by ln v beside the horizontal one."""
-    exact = curves(eq_19(0.3, 2.0), -1.5, vertical=-by, error=noise, loads=MANY[::2], speeds=WIDE)
-    return [replace(c, log_friction=c.log_friction + noise * rng.normal(size=c.log_load.size)) for c in exact]
-
-
-def test_curves_raised_and_not_shifted_fall_onto_one_by_vertical_shifts_alone():
-    found = vertical_shifts(collapse(curves(cubic, 0.0, vertical=0.3)))
-    assert found.alone.rms < 1e-2
-    assert vertical_shifts(collapse(curves(cubic, -1.5))).alone.rms > 10 * found.alone.rms
-
-
-def test_a_vertical_shift_that_is_there_is_found_and_measured():
-    rng = np.random.default_rng(2)
-    found = [vertical_shifts(collapse(raised(0.1, 0.005, rng))) for _ in range(10)]
-    assert [each.needed for each in found] == ["yes"] * 10
-    exponents = np.array([each.exponent for each in found])
-    errors = np.array([each.exponent_error for each in found])
-    assert np.mean(exponents) == pytest.approx(0.1, abs=3 * np.mean(errors) / np.sqrt(10) + 0.01)
-    for each in found:
-        assert each.horizontal_exponent == pytest.approx(-1.5, abs=5 * each.horizontal_exponent_error)
-        assert each.shifts[len(WIDE) // 2] == 0
-
-
-def test_a_vertical_shift_that_is_not_there_is_seldom_asked_for_and_zero_within_its_error():
-    rng = np.random.default_rng(3)
-    found = [vertical_shifts(collapse(raised(0.0, 0.01, rng))) for _ in range(12)]
-    # One in a hundred is the rate.
-    assert [each.needed for each in found].count("yes") <= 1
-    over = np.array([each.exponent / each.exponent_error for each in found])
-    assert 0.4 < over.std() < 1.8
-    assert abs(over.mean()) < 1
-
-
-def test_the_need_of_a_vertical_shift_does_not_ask_for_known_errors():
-    rng = np.random.default_rng(4)
-    for by, needed in ((0.1, "yes"), (0.0, "no")):
-        unknown = [replace(c, error=np.full_like(c.error, np.nan)) for c in raised(by, 0.005, rng)]
-        assert vertical_shifts(collapse(unknown)).needed == needed
-
-
-def test_on_straight_lines_a_vertical_shift_is_a_horizontal_one():
-    straight = curves(lambda x: -0.3 * x, -1.5, error=0.01, noise=0.01, loads=MANY, speeds=WIDE)
-    assert vertical_shifts(collapse(straight)).needed == "undecided"
-
-
-def test_too_few_points_for_both_shifts_are_refused():
-    few = curves(cubic, -1.5, error=0.01, noise=0.01, loads=LOADS[:3])
-    with pytest.raises(ValueError, match="too few points"):
-        vertical_shifts(collapse(few))
+def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):
+    (tmp_path / "ball.csv").write_text(table())
+    report = compare.mastercurve(tmp_path / "ball.csv", tmp_path / "out")
+    assert report.findings["verdict"].tolist()[:2] == [HOLDS, HOLDS]
+    assert {"report.html", "findings.csv", "results.nc", "shifted-curves.png", "shifted-curves.csv"} <= {
+        path.name for path in (tmp_path / "out").iterdir()
+    }
+    kept = compare.load(tmp_path / "out")["measured"]
+    np.testing.assert_array_equal(kept["friction_coefficient"], report.answers["measured"]["friction_coefficient"])
+    assert kept["normal_force"].attrs["units"] == "N"

@@ -159,7 +159,7 @@ class Map(Study):
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         """What the map is, its spectra, its numbers."""
-        return [Text("\n".join(f"- {line}" for line in self.lines())), *plots, Findings(findings)]
+        return [Text("\n\n".join(self.lines())), *plots, Findings(findings)]
 
     def lines(self) -> list[str]:
         """Size of the map, what was done to it, the band of the law, and warnings."""
