@@ -304,11 +304,11 @@ def load(folder: str | Path) -> xarray.DataTree:
         raise InvalidInput(f"{folder}: no command has left results here")
     parts: dict[str, xarray.Dataset] = {}
     for path in paths:
-        place = "" if folder.is_file() else path.parent.relative_to(folder).as_posix().removeprefix(".")
+        place = "" if path == folder or path.parent == folder else f"/{path.parent.relative_to(folder).as_posix()}"
         try:
             with xarray.open_datatree(BytesIO(unsealed(path.read_bytes())), engine="h5netcdf") as tree:
                 for node in tree.subtree:
-                    parts[f"/{place}{node.path}".rstrip("/") or "/"] = node.to_dataset(inherit=False).load()
+                    parts[f"{place}{node.path}".rstrip("/") or "/"] = node.to_dataset(inherit=False).load()
         except (ValueError, KeyError, TypeError, RuntimeError) as error:
             raise InvalidInput(f"{path}: is no file of results, or is damaged: {error}") from error
     return xarray.DataTree.from_dict(parts)

@@ -13,6 +13,8 @@ from ..finding import Finding
 from ..vocabulary import head
 
 LOW, HIGH, ERROR = "_low", "_high", "_error"
+# Columns of findings that are told together.
+JOINED = {"value": ("low", "high"), "expected": ("tolerance",)}
 
 
 @dataclass(frozen=True)
@@ -50,9 +52,9 @@ def columns(frame: DataFrame, figures: int = digits.DIGITS, merged: bool = True)
 
 def _ends(name, names):
     """Columns that hold the interval of another, or its error."""
-    for endings in ((LOW, HIGH), (ERROR,)):
-        if all(f"{name}{ending}" in names for ending in endings):
-            return tuple(f"{name}{ending}" for ending in endings)
+    for ends in (JOINED.get(name, ()), (f"{name}{LOW}", f"{name}{HIGH}"), (f"{name}{ERROR}",)):
+        if ends and all(end in names for end in ends):
+            return ends
     return ()
 
 

@@ -1,7 +1,7 @@
 """A page as one HTML file that needs nothing else: images and tables inside, usable offline and without scripts."""
 
 import base64
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 from urllib.parse import quote
@@ -12,7 +12,7 @@ from pandas import DataFrame
 
 from ..finding import VERDICTS
 from ..manifest import FINDINGS, machine, versions
-from ..page import Block, Findings, Page, Plot, Section, Table, Text
+from ..page import Findings, Page, Plot, Section, Table
 from ..plots.rendering import Picture
 from ..vocabulary import Term, entry, stem
 from . import prose

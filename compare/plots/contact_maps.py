@@ -82,7 +82,7 @@ def figure(
         touching.section(axes, each, solver, (span[0], span[1]), limits, 0.0 if solver == "MDR" else None)
         axes.set_title(TITLES[solver])
         touching.remark(axes, flow)
-    drawing.draw_without_rendering()  # the layout finds places for maps of equal scales in a second pass alone
+    style.lay_out(drawing, passes=2)  # places for maps of equal scales are found in a second pass alone
     return drawing
 
 

@@ -135,16 +135,21 @@ def clear(drawing: Figure, panels: Sequence[Axes] | np.ndarray) -> None:
 
     Where the legend stands above, room is made above, else below; limits and scales have to be final otherwise.
     """
+    engine = drawing.get_layout_engine()
+    style.lay_out(drawing)
     drawing.draw_without_rendering()
     for axes in panels:
         _settle(axes)
     for _ in range(PASSES):
-        drawing.draw_without_rendering()
         crowded = [axes for axes in panels if covered(axes, ROOM)]
         if not crowded:
             return
         for axes in crowded:
             _widen(axes)
+        # Numbers along the axes are others now, and take other room.
+        drawing.set_layout_engine(engine)
+        style.lay_out(drawing)
+        drawing.draw_without_rendering()
 
 
 def _settle(axes):

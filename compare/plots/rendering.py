@@ -43,11 +43,12 @@ def rendered(drawing: Figure, forms: Sequence[str] = FORMS) -> Picture:
     Vector files hold images, if any, at the resolution of the PNG.
     """
     files = {}
+    drawing.set_dpi(DOTS_PER_INCH)
+    style.lay_out(drawing)
     with rc_context({"savefig.bbox": None}):  # as wide as the journal says, whatever a style of one's own says
         for form in forms:
             file = io.BytesIO()
             drawing.savefig(file, format=form, dpi=DOTS_PER_INCH, metadata=dict(METADATA[form]))
             files[form] = file.getvalue()
-            drawing.set_layout_engine("none")
     width, height = drawing.get_size_inches()
     return Picture(files, (float(width), float(height)))

@@ -253,6 +253,15 @@ def canvas(column: Literal["single", "double"], height: float) -> Figure:
     return Figure(figsize=(across(column), height * times))
 
 
+def lay_out(drawing: Figure, passes: int = 1) -> None:
+    """Find the layout of a figure once, which takes as long as to draw it; whatever is drawn later keeps it."""
+    engine = drawing.get_layout_engine()
+    if engine is not None:
+        for _ in range(passes):
+            engine.execute(drawing)
+        drawing.set_layout_engine("none")
+
+
 def text_width(text: str, points: float, weight: str = "normal") -> float:
     """Of one line of text at a size [inch]."""
     font = FontProperties(size=points, weight=weight)

@@ -138,7 +138,7 @@ def figure(tables: Tables, steps: str, orders: str) -> Figure:
             axes.set_ylabel("relative error [1]")
         all_axes.append(axes)
     _legend(drawing, drawn, looks)
-    drawing.draw_without_rendering()
+    style.lay_out(drawing)
     for axes, panel in zip(all_axes, drawn, strict=True):
         write(axes, list(_letters(panel)), style.tiny())
     return drawing

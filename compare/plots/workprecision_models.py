@@ -144,7 +144,7 @@ def figure(tables: Tables, steps: str, plans: str) -> Figure:
     for rough in (False, True):
         _share([axes for axes, panel in zip(drawing.axes, drawn, strict=True) if panel.rough == rough], rough)
     _legend(drawing, drawn)
-    drawing.draw_without_rendering()
+    style.lay_out(drawing)
     for axes, panel in zip(drawing.axes, drawn, strict=True):
         write(axes, panel.letters(), style.tiny())
     return drawing

@@ -107,7 +107,7 @@ def figure(tables: Tables, plans: str, levels: Sequence[float]) -> Figure:
         axes.remove()
     _limits(panels[0, 0], drawn)
     _legend(drawing, drawn)
-    drawing.draw_without_rendering()
+    style.lay_out(drawing)
     for axes, each in zip(panels.flat, drawn, strict=False):
         taken = _taken(each, levels).items()
         letters = [Letter(seconds(effort.seconds), (effort.counts[0], level)) for level, effort in taken]
