@@ -1,25 +1,25 @@
-"""What is said of a measured map is so: of surfaces whose spectrum is known, and beside another program."""
+"""Spectra of measured maps: of surfaces whose spectrum is known, and beside another program."""
 
 from dataclasses import replace
-from math import pi, sqrt
+from io import StringIO
+from math import pi
 
 import numpy as np
+import pandas
 import pytest
-from effects_page import topography as study
-from effects_page.asked import effects
 from scipy.ndimage import gaussian_filter
 from scipy.stats import binom
-from typer.testing import CliRunner
 
+import compare
 from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
-from compare.__main__ import app
-from compare.figures import effect_topography, topography
-from compare.outcome import Outcome, Row
-from compare.powerlaw import fit
-from compare.store import key
-from compare.topography import describe, described, mapped, rings_of, rows_of
+from compare.plots import style
+from compare.plots import topography as plots
+from compare.statistics.powerlaw import fit
+from compare.statistics.spectra import describe, mapped, rings_of, rows_of
+from compare.studies.topography import Map
 from scene import SelfAffine, Topography
+from scene.reading import InvalidInput
 
 L = 4e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=L, shortest=L / 48, rolloff=L / 4, amplitudes="gaussian")
@@ -143,7 +143,7 @@ def test_roll_off_and_cut_off_are_found_and_where_there_is_none_none():
     plain = describe(sampled(replace(ROUGH, rolloff=None, amplitudes="fixed"))).law
     assert not plain.rolloff
     assert not plain.cutoff
-    assert "to a cut-off" in " ".join(described(describe(sampled(ROUGH))))
+    assert describe(sampled(ROUGH)).band.endswith("below a roll-off to a cut-off")
 
 
 def test_noise_of_an_instrument_is_no_part_of_the_law():
@@ -223,144 +223,83 @@ def test_another_program_finds_the_same_heights_slopes_and_spectrum():
     assert np.mean(log_ours - np.log(radial[known] / (4 * pi**2))) == pytest.approx(0.0, abs=0.1)
 
 
+def saved(tmp_path, heights):
+    np.save(tmp_path / "map.npy", heights)
+    return tmp_path / "map.npy"
+
+
 def test_the_command_describes_a_map(tmp_path):
     map_ = sampled(ROUGH)
-    np.save(tmp_path / "map.npy", 1e6 * map_.heights.heights)
-    out = tmp_path / "out"
-    asked = [str(tmp_path / "map.npy"), "--unit", "um", "--pixel", str(map_.pixel[0]), "--output", str(out)]
-    stated = ["--repeat", "periodic", "--level", "mean", "--peaks", "down"]
-    told = CliRunner().invoke(app, ["topography", *asked, *stated])
-    assert told.exit_code == 0
-    expected = described(describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights))))
-    for line in expected:
-        assert line in told.output
-    assert {path.name for path in out.iterdir()} == {
-        "manifest.json",
-        "topography-map.pdf",
-        "topography-map.svg",
-        "topography-map.png",
-        "topography-map.csv",
-        "topography-rows-map.csv",
-        "topography-drawn-map.csv",
-    }
-    table = np.genfromtxt(out / "topography-map.csv", delimiter=",", names=True)
-    np.testing.assert_allclose(table["density_2d"], rings_of(map_).density, rtol=1e-6)
+    path = saved(tmp_path, 1e6 * map_.heights.heights)
+    stated = {"unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
+    report = compare.topography(path, output=tmp_path / "out", **stated)
+    expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
+    told = {each.claim.id.removeprefix("topography."): each for each in report.claims}
+    assert told["rms-height"].value == expected.rms_height
+    assert told["hurst"].interval == (expected.law.low, expected.law.high)
+    assert (told["hurst"].value, told["hurst"].regime) == (expected.law.hurst, expected.band)
+    assert {each.verdict for each in report.claims} == {"reported"}
+    table = pandas.read_csv(tmp_path / "out" / "topography.csv")
+    np.testing.assert_allclose(table["density_2d"], expected.rings.density, rtol=1e-12)
+    np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)
 
 
 @pytest.mark.parametrize(
     ("stated", "named"),
     [
-        ([], "does not state the size of a pixel"),
-        (["--pixel", "-1"], "greater than 0"),
-        (["--pixel", "1", "--level", "cubic"], "'mean', 'tilt' or 'curvature'"),
-        (["--pixel", "1", "--unit", "ell"], "crosscheck: unit = 'ell': one of m, mm, um, nm"),
-        (["--pixel", "1", "--repeat", "periodic", "--level", "tilt"], 'level = "tilt" with repeat = "periodic"'),
-        (["--pixel", "1", "--pixel", "1", "--pixel", "1"], "pixel = (1.0, 1.0, 1.0): Input should be the side of"),
+        ({}, "does not state the size of a pixel"),
+        ({"pixel": [-1.0]}, "greater than 0"),
+        ({"pixel": 1.0, "level": "cubic"}, "'mean', 'tilt' or 'curvature'"),
+        ({"pixel": 1.0, "unit": "ell"}, "unit = 'ell': one of m, mm, um, nm"),
+        ({"pixel": 1.0, "repeat": "periodic", "level": "tilt"}, 'level = "tilt" with repeat = "periodic"'),
+        ({"pixel": [1.0, 1.0, 1.0]}, "pixel = (1.0, 1.0, 1.0): Input should be the side of"),
     ],
 )
-def test_the_command_names_mistakes(tmp_path, stated, named):
-    np.save(tmp_path / "map.npy", np.random.default_rng(0).normal(size=(9, 9)))
-    told = CliRunner().invoke(app, ["topography", str(tmp_path / "map.npy"), *stated])
-    assert told.exit_code == 2
-    assert named in told.output
-    flat = tmp_path / "flat.npy"
-    np.save(flat, np.ones((9, 9)))
-    told = CliRunner().invoke(app, ["topography", str(flat), "--pixel", "1"])
-    assert told.exit_code == 2
-    assert "heights are none" in told.output
+def test_mistakes_are_named_and_leave_no_folder(tmp_path, stated, named):
+    path = saved(tmp_path, np.random.default_rng(0).normal(size=(9, 9)))
+    with pytest.raises(InvalidInput) as refused:
+        compare.topography(path, output=tmp_path / "out", **stated)
+    assert named in str(refused.value)
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(
     ("heights", "said"),
     [
-        (
-            np.where(np.eye(9) > 0, np.nan, 1.0),
-            "file = '{}': heights[0][0] = nan: every pixel needs a finite height",
-        ),
-        (np.full((9, 9), 1j), "file = '{}': an array of type complex128: heights are real numbers [m]"),
-        (np.full((9, 9), "1"), "file = '{}': an array of type <U1: heights are real numbers [m]"),
-        (np.eye(3), "file = '{}': an array of shape (3, 3): a map has at least 4 rows and columns"),
-        (np.zeros((9, 9, 9)), "file = '{}': an array of shape (9, 9, 9)"),
-        (CHECKERS, "{}: no wave of the map is shorter"),
+        (np.where(np.eye(9) > 0, np.nan, 1.0), "heights[0][0] = nan: every pixel needs a finite height"),
+        (np.full((9, 9), 1j), "an array of type complex128: heights are real numbers [m]"),
+        (np.full((9, 9), "1"), "an array of type <U1: heights are real numbers [m]"),
+        (np.eye(3), "an array of shape (3, 3): a map has at least 4 rows and columns"),
+        (np.zeros((9, 9, 9)), "an array of shape (9, 9, 9)"),
+        (np.ones((9, 9)), "heights are none"),
+        (CHECKERS, "no wave of the map is shorter"),
     ],
-    ids=["nan", "complex", "text", "small", "solid", "checkers"],
+    ids=["nan", "complex", "text", "small", "solid", "flat", "checkers"],
 )
-def test_the_command_says_in_a_line_what_is_wrong_with_a_map(tmp_path, heights, said):
-    path = tmp_path / "map.npy"
-    np.save(path, heights)
-    told = CliRunner().invoke(app, ["topography", str(path), "--pixel", "1", "--repeat", "periodic"])
-    assert told.exit_code == 2
-    assert told.output.startswith(f"crosscheck: {said.format(path)}")
-    assert told.output.count("\n") == 1
+def test_what_is_wrong_with_a_map_is_said_in_a_line(tmp_path, heights, said):
+    path = saved(tmp_path, heights)
+    with pytest.raises(InvalidInput) as refused:
+        Map.of(path, pixel=1.0, repeat="periodic")
+    assert said in str(refused.value)
+    assert str(path) in str(refused.value)
+    assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize(("repeat", "level"), [("periodic", "mean"), ("mirror", "tilt")])
-def test_without_a_level_the_command_takes_that_of_what_repeats(tmp_path, repeat, level):
-    np.save(tmp_path / "map.npy", sampled(ROUGH, 32).heights.heights)
-    asked = [str(tmp_path / "map.npy"), "--pixel", "1", "--repeat", repeat, "--output", str(tmp_path / "out")]
-    told = CliRunner().invoke(app, ["topography", *asked])
-    assert told.exit_code == 0
-    assert f'level: "{level}" taken off; repeat: "{repeat}"' in told.output
+def test_without_a_level_that_of_what_repeats_is_taken(tmp_path, repeat, level):
+    study = Map.of(saved(tmp_path, sampled(ROUGH, 32).heights.heights), pixel=1.0, repeat=repeat)
+    assert f'level: "{level}" taken off; repeat: "{repeat}"' in "".join(study.lines())
 
 
-def test_the_measured_surface_of_the_page_is_the_drawn_one():
-    # costs of both are compared: the same surface, not one with a plane taken off its period
-    asked = {each.title: each.scene.roughness for each in effects()}
-    map_, drawn = asked["measured topography"], asked["roughness"]
-    surface = RoughSurface.of(drawn, drawn.q_max(0.0))
-    assert map_.rms_height == pytest.approx(surface.rms_height, rel=ROUNDING)
-    assert map_.waves.rms_slope == pytest.approx(surface.rms_slope, rel=ROUNDING)
-
-
-def test_the_figure_has_what_it_is_drawn_from():
+@pytest.mark.parametrize("law", [True, False])
+def test_the_figure_is_a_function_of_its_csv_files(law):
     found = describe(sampled(ROUGH))
-    drawing = topography.figure(found)
-    left, right = drawing.axes
-    np.testing.assert_array_equal(left.lines[0].get_ydata(), found.rings.density)
-    np.testing.assert_array_equal(right.lines[0].get_ydata(), found.rows.density)
-    assert "Hurst" in topography.caption(found)
-    sheet = topography.sheets(found)
-    assert sheet["topography"]["waves"].sum() == found.rings.waves.sum()
-    none = replace(found, law=None)
-    assert "Hurst" not in topography.caption(none)
-    assert len(topography.figure(none).axes[0].lines) == 1
-
-
-def outcomes(force=1.0, friction=0.1):
-    """Answers as if solved: each way a little off the others, by the seed."""
-    found = {}
-    for task in study.tasks():
-        slides = task.scenes[0].motion.speed > 0
-        way = 1.0 if task.solver.name == "BEM" else 0.8
-        found[task] = Outcome(
-            tuple(
-                Row(normal_force=way * force * (1 + 0.01 * k), friction_force=way * friction if slides else 0.0)
-                for k, _ in enumerate(task.scenes)
-            )
-        )
-    return found
-
-
-def test_the_study_asks_every_way_of_every_contact():
-    asked = study.tasks()
-    contacts = len(study.DEPTHS) + len(study.SPEEDS)
-    assert len(asked) == len({key(task) for task in asked}) == 4 * contacts
-    assert {len(task.scenes) for task in asked} == {1, study.PLACES, study.LINES}
-    for task in asked:
-        assert not task.solver.refusals(task.scenes[0])
-
-
-def test_the_chapter_is_computed_from_the_answers():
-    chapter = study.chapter(outcomes())
-    rows = chapter.data[effect_topography.NAME]
-    one = next(row for row in rows if row["way"] == study.SURFACES and row["quantity"] == "force")
-    values = 1 + 0.01 * np.arange(study.PLACES)
-    assert one["mean"] == pytest.approx(values.mean())
-    # Student's t of seven freedoms, 2.365
-    assert one["half_interval"] == pytest.approx(2.3646 * values.std(ddof=1) / sqrt(study.PLACES), rel=1e-4)
-    table = chapter.tables["Force at a depth, friction under a load"]
-    assert len(table) == len(study.DEPTHS) + len(study.SPEEDS)
-    assert "synthetic" in chapter.text
-    other = study.chapter(outcomes(force=2.0)).tables["Force at a depth, friction under a load"]
-    assert other[0][study.SURFACES] != table[0][study.SURFACES]
-    assert len(chapter.figures[effect_topography.NAME].axes) == 2
+    plot = plots.plot(found if law else replace(found, law=None))
+    tables = {name: pandas.read_csv(StringIO(frame.to_csv(index=False))) for name, frame in plot.tables.items()}
+    with style.applied():
+        left, right = plots.figure(tables, **plot.options).axes
+    np.testing.assert_allclose(left.lines[0].get_ydata(), found.rings.density, rtol=1e-12)
+    np.testing.assert_allclose(right.lines[0].get_ydata(), found.rows.density, rtol=1e-12)
+    assert len(left.lines) == (2 if law else 1)
+    assert ("Hurst" in plot.caption) == law
+    assert len(plot.caption.split()) <= 60
