@@ -13,20 +13,20 @@ from numpy.polynomial import Chebyshev
 from scipy import stats
 from tables import table
 
-from compare.commoncurve import Fit, bounds, near, rms
 from compare.finding import verdict
 from compare.publish import write_csv, write_text
-from compare.statistics.jackknife import resample
-from compare.samples import Samples
-from compare.shifting import Shifting, misfit_at, shift
-from compare.studies.catalogue import LOADS as LOAD_RANGE
-from compare.studies.catalogue import SPEEDS as SPEED_RANGE
-from compare.studies.question import TOLERANCE
-from compare.studies.sides import Pair
+from compare.statistics import eq23
+from compare.statistics.collapse import Collapse, collapse
+from compare.statistics.commoncurve import Fit, near
+from compare.statistics.eq23 import TOLERANCE
+from compare.statistics.frictioncurves import SimulatedCurves
+from compare.statistics.jackknife import RmsMisfit, resample
 from mdr1d.equations import interpolation
 
 PAGE = Path(__file__).with_suffix(".md")
 SEED = 2014
+# As in the studies [m/s], [N].
+SPEED_RANGE, LOAD_RANGE = (7.5e-3, 2.0), (0.2, 20.0)
 SPEEDS, LOADS = np.geomspace(*SPEED_RANGE, 8), np.geomspace(*LOAD_RANGE, 8)
 # Of p(v) for a sphere on a Kelvin solid, and xi of the rough sphere of the studies at the middle speed and load.
 POWER, MIDDLE = -1.5, 0.11
@@ -63,19 +63,19 @@ class Rate:
         return f"{100 * self.hits / self.repeats:.1f} ± {100 * sqrt(share * (1 - share) / self.repeats):.1f}"
 
 
-def drawn(rng: np.random.Generator, exact: np.ndarray, surfaces: int, scatter: float = SCATTER) -> Samples:
+def drawn(rng: np.random.Generator, exact: np.ndarray, surfaces: int, scatter: float = SCATTER) -> SimulatedCurves:
     """Friction whose mean over all surfaces is exp(exact) (speeds, loads); relative scatter is lognormal."""
     shared = scatter * np.tensordot(FIELDS, rng.normal(size=(len(FIELDS), surfaces)), axes=(0, 0))
     own = OWN * rng.normal(size=shared.shape)
     variance = scatter**2 * np.square(FIELDS).sum(axis=0) + OWN**2
     load = np.broadcast_to(LOADS[:, None], shared.shape)
-    return Samples(SPEEDS, load, np.exp(exact[..., None] + shared + own - variance[..., None] / 2) * load)
+    return SimulatedCurves(SPEEDS, load, np.exp(exact[..., None] + shared + own - variance[..., None] / 2) * load)
 
 
-def exactly(exact: np.ndarray) -> Samples:
+def exactly(exact: np.ndarray) -> SimulatedCurves:
     """The same without scatter."""
     load = np.broadcast_to(LOADS, exact.shape)
-    return Samples(SPEEDS, load, np.exp(exact) * load)
+    return SimulatedCurves(SPEEDS, load, np.exp(exact) * load)
 
 
 def knee(x: np.ndarray) -> np.ndarray:
@@ -98,10 +98,32 @@ def has(ends: tuple, truth: float) -> bool:
     return bool(ends[0] <= truth <= ends[1])
 
 
+@dataclass(frozen=True)
+class Pair:
+    """Forces of one dimension and of three, whose surfaces are independent: a share of each is left out together."""
+
+    one: SimulatedCurves
+    three: SimulatedCurves
+
+    @property
+    def groups(self) -> list[np.ndarray]:
+        return [np.array([k]) for k in range(min(len(self.one.groups), len(self.three.groups)))]
+
+    def without(self, group: np.ndarray) -> "Pair":
+        (k,), count = group, len(self.groups)
+        return Pair(
+            *(side.without(np.array_split(np.arange(side.surfaces), count)[k]) for side in (self.one, self.three))
+        )
+
+
+def rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
 # Ratios of means.
 
 
-def ratio_of_means(part: Samples) -> dict:
+def ratio_of_means(part: SimulatedCurves) -> dict:
     return {"": part.friction_force.mean() / part.load.mean()}
 
 
@@ -124,7 +146,7 @@ def ratios(surfaces: int, scatter: float, pair: bool) -> tuple[Rate, Rate]:
     for _ in range(CHEAP):
         three = forces(surfaces)
         one = forces(PROFILES * surfaces) if pair else three
-        sides = [Samples(np.ones(1), load[None, None], force[None, None]) for load, force in (one, three)]
+        sides = [SimulatedCurves(np.ones(1), load[None, None], force[None, None]) for load, force in (one, three)]
         samples, statistic = (Pair(*sides), ratio_of_sides) if pair else (sides[0], ratio_of_means)
         above, below = (resampled(one[1]), resampled(three[1])) if pair else resampled(three)[::-1]
         hits += (
@@ -169,11 +191,11 @@ def percentiles(counts, squares, relative, projector) -> tuple:
 
 
 def sized(surfaces: int, size: float, fitted: bool, resampled: bool) -> tuple[float, list[Rate]]:
-    """True misfit, and how often the interval of Size and both kinds of percentiles hold it."""
+    """True misfit, and how often the interval of a misfit and both kinds of percentiles hold it."""
     rng, law, still = generator(2, surfaces, size, fitted), smooth_knee(), POWER * np.diff(np.log(SPEEDS))
 
     def best(curves, guess):
-        return near(Fit(curves, DEGREE), guess, *bounds(curves)) if fitted else still
+        return near(Fit(curves, DEGREE), guess) if fitted else still
 
     def missed(curves, guess):
         return Fit(curves, DEGREE).residuals(best(curves, guess))
@@ -187,7 +209,7 @@ def sized(surfaces: int, size: float, fitted: bool, resampled: bool) -> tuple[fl
     for _ in range(repeats):
         samples = drawn(rng, exact, surfaces)
         at = best(samples.curves, still)
-        ends = [resample(lambda part, at=at: {"": missed(part.curves, at)}, samples)[""].size.interval()]
+        ends = [resample(lambda part, at=at: {"": missed(part.curves, at)}, samples)[""].rms.interval()]
         if resampled:
             whole = Fit(samples.curves, DEGREE)
             projector = beyond(whole.tangent(at) if fitted else whole.common(at).basis)
@@ -241,19 +263,27 @@ ROWS = {
 }
 
 
-def asked(found: Shifting, theory: float) -> dict[str, tuple[float, str]]:
+def asked(found: Collapse, theory: float) -> dict[str, tuple[float, str]]:
     """Number and verdict by claim, as the studies ask for them."""
-    along, predicted = found.horizontal, misfit_at(found, theory * np.log(SPEEDS))
-    mended = along.mended.verdict(TOLERANCE)
-    if mended == "holds" and along.reason:
-        mended = "undecided"
-    power = verdict(theory, TOLERANCE * abs(theory), *along.exponent.interval())
-    return {
-        "one curve": (along.misfit.value, found.collapses(TOLERANCE)),
-        "no vertical shift": (along.mended.value, mended if found.separable else "undecided"),
-        "shifts as predicted": (predicted.value, predicted.verdict(TOLERANCE)),
-        "power of v": (float(along.exponent.value), power if found.separable else "undecided"),
-    }
+    findings = eq23.findings(found, None, "1D", theory * np.log(SPEEDS), theory)
+    named = {each.claim.id: each for each in findings}
+    claims = (eq23.COLLAPSE, eq23.VERTICAL, eq23.PREDICTED, eq23.EXPONENT)
+    return {name: (named[of.id].value, named[of.id].verdict) for name, of in zip(CLAIMS, claims, strict=True)}
+
+
+def within(missed: RmsMisfit) -> str:
+    """Verdict on a misfit by the tolerance of every claim."""
+    return verdict(0.0, TOLERANCE, *missed.interval())
+
+
+def level(found: Collapse) -> str:
+    """Whether vertical shifts beside the horizontal ones are at most the tolerance (rms).
+
+    It fails only where vertical shifts also mend some of what the horizontal ones leave: where they hardly do,
+    shifts are so uncertain that their errors are, too.
+    """
+    told, mends = within(found.both.raised), found.horizontal.mended.interval()[0] > 0
+    return "undecided" if told == "fails" and not mends else told
 
 
 def tally(said: list[str]) -> tuple[int, ...]:
@@ -265,10 +295,10 @@ def shares(counted: tuple[int, ...]) -> str:
     return " / ".join(f"{100 * count / sum(counted):g}" for count in counted)
 
 
-def repeated(law: str, surfaces: int = SURFACES, scatter: float = SCATTER) -> list[Shifting]:
+def repeated(law: str, surfaces: int = SURFACES, scatter: float = SCATTER) -> list[Collapse]:
     """The judge's fits of a law drawn again and again."""
     rng, exact = generator(3, list(LAWS).index(law), surfaces, scatter), friction(**LAWS[law])
-    return [shift(drawn(rng, exact, surfaces, scatter)) for _ in range(PIPELINE)]
+    return [collapse(drawn(rng, exact, surfaces, scatter)) for _ in range(PIPELINE)]
 
 
 @dataclass(frozen=True)
@@ -296,9 +326,9 @@ class Said:
         return f"{number}: {shares(self.counts)}"
 
 
-def verdicts(fits: dict[str, list[Shifting]]) -> dict[str, dict[str, Said]]:
+def verdicts(fits: dict[str, list[Collapse]]) -> dict[str, dict[str, Said]]:
     """By row and claim."""
-    exact = {law: shift(exactly(friction(**LAWS[law]))) for law in LAWS}
+    exact = {law: collapse(exactly(friction(**LAWS[law]))) for law in LAWS}
     said = {}
     for row, (law, theory) in ROWS.items():
         found, truth = [asked(each, theory) for each in fits[law]], asked(exact[law], theory)
@@ -316,10 +346,10 @@ def verdicts(fits: dict[str, list[Shifting]]) -> dict[str, dict[str, Said]]:
 # Where the joint fit is weak.
 
 
-def weak(found: list[Shifting]) -> dict[str, tuple[Rate, float, float]]:
+def weak(found: list[Collapse]) -> dict[str, tuple[Rate, float, float]]:
     """By exponent: how often its interval, if there is one, holds the truth; medians of both."""
-    alone = [each.horizontal for each in found if each.horizontal.reason is None]
-    both = [each.both for each in found if each.both.reason is None]
+    alone = [each.horizontal for each in found if not each.horizontal.reason]
+    both = [each.both for each in found if not each.both.reason]
     numbers = {
         "horizontal alone": ([each.exponent for each in alone], POWER),
         "horizontal beside vertical": ([each.exponent for each in both], POWER),
@@ -339,7 +369,7 @@ def followed(degree: int) -> tuple[float, float, float]:
     """Without scatter, of a polynomial of Eq. 19: misfit and both exponents of the joint fit."""
     curves = exactly(friction()).curves
     fit = Fit(curves, degree, lifted=True)
-    along = near(fit, POWER * np.diff(np.log(SPEEDS)), *bounds(curves))
+    along = near(fit, POWER * np.diff(np.log(SPEEDS)))
     lever = ALONG / (ALONG @ ALONG)
     both = (lever @ np.concatenate([[0], np.cumsum(each)]) for each in (along, fit.lifts(along)))
     return rms(fit.residuals(along)), *both
@@ -387,13 +417,13 @@ prescribed, and still too narrow there where shifts are fitted.
 """
 JUDGED = f"""## Verdicts
 
-The whole judge, `compare.shifting.shift`, on {SURFACES} surfaces, {PIPELINE} repeats a law. In each cell: the
+The whole judge, `compare.statistics.collapse`, on {SURFACES} surfaces, {PIPELINE} repeats a law. In each cell: the
 number without scatter, then how often the claim was kept / undecided / rejected, in %. A claim is true where
 that number is within {100 * TOLERANCE:g} %: of nil, or of the power that the theory says, −1.5 unless stated.
 
 - one curve: rms of ln μ that horizontal shifts leave, `horizontal.misfit`
 - no vertical shift: what vertical shifts would take from that, `horizontal.mended`
-- shifts as predicted: the rms with the shifts of the theory, `misfit_at`
+- shifts as predicted: the rms with the shifts of the theory, `Collapse.misfit_at`
 - power of v: of the horizontal shifts
 """
 RAISED = f"""Wrong powers and wrong shapes are not kept. Shifts of straight lines are undecided but for rare
@@ -516,11 +546,11 @@ def _weak(rows, fits) -> Iterator[str]:
     yield table("n|scatter|" + "|".join(numbers), lines) + "\n"
     lines = []
     for law in ("right", "v^0.1", "v^0.2", "v^0.33"):
-        counted = tally([each.level(TOLERANCE) for each in fits[law]])
+        counted = tally([level(each) for each in fits[law]])
         for kind, count in zip(("kept", "undecided", "rejected"), counted, strict=True):
             rows.append(_row("weak", f"{law}, level", SURFACES, count, sum(counted), kind))
         exact = LAWS[law].get("vertical", 0.0) * ALONG.std()
-        alone = shift(exactly(friction(**LAWS[law]))).both.raised.value
+        alone = collapse(exactly(friction(**LAWS[law]))).both.raised.value
         lines.append((law, f"{exact:.2f}", f"{alone:.2f}", shares(counted)))
     yield LEVEL
     yield table("friction times|true rms|fitted without scatter|verdicts", lines) + "\n"
