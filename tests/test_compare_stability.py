@@ -11,40 +11,51 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, contact
+from compare.finding import FAILS, HOLDS
+from compare.hardcases.collection import CASES
+from compare.hardcases.examination import Examination
+from compare.hardcases.hardcase import SIZES, Check, refusal
 from compare.outcome import Outcome, Row
-from compare.stability import report
-from compare.stability.collection import CASES
-from compare.stability.examination import Examination, checks
-from compare.stability.hardcase import SMALL, Check, Refusal, refusal
+from compare.page import Section, Table
 from compare.store import Store, key
+from compare.studies.stability import BROKEN, REFUSED, SOLVED, Stability
 from mdr1d import MDR
+from scene.reading import InvalidInput
+
+QUICK = SIZES["quick"]
+STUDY = Stability.of("quick")
+# Of each: found, allowed, message; a case that raises has a reason.
+MADE_UP = {
+    "speed-zero": Outcome((Row(seconds=1.0, measures={"found": 0.5, "allowed": 1.0}, settings={"what": "a"}),)),
+    "no-shapes": Outcome((Row(measures={"found": 0.0, "allowed": 0.0}, settings={"what": "b", "message": "no"}),)),
+    "needle": Outcome((Row(measures={"found": 2.0, "allowed": 1.0}, settings={"what": "c"}),)),
+    "huge": Outcome((Row(reason="OSError: no such file: '/var/folders/x/scene.toml'"),)),
+}
+
+
+def judged(outcomes):
+    """Answers and findings by the name of the case."""
+    answers = STUDY.answers({Examination(name, "quick"): outcome for name, outcome in outcomes.items()})
+    findings = STUDY.findings(answers)
+    return answers, {each.claim.id.removeprefix("stability."): each for each in findings}
+
+
+def broken(name):
+    return [check for check in CASES[name].examine(QUICK) if not check.holds]
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_hard_case_is_solved_within_its_law_or_refused_as_it_should(name):
     # tolerances are those of each law, with where they come from
-    found = tuple(CASES[name].examine(SMALL))
+    found = tuple(CASES[name].examine(QUICK))
     assert found
-    broken = [
-        f"{check.what}: {check.found:g} > {check.allowed:g} {check.message or ''}"
-        for check in found
-        if not check.holds
-    ]
-    assert not broken
+    assert not [check for check in found if not check.holds]
 
 
 def test_there_are_as_many_cases_as_promised_each_with_its_own_words():
-    assert len(CASES) >= 75
-    for words in ("name", "about"):
-        assert len({getattr(case, words) for case in CASES.values()}) == len(CASES)
+    assert len(CASES) == 125
+    assert len({case.about for case in CASES.values()}) == len(CASES)
     assert all(case.law and case.name == case.name.lower() for case in CASES.values())
-
-
-def _perturbed(monkeypatch, change):
-    """Both solvers answer what a change makes of their answers."""
-    for solver in (MDR, BEM):
-        honest = solver.solve
-        monkeypatch.setattr(solver, "solve", lambda self, scene, honest=honest: change(honest(self, scene)))
 
 
 def _scaled_force(answer):
@@ -67,18 +78,16 @@ def _by_the_words(answer):
     ("change", "names"),
     [
         (_scaled_force, ("speed-to-zero", "kelvin-to-speed-1e9-1d", "friction-never-drives", "needle")),
-        (
-            _lifted,
-            ("prime-squares", "kelvin-to-speed-1e9-3d", "hurst-zero-and-one", "held-for-ages", "tip-of-a-cone"),
-        ),
+        (_lifted, ("prime-squares", "kelvin-to-speed-1e9-3d", "held-for-ages", "tip-of-a-cone")),
         (_slightly_off, ("nanometres", "kilometres", "pascals-to-exapascals", "all-units-at-once")),
         (_by_the_words, ("equal-times", "relaxation-time-to-zero", "named-and-general", "speed-to-infinity")),
     ],
 )
 def test_a_wrong_answer_breaks_the_law(monkeypatch, change, names):
-    _perturbed(monkeypatch, change)
-    for name in names:
-        assert not all(check.holds for check in CASES[name].examine(SMALL)), name
+    for solver in (MDR, BEM):
+        honest = solver.solve
+        monkeypatch.setattr(solver, "solve", lambda self, scene, honest=honest: change(honest(self, scene)))
+    assert [name for name in names if broken(name)] == list(names)
 
 
 def test_an_answer_where_a_refusal_is_due_breaks_the_case(monkeypatch):
@@ -86,78 +95,72 @@ def test_an_answer_where_a_refusal_is_due_breaks_the_case(monkeypatch):
         normal_force = depth = friction_force = 1.0
 
     monkeypatch.setattr(BEM, "solve", lambda self, scene: Answered())
-    for name in ("gap-to-nothing", "load-to-nothing", "beyond-the-window"):
-        assert not all(check.holds for check in CASES[name].examine(SMALL)), name
+    names = ["gap-to-nothing", "load-to-nothing", "beyond-the-window"]
+    assert [name for name in names if broken(name)] == names
 
 
 def test_sets_that_cycle_break_the_case_if_they_are_not_joined(monkeypatch):
     monkeypatch.setattr(contact, "PATIENCE", 10**9)
     with pytest.raises(contact.NotConverged, match="violation"):
-        tuple(CASES["contact-set-cycles"].examine(SMALL))
+        broken("contact-set-cycles")
 
 
-def test_nan_never_holds():
+def test_a_refusal_asks_for_the_right_error_and_for_every_word():
+    def ask(load):
+        raise ValueError(f"load = {load} N")
+
+    assert refusal("", ValueError, "load | 3 N", ask, 3).holds
+    assert not refusal("", ValueError, "depth", ask, load=3).holds
+    assert not refusal("", KeyError, "load", ask, 3).holds
+    assert not refusal("", ValueError, "", lambda: 1.0).holds
     assert not Check("nothing", nan, 1.0).holds
-    assert not Refusal("nothing", "(answered)", nan).holds
 
 
-def test_a_refusal_asks_for_the_right_error_and_for_every_name():
-    def ask():
-        raise ValueError("load = 3 N")
-
-    assert refusal("", ValueError, ("load", "3"), ask).holds
-    assert not refusal("", ValueError, ("depth",), ask).holds
-    assert not refusal("", KeyError, ("load",), ask).holds
-    assert not refusal("", ValueError, (), lambda: 1.0).holds
-
-
-def test_what_a_case_finds_comes_back_from_the_store_as_it_was(tmp_path):
-    store = Store(tmp_path)
-    for name in ("speed-zero", "no-shapes"):
-        task = Examination(name, "small")
-        assert store.get(task) is None
-        outcome = task.solve()
-        store.put(task, outcome)
-        again = checks(store.get(task))
-        assert again == checks(outcome)
-        assert report.record(name, store.get(task)) == report.record(name, outcome)
-
-
-def test_small_and_large_are_different_tasks():
-    assert key(Examination("speed-zero", "small")) != key(Examination("speed-zero", "large"))
+def test_an_outcome_comes_back_from_the_store_as_it_was(tmp_path):
+    store, tasks = Store(tmp_path), [Examination(name, "quick") for name in ("speed-zero", "no-shapes")]
+    outcomes = {task.case: task.solve() for task in tasks}
+    for task in tasks:
+        store.put(task, outcomes[task.case])
+    stored, found = (judged(each)[0] for each in ({task.case: store.get(task) for task in tasks}, outcomes))
+    assert stored["checks"].to_dataset().identical(found["checks"].to_dataset())
+    assert key(Examination("speed-zero", "full")) != key(tasks[0])
 
 
 def test_a_case_that_raises_is_broken_and_says_why(monkeypatch):
-    def broken(self, scene):
-        raise ArithmeticError("no digits left")
-
-    monkeypatch.setattr(MDR, "solve", broken)
-    outcome = Examination("speed-zero", "small").solve()
-    found = report.record("speed-zero", outcome)
-    assert found.verdict == report.BROKEN
-    assert "ArithmeticError: no digits left" in found.message
-    assert "no digits left" in report.markdown([found])
-
-
-@pytest.mark.parametrize(
-    ("said", "told"),
-    [
-        ("/a/folder/scene.toml, line 1: speed", "scene.toml, line 1: speed"),
-        ("no such file: '/var/folders/x/scene.toml'", "no such file: 'scene.toml'"),
-        ("take less than v tau/a = 1 m/s", "take less than v tau/a = 1 m/s"),
-    ],
-)
-def test_a_message_names_files_without_the_folder_of_the_day(said, told):
-    assert report.record("no-shapes", Outcome((Row(reason=said),))).message == told
-
-
-def test_verdicts_tell_solved_from_refused():
-    held, refused = (
-        report.record(name, Examination(name, "small").solve()) for name in ("speed-zero", "no-shapes")
+    monkeypatch.setattr(MDR, "solve", lambda self, scene: 1 / 0)
+    _, found = judged({"speed-zero": Examination("speed-zero", "quick").solve()})
+    assert (found["speed-zero"].verdict, found["speed-zero"].reason) == (
+        FAILS,
+        "ZeroDivisionError: division by zero",
     )
-    assert (held.verdict, refused.verdict) == (report.HELD, report.REFUSED)
-    page = report.markdown([held, refused])
-    assert "## Motion" in page
-    assert "## Shapes" in page
-    assert report.HELD in page
-    assert report.REFUSED in page
+
+
+def test_findings_state_the_law_and_the_page_counts_them():
+    answers, found = judged(MADE_UP)
+    assert {name: each.verdict for name, each in found.items()} == {
+        "speed-zero": HOLDS,
+        "needle": FAILS,
+        "no-shapes": HOLDS,
+        "huge": FAILS,
+    }
+    assert STUDY.failed(list(found.values()))
+    assert (found["needle"].value, found["needle"].claim.tolerance, found["needle"].claim.expected) == (
+        2.0,
+        1.0,
+        0.0,
+    )
+    assert np.isnan(found["needle"].interval).all()
+    page = STUDY.page(answers, list(found.values()))
+    assert page.answer[0].startswith("2 of 4 hard cases keep their law")
+    assert "needle is broken: found 2, allowed 1" in page.answer[1]
+    assert "no such file: 'scene.toml'" in page.answer[2]  # without the folder of the day
+    counts = next(page.every(Table)).frame
+    assert counts[["cases", SOLVED, REFUSED, BROKEN]].sum().tolist() == [4, 1, 1, 2]
+    assert [each.title for each in page.blocks if isinstance(each, Section)] == ["Motion", "Shapes", "Extremes"]
+
+
+def test_there_is_a_task_for_every_case_and_no_other_size():
+    (batch,) = STUDY.batches()
+    assert [task.case for task in batch.tasks] == list(CASES)
+    with pytest.raises(InvalidInput, match="size = small: allowed are quick, standard, full"):
+        Stability.of("small")

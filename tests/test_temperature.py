@@ -1,19 +1,15 @@
 """Temperature and frictional heating in both dimensionalities: laws that hold whatever the solver."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from math import exp, sqrt
 
 import numpy as np
 import pytest
-from effects_page import temperature, warmcontacts
 from scipy.optimize import bisect
 
 from bem3d import BEM
 from bem3d.convolution import FreeConvolution
-from compare import report
-from compare.cases import Case
-from compare.outcome import Outcome, Row
-from compare.study import Task, points
+from compare.task import SceneTask as Task
 from mdr1d import MDR
 from scene import (
     WLF,
@@ -310,98 +306,3 @@ def test_tasks_at_two_temperatures_are_two():
     assert task.question == Task(SOLVERS[0], (replace(WARM),)).question
 
 
-def test_every_point_around_a_heated_case_can_be_solved():
-    case = Case(
-        indenter=PLAIN.indenter,
-        elastomer=STANDARD,
-        motion=PLAIN.motion,
-        roughness=ROUGH,
-        temperature=LAW,
-        heating=Heating(conductivity=0.2, feedback="flash"),
-        bem=BEM(points=64),
-    )
-    found = points(case)  # raises where one is refused: smooth bodies and rest too, of which flashes are zero
-    solvers = {
-        kind: {point.solver for point in found if point.kind == kind} for kind in ("own", "smooth", "force-depth")
-    }
-    assert solvers == {"own": {"MDR", "BEM"}, "smooth": {"MDR", "BEM"}, "force-depth": {"MDR", "BEM", "exact"}}
-    assert all(point.scene.heating == case.heating for point in found)
-
-
-def test_a_case_has_its_effects_and_its_report_names_them():
-    case = Case(
-        **{field.name: getattr(WARM, field.name) for field in fields(Scene) if field.name != "heating"},
-        heating=Heating(conductivity=0.2, feedback="average"),
-    )
-    case.refuse()
-    for part, words in (
-        (case.temperature, "WLF, temperature 310 K, stated at 296 K, c1 7.2, c2 124.6 K"),
-        (case.heating, "Heating, conductivity 0.2 W/(m K), feedback average"),
-        (
-            Arrhenius(temperature=310.0, reference=296.0, activation_energy=8e4),
-            "Arrhenius, temperature 310 K, stated at 296 K, activation energy 80000 J/mol",
-        ),
-    ):
-        assert report.described(part) == words
-
-
-@pytest.fixture(scope="module")
-def study():
-    """The study on coarse lines, in one dimension twice: what is under test is what it makes of answers."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr(warmcontacts, "SOLVERS", {"1D": MDR(points=200), "3D": MDR(points=300)})
-    outcomes = {task: task.solve() for task in temperature.tasks()}
-    yield outcomes, warmcontacts.points(outcomes)
-    patch.undo()
-
-
-def test_the_study_collapses_and_finds_what_the_feedback_finds(study):
-    _, found = study
-    assert temperature.collapse(found) < SUPERPOSED["MDR"]
-    for dimension in ("1D", "3D"):
-        steady = temperature.steady(found, dimension)
-        assert len(steady) == 3
-        (given,) = [
-            point.average_heating
-            for point in found
-            if (point.panel, point.dimension) == ("speed", dimension)
-            and (point.feedback, point.speed) == ("average", warmcontacts.SEVERAL_AT)
-        ]
-        # straight lines between rises that grow by a third from one to the next
-        assert given == pytest.approx(steady[0], rel=0.03)
-
-
-def test_steady_temperatures_are_where_lines_between_rises_cross_the_diagonal(study):
-    _, found = study
-    point = next(each for each in found if each.panel == "warmer")
-    warmer = [(0.0, 3.0), (1.0, 3.5), (5.0, 4.5), (10.0, 14.5), (20.0, 0.5)]
-    drawn = [
-        replace(point, temperature=warmcontacts.ROOM + x, average_heating=rise, dimension="1D")
-        for x, rise in warmer
-    ]
-    # 3.5 + (x - 1)/4 = x; 4.5 + 2 (x - 5) = x; 14.5 - 1.4 (x - 10) = x
-    expected = [3.25 / 0.75, 5.5, 28.5 / 2.4]
-    np.testing.assert_allclose(temperature.steady(drawn, "1D"), expected, rtol=1e-10)
-
-
-def test_the_chapter_has_the_numbers_of_the_study(study):
-    outcomes, found = study
-    chapter = temperature.chapter(outcomes)
-    assert "3 temperatures are steady in one dimension and 3 in three" in chapter.text
-    assert "nan" not in chapter.text
-    assert "{" not in chapter.text
-    ((_, rows),) = chapter.tables.items()
-    assert len(rows) == len(warmcontacts.CONTACTS) * len(warmcontacts.CONDUCTIVITIES)
-    # 2 mu G0 d v/lambda of the paper at 1 N and 10 mm/s, mu of the interface and a little more
-    first = float(rows[0]["average, K, 1D"].split()[0])
-    assert first == pytest.approx(2 * 0.51 * 3e6 * 4e-5 * 1e-2 / 20, rel=0.1)
-    assert len(chapter.data["effect-temperature"]) == len(found)
-    assert len(chapter.figures["effect-temperature"].axes) == 4
-
-
-def test_a_study_that_failed_in_part_is_not_a_number_there(study):
-    outcomes, _ = study
-    victim = next(task for task in outcomes if task.scenes[0].interface is not None)
-    spoiled = dict(outcomes) | {victim: Outcome((Row(reason="failed on purpose"),))}
-    chapter = temperature.chapter(spoiled)
-    assert "nan" in str(chapter.tables)

@@ -5,13 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from effects_page import closed_forms as motions
-from effects_page import motions as study
 from effects_page.track import Track, harmonic
 from pydantic import ValidationError
 
 from bem3d import BEM
-from compare.outcome import Outcome, Row
-from compare.store import key
 from mdr1d import MDR
 from scene import Arrhenius, Kelvin, Layer, Program, Scene, SolveError, Sphere, Stage, StandardLinearSolid
 
@@ -114,41 +111,6 @@ def test_extreme_oscillations_and_reversals_are_followed_or_declined_with_a_reas
             last = float(answer.scene.motion.prescribed(answer.scene.motion.duration))
             assert answer.normal_force == pytest.approx(last, rel=0.1)
             assert each.get("speed", 0.0) >= 0 or -1 < answer.friction_coefficient < 1e-3
-
-
-def test_the_tasks_of_the_study_are_all_different_and_refused_by_no_one():
-    tasks = study.tasks()
-    assert len({key(task) for task in tasks}) == len(tasks) == 2 * (2 * (8 + 2 + 3) + 2)
-    for task in tasks:
-        assert not task.solver.refusals(task.scenes[0])
-        assert task.label
-
-
-def test_what_could_not_be_solved_is_said_with_its_reason():
-    failed = Outcome((Row(reason="too steep"),))
-    chapter = study.chapter({task: failed for task in study.tasks()})
-    assert chapter.text.count("Not solved") == len(study.tasks())
-    assert "too steep" in chapter.text
-    table = chapter.tables["Against closed forms"]
-    assert all("nan" in row["found"] and "nan" in row["with half the points"] for row in table)
-
-
-@pytest.mark.slow
-def test_the_study_finds_what_is_known_and_draws_it(monkeypatch):
-    monkeypatch.setattr(study, "SOLVERS", {"1D": MDR(points=300, steps=50), "3D": BEM(points=40, steps=30)})
-    chapter = study.chapter({task: task.solve() for task in study.tasks()})
-    assert "Not solved" not in chapter.text
-    assert "nan" not in chapter.text
-    for row in chapter.tables["Against closed forms"]:
-        # 40 and 300 points; some percent where friction of an approach hangs on the edges of a dashpot
-        assert float(row["found"]) == pytest.approx(float(row["closed form"]), rel=3e-2), row
-    (drawing,), (rows,) = chapter.figures.values(), chapter.data.values()
-    assert len(drawing.axes) == 6
-    for dimension in ("1D", "3D"):
-        lowered = {row["x"]: row["y"] for row in rows if (row["panel"], row["dimension"]) == ("mean", dimension)}
-        assert lowered[0.4] / lowered[0.2] == pytest.approx(4.0, rel=0.2)
-        loop = [row for row in rows if (row["panel"], row["dimension"]) == ("reversal", dimension)]
-        assert min(row["y"] for row in loop) == pytest.approx(-max(row["y"] for row in loop), rel=0.1)
 
 
 def test_reversal_on_a_warm_layer_is_its_mirror_image_and_that_of_the_shifted_solid():

@@ -4,11 +4,8 @@ from math import pi
 
 import numpy as np
 import pytest
-from effects_page import layer as study
 
-from bem3d import BEM
 from compare.exact import layer as reference
-from compare.plots import style
 from scene import Cone, Layer, PowerLaw, Sphere
 
 SPHERE, CONE = Sphere(10e-3), Cone(0.1)
@@ -115,58 +112,3 @@ def test_what_is_not_known_is_named(asked, message):
         asked(Layer(thickness=1e-4))
 
 
-@pytest.fixture(scope="module")
-def small():
-    """The study with fewer loads, speeds and points."""
-    patch = pytest.MonkeyPatch()
-    settings = {
-        "SOLVER": BEM(points=64, tolerance=1e-7),
-        "ROUGH": BEM(points=64),
-        "FORCES": (0.01, 0.04, 1000.0, 4000.0),
-        "RUBBERS": study.RUBBERS[:3],
-        "OVER_F": (1e-2, 1.0, 100.0),
-        "MEMORIES": (0.01, 1.0),
-        "ROUGH_OVER_F": (1.0,),
-        "SURFACES": 2,
-    }
-    for name, value in settings.items():
-        patch.setattr(study, name, value)
-    try:
-        outcomes = {task: task.solve() for task in study.tasks()}
-        with style.applied():
-            return study.chapter(outcomes), outcomes
-    finally:
-        patch.undo()
-
-
-def test_the_study_finds_the_exponents_that_are_known(small):
-    chapter, outcomes = small
-    assert not [row.reason for outcome in outcomes.values() for row in outcome.rows if row.reason]
-    rows = [row for row in chapter.data["effect-layer"] if row["quantity"] == "exponent"]
-    for row in rows:
-        assert row["found"] == pytest.approx(row["known"], abs=2e-3)  # of 64 points
-    last = {row["rubber"]: row["known"] for row in rows}  # between 25 and 100 F*
-    assert last["half-space"] == pytest.approx(1 / 3, abs=1e-4)
-    assert 0.5 < last["bonded, ν = 0.45"] < last["bonded, ν = 0.5"] < 2 / 3
-    assert "here 40 N" in chapter.text
-    assert "nan" not in chapter.text
-
-
-def test_the_study_finds_friction_at_low_speed_on_every_layer_alike(small):
-    rows = [row for row in small[0].data["effect-layer"] if row["quantity"].startswith("friction")]
-    slow = [row["found"] for row in rows if row["quantity"] == "friction 0.01" and row["x"] == 100]
-    assert slow == pytest.approx([1.0] * 3, abs=5e-3)
-    fast = {row["rubber"]: row["found"] for row in rows if row["quantity"] == "friction 1" and row["x"] == 100}
-    assert fast["bonded, ν = 0.5"] < fast["bonded, ν = 0.3"] < 0.9 * fast["half-space"]
-
-
-def test_the_figure_of_the_study_has_all_its_curves(small):
-    (figure,) = small[0].figures.values()
-    a, b, c, d = figure.axes
-    assert [len(axes.get_lines()) for axes in (a, b, c, d)] == [3 + 3 + 1, 3 + 3 + 3 + 1, 2 * 3 + 1, 2 * 2 + 1]
-
-
-def test_every_task_of_the_study_can_be_solved():
-    tasks = study.tasks()
-    assert len(set(tasks)) == len(tasks)
-    assert not [reason for task in tasks for scene in task.scenes for reason in task.solver.refusals(scene)]
