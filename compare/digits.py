@@ -30,6 +30,7 @@ def number(value: float, digits: int = DIGITS) -> str:
     """A number to some significant digits, without zeros at its end."""
     if not isfinite(value):
         return UNKNOWN if isnan(value) else "∞" if value > 0 else "−∞"
+    value = float(f"{value:.{digits - 1}e}")  # 9.9999 is 10
     power = _power(value)
     scaled = value / 10.0**power
     decimals = digits - 1 - floor(log10(abs(scaled))) if scaled else 0

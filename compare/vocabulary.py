@@ -90,6 +90,7 @@ LABELS: Mapping[str, Entry] = {
         formula="μ = F_x / F_N",
         source=f"{THEORY}2",
     ),
+    "friction_coefficient": Entry("1", "Coefficient of friction: mean friction force over mean normal force."),
     "force": Entry("N", "Mean normal force.", along_line="N/m"),
     "reached": Entry("m", "Mean depth that was reached, above zero into the elastomer."),
     "surfaces": Entry("1", "Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D."),
@@ -104,6 +105,24 @@ LABELS: Mapping[str, Entry] = {
     "log_shift": Term(
         "1", "Shift of a curve along ln F_N that brings it onto the common curve.", source=f"{PAPER}23"
     ),
+    "log_lift": Entry("1", "Shift of a curve along ln mu, beside that along ln F_N, onto the common curve."),
+    "shifted_force": Entry("N", "Normal force times the shift of its curve."),
+    "curves": Entry("", "Set of curves that are shifted onto one."),
+    "power": Entry("", "Power of the speed: fitted to the shifts, expected, or that of a law."),
+    "exponent": Entry("1", "Exponent of a power of the speed."),
+    "misfit": Entry("1", "Rms of ln mu about one curve, without what scatter adds."),
+    "decided": Entry("", "Whether the shifts mean anything: not where curves do not collapse, nor where they part."),
+    "shifted_as": Entry("", "Whether a figure shows curves shifted as fitted, or as expected."),
+    "reference_speed": Entry("m/s", "Speed whose curve is not shifted."),
+    "degree": Entry("1", "Degree of the common polynomial."),
+    "holds": Entry("", "Whether every condition of the laws holds at a point."),
+    # Of measured maps.
+    "q": Entry("rad/m", "Wave number; of a ring, the mean of its waves."),
+    "density_2d": Entry("m⁴", "Two-sided spectral density C_2D, mean over directions."),
+    "density_1d": Entry("m³", "Two-sided spectral density C_1D of the line scans along x, mean over the rows."),
+    "density_1d_mapped": Term("m³", "Spectral density by the rule of the MDR.", formula="C_1D = π q C_2D"),
+    "waves": Entry("1", "Waves of a map in a ring of wave numbers, a wave and its opposite counted as one."),
+    "in_band": Entry("", "Whether a wave number lies in the band in which the power law was fitted."),
     # Dimensionless groups.
     "depth_over_height": Term(
         "1", "Depth of the smooth relaxed contact over the rms height of the roughness.", formula="d / h₀"
@@ -223,4 +242,5 @@ def attributes(name: str, scene: Scene | None = None) -> dict[str, str]:
     if found is None:
         return {"long_name": plain}
     indenter = "" if scene is None else scene.indenter.type
-    return {"units": found.unit_under(indenter), "long_name": plain, "comment": found.text}
+    said = {"units": found.unit_under(indenter), "long_name": plain, "comment": found.text}
+    return {name: text for name, text in said.items() if text}

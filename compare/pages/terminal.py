@@ -9,7 +9,8 @@ from . import prose
 from .columns import Row, columns
 
 WIDTH = 100
-MOST_ROWS = 40
+# Of tables that a terminal can show.
+MOST_ROWS, WIDEST = 40, 200
 
 
 def text(page: Page, path: Path | None = None) -> str:
@@ -26,10 +27,11 @@ def _blocks(blocks, rule) -> Iterator[str]:
             case Text(markdown):
                 yield "\n\n".join(_filled(part) for part in prose.converted(markdown, {}).split("\n\n"))
             case Table() if not block.long and len(block.frame) <= MOST_ROWS:
-                yield "\n".join(part for part in (_filled(block.caption), _table(block.frame)) if part)
+                shown = _table(block.frame)
+                if max(map(len, shown.splitlines()), default=0) <= WIDEST:
+                    yield "\n".join(part for part in (_filled(block.caption), shown) if part)
             case Findings(findings, caption):
-                lines = (line for finding in findings for line in _finding(Row(finding)))
-                yield "\n".join([*([_filled(caption)] if caption else []), *lines])
+                yield "\n".join([*([_filled(caption)] if caption else []), *_findings(findings)])
             case Section(title, inside):
                 parts = [part for part in _blocks(inside, "") if part]
                 if parts:
@@ -38,13 +40,17 @@ def _blocks(blocks, rule) -> Iterator[str]:
                 pass
 
 
-def _finding(row) -> Iterator[str]:
-    """A finding in a line or a few: verdict, claim, place, number found and number claimed."""
-    claimed = f", claimed {row.claimed}" if row.claimed else ""
-    place = " ".join(part for part in (row.dimension, row.finding.where) if part)
-    yield _filled(f"{row.verdict:<9}  {row.claim} [{place}]: {row.found}{claimed}", 11)
-    if row.reason:
-        yield _filled(f"{'':<11}{row.reason}", 11)
+def _findings(findings) -> Iterator[str]:
+    """Each claim, and below it a line for each place: verdict, place, number found, reason."""
+    claims: dict[tuple[str, str], list[Row]] = {}
+    for row in map(Row, findings):
+        claims.setdefault((row.claim, row.claimed), []).append(row)
+    for (claim, claimed), rows in claims.items():
+        yield _filled(f"{claim}{f' (claimed {claimed})' if claimed else ''}:", 2)
+        for row in rows:
+            place = " ".join(part for part in (row.dimension, row.finding.where) if part)
+            reason = f"; {row.reason}" if row.reason else ""
+            yield _filled(f"  {row.verdict:<9}  {place}: {row.found}{reason}", 13)
 
 
 def _table(frame) -> str:

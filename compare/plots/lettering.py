@@ -137,7 +137,6 @@ def clear(drawing: Figure, panels: Sequence[Axes] | np.ndarray) -> None:
     """
     engine = drawing.get_layout_engine()
     style.lay_out(drawing)
-    drawing.draw_without_rendering()
     for axes in panels:
         _settle(axes)
     for _ in range(PASSES):
@@ -149,7 +148,6 @@ def clear(drawing: Figure, panels: Sequence[Axes] | np.ndarray) -> None:
         # Numbers along the axes are others now, and take other room.
         drawing.set_layout_engine(engine)
         style.lay_out(drawing)
-        drawing.draw_without_rendering()
 
 
 def _settle(axes):
