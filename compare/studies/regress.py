@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import xarray
+from pandas import DataFrame
 from pydantic.dataclasses import dataclass as validated
 
 from scene.quantities import CLOSED, Finite
@@ -21,7 +22,7 @@ from scene.reading import InvalidInput, read
 
 from ..finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from ..outcome import Outcome
-from ..page import Block, Findings, Plot, Section, Text
+from ..page import Block, Findings, Plot, Section, Table, Text
 from ..pipeline import Study
 from ..quantity import Quantity, Unmeasured
 from ..runner import sweep
@@ -155,12 +156,22 @@ class Regress(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """What asks for attention first, then all; why the tolerances are what they are, once."""
+        """What asks for attention first, then a table of all; why the tolerances are what they are, once."""
         wrong = [each for each in findings if each.stated != HOLDS]
-        reasons = dict.fromkeys(f"{each.tolerance:g}: {each.reason}" for each in self.quantities)
+        rows = [
+            {
+                "quantity": each.claim.sentence,
+                "stored": each.claim.expected,
+                "found": each.value,
+                "tolerances moved": tolerances_moved(each),
+                "verdict": each.stated,
+            }
+            for each in findings
+        ]
         blocks: list[Block] = [Findings(wrong, "What asks for attention.")] if wrong else []
-        blocks.append(Findings(findings, f"Every quantity, against {self.path.name}."))
-        return [*blocks, Section("Tolerances", [Text("\n".join(f"- {reason}" for reason in reasons))])]
+        blocks.append(Table("quantities", DataFrame(rows), f"Every quantity, against {self.path.name}."))
+        reasons = dict.fromkeys(f"{each.tolerance:g}: {each.reason}." for each in self.quantities)
+        return [*blocks, Section("Tolerances", [Text(reason) for reason in reasons])]
 
 
 def tolerances_moved(found: Finding) -> float:
