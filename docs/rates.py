@@ -100,7 +100,7 @@ def has(ends: tuple, truth: float) -> bool:
 
 @dataclass(frozen=True)
 class Pair:
-    """Forces of one dimension and of three, whose surfaces are independent: a share of each is left out together."""
+    """Forces in 1D and in 3D, whose surfaces are independent: a share of each is left out together."""
 
     one: SimulatedCurves
     three: SimulatedCurves

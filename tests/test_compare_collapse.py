@@ -50,7 +50,9 @@ def simulated(rng, exact, surfaces, scatter=0.05, own=0.005, loads=0.0):
     own : scatter of each point by itself; loads : scatter of ln load, one factor a surface
     """
     u, w = (np.linspace(-1, 1, count) for count in exact.shape)
-    smooth = np.array([np.ones_like(np.outer(u, w)), np.outer(u, 0 * w + 1), np.outer(0 * u + 1, w), np.outer(u, w)])
+    smooth = np.array(
+        [np.ones_like(np.outer(u, w)), np.outer(u, 0 * w + 1), np.outer(0 * u + 1, w), np.outer(u, w)]
+    )
     factor = 1 + scatter * np.tensordot(smooth, rng.normal(size=(4, surfaces)), axes=(0, 0)) / sqrt(16 / 9)
     factor = factor + own * rng.normal(size=factor.shape)
     load = np.broadcast_to(LOADS[:, None] * np.exp(loads * rng.normal(size=surfaces)), factor.shape)
@@ -111,7 +113,9 @@ def test_shifts_within_reach_of_the_polynomial_are_recovered_to_rounding():
     assert found.both.vertical.value == pytest.approx(-0.1 * np.log(SPEEDS / SPEEDS[2]), abs=1e-6)
     assert found.both.misfit.value < 1e-8
     assert found.degree == 4
-    for each, lift, along in zip(found.curves, found.both.vertical.value, found.both.horizontal.value, strict=True):
+    for each, lift, along in zip(
+        found.curves, found.both.vertical.value, found.both.horizontal.value, strict=True
+    ):
         assert found.both.curve(each.log_load + along) == pytest.approx(each.log_friction + lift, abs=1e-7)
 
 
@@ -307,7 +311,7 @@ def rates(draw, repeats, law, seed, **changed):
 
 
 def least(repeats, rate=0.93):
-    """Least share of an interval of 95 %: first-order theory may lose 2 %, and three deviations of as many repeats."""
+    """Least share of 95 %: first-order theory may lose 2 %, and three deviations of as many repeats."""
     return rate - 3 * sqrt(rate * (1 - rate) / repeats)
 
 
@@ -353,7 +357,11 @@ def test_noise_never_makes_a_claim_hold(draw, repeats, bend):
 @pytest.mark.parametrize("law", [cubic, knee])
 @pytest.mark.parametrize(
     "draw",
-    [*(on_surfaces(n, scatter) for n in (3, 10) for scatter in (0.05, 0.2)), by_points(0.01, 6), by_points(0.05, 50)],
+    [
+        *(on_surfaces(n, scatter) for n in (3, 10) for scatter in (0.05, 0.2)),
+        by_points(0.01, 6),
+        by_points(0.05, 50),
+    ],
 )
 def test_the_right_law_is_kept_in_hundreds_of_repeats(draw, law):
     found = rates(draw, 500, law, seed=5)

@@ -1,4 +1,4 @@
-"""Friction against load at many speeds, the curves shifted onto one, and the shifts that do so (paper, Figs. 5 to 7)."""
+"""Friction against load at many speeds, the curves shifted onto one, and the shifts (paper, Figs. 5 to 7)."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -6,6 +6,7 @@ from math import nan
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
@@ -44,7 +45,7 @@ class ShiftedCurves:
 
     @property
     def decided(self) -> bool:
-        """Whether the shifts mean anything: not of curves that they do not bring onto one, nor of those that part."""
+        """Whether the shifts mean anything: not where they bring the curves onto none, or the curves part."""
         return not self.collapse.horizontal.reason and self.finding.verdict != FAILS
 
 
@@ -57,11 +58,11 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Pl
         for table, frame in _tables(each).items():
             frame.insert(0, "curves", each.title)
             parts[table].append(frame)
-    tables = {name + table.removeprefix(NAME): concat(frames, ignore_index=True) for table, frames in parts.items()}
+    tables = {name + key.removeprefix(NAME): concat(frames, ignore_index=True) for key, frames in parts.items()}
     caption = (
         "Friction against normal force, a curve for each speed; the curves shifted along the force so as to come "
-        "closest to one (Eq. 23); and the shift. Bars are intervals of 95 %. Shifts of curves that do not collapse "
-        f"are hollow; curves that part are shifted as expected, if at all. {about}"
+        "closest to one (Eq. 23); and the shift. Bars are intervals of 95 %. Shifts of curves that do not "
+        f"collapse are hollow; curves that part are shifted as expected, if at all. {about}"
     )
     alternative = "; ".join(f"{each.title}: collapse {each.finding.verdict}" for each in rows)
     return Plot(name, figure, tables, caption.strip(), alternative, {"name": name})
@@ -69,7 +70,8 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Pl
 
 def figure(tables: Tables, name: str = NAME) -> Figure:
     """A row for each set of curves: as they are, shifted, and the shifts."""
-    points, shifts, powers, fits = (tables[name + each.removeprefix(NAME)] for each in (NAME, SHIFTS, POWERS, FITS))
+    names = (each.removeprefix(NAME) for each in (NAME, SHIFTS, POWERS, FITS))
+    points, shifts, powers, fits = (tables[name + each] for each in names)
     count = len(fits)
     drawing = style.canvas("double", 0.55 + 2.1 * count)
     panels = drawing.subplots(count, 3, squeeze=False)
@@ -78,8 +80,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
         own, moved, lines = (each[each["curves"] == fit["curves"]] for each in (points, shifts, powers))
         row[1].sharey(row[0])
         for axes, across in zip(row, ("normal_force", "shifted_force"), strict=False):
-            for speed, curve in own.groupby("speed"):
-                _curve(axes, curve, across, shades.SPEED(between(speed)))
+            _curves(axes, own, across, shades.SPEED(between(own["speed"].to_numpy())))
             axes.set(xscale="log", yscale="log")
         if own["shifted_force"].isna().all():
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
@@ -142,25 +143,22 @@ def _verdict(fit):
     return f"collapse {fit['verdict']}{how}{misfit}"
 
 
-def _curve(axes: Axes, curve: DataFrame, across: str, colour) -> None:
-    """A line with intervals; points filled where the conditions of the laws hold, or none are known."""
-    x, mu = curve[across], curve["friction_coefficient"]
-    if x.isna().any():
-        return
-    axes.errorbar(
-        x,
-        mu,
-        yerr=style.bars(mu, curve["friction_coefficient_low"], curve["friction_coefficient_high"]),
-        color=colour,
-        linewidth=style.width(0.45),
-        elinewidth=style.width(0.45),
-        capsize=0,
-    )
-    holds = curve["holds"].to_numpy(bool) if "holds" in curve else np.ones(len(curve), bool)
-    for at, inside in ((holds, colour), (~holds, style.paper())):
-        axes.scatter(
-            x[at], mu[at], s=style.mark(0.5) ** 2, c=[inside], edgecolors=[colour], linewidths=style.width(0.35), zorder=2.5
-        )
+def _curves(axes: Axes, points: DataFrame, across: str, colours: np.ndarray) -> None:
+    """Lines with intervals; points filled where the conditions of the laws hold, or none are known."""
+    known = points[across].notna().to_numpy()
+    points, colours = points[known], colours[known]
+    x, mu, speed = (points[name].to_numpy() for name in (across, "friction_coefficient", "speed"))
+    at = [np.flatnonzero(speed == each) for each in np.unique(speed)]
+    lines = [np.column_stack([x[each], mu[each]]) for each in at]
+    shade = [colours[each[0]] for each in at]
+    axes.add_collection(LineCollection(lines, colors=shade, linewidths=style.width(0.45), zorder=2))
+    ends = style.bars(mu, points["friction_coefficient_low"], points["friction_coefficient_high"])
+    axes.errorbar(x, mu, yerr=ends, fmt="none", ecolor=colours, elinewidth=style.width(0.45), capsize=0)
+    holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
+    look = {"s": style.mark(0.5) ** 2, "linewidths": style.width(0.35), "zorder": 2.5}
+    for where, inside in ((holds, colours[holds]), (~holds, style.paper())):
+        if where.any():
+            axes.scatter(x[where], mu[where], facecolors=inside, edgecolors=colours[where], **look)
 
 
 def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> None:
@@ -171,9 +169,8 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> N
     if known.any():
         axes.errorbar(speed, shift, yerr=ends, fmt="none", ecolor=colours, capsize=0)
         inside = colours if fit["decided"] else style.paper()
-        axes.scatter(
-            speed, shift, s=style.mark(0.8) ** 2, facecolors=inside, edgecolors=colours, linewidths=style.width(0.8), zorder=2
-        )
+        look = {"facecolors": inside, "edgecolors": colours, "linewidths": style.width(0.8)}
+        axes.scatter(speed, shift, s=style.mark(0.8) ** 2, zorder=2, **look)
     decades, others = np.log10(speed / fit["reference_speed"]), iter(OTHERS)
     for power in powers.itertuples():
         label = f"{power.power} {power.exponent:.3g}"

@@ -60,7 +60,8 @@ def figure(tables: Tables, hurst: float | None = None) -> Figure:
     left.set(ylabel=r"$C_{2D}$ [m$^4$]", title="(a)")
     light = {"color": style.grey(0.5), "linewidth": style.width(0.8)}
     right.plot(rows["q"], rows["density_1d"], label="rows of the map", **light)
-    right.plot(rings["q"], rings["density_1d_mapped"], color=style.COLOUR["MDR"], label=r"$\pi q\, C_{2D}$", **points)
+    of_mdr = {**points, "color": style.COLOUR["MDR"]}
+    right.plot(rings["q"], rings["density_1d_mapped"], label=r"$\pi q\, C_{2D}$", **of_mdr)
     right.set(ylabel=r"$C_{1D}$ [m$^3$]", title="(b)")
     for axes in (left, right):
         axes.set(xscale="log", yscale="log", xlabel="wave number q [rad/m]")

@@ -123,7 +123,7 @@ class Collapse:
 
     @property
     def shifts(self) -> DataFrame:
-        """Shifts of each speed with intervals of 95 %: along the force, and along friction where both are shifted."""
+        """Shifts of each speed with intervals of 95 %: along the force; along friction where both are shifted."""
         columns: dict[str, np.ndarray] = {"speed": self.speeds}
         for name, found in (("log_shift", self.horizontal.horizontal), ("log_lift", self.both.vertical)):
             low, high = found.interval()
@@ -177,10 +177,23 @@ def collapse(data: FrictionCurves) -> Collapse:
     )
 
 
+def along_load(data: FrictionCurves) -> Alignment:
+    """The best horizontal shifts alone, of curves such as those of a law that ask no other question.
+
+    Raises ValueError with fewer than two speeds or fewer points than unknowns.
+    """
+    complete = data.complete()
+    curves = complete.curves
+    if len(curves) < 2 or sum(curve.log_load.size for curve in curves) <= len(curves) + DEGREE:
+        raise ValueError(f"{len(curves)} speeds with too few points for as many shifts: add loads or speeds")
+    fit = Fit(curves, DEGREE)
+    return _moved(complete, fit, _best(fit, np.zeros(len(curves) - 1)))
+
+
 def _with_errors(data, curves):
     """Curves with standard errors, to first order."""
-    errors = data.replicates(np.zeros(sum(curve.log_load.size for curve in curves)), data.deviations()).estimated.error
-    parts = np.split(errors, np.cumsum([curve.log_load.size for curve in curves])[:-1])
+    ends = np.cumsum([curve.log_load.size for curve in curves])
+    parts = np.split(data.replicates(np.zeros(ends[-1]), data.deviations()).estimated.error, ends[:-1])
     return tuple(replace(curve, error=error) for curve, error in zip(curves, parts, strict=True))
 
 

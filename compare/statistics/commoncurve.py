@@ -41,7 +41,7 @@ class Common:
 
 
 class Fit:
-    """Misfit of the curves to their best common polynomial, given the increments of the shifts from speed to speed.
+    """Misfit of curves to their best common polynomial, given the increments of the shifts from speed to speed.
 
     degree : of the polynomial
     lifted : whether each curve is shifted vertically too, as fits best
@@ -114,7 +114,7 @@ def bounds(curves: Sequence[Curve]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def near(fit: Fit, guess: np.ndarray) -> np.ndarray:
-    """Increments of least misfit close to a guess (Gauss-Newton), from a search within the bounds if not that close."""
+    """Increments of least misfit close to a guess (Gauss-Newton); by a search within the bounds if none is near."""
     lower, upper = bounds(fit.curves)
     at, least = guess, np.inf
     for _ in range(_STEPS):

@@ -1,6 +1,6 @@
 """Claims of Eqs. 22 and 23: what shifts of friction at several speeds, fitted or predicted, come to."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import isfinite, nan
 
@@ -64,7 +64,7 @@ def findings(
     fine: Collapse,
     coarse: Collapse | None,
     dimension: str,
-    shifts: np.ndarray | None = None,
+    shifts: Mapping[float, float] | np.ndarray | None = None,
     exponent: float = nan,
     where: str = "",
     draws: int | None = None,
@@ -74,12 +74,14 @@ def findings(
     """Every finding on the shifts of one set of curves.
 
     coarse : the collapse on a grid of half the points; None of data without a grid, which have no error of one
-    shifts : ln p(v) that the theory predicts for `fine.speeds` (S,); None where it predicts none
+    shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,) or by speed; None where it predicts none
     exponent : of p(v) as a power of the speed, predicted; NaN where p(v) is none
     draws : number of random surfaces; that of the fit if None
     plots : names of the plots that show the collapse, and the shifts
     """
     parted, straight = fine.horizontal.reason, fine.inseparable
+    if shifts is not None and not isinstance(shifts, Mapping):
+        shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
     measured: list[tuple[Claim, str, str]] = [
         (COLLAPSE, straight or _unless_beyond(fine.horizontal.misfit, parted), plots[0]),
         (VERTICAL, straight or _unless_beyond(fine.horizontal.mended, parted), plots[1]),
@@ -132,7 +134,7 @@ def shiftable(speeds: int, points: int) -> bool:
 def _number(found, claim, shifts):
     """Number of a fit that a claim is on."""
     if claim == PREDICTED.id:
-        return found.misfit_at(shifts)
+        return found.misfit_at(np.array([shifts[speed] for speed in found.speeds.tolist()]))
     return {
         COLLAPSE.id: found.horizontal.misfit,
         VERTICAL.id: found.horizontal.mended,
@@ -144,5 +146,5 @@ def _number(found, claim, shifts):
 
 
 def _unless_beyond(missed, reason):
-    """The reason, unless the misfit is beyond the tolerance: curves that part miss by more at any larger overlap."""
+    """The reason, unless the misfit is too large: curves that part miss by more at any larger overlap."""
     return "" if missed.interval()[0] > TOLERANCE else reason

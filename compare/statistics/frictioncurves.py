@@ -1,4 +1,4 @@
-"""Curves of friction against load at several speeds: simulated on the same rough surfaces, or measured by points."""
+"""Curves of friction against load at several speeds: simulated on the same rough surfaces, or measured."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -199,7 +199,7 @@ class MeasuredCurves:
             unknown = {name: np.full((1, *np.shape(value)), nan) for name, value in whole.items()}
             return {name: self.replicates(value, unknown[name]) for name, value in whole.items()}
         moved = [
-            [statistic(self._moved(point, sign * errors[point])) for sign in (1, -1)] for point in range(self.points)
+            [statistic(self._moved(point, by)) for by in (error, -error)] for point, error in enumerate(errors)
         ]
         return {
             name: self.replicates(value, np.array([(up[name] - down[name]) / 2 for up, down in moved]))

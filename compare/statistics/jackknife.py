@@ -5,7 +5,7 @@ is inside as often as stated from three surfaces on; percentiles of resampled su
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot, inf, nan, sqrt
 from typing import Generic, Protocol, Self, TypeVar
 
@@ -264,6 +264,7 @@ class Sample(Mapping[str, xarray.Dataset]):
     """
 
     datasets: Mapping[str, xarray.Dataset]
+    _left: dict[tuple[int, ...], "Sample"] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod
     def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
@@ -297,9 +298,15 @@ class Sample(Mapping[str, xarray.Dataset]):
         return groups(self.draws) if self.draws else []
 
     def without(self, group: np.ndarray) -> Self:
-        """The sample without one group of draws, or without one share of the draws of each solver."""
-        shares = len(self.groups) if len(self._counts) > 1 else 0
-        return type(self)({name: _without(each, group, shares) for name, each in self.items()})
+        """The sample without one group of draws, or without one share of the draws of each solver.
+
+        It is kept, as every claim on the same Datasets asks for the same ones.
+        """
+        key = tuple(group.tolist())
+        if key not in self._left:
+            shares = len(self.groups) if len(self._counts) > 1 else 0
+            self._left[key] = type(self)({name: _without(each, group, shares) for name, each in self.items()})
+        return self._left[key]
 
 
 def _without(dataset, group, shares):

@@ -122,7 +122,7 @@ def _tried(bands, spectra):
 
 
 def _best(bands, squares, slopes):
-    """Bands of least Bayesian information criterion, for each of many spectra, of the laws as steep as a surface."""
+    """Bands of least Bayesian information criterion of many spectra, of the laws as steep as a surface."""
     unknowns = np.array([band.unknowns for band in bands])[:, None]
     criteria = squares + unknowns * np.log(bands[0].count)
     possible = (slopes >= -2 * STEEPEST - 2) & (slopes <= -2 * FLATTEST - 2)

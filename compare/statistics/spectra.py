@@ -93,7 +93,7 @@ class Description:
 
 
 def describe(topography: Topography) -> Description:
-    """Description of a map. Raises ValueError for a map without heights, or without waves to average over directions."""
+    """Description of a map. Raises ValueError where it has no heights, or no waves to average over directions."""
     relief, waves = topography.relief, topography.waves
     if not relief.any():
         raise ValueError(f"heights are none once level = {topography.level!r} is taken off")
@@ -142,7 +142,7 @@ def rings_of(topography: Topography) -> Rings:
 
 
 def _freedoms(topography, shape):
-    """Independent numbers of each wave: modulus and phase; of a mirrored map one number for the waves that are mirror images."""
+    """Independent numbers of each wave: modulus and phase; of a mirrored map one for waves that are images."""
     if topography.repeat == "periodic":
         return np.full(shape, 2.0)
     freedoms = np.full(shape, 0.5)

@@ -170,13 +170,14 @@ class Mastercurve(Study):
 def read_measured(path: str | Path) -> xarray.Dataset:
     """Table of friction coefficient mu, normal force F_N [N] and speed v [m/s], a row a measurement.
 
-    Columns stand in this order, or as a heading names them. Raises ValueError naming file, line and what is allowed.
+    Columns stand in this order, or as a heading names them. Raises ValueError naming file, line and allowed values.
     """
     heading, rows = read_rows(path, COLUMNS)
     order = _order(heading)
     columns = np.array(rows, float).reshape(-1, len(COLUMNS))[:, order].T
     variables = {
-        name: ("measurement", column, attributes(name)) for name, column in zip(VARIABLES.values(), columns, strict=True)
+        name: ("measurement", column, attributes(name))
+        for name, column in zip(VARIABLES.values(), columns, strict=True)
     }
     return xarray.Dataset(variables)
 

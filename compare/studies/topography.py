@@ -31,7 +31,9 @@ CLAIMS = {
         Claim("topography.rms-slope", "Rms slope of the full gradient, spectral", meaning=BY_WAVES),
         Claim("topography.rms-slope-x", "Rms slope along x, spectral", meaning=BY_WAVES),
         Claim("topography.rms-slope-y", "Rms slope along y, spectral", meaning=BY_WAVES),
-        Claim("topography.rms-difference", "Rms slope of the full gradient, by differences", meaning=BY_DIFFERENCES),
+        Claim(
+            "topography.rms-difference", "Rms slope of the full gradient, by differences", meaning=BY_DIFFERENCES
+        ),
         Claim("topography.rms-difference-x", "Rms slope along x, by differences", meaning=BY_DIFFERENCES),
         Claim("topography.rms-difference-y", "Rms slope along y, by differences", meaning=BY_DIFFERENCES),
         Claim(
