@@ -4,7 +4,7 @@ import io
 from pathlib import Path
 
 import pandas
-from pandas import DataFrame
+from pandas import DataFrame, Series
 
 from scene.reading import InvalidInput
 
@@ -30,9 +30,21 @@ def read(path: Path) -> DataFrame:
         content = path.read_text(encoding="utf-8")
         if not content.strip():
             return DataFrame()
-        return pandas.read_csv(
-            io.StringIO(content), float_precision="round_trip", keep_default_na=False, na_values=[NOT_KNOWN]
-        )
+        # Which digits a reader of numbers keeps differs between versions of pandas; Python keeps all of them.
+        words = pandas.read_csv(io.StringIO(content), dtype=str, keep_default_na=False)
+        return words.apply(_numbers)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         raise InvalidInput(f"{path}: is no table as a command leaves it: {reason}") from error
+
+
+def _numbers(column: Series) -> Series:
+    """A column of words as whole numbers, as numbers or as truth values where all of them are."""
+    if set(column) <= {"True", "False"} and len(column):
+        return column == "True"
+    for kind in (int, float):
+        try:
+            return Series([kind(word) for word in column], column.index, name=column.name)
+        except ValueError:
+            continue
+    return column

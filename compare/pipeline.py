@@ -162,8 +162,9 @@ class Figures(Mapping[str, Figure]):
     def __getitem__(self, name: str) -> Figure:
         from .plots import style
 
+        plot = {each.name: each for each in self.plots}[name]
         with style.applied():
-            figure = next(plot for plot in self.plots if plot.name == name).figure()
+            figure = plot.figure()
         figure._repr_png_ = lambda: _png(figure)
         return figure
 

