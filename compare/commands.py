@@ -118,7 +118,7 @@ def workprecision(
     name : of a diagram, or "all"; absent, the diagrams are listed. What is timed is solved on this machine, alone
     size : "quick" (a minute a diagram), "standard" or "full" (up to ten)
     """
-    from .studies.workprecision import WorkPrecision
+    from .studies.workprecision.study import WorkPrecision
 
     if name is None:
         return WorkPrecision.listing()

@@ -28,7 +28,7 @@ DOORS = {
 }
 # Floors of the judge, from the ground up: a room imports rooms of its own floor and of those below.
 FLOORS = (
-    {"outcome", "vocabulary", "suggest", "netcdf"},
+    {"outcome", "vocabulary", "suggest", "netcdf", "amounts"},
     {"task", "finding", "exact", "page", "library"},
     {
         "store",

@@ -9,6 +9,7 @@ import xarray
 from scene.reading import InvalidInput
 
 from ...finding import Finding
+from ...library import Listing
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Text
 from ...pipeline import Study
@@ -70,6 +71,11 @@ class WorkPrecision(Study):
             raise InvalidInput(f"size = {size}: allowed are {', '.join(SIZES)}")
         return cls(tuple(DIAGRAMS) if ALL in asked else tuple(dict.fromkeys(asked)), size)
 
+    @staticmethod
+    def listing() -> Listing:
+        """Diagrams to choose from."""
+        return Listing(DIAGRAMS, end=f"`crosscheck workprecision NAME` measures one; {ALL}, every one of them.")
+
     @property
     def inputs(self) -> Mapping[str, Any]:
         """Names and size."""
@@ -107,8 +113,12 @@ class WorkPrecision(Study):
         return [plot for each in self.diagrams for plot in each.plots(answers[each.name])]
 
     def answer(self, findings: Sequence[Finding]) -> list[str]:
-        """A sentence for each claim, from all of its findings."""
-        return advice(findings)
+        """A sentence for each claim of each diagram, from all of its findings."""
+        told = []
+        for each in self.diagrams:
+            heading = f"{each.title}: " if len(self.diagrams) > 1 else ""
+            told += [f"{heading}{sentence}" for sentence in advice(self._of(each, findings))]
+        return told
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
@@ -116,9 +126,13 @@ class WorkPrecision(Study):
         """A section a diagram."""
         found = [Text(ABOUT.replace("\n", " "))]
         for each in self.diagrams:
-            own = [finding for finding in findings if finding.claim.id.startswith(f"workprecision.{each.name}.")]
-            node = answers[each.name]
-            told = [Text(each.about), Text("\n".join(f"- {sentence}" for sentence in advice(own)))]
             figures = [plot for plot in plots if plot.name.startswith(f"workprecision-{each.name}")]
-            found.append(Section(each.title, [*told, *figures, *each.tables(node), Findings(own)]))
+            tables = each.tables(answers[each.name])
+            found.append(
+                Section(each.title, [Text(each.about), *figures, *tables, Findings(self._of(each, findings))])
+            )
         return found
+
+    @staticmethod
+    def _of(diagram, findings):
+        return [each for each in findings if each.claim.id.startswith(f"workprecision.{diagram.name}.")]

@@ -10,6 +10,8 @@ import numpy as np
 
 from bem3d import BEM
 from bem3d.accuracy import LADDER, Unconfirmed, apart, band
+from compare.outcome import Outcome, Row, row
+from compare.task import SCENES, SceneTask, Task
 from scene import (
     Cone,
     Fractional,
@@ -27,11 +29,6 @@ from scene import (
 from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
-from ..outcome import Outcome, Row, row
-from ..store import Task
-from ..study import SCENES
-from ..study import Task as Solves
-from .contest import work
 from .ladder import TIGHT, missing
 
 WANTED = (0.1, 0.03, 0.01, 0.003)
@@ -52,7 +49,7 @@ SOLIDS: dict[str, Elastomer] = {
 
 @dataclass(frozen=True)
 class Promise:
-    """A task, as of store: an answer with settings chosen for a wanted error.
+    """A task: an answer with settings chosen for a wanted error.
 
     Its row is the answer's; measures has besides those: points, expected and promised_seconds of a promise that
     was made, and the change of the quantity from half the points to all.
@@ -63,7 +60,7 @@ class Promise:
     wanted: float
     work: float = 1e8
     keeps_fields = False
-    packages = ("scene", "bem3d", "compare.workprecision.ladder", __name__)
+    packages = ("scene", "bem3d", f"{__package__}.ladder", __name__)
 
     @property
     def label(self) -> str:
@@ -78,7 +75,7 @@ class Promise:
         return {"promise": scene, "quantity": self.quantity, "wanted": self.wanted, "ladder": ladder}
 
     def solve(self) -> Outcome:
-        """What was promised, and what was kept; NaN with its reason where none was made."""
+        """Answer with the settings promised; NaN with its reason where none was made."""
         try:
             choice = BEM.for_accuracy(self.scene, **{self.quantity: self.wanted})
         except (SolveError, ValueError) as reason:
@@ -116,10 +113,10 @@ def asked() -> list[Promise]:
     ]
 
 
-def truth(scene: Scene) -> Solves:
-    """What the answers to a scene are checked against."""
+def truth(scene: Scene) -> SceneTask:
+    """Task against which the answers to a scene are checked."""
     solver = BEM(points=FINEST, tolerance=TIGHT)
-    return Solves(solver, (scene,), work=work(solver))
+    return SceneTask(solver, (scene,), work=FINEST**2.2 * 50.0)
 
 
 def rows(tasks: Sequence[Promise], outcomes: Mapping[Task, Outcome]) -> list[dict]:
@@ -183,7 +180,7 @@ def scenes() -> Iterator[Scene]:
 
 
 def _speed(draw, solid, length):
-    """At which the memory of the solid is a thousandth to a hundred times a length [m]."""
+    """Speed at which the memory of the solid is a thousandth to a hundred times a length [m]."""
     _, compliances, times = solid.retardation()
     memory = float(compliances @ times**2 / (compliances @ times))
     return float(10 ** draw.uniform(-3, 2)) * length / memory

@@ -1,5 +1,4 @@
-"""How large errors of three dimensions are, by how finely a contact is resolved: the ladder behind
-`BEM.for_accuracy`, and whether it keeps its promises on other scenes.
+"""Errors of three dimensions by how finely a contact is resolved: the ladder behind `BEM.for_accuracy`.
 
 All in units of the contact: radius of curvature 1 m, contact radius about 0.1 m, retardation in 1 s, E* = 1 Pa.
 """
@@ -14,6 +13,8 @@ import numpy as np
 from bem3d import BEM
 from bem3d.accuracy import BANDS, COSTS, LADDERS, apart, band, resolution
 from bem3d.sliding import Flow
+from compare.outcome import Outcome, Row
+from compare.task import SceneTask, Task
 from scene import (
     Cone,
     Cylinder,
@@ -30,9 +31,6 @@ from scene import (
 from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
-from ..outcome import Outcome, Row
-from ..store import Task
-from ..study import Task as Solves
 
 RADIUS = 0.1  # of the smooth contact at rest [m]
 KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
@@ -71,18 +69,18 @@ class Probe:
 
     @property
     def body(self) -> str:
-        """smooth or rough."""
+        """Kind of body: smooth or rough."""
         return "smooth" if self.scene.roughness is None else "rough"
 
     @property
     def tasks(self) -> list[Task]:
-        """One a grid."""
+        """Tasks, one a grid."""
         solvers = (BEM(points=n, tolerance=TIGHT) for n in self.points)
-        return [Solves(each, (self.scene,), work=each.points**2.2 * 50.0) for each in solvers]
+        return [SceneTask(each, (self.scene,), work=each.points**2.2 * 50.0) for each in solvers]
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """Whose error is asked."""
+        """Quantities whose error is asked for."""
         motion, elastomer = self.scene.motion, self.scene.solid
         found = ("friction",) if motion.speed and len(elastomer.retardation()[2]) else ()
         if isinstance(self.scene.indenter, Plane | Cylinder):

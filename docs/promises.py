@@ -1,43 +1,27 @@
-"""What accuracy costs in time: writes docs/workprecision.md and docs/promises.md, with docs/workprecision/.
+"""Settings for a wanted accuracy: writes docs/promises.md, with docs/promises.
 
-The same is `crosscheck workprecision all --size full`, which writes a page to read, but for the promises of
-`BEM.for_accuracy`. What has been measured once is in docs/workprecision/solved. It wants a quiet machine.
+What has been solved once is in docs/promises/solved.
 
-python docs/workprecision.py [ladder]   with the word ladder, writes anew what the promises rest on
+python docs/promises.py [ladder]   with the word ladder, writes anew what the promises rest on, bem3d/ladder.csv
 """
 
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from pandas import DataFrame
+from promises_page import ladder, promises
 from rich.console import Console
 from tables import table
 
 import bem3d.accuracy
+from compare import csvfiles
 from compare.progress import watch
-from compare.publish import machine, versions, write_csv, write_text
+from compare.runner import sweep
 from compare.store import Store
-from compare.sweep import sweep
-from compare.workprecision import ladder, promises
-from compare.workprecision.catalogue import INQUIRIES
-from compare.workprecision.report import Chapter, chapter
 
 FOLDER = Path(__file__).with_suffix("")
-SIZE = "full"
 COUNTS = ("asked", "made", "checked", "kept", "confirmed", "confirmed_and_kept")
-INTRODUCTION = """# What accuracy costs in time
-
-Measured by `python docs/workprecision.py`, which writes this page; `crosscheck workprecision NAME` measures one
-of its parts on your machine, quickly, and with `--size full` as here. {machine}
-
-Errors are relative: against a closed form where there is one, elsewhere against a far finer solution of the
-same, whose own error is the grey band; points within it are drawn hollow and say only that they are as good as
-that. Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
-solve alone in a process of its own, after one that loads compiled code. A setting counts as reaching an error
-only if all finer ones of its ladder do; the finest has none that could confirm it. A solve that fails is NaN,
-with its reason in the table.
-
-"""
 PROMISES = """# Settings for a wanted accuracy
 
 `BEM.for_accuracy(scene, friction=0.01)` takes the least points and the loosest tolerance that keep the error
@@ -60,7 +44,7 @@ grid where that falls with the first power of the points or faster, and where it
 `Unconfirmed` is warned. No promise is made of programs, of roughness without a shortest wave, nor of errors
 below those measured. The seconds are medians of solves to {tight:g}.
 
-Written by `python docs/workprecision.py`.
+Written by `python docs/promises.py`.
 
 ## The ladder
 
@@ -76,7 +60,7 @@ Asked on {scenes} scenes of which the ladder knows nothing: other speeds and loa
 blunt body of another exponent, a steeper cone, a solid of three relaxation times, one with a glass a hundred
 times as stiff, a fractional one. Errors are against {finest} points a side, where that is twice those chosen or
 more, multiplied as above. Confirmed: changed by less than was wanted from half the points to all. All of them,
-with the reasons why some were not made: [promises.csv](workprecision/promises.csv).
+with the reasons why some were not made: [promises.csv](promises/promises.csv).
 
 {kept}
 
@@ -86,40 +70,26 @@ with the reasons why some were not made: [promises.csv](workprecision/promises.c
 
 Median relative errors of the estimates that the answer joins (theory, Eqs. 5c to 5f), against its own on 512
 points, over all contacts of the ladder: by the length that the solid remembers over the pixel. Numbers:
-[estimates.csv](workprecision/estimates.csv).
+[estimates.csv](promises/estimates.csv).
 
 {estimates}
 """
 
 
 def main() -> None:
-    """Measure everything and write the pages."""
+    """Measure the ladder and the promises, and write the page."""
     console, store = Console(highlight=False, soft_wrap=True), Store(FOLDER / "solved")
     measured = ladder.probes()
     outcomes = _swept(console, store, [task for probe in measured for task in probe.tasks])
     estimates = ladder.estimates(measured, outcomes)
-    write_csv(FOLDER / "estimates.csv", estimates)
+    _write(FOLDER / "estimates.csv", estimates)
     if "ladder" in sys.argv[1:]:
-        write_csv(bem3d.accuracy.LADDER, ladder.rows(measured, outcomes))
-    outcomes = _swept(console, store, [task for each in INQUIRIES.values() for task in each.untimed(SIZE)])
-    timed = [task for each in INQUIRIES.values() for task in each.timed(SIZE)]
-    outcomes = {**outcomes, **_swept(console, store, timed, 1, tasks_each=1)}
-    chapters = [chapter(FOLDER, each, each.judge(SIZE, outcomes)) for each in INQUIRIES.values()]
-    write_text(Path(__file__).with_suffix(".md"), page(chapters))
+        _write(bem3d.accuracy.LADDER, ladder.rows(measured, outcomes))
     asked = promises.asked()
     truths = [promises.truth(scene) for scene in promises.scenes()]
     made = promises.rows(asked, _swept(console, store, [*asked, *truths]))
-    write_csv(FOLDER / "promises.csv", made)
-    write_text(Path(__file__).with_name("promises.md"), promised(made, estimates))
-
-
-def page(chapters: Sequence[Chapter]) -> str:
-    """Everything but the promises."""
-    told = ", ".join(f"{name} {number}" for name, number in versions().items())
-    where = "{system}, {machine}, {processors} processors".format(**machine())
-    parts = [INTRODUCTION.format(machine=f"{where}; {told}.")]
-    parts += [f"- [{each.title}](#{_anchor(each.title)})\n" for each in chapters]
-    return "".join(parts) + "\n" + "\n".join(_section(each) for each in chapters)
+    _write(FOLDER / "promises.csv", made)
+    csvfiles.write_text(Path(__file__).with_suffix(".md"), promised(made, estimates))
 
 
 def promised(made: Sequence[Mapping], estimates: Sequence[Mapping]) -> str:
@@ -141,23 +111,13 @@ def promised(made: Sequence[Mapping], estimates: Sequence[Mapping]) -> str:
     )
 
 
-def _swept(console, store, tasks, workers=None, **how):
+def _swept(console, store, tasks):
     with watch(console) as progress:
-        return sweep(tasks, store, workers, progress, **how).outcomes
+        return sweep(tasks, store, None, progress).outcomes
 
 
-def _section(each: Chapter) -> str:
-    lines = [f"## {each.title}", each.about, f"**What to do.** {each.advice}"]
-    for figure in each.figures:
-        lines += [f"![{figure.name}]({FOLDER.name}/{figure.name}.png)", figure.caption]
-    for title, rows in each.tables.items():
-        lines += [f"### {title}", _table(rows)] if rows else []
-    sheets = (f"[{sheet}.csv]({FOLDER.name}/{sheet}.csv)" for sheet in each.sheets)
-    return "\n\n".join([*lines, f"Numbers: {', '.join(sheets)}."]) + "\n"
-
-
-def _table(rows: Sequence[Mapping[str, str]]) -> str:
-    return table("|".join(rows[0]), (tuple(row.values()) for row in rows))
+def _write(path: Path, rows: Sequence[Mapping]) -> None:
+    csvfiles.write_text(path, csvfiles.text(DataFrame(rows)))
 
 
 def _ladder() -> str:
@@ -194,10 +154,6 @@ def _estimates(found) -> str:
     return table(
         "memory over pixel|answers|joined|by traction|by loss|by curvature|joined, 90 % are below", rows()
     )
-
-
-def _anchor(title: str) -> str:
-    return "".join(c for c in title.lower().replace(" ", "-") if c.isalnum() or c == "-")
 
 
 if __name__ == "__main__":

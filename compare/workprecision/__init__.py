@@ -1,1 +1,0 @@
-"""What accuracy costs in time: ladders of settings, measured against what is known better."""
