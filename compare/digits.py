@@ -39,7 +39,7 @@ def number(value: float, digits: int = DIGITS) -> str:
 
 
 def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str:
-    """A number with the ends of its interval, all to two digits of half the interval; the number alone without one."""
+    """A number with the ends of its interval, to two digits of half of it; the number alone without one."""
     half = (high - low) / 2
     if not (isfinite(value) and ROUNDING * abs(value) < half < inf):
         return number(value, digits)

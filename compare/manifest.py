@@ -104,7 +104,7 @@ def remove(folder: Path) -> None:
 
 
 def folders(folder: str | Path) -> Iterator[Folder]:
-    """A folder with a manifest, or those just below it. Raises InvalidInput where there is none or it is damaged."""
+    """A folder with a manifest, or those just below it. Raises InvalidInput of none or a damaged one."""
     folder = Path(folder)
     if not folder.is_dir():
         raise InvalidInput(f"{folder}: no such folder")

@@ -80,7 +80,7 @@ def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
 
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
-    """The function that draws a figure; InvalidInput of all but the functions of compare.plots that return a Figure."""
+    """The function that draws a figure. InvalidInput of any but those of compare.plots that return a Figure."""
     prefix = f"{plots.__name__}."
     if entry.module in {found.name for found in walk_packages(plots.__path__, prefix)}:
         draw = getattr(import_module(entry.module), entry.function, None)

@@ -71,8 +71,8 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
         frame = dataset[variables].to_dataframe().reset_index()
         if "status" in frame:
             frame = frame[frame["status"] != rectangle.NOT_ASKED]
-        few = "" if len(families) == 1 or len(variables) == max(map(len, families.values())) else f"-{'-'.join(dims)}"
-        yield f"{name}{few}", frame
+        most = len(variables) == max(map(len, families.values()))
+        yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
 
 
 def _printable(frame: DataFrame) -> DataFrame:

@@ -13,7 +13,7 @@ from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 from .netcdf import Group, Reader, Variable, encoded, opened
 from .outcome import Outcome, Row
 from .store import canonical
-from .terminology import ARRAYS, COSTS
+from .vocabulary import LABELS
 
 CONVENTIONS = "CF-1.11"
 # Variables that are no measures; no measure may be called so.
@@ -41,7 +41,7 @@ def written(
         values = [row.measures.get(name) for row in outcome.rows]
         absent[name] = [row for row, value in enumerate(values) if value is None]
         stored = np.array([math.nan if value is None else value for value in values], float)
-        variables[name] = Variable((ROWS,), stored, described(name, {**MEASURES, **COSTS}, indenter))
+        variables[name] = Variable((ROWS,), stored, described(name, {**LABELS, **MEASURES}, indenter))
     failed = np.array([row.reason is not None for row in outcome.rows], bool)
     if failed.any():
         reasons = texts(row.reason or "" for row in outcome.rows)
@@ -131,7 +131,9 @@ def along_axes(fields: Mapping[str, np.ndarray], indenter: str = "") -> Group:
         )
         if not agree:
             axes = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-        variables[name] = Variable(axes, values, described(name, FIELDS if agree else ARRAYS, indenter))
+        variables[name] = Variable(
+            axes, values, described(name, FIELDS if agree else {**LABELS, **MEASURES}, indenter)
+        )
     return Group(variables, {"fields": canonical(list(known))})
 
 

@@ -11,7 +11,7 @@ THEORY, PAPER = "theory, Eq. ", "Popov et al. 2014, Eq. "
 
 @dataclass(frozen=True)
 class Term(Entry):
-    """Entry with the formula, in symbols, and the equation of docs/theory.md or of the paper that it comes from."""
+    """Entry with its formula in symbols, and the equation of docs/theory.md or of the paper that it comes from."""
 
     formula: str = ""
     source: str = ""
@@ -46,17 +46,18 @@ LABELS: Mapping[str, Entry] = {
     "where": Entry("", "Case, series or diagram in which it was measured."),
     "dimension": Entry(
         "",
-        "1D: the method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: one over the other.",
+        "1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: one over the other.",
     ),
     "verdict": Entry(
         "",
-        "holds: the whole interval of 95 % lies within the tolerance around the number expected; fails: none of it does; "
-        "undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value "
-        "the verdict is whether the number is within its bound.",
+        "holds: the whole interval of 95 % lies within the tolerance around the number expected; fails: none of it "
+        "does; undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a "
+        "stored value the verdict is whether the number is within its bound.",
     ),
     "value": Entry(
         "",
-        "Number measured, with its interval of 95 % in brackets: scatter of surfaces, wider at both ends by the error of the grid.",
+        "Number measured, in brackets its interval of 95 %: scatter of surfaces, wider at both ends by the error "
+        "of the grid.",
     ),
     "low": Entry("", "Lower end of the interval of 95 %: scatter of surfaces, widened by the error of the grid."),
     "high": Entry("", "Upper end of the interval of 95 %: scatter of surfaces, widened by the error of the grid."),
@@ -65,11 +66,11 @@ LABELS: Mapping[str, Entry] = {
     "tolerance": Entry("", "How far from the number claimed still counts as it."),
     "scatter_low": Entry(
         "",
-        "Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out one or a group of them.",
+        "Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.",
     ),
     "scatter_high": Entry(
         "",
-        "Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out one or a group of them.",
+        "Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.",
     ),
     "grid_error": Entry("", "Error of discretisation, by which the interval is wider at both ends."),
     "grid_method": Entry(

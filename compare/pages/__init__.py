@@ -57,7 +57,7 @@ def write(
 
 
 def write_tables(page: Page, findings: Sequence[Finding], folder: Path) -> dict[str, str]:
-    """Write every table of a page as CSV, and all findings; returns the text of each by its name. Raises OSError."""
+    """Write every table of a page as CSV, and all findings; returns their texts by name. Raises OSError."""
     texts: dict[str, str] = {}
     for name, frame in _tables(page, findings):
         text = csvfiles.text(frame)

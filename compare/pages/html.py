@@ -1,4 +1,4 @@
-"""A page as one HTML file that needs nothing else: images and tables inside, usable offline and without scripts."""
+"""A page as one HTML file that needs nothing else: images and tables inside, offline and without scripts."""
 
 import base64
 from collections.abc import Iterator, Mapping
