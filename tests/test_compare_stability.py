@@ -135,6 +135,14 @@ def test_a_case_that_raises_is_broken_and_says_why(monkeypatch):
     )
 
 
+def test_cases_whose_tasks_broke_are_broken_each_with_the_reason():
+    tasks = [Examination(name, "quick") for name in CASES]
+    assert all(task.fits(task.failed("a fault")) for task in tasks)
+    _, found = judged({task.case: task.failed("a fault") for task in tasks})
+    assert {(each.verdict, each.reason) for each in found.values()} == {(FAILS, "a fault")}
+    assert len(found) == len(CASES)
+
+
 def test_findings_state_the_law_and_the_page_counts_them():
     answers, found = judged(MADE_UP)
     assert {name: each.verdict for name, each in found.items()} == {
