@@ -167,11 +167,11 @@ def on_two_grids(*solvers: MDR | BEM) -> dict[str, dict[str, Solver]]:
 
 def unique(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
     """Tasks of several rectangles, each once: rectangles that cross share the contacts where they do."""
-    found: dict = {}
+    found: dict[SceneTask, SceneTask] = {}
     for rectangle in rectangles.values():
         for task in rectangle.tasks():
-            if (task.solver, task.scenes) not in found or task.keeps_fields:
-                found[task.solver, task.scenes] = task
+            if task not in found or task.keeps_fields:
+                found[task] = task
     return list(found.values())
 
 

@@ -185,10 +185,9 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     """Figures of a case."""
     case, folder, points = found.case, f"{found.folder}/", found.points
     motion, law = case.motion, partial(friction_law, case)
+    below = answers.children.get(FIELDS, xarray.DataTree()).children
     fields = {
-        solver: {str(name): each.values for name, each in answers[f"{FIELDS}/{solver}"].variables.items()}
-        for solver in DIMENSIONS
-        if f"{FIELDS}/{solver}" in answers
+        solver: {str(name): each.values for name, each in node.variables.items()} for solver, node in below.items()
     }
     pressed = f"load of {motion.load:g} N" if motion.load is not None else f"depth of {motion.greatest * 1e6:g} µm"
     moved = f"at a {pressed}, sliding at {motion.speed:g} m/s" if motion.speed else f"at a {pressed}, at rest"
