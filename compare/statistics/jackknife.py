@@ -7,7 +7,7 @@ is inside as often as stated from three surfaces on; percentiles of resampled su
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot, inf, nan, sqrt
-from typing import Generic, Protocol, Self, TypeVar
+from typing import Any, Generic, Protocol, Self, TypeVar
 
 import numpy as np
 import xarray
@@ -23,14 +23,22 @@ MOST_GROUPS = 20
 
 
 class Grouped(Protocol):
-    """What is averaged over surfaces."""
+    """Something averaged over surfaces."""
 
     @property
     def groups(self) -> Sequence[np.ndarray]:
         """Indices of the surfaces that are left out together; none of a body that has no random surface."""
 
-    def without(self, group: np.ndarray) -> Self:
+    def without(self, group: np.ndarray) -> "Grouped":
         """The same without some surfaces."""
+
+
+class Drawn(Grouped, Protocol):
+    """Something averaged over a number of surfaces that is told."""
+
+    @property
+    def draws(self) -> int:
+        """Number of surfaces; 0 of smooth bodies."""
 
 
 Value = TypeVar("Value", float, np.ndarray)
@@ -181,7 +189,7 @@ def groups(count: int) -> list[np.ndarray]:
 
 
 def resample(
-    statistic: Callable[[Grouped], Mapping[str, float | np.ndarray]], samples: Grouped
+    statistic: Callable[[Any], Mapping[str, float | np.ndarray]], samples: Grouped
 ) -> dict[str, Replicates]:
     """Find statistics of all surfaces, and again without each group of them.
 
@@ -343,13 +351,16 @@ def judge(claim: Claim, answers: xarray.DataTree, where: str = "", regime: str =
 
 
 def measured(
-    claim: Claim, fine: Grouped, coarse: Grouped, where: str = "", regime: str = "", plot: str = ""
+    claim: Claim, fine: Drawn, coarse: Drawn, where: str = "", regime: str = "", plot: str = ""
 ) -> Finding:
-    """Finding of a claim from samples on two grids."""
+    """Finding of a claim from samples on two grids. Raises ValueError for a claim without a measure."""
+    measure: Callable[[Any], Any] | None = claim.measure
+    if measure is None:
+        raise ValueError(f"claim {claim.id} has no measure")
     # What has no logarithm is not known, and the finding says so.
     with np.errstate(invalid="ignore", divide="ignore"):
-        replicates = resample(lambda sample: {"": claim.measure(sample)}, fine)[""]
-        other = np.asarray(claim.measure(coarse))
+        replicates = resample(lambda sample: {"": measure(sample)}, fine)[""]
+        other = np.asarray(measure(coarse))
         found = replicates.rms if np.ndim(replicates.value) else replicates.estimated
         low, high = found.interval()
         grid = float(np.sqrt(np.mean(np.square(other - replicates.value))))

@@ -15,7 +15,7 @@ from .jackknife import Estimated, Sample, mean, mean_ratio, resample
 FRICTION = ("friction_force", "normal_force")
 RATIOS = {"friction_coefficient": FRICTION}
 # Told with deviation and interval, told as a mean alone.
-ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope")
+ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 
 

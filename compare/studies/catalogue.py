@@ -11,8 +11,8 @@ from scene import Fractional, Indent, Kelvin, Program, Slide, Stage, StandardLin
 from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
-from ..paper import parameters
 from .contacts import SHORTEST, STEEP, kelvin, resolved
+from .paper import parameters
 from .series import Series
 from .sizes import Size, between
 
@@ -27,15 +27,15 @@ HURST = (0.1, 0.3, 0.5, 0.7, 0.9)
 # fmt: off
 SIZES = {
     "quick": Size(
-        range=(0.03, 0.6), speeds=6, presses=4, surfaces=3, profiles=12, points=128,
+        range=(0.03, 0.6), speeds=6, values=4, surfaces=3, profiles=12, points=128,
         hurst=HURST[::2], few=3, indentations=2, steps=50,
     ),
     "standard": Size(
-        range=SPEEDS, speeds=12, presses=8, surfaces=10, profiles=60, points=256,
+        range=SPEEDS, speeds=12, values=8, surfaces=10, profiles=60, points=256,
         hurst=HURST, few=3, indentations=3, steps=100,
     ),
-    "paper": Size(
-        range=SPEEDS, speeds=20, presses=16, surfaces=40, profiles=200, points=512,
+    "full": Size(
+        range=SPEEDS, speeds=20, values=16, surfaces=40, profiles=200, points=512,
         hurst=HURST, few=4, indentations=3, steps=100,
     ),
 }
@@ -43,8 +43,8 @@ SIZES = {
 
 
 @dataclass(frozen=True)
-class Study:
-    """A question, and what is solved for it.
+class ReadyStudy:
+    """A question, and the series that are solved for it.
 
     title, about : for people
     series : by size
@@ -57,15 +57,15 @@ class Study:
 
 def _collapse(size: Size) -> list[Series]:
     """At prescribed load, and at the depths that the smooth relaxed bodies have under these loads."""
-    loads = size.presses_of(*LOADS)
+    loads = size.values_of(*LOADS)
     found = []
     for shape in SHAPES:
         scene = kelvin(shape)
-        found.append(_series(size, shape, f"Rough {shape}", scene, presses=loads))
+        found.append(_series(size, shape, f"Rough {shape}", scene, values=loads))
         depths = tuple(_depth(scene, load) for load in loads)
         sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
         title = f"Rough {shape}, depth prescribed"
-        found.append(_series(size.coarser, f"{shape}-depth", title, sunk, presses=depths))
+        found.append(_series(size.coarser, f"{shape}-depth", title, sunk, values=depths))
     return found
 
 
@@ -100,7 +100,7 @@ def _solids(size: Size) -> list[Series]:
 
 
 def _hurst(size: Size) -> list[Series]:
-    size = size.coarser.at_most(speeds=8, presses=6, surfaces=10).within(0.02, 1.0)
+    size = size.coarser.at_most(speeds=8, values=6, surfaces=10).within(0.02, 1.0)
     return [
         _series(size, f"{shape}-hurst-{hurst:g}", f"Rough {shape}, H = {hurst:g}", kelvin(shape, hurst=hurst))
         for shape in SHAPES
@@ -110,7 +110,7 @@ def _hurst(size: Size) -> list[Series]:
 
 def _parameters(size: Size) -> list[Series]:
     """One parameter changed at a time, around the contacts of Fig. 1."""
-    size = size.coarser.at_most(speeds=size.few, presses=size.few, surfaces=6)
+    size = size.coarser.at_most(speeds=size.few, values=size.few, surfaces=6)
     found = []
     for shape in SHAPES:
         base = kelvin(shape)
@@ -136,24 +136,24 @@ def _depth_study(size: Size) -> list[Series]:
     found = []
     for shape in SHAPES:
         scene = kelvin(shape)
-        depths = tuple(_depth(scene, load) for load in size.presses_of(*LOADS))
+        depths = tuple(_depth(scene, load) for load in size.values_of(*LOADS))
         rest = replace(scene, motion=Indent(depth=depths[0]))
         found.append(
-            replace(_series(size, f"{shape}-rest", f"Rough {shape}, at rest", rest, presses=depths), speeds=())
+            replace(_series(size, f"{shape}-rest", f"Rough {shape}, at rest", rest, values=depths), speeds=())
         )
         time = scene.elastomer.relaxation_time
         solid = StandardLinearSolid(scene.elastomer.modulus, GLASSY * scene.elastomer.modulus, time)
-        few = size.coarser.at_most(speeds=size.indentations, presses=size.indentations, surfaces=6)
-        presses = tuple(depths[i] for i in np.linspace(0, len(depths) - 1, few.presses).round().astype(int))
-        pressed = replace(scene, elastomer=solid, motion=Program(stages=(Stage(duration=1.0, depth=presses[0]),)))
+        few = size.coarser.at_most(speeds=size.indentations, values=size.indentations, surfaces=6)
+        sunk = tuple(depths[i] for i in np.linspace(0, len(depths) - 1, few.values).round().astype(int))
+        pressed = replace(scene, elastomer=solid, motion=Program(stages=(Stage(duration=1.0, depth=sunk[0]),)))
         series = _series(
             few,
             f"{shape}-pressed-in",
             f"Rough {shape}, pressed in at constant rates",
             pressed,
-            presses=presses,
+            values=sunk,
         )
-        rates = between(0.1 * presses[-1] / time, 10 * presses[-1] / time, few.speeds)
+        rates = between(0.1 * sunk[-1] / time, 10 * sunk[-1] / time, few.speeds)
         found.append(
             replace(
                 series, speeds=rates, bem=replace(series.bem, steps=size.steps), mdr=MDR(2000, steps=size.steps)
@@ -169,57 +169,57 @@ def _regime(size: Size) -> list[Series]:
     """
     found, small = [], size.points <= 128
     points = 512 if small else 5 * size.points // 2
-    speeds, presses, fastest = (4, 3, 12.0) if small else (6, 6, 35.0)
-    few = replace(size.at_most(speeds=speeds, presses=presses, surfaces=6), points=points)
+    speeds, values, fastest = (4, 3, 12.0) if small else (6, 6, 35.0)
+    few = replace(size.at_most(speeds=speeds, values=values, surfaces=6), points=points)
     for shape, (scene, (low, high)) in STEEP.items():
         wave = _shortest(scene) / (2 * np.pi * scene.elastomer.relaxation_time)
         # Wider contacts have fewer pixels a wave.
-        loads = few.presses_of(low, 2 * low if small else high)
+        loads = few.values_of(low, 2 * low if small else high)
         knee = replace(few, range=(2.5 * wave, fastest * wave))
-        found.append(_series(knee, shape, f"Steeply rough {shape}", scene, presses=loads))
+        found.append(_series(knee, shape, f"Steeply rough {shape}", scene, values=loads))
         if small:
             continue
         slow = replace(few, range=(0.03 * wave, 0.06 * wave), speeds=2)
-        found.append(_series(slow, f"{shape}-slow", f"Steeply rough {shape}, slow", scene, presses=loads))
+        found.append(_series(slow, f"{shape}-slow", f"Steeply rough {shape}, slow", scene, values=loads))
         depths = tuple(_depth(scene, load) for load in loads[::2])
         sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
         title = f"Steeply rough {shape}, depth prescribed"
-        found.append(_series(knee.at_most(surfaces=4), f"{shape}-depth", title, sunk, presses=depths))
+        found.append(_series(knee.at_most(surfaces=4), f"{shape}-depth", title, sunk, values=depths))
     return found
 
 
 STUDIES = {
-    "collapse": Study(
+    "collapse": ReadyStudy(
         "Does friction collapse on one curve?",
         "Eq. 23 for the rough sphere and the rough cone of Fig. 1 on a Kelvin solid, across the knee of the "
         "curve, at prescribed load and at prescribed depth.",
         _collapse,
     ),
-    "solids": Study(
+    "solids": ReadyStudy(
         "Other solids",
         "Eq. 23 for the rough sphere and the rough cone of Fig. 1 at prescribed load, on a standard linear solid, "
         "E_g = 10 E_r, and on a solid whose loss grows as the root of the frequency.",
         _solids,
     ),
-    "hurst": Study(
+    "hurst": ReadyStudy(
         "From H = 0.1 to 0.9",
         "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, of several Hurst exponents, "
         "with the same rms height and the same waves.",
         _hurst,
     ),
-    "parameters": Study(
+    "parameters": ReadyStudy(
         "One parameter at a time",
         "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, with another rms height, "
         "another shortest wave, another relaxation time.",
         _parameters,
     ),
-    "regime": Study(
+    "regime": ReadyStudy(
         "The regime of the paper",
         "Roughness that is small against the depth and steep against the body, which in three dimensions takes "
         "waves far shorter than the contact: a spectrum rolled off at a q_r of 20 or more.",
         _regime,
     ),
-    "depth": Study(
+    "depth": ReadyStudy(
         "Force and depth",
         "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
         "linear solid.",
@@ -228,14 +228,14 @@ STUDIES = {
 }
 
 
-def _series(size, name, title, scene, presses=None):
+def _series(size, name, title, scene, values=None):
     rough = replace(scene.roughness, seed=1)
     return Series(
         name=name,
         title=title,
         scene=replace(scene, roughness=rough),
         speeds=size.rates,
-        presses=presses or size.presses_of(*LOADS),
+        values=values or size.values_of(*LOADS),
         surfaces=size.surfaces,
         profiles=size.profiles,
         bem=BEM(points=size.points),

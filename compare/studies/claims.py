@@ -1,120 +1,187 @@
-"""The claims on one series that slides: what each of them comes to in one dimension and in three."""
+"""Claims that studies judge, each by its id, and what measures them: powers, geometric means, places along xi."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from ..finding import Finding
-from ..statistics.jackknife import mean_ratio
-from ..verdict import DIMENSIONS
-from .laws import Laws, slow_drag
-from .pairclaims import friction_questions, pairs, rest_questions, smooth_question
-from .question import BOTH, COLLAPSE, TOLERANCE, Question, answered, extent, geometric, power
-from .series import COARSE, FINE, REST, ROUGH, Solved
-from .sides import Side
+from ..finding import BOTH, Claim
 
-EXACT = "exact limit of low speed"
-# Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is
-# off its limit by less than the tolerance. Above FAST Eq. 19 is within 12 % of its plateau.
-SLOW, FAST = 0.1, 3.0
+# How far from what is claimed still counts as it: what a reader of a diagram over decades of friction would not
+# see, and less than what any measured roughness is known to.
+TOLERANCE = 0.05
+# How close theory and solution are where theory is exact.
+CLOSED = 0.01
+_RATIO = "Ratio of the coefficients, 1D over 3D, geometric mean over the loads or depths."
+_PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
 
-
-def friction_findings(solved: Solved, laws: Mapping[str, Laws]) -> list[Finding]:
-    """Of a series that slides, but for what shifts of its curves say."""
-    found = []
-    for solver, dimension in DIMENSIONS.items():
-        one, other = (Side.of(solved, solver, grid) for grid in (FINE, COARSE))
-        words = laws[solver].regime.words
-        for question in _one_sided(solved, solver, laws[solver]):
-            found.append(answered(question, dimension, one, other, words))
-    (fine, coarse), words = pairs(solved), laws["BEM"].regime.words
-    friction, rest = friction_questions(laws["BEM"]), rest_questions(solved.series)
-    found += [answered(question, BOTH, fine, coarse, words) for question in friction]
-    found.append(answered(smooth_question(), BOTH, fine.smooth, coarse.smooth, words))
-    return found + [answered(question, BOTH, fine, coarse, words) for question in rest]
-
-
-def _one_sided(solved: Solved, solver: str, laws: Laws) -> Iterator[Question]:
-    """What the paper claims of friction, asked of one dimensionality."""
-    if len(laws.speeds) > 1 and laws.slowest_loss <= SLOW and _all_slow(laws.xi[0]):
-        yield from _at_low_speed(solved, laws)
-    fast = laws.xi[-1] >= FAST
-    if fast.any():
-        yield Question(
+CLAIMS = {
+    claim.id: claim
+    for claim in (
+        Claim(
+            "eq17.speed-exponent",
+            "Eq. 17: at low speed friction grows with the speed as the loss at the shortest wave does",
+            tolerance=TOLERANCE,
+            meaning="d ln mu / d ln v between the two slowest speeds, mean over the loads or depths.",
+        ),
+        Claim(
+            "eq17.load-exponent",
+            "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))",
+            tolerance=TOLERANCE,
+            meaning="d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law leaves "
+            "out the slope of the macroscopic shape.",
+        ),
+        Claim(
+            "eq17.level",
+            "Eq. 17: friction at low speed has the level of the law",
+            1.0,
+            TOLERANCE,
+            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope as this "
+            "dimensionality has it and every wave taken for the shortest.",
+        ),
+        Claim(
+            "limit.slow",
+            "Friction at the slowest speed is that of the exact limit of low speed",
+            1.0,
+            TOLERANCE,
+            "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
+            "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads or "
+            "depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D friction is "
+            "found by that mean where the contact trails by less than a quarter of a pixel (docs/theory.md, Eq. 5e): "
+            "the check is then of the pressure found in sliding.",
+        ),
+        Claim(
+            "eq14.plateau",
             "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
             1.0,
-            "mu over that, times what Eq. 19 has there, at the fastest speed, "
-            f"xi = {extent(laws.xi[-1][fast])}, geometric mean over the presses.",
-            lambda side: geometric(side.friction()[-1][fast] / laws.law_of(_xi(laws, side))[-1][fast]),
-        )
-    yield Question(
-        "Eq. 19: friction at all speeds and loads",
-        0.0,
-        "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
-        lambda side: np.log(side.friction() / laws.law_of(_xi(laws, side))),
-        2 * TOLERANCE,
-    )
-
-
-def _at_low_speed(solved: Solved, laws: Laws) -> Iterator[Question]:
-    speeds, low = np.array(solved.series.speeds), extent(laws.xi[0])
-    apart = np.log(speeds[1] / speeds[0])
-    yield Question(
-        "Eq. 17: at low speed friction grows with the speed as the loss at the shortest wave does",
-        float(laws.loss_exponent[0]),
-        f"d ln mu / d ln v between the two slowest speeds, from xi = {low} on, mean over the presses.",
-        lambda side: float(np.mean(np.log(side.friction()[1] / side.friction()[0])) / apart),
-    )
-    if len(solved.series.presses) > 1:
-        yield Question(
-            "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))",
-            laws.exponent_of_load,
-            f"d ln mu / d ln F_N at the slowest speed, xi = {low}, least squares over the presses. The law leaves "
-            "out the slope of the macroscopic shape.",
-            _load_exponent,
-            figure=COLLAPSE,
-        )
-    yield Question(
-        "Eq. 17: the level of friction at low speed",
-        1.0,
-        f"mu over the law at the slowest speed, xi = {low}, geometric mean over the presses, with the rms slope "
-        "as this dimensionality has it and every wave taken for the shortest.",
-        lambda side: geometric(side.friction()[0] / (laws.plateau * _xi(laws, side)[0])),
-    )
-    if _is_slow(solved, laws):
-        yield Question(
-            EXACT,
+            TOLERANCE,
+            "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or depths "
+            "at which xi is large.",
+        ),
+        Claim(
+            "eq19.law",
+            "Eq. 19: friction follows the law at all speeds and loads",
+            0.0,
+            2 * TOLERANCE,
+            "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
+        ),
+        Claim(
+            "eq18.one-curve",
+            "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
+            0.0,
+            2 * TOLERANCE,
+            "rms of ln mu about one curve through all points of several series, none shifted, without what scatter "
+            "adds.",
+        ),
+        Claim(
+            "eq17.slope-exponent",
+            "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
+            2.0,
+            2 * TOLERANCE,
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths at "
+            "which all are at that limit, but for what Eq. 19 still lacks of it.",
+        ),
+        Claim(
+            "eq14.slope-exponent",
+            "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
             1.0,
-            "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
-            "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the "
-            "presses, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
-            "friction is found by that mean where the contact trails by less than a quarter of a pixel "
-            "(docs/theory.md, Eq. 5e): the check is then of the pressure found in sliding.",
-            lambda side: geometric(side.friction()[0] / _limit(solved, side)),
-        )
+            TOLERANCE,
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths at "
+            "which all are at that limit, but for what Eq. 19 still lacks of it.",
+        ),
+        Claim("pair.friction-slow", "Rough, at the slowest speed: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
+        Claim("pair.friction-knee", "Rough, at the knee: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
+        Claim("pair.friction-fast", "Rough, at the fastest speed: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
+        Claim(
+            "pair.smooth",
+            "Smooth, at the slowest speed: friction in 1D is that in 3D",
+            1.0,
+            TOLERANCE,
+            f"{_RATIO} It tends to 2 as the speed tends to zero.",
+        ),
+        *(
+            Claim(f"rest.{name}-{side}", f"At rest, rough, {where}: {sentence}", 0.0, TOLERANCE, meaning)
+            for name, sentence, meaning in (
+                (
+                    "depth",
+                    "the depth under a load is the same in 1D and 3D",
+                    "rms over loads of the difference of depths, over that of the smooth body.",
+                ),
+                (
+                    "force",
+                    "the force at a depth is the same in 1D and 3D",
+                    "rms over depths of ln of the ratio of forces.",
+                ),
+            )
+            for side, where in (("deep", "h0 at most 0.1 d"), ("shallow", "h0 above 0.1 d"))
+        ),
+        Claim(
+            "rest.stiffness",
+            "At rest, rough: the stiffness is the same in 1D and 3D",
+            0.0,
+            TOLERANCE,
+            "rms over neighbouring loads or depths of ln of the ratio of dF/dd.",
+        ),
+        Claim(
+            "smooth.rest-depth",
+            "Smooth bodies at rest have the depth of Galin and Sneddon",
+            0.0,
+            CLOSED,
+            "rms over the loads of the relative deviation from the closed form.",
+        ),
+        Claim(
+            "smooth.rest-force",
+            "Smooth bodies at rest have the force of Galin and Sneddon",
+            0.0,
+            CLOSED,
+            "rms over the depths of the relative deviation from the closed form.",
+        ),
+        Claim(
+            "smooth.pressed-in",
+            "Smooth bodies pressed into a viscoelastic solid have the force of Lee and Radok",
+            0.0,
+            CLOSED,
+            "rms over rates and depths of the relative deviation from the closed form at the depth reached.",
+        ),
+        *(
+            Claim(
+                f"pressed-in.{name}",
+                f"Pressed in at the {name}est rate, rough: the force at the greatest depth is the same in 1D and 3D",
+                0.0,
+                TOLERANCE,
+                _PRESSED,
+            )
+            for name in ("slow", "fast")
+        ),
+    )
+}
 
 
-def _xi(laws, side):
-    return laws.xi_under(side.mean("normal_force", ROUGH))
+def claim(name: str, measure: Callable[[Any], Any], dimension: str = BOTH, expected: float | None = None) -> Claim:
+    """Claim of an id with what measures it in one place.
+
+    expected : number that the law has there; that of the claim if absent
+    """
+    found = CLAIMS[name]
+    number = found.expected if expected is None else expected
+    return replace(found, measure=measure, dimension=dimension, expected=number)
 
 
-def _is_slow(solved, laws):
-    """Whether every mode of the solid is fast against the slowest speed, so that the limit can be seen."""
-    longest = solved.series.scene.solid.retardation()[2].max()
-    return laws.wave_number * solved.series.speeds[0] * longest <= SLOW
+def power(abscissae: np.ndarray, values: np.ndarray) -> float:
+    """d ln y / d ln x, least squares; NaN where any of them has no logarithm."""
+    x, y = np.log(abscissae), np.log(values)
+    lever = x - x.mean()
+    return float(lever @ y / (lever @ lever))
 
 
-def _limit(solved, side):
-    """mu of the exact limit at the slowest speed, (presses,), on the same surfaces."""
-    drag = slow_drag(solved.series.scene.solid, side.solver, side[REST])
-    return solved.series.speeds[0] * mean_ratio(drag, side[REST].normal_force[0]).value
+def geometric(ratios: np.ndarray) -> float:
+    """Geometric mean."""
+    return float(np.exp(np.mean(np.log(ratios))))
 
 
-def _load_exponent(side: Side) -> float:
-    return power(side.mean("normal_force", ROUGH)[0], side.friction()[0])
-
-
-def _all_slow(xi):
-    """Whether xi is small wherever it is known."""
-    known = xi[np.isfinite(xi)]
-    return known.size > 0 and known.max() <= SLOW
+def at_xi(values: np.ndarray, words: str) -> str:
+    """Regime in words, behind the range of xi in which a number was measured."""
+    known = np.asarray(values)[np.isfinite(values)]
+    reached = f"{known.min():.2g} to {known.max():.2g}" if known.size else "unknown"
+    return f"xi {reached}; {words}"

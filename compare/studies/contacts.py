@@ -5,7 +5,7 @@ from math import radians
 
 from scene import Cone, Scene, SelfAffine, Slide, Sphere
 
-from ..paper import parameters
+from .paper import parameters
 
 # The waves that three dimensions resolve: the paper's own reach down to 4 micrometres.
 SHORTEST = 5e-4

@@ -1,92 +1,60 @@
-"""The judgement of a study: for each of its series, what the claims of the paper come to in 1D and in 3D."""
+"""Judgement of one series: laws, shifts of its curves, and what becomes of each claim in 1D and in 3D."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
-from scene import Program
-
-from ..finding import Finding
-from ..outcome import Outcome
-from ..shifting import Shifting
-from ..store import Task
-from ..verdict import DIMENSIONS
-from .catalogue import Size, Study
-from .claims import friction_findings
-from .depthclaims import depth_findings, loading
-from .families import family_findings
+from ..finding import BOTH, Finding
+from ..statistics.collapse import Collapse
+from .claims_depth import depth_findings, rest_findings
+from .claims_friction import collapses, friction_findings, shift_findings
 from .laws import Laws, laws
-from .question import BOTH
-from .series import COLLAPSE, DEPTH, FRICTION, PAIRS, Series, Solved, collect
-from .shiftclaims import shift_findings, shiftings, unshifted
+from .series import COLLAPSE, DEPTH, FRICTION, PAIRS, SOLVERS, Contacts, Series
 
 
 @dataclass(frozen=True)
 class JudgedSeries:
-    """One series.
+    """One series, judged.
 
-    solved : its answers
+    contacts : its answers
     laws : by solver's name; empty of a series that does not slide, or of which a solver has no rough answer
-    shiftings : by solver's name, what shifts of its curves achieve; a solver with too few points is missing
+    collapses : by solver's name, what shifts of its curves achieve on the fine grid; a solver with too few points is
+        missing
     findings : what each claim comes to
-    closed : force [N] on the smooth body pressed in at rates, (rates, depths), in closed form; None of others
     """
 
-    solved: Solved
+    contacts: Contacts
     laws: Mapping[str, Laws]
-    shiftings: Mapping[str, Shifting]
+    collapses: Mapping[str, Collapse]
     findings: tuple[Finding, ...]
-    closed: np.ndarray | None = None
+
+    @property
+    def series(self) -> Series:
+        """What was asked."""
+        return self.contacts.series
 
 
-@dataclass(frozen=True)
-class JudgedStudy:
-    """A study.
-
-    name, study, size : what was asked
-    series : one after the other
-    findings : of claims on several series together
-    """
-
-    name: str
-    study: Study
-    size: Size
-    series: tuple[JudgedSeries, ...]
-    findings: tuple[Finding, ...] = ()
-
-
-def judge_study(
-    name: str, study: Study, size: Size, series: Iterable[Series], outcomes: Mapping[Task, Outcome]
-) -> JudgedStudy:
-    """Judge everything that was solved for a study."""
-    judged = tuple(judge_series(collect(each, outcomes)) for each in series)
-    return JudgedStudy(name, study, size, judged, tuple(family_findings(judged)))
-
-
-def judge_series(solved: Solved) -> JudgedSeries:
+def judge_series(contacts: Contacts) -> JudgedSeries:
     """What each claim comes to on one series, of those that it asks."""
-    series = solved.series
+    series = contacts.series
     if not series.slides:
-        closed = loading(series) if isinstance(series.scene.motion, Program) else None
-        return JudgedSeries(solved, {}, {}, _asked(series, depth_findings(solved), DEPTH), closed)
-    found = {solver: laws(solved, solver) for solver in DIMENSIONS}
-    ruled = {solver: ruling for solver, ruling in found.items() if ruling is not None}
+        return JudgedSeries(contacts, {}, {}, _asked(series, depth_findings(contacts), DEPTH))
+    found = {solver: laws(contacts, solver) for solver in SOLVERS}
+    ruled = {solver: each for solver, each in found.items() if each is not None}
     if len(ruled) < len(found):
-        return JudgedSeries(solved, {}, {}, ())
-    shifted: dict[str, Shifting] = {}
-    collapse: list[Finding] = []
-    for solver, ruling in ruled.items():
-        if both := shiftings(solved, solver):
+        return JudgedSeries(contacts, {}, {}, ())
+    shifted: dict[str, Collapse] = {}
+    shifts: list[Finding] = []
+    for solver, each in ruled.items():
+        both = collapses(contacts, solver)
+        if both is not None:
             shifted[solver] = both[0]
-            collapse += shift_findings(solver, both, ruling)
-        else:
-            collapse += unshifted(series, solver, ruling)
-    findings = _asked(series, collapse, COLLAPSE) + _asked(series, friction_findings(solved, ruled), FRICTION)
-    return JudgedSeries(solved, ruled, shifted, findings)
+        shifts += shift_findings(contacts, solver, both, each)
+    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled["BEM"].regime.words)]
+    findings = _asked(series, shifts, COLLAPSE) + _asked(series, friction, FRICTION)
+    return JudgedSeries(contacts, ruled, shifted, findings)
 
 
 def _asked(series: Series, found: Iterable[Finding], kind: str) -> tuple[Finding, ...]:
     """Those of a kind that are asked; what compares the dimensionalities is a kind of its own."""
-    kinds = ((PAIRS if each.dimension == BOTH else kind, each) for each in found)
+    kinds = ((PAIRS if (each.dimension or each.claim.dimension) == BOTH else kind, each) for each in found)
     return tuple(each for kind, each in kinds if kind in series.claims)

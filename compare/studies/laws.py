@@ -1,27 +1,30 @@
 """What theory says of every point of a series: the paper's laws, and the exact limits of low speed."""
 
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
+import xarray
 
 from mdr1d import equations
 
 from .. import exact
-from ..pointregime import PointRegime
 from ..statistics.jackknife import mean_ratio
-from .points import regime
-from .series import REST, SMOOTH_REST, Answers, Solved
+from .regime import PointRegime, gathered
+from .series import ROUGH, SMOOTH, Contacts, Series, resting, sliding
 
 # Relative spread of exponents up to which they are one.
 SAME = 0.02
+# Measures that the dimensionless groups of a point need.
+GROUPED = ("rms_slope", "pixel", "contact_area", "contact_length")
 
 
 @dataclass(frozen=True)
 class Laws:
-    """Of one solver on a series that slides, arrays (speeds, presses) unless stated.
+    """Laws for one solver on a series that slides, arrays (speeds, values) unless stated.
 
     speeds : (speeds,) [m/s]
-    regime : where each point lies, flat, the presses of the first speed first, but for points without any answer
+    points : dimensionless groups of each point (speeds, values); None where every solve failed
     load : mean over surfaces, or prescribed [N]
     exponent_of_load : of xi, -n/(n+1)
     xi : friction at low speed over the plateau, Eq. 18 with the loss of the solid at the shortest wave
@@ -30,13 +33,13 @@ class Laws:
     loss_exponent : d ln G'' / d ln omega there, (speeds - 1,), from one speed to the next
     plateau : mu of Eq. 14 [1]
     slow : mu of the exact limit of low speed, from the contact at rest, rough
-    smooth : that of the smooth body, from its contact at rest
+    smooth : mu of the exact limit of low speed of the smooth body, from its contact at rest
     shifts : ln p(v) that Eq. 23 predicts, (speeds,), up to a constant
     exponent : d ln p / d ln v of it; NaN where it is no power of the speed
     """
 
     speeds: np.ndarray
-    regime: PointRegime
+    points: tuple[tuple[PointRegime | None, ...], ...]
     load: np.ndarray
     exponent_of_load: float
     xi: np.ndarray
@@ -49,8 +52,17 @@ class Laws:
     shifts: np.ndarray
     exponent: float
 
+    @property
+    def regime(self) -> PointRegime:
+        """Groups of all points that have an answer, one after the other."""
+        return gathered([at for row in self.points for at in row if at is not None])
+
+    def ratio(self, name: str) -> np.ndarray:
+        """One group of every point, NaN where every solve failed."""
+        return np.array([[nan if at is None else getattr(at, name) for at in row] for row in self.points])
+
     def xi_under(self, load: np.ndarray) -> np.ndarray:
-        """xi at other loads [N], (speeds, presses)."""
+        """xi at other loads [N], (speeds, values)."""
         return self.xi * (load / self.load) ** self.exponent_of_load
 
     @property
@@ -60,42 +72,42 @@ class Laws:
 
     def law_of(self, xi: np.ndarray) -> np.ndarray:
         """mu of Eq. 19 at any xi; NaN where that is."""
-        return np.where(np.isfinite(xi), self.plateau * equations.interpolation(np.nan_to_num(xi)), np.nan)
+        return np.where(np.isfinite(xi), self.plateau * equations.interpolation(np.nan_to_num(xi)), nan)
 
 
-def laws(solved: Solved, solver: str) -> Laws | None:
-    """Of rough answers, None where there are none.
+def laws(contacts: Contacts, solver: str) -> Laws | None:
+    """Laws for the rough body that slides; None where no solve has an answer.
 
     The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
     solver's own measure.
     """
-    series, regime_of_points = solved.series, regime(solved, solver)
-    if regime_of_points is None:
+    series, answers = contacts.series, sliding(contacts(solver))
+    points = regimes(series, answers)
+    if not any(at is not None for row in points for at in row):
         return None
-    answers = solved(solver)
     scene, speeds = series.scene, np.array(series.speeds)
-    body, solid, rough = scene.indenter, scene.solid, scene.roughness
+    solid, body = scene.solid, scene.indenter
+    slope = float(np.nanmean(answers["rms_slope"].values))
+    highest = scene.roughness.q_max(float(np.nanmean(answers["pixel"].values)))
     c, n = body.mdr_coefficient, body.exponent
-    slope = float(np.nanmean(answers.measures["rms_slope"]))
-    highest = rough.q_max(float(np.nanmean(answers.measures["pixel"])))
-    # The paper's laws are written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
+    # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
     modulus = solid.indentation_modulus / 4
 
     def loss(omega):
         return modulus / solid.static_modulus * solid.complex_modulus(omega).imag
 
-    load = mean_ratio(answers.normal_force).value
-    if series.pressed_by == "load":
-        load = np.where(np.isfinite(load), load, series.presses)
+    load = mean_ratio(_draws(answers, "normal_force")).value
+    if series.prescribed == "load":
+        load = np.where(np.isfinite(load), load, series.values)
     one = equations.one_frequency_friction(
         np.nan_to_num(load, nan=1.0), modulus, loss, highest, speeds[:, None], slope, c, n
     )
-    xi = np.where(np.isfinite(load), one / equations.plateau(slope), np.nan)
+    xi = np.where(np.isfinite(load), one / equations.plateau(slope), nan)
     shift = equations.force_shift(speeds, modulus, loss, highest, slope, c, n)
     rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
     return Laws(
         speeds=speeds,
-        regime=regime_of_points,
+        points=points,
         load=load,
         exponent_of_load=-n / (n + 1),
         xi=xi,
@@ -103,30 +115,60 @@ def laws(solved: Solved, solver: str) -> Laws | None:
         slowest_loss=float(loss(highest * speeds[0]) / solid.complex_modulus(highest * speeds[0]).real),
         loss_exponent=np.diff(np.log(loss(highest * speeds))) / np.diff(np.log(speeds)),
         plateau=float(equations.plateau(slope)),
-        slow=slow_friction(solved, solver, REST),
-        smooth=slow_friction(solved, solver, SMOOTH_REST),
+        slow=_slow_friction(contacts, solver, ROUGH),
+        smooth=_slow_friction(contacts, solver, SMOOTH),
         shifts=np.log(shift),
         exponent=_power(rates),
     )
 
 
-def slow_friction(solved: Solved, solver: str, body: str) -> np.ndarray:
-    """mu at low speed, (speeds, presses), from the contact at rest of the rough or the smooth body."""
-    rest = solved(solver, body)
-    drag = slow_drag(solved.series.scene.solid, solver, rest)
-    return np.array(solved.series.speeds)[:, None] * mean_ratio(drag, rest.normal_force[0]).value
+def regimes(series: Series, answers: xarray.Dataset) -> tuple[tuple[PointRegime | None, ...], ...]:
+    """Groups of each rough contact of one grid, (speeds, values).
+
+    None where it is pressed in at a rate, which has none, and where every solve failed.
+    """
+    force = _draws(answers, "normal_force")
+    measures = {name: _draws(answers, name) for name in GROUPED if name in answers}
+
+    def at(i, j, value, speed):
+        known = np.isfinite(force[i, j])
+        if not known.any() or (speed and series.pressed_in):
+            return None
+        here = {name: float(values[i, j][known].mean()) for name, values in measures.items()}
+        return PointRegime.of(series.at(value, speed), here)
+
+    speeds = answers["speed"].values.tolist()
+    return tuple(
+        tuple(at(i, j, value, speed) for j, value in enumerate(series.values)) for i, speed in enumerate(speeds)
+    )
 
 
-def slow_drag(elastomer, solver: str, rest: Answers) -> np.ndarray:
-    """Friction force over speed as that tends to zero [N s/m], (presses, surfaces), from the contact at rest."""
+def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:
+    """Friction force over speed as that tends to zero [N s/m], (values, draws), from the contact at rest."""
     lag = exact.mean_lag(elastomer)
-    measures = {name: values[0] for name, values in rest.measures.items()}
     if solver == "BEM":
-        return exact.slow_friction_by_curvature(1.0, lag, rest.normal_force[0], measures["curvature_by_pressure"])
-    slope, length = measures["rms_slope_contact"], measures["contact_length"]
+        load, curvature = (_draws(rest, name) for name in ("normal_force", "curvature_by_pressure"))
+        return exact.slow_friction_by_curvature(1.0, lag, load, curvature)
+    slope, length = (_draws(rest, name) for name in ("rms_slope_contact", "contact_length"))
     return exact.slow_friction_by_slope(1.0, lag, elastomer.indentation_modulus, slope, length)
+
+
+def slow_friction(series: Series, solver: str, rest: xarray.Dataset) -> np.ndarray:
+    """mu at low speed, (speeds, values), from the contact at rest."""
+    drag = slow_drag(series.scene.solid, solver, rest)
+    return np.array(series.speeds)[:, None] * mean_ratio(drag, _draws(rest, "normal_force")).value
+
+
+def _slow_friction(contacts, solver, body):
+    return slow_friction(contacts.series, solver, resting(contacts(solver, body)))
+
+
+def _draws(answers, name):
+    """Variable with the draws along the last axis; smooth bodies have one."""
+    values = answers[name]
+    return values.transpose(..., "draw").values if "draw" in values.dims else values.values[..., None]
 
 
 def _power(rates):
     """The exponent, where it is the same between all speeds."""
-    return float(rates.mean()) if rates.size and np.ptp(rates) <= SAME * abs(rates.mean()) else np.nan
+    return float(rates.mean()) if rates.size and np.ptp(rates) <= SAME * abs(rates.mean()) else nan

@@ -14,18 +14,18 @@ class Size:
     """How much is solved.
 
     range : of speeds [m/s]
-    speeds, presses : how many
+    speeds, values : how many speeds, and loads or depths
     surfaces, profiles : drawn in three and in one dimension
     points : a side of the finer grid in three dimensions
     hurst : the Hurst exponents compared
-    few : speeds and presses at most, where many parameters are changed
+    few : speeds, and loads or depths, at most, where many parameters are changed
     indentations : rates and depths of pressing in
     steps : in time, of pressing in
     """
 
     range: tuple[float, float]
     speeds: int
-    presses: int
+    values: int
     surfaces: int
     profiles: int
     points: int
@@ -36,24 +36,24 @@ class Size:
 
     @property
     def rates(self) -> tuple[float, ...]:
-        """The speeds [m/s]."""
+        """Speeds [m/s] in equal ratios."""
         return between(*self.range, self.speeds)
 
-    def presses_of(self, low: float, high: float) -> tuple[float, ...]:
-        """From the least to the greatest."""
-        return between(low, high, self.presses)
+    def values_of(self, low: float, high: float) -> tuple[float, ...]:
+        """Loads or depths in equal ratios, from the least to the greatest."""
+        return between(low, high, self.values)
 
     def at_most(self, **counts: int) -> Self:
-        """The same with no more of what is named: speeds, presses, surfaces."""
+        """Size with no more of what is named: speeds, values, surfaces."""
         return replace(self, **{name: min(getattr(self, name), most) for name, most in counts.items()})
 
     def within(self, low: float, high: float) -> Self:
-        """The same with no speeds [m/s] beyond."""
+        """Size without speeds [m/s] beyond these."""
         return replace(self, range=(max(self.range[0], low), min(self.range[1], high)))
 
     @property
     def coarser(self) -> Self:
-        """For many series: the pixel doubled, where that still resolves the waves."""
+        """Size for many series: the pixel doubled, where that still resolves the waves."""
         return replace(self, points=max(LEAST_POINTS, self.points // 2))
 
 

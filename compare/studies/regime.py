@@ -10,7 +10,7 @@ from scene import Indent, Regime, Scene, Slide
 from scene.indenter import Axisymmetric
 from scene.scales import elastic_contact
 
-from .exact import mean_lag
+from ..exact import mean_lag
 
 
 @dataclass(frozen=True)

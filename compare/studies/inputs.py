@@ -1,8 +1,7 @@
-"""Studies of a user's own: a file that states series of contacts, asked and judged as those of the package."""
+"""Study file: series of contacts that a user states in TOML, solved and judged as those of the package."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass as plain
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, TypeAdapter, ValidationError, model_validator
@@ -13,13 +12,13 @@ from mdr1d import MDR
 from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, Slide, SolveError, Sphere, Stage
 from scene.mistakes import CHOICE, Mistake, examined
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, parsed, text_of
+from scene.reading import InvalidInput, parsed
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
 from ..library import NotReady, find
-from .catalogue import SIZES, Study
-from .series import CLAIMS, Series, blocks
+from .catalogue import SIZES, ReadyStudy
+from .series import KINDS, Series
 from .sizes import Size, between
 
 Count = Annotated[Whole, Field(ge=1)]
@@ -189,11 +188,11 @@ class _Stated:
     def series(self, size: Size) -> Series:
         """What is asked at a size."""
         made = TypeAdapter(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
-        pressed_by, presses = next(iter(self.of("loads", "depths").items()))
-        presses = _numbers(presses, size.presses)
+        prescribed, given = next(iter(self.of("loads", "depths").items()))
+        values = _numbers(given, size.values)
         moved = self.of("speeds", "rates")
         speeds: tuple[float, ...] = next((_numbers(value, size.speeds) for value in moved.values()), ())
-        press = {pressed_by.removesuffix("s"): presses[0]}
+        press = {prescribed.removesuffix("s"): values[0]}
         settings: dict[str, Any] = {"points": size.points} | dict(self.contact.get("bem", {}))
         motion: Indent | Slide | Program = Indent(**press)
         if "speeds" in moved:
@@ -205,13 +204,13 @@ class _Stated:
             title=self.own.title or self.own.name,
             scene=Scene(made.indenter, made.elastomer, motion, made.roughness, temperature=made.temperature),
             speeds=speeds,
-            presses=presses,
+            values=values,
             surfaces=self["surfaces"] or size.surfaces,
             profiles=self["profiles"] or size.profiles,
             bem=BEM(**settings),
             mdr=MDR(**self.contact.get("mdr", {})),
             note=self.own.note,
-            claims=self["claims"] or CLAIMS,
+            claims=self["claims"] or KINDS,
         )
 
     def misfits(self) -> Iterator[str]:
@@ -237,12 +236,7 @@ class _Stated:
             yield f"{next(iter(moved))}: an elastic solid loses nothing, whatever the speed, leave them out"
 
 
-def read_study(path: str | Path) -> Study:
-    """A study of a TOML file. Raises InvalidInput naming every mistake."""
-    return study_of(text_of(path), str(path))
-
-
-def study_of(text: str, name: str) -> Study:
+def study_of(text: str, name: str) -> ReadyStudy:
     """A study by the text of its file. Raises InvalidInput naming every mistake.
 
     name : of the file, for mistakes
@@ -264,7 +258,7 @@ def study_of(text: str, name: str) -> Study:
         lines = lines or [line for number, each in enumerate(stated) for line in _refused(each, number)]
     if lines:
         raise InvalidInput("\n".join(f"{name}: {line}" for line in lines))
-    return Study(file.title, file.about, lambda size: [each.series(size) for each in stated])
+    return ReadyStudy(file.title, file.about, lambda size: [each.series(size) for each in stated])
 
 
 def _checked(what: Any, content: dict) -> tuple[Any, list[Mistake], dict]:
@@ -326,7 +320,8 @@ def _in_file(mistake, own, number):
 def _refused(stated: _Stated, number: int) -> Iterator[str]:
     """What the solvers lack, at the least size."""
     try:
-        blocks(stated.series(SIZES["quick"]))
+        for rectangle in stated.series(SIZES["quick"]).rectangles.values():
+            rectangle.refuse()
     except ValidationError as error:
         yield from (f"series.{number}: {each['msg']}" for each in error.errors())
     except (Refused, SolveError, ArithmeticError) as error:

@@ -1,0 +1,110 @@
+"""Depth and force of one series at rest, and pressed in at constant rates, in one dimension against three."""
+
+from matplotlib.figure import Figure
+
+from ..page import Tables
+from . import shades, style
+from .lettering import clear
+
+SOLVER = {"1D": "MDR", "3D": "BEM"}
+CLOSED = "closed form"
+# Neighbouring markers are drawn apart by this factor of the load or depth, either way.
+APART = 1.02
+# Where the load is prescribed the depth is measured, in µm and in rms heights; else the force.
+LABELS = {
+    "load": ("depth [µm]", 1e6, "depth less the smooth one [$h_0$]", "depth 1D - 3D [% of smooth]", 1.0, "normal force [N]"),
+    "depth": ("normal force [N]", 1.0, "force less the smooth one [%]", "force 1D / 3D - 1 [%]", 1e6, "depth [µm]"),
+}
+
+
+def depth(tables: Tables) -> Figure:
+    """All, less the smooth closed form, 1D less 3D, and stiffness."""
+    points, differences, stiffness = tables["depth"], tables["depth-differences"], tables["depth-stiffness"]
+    prescribed = "load" if "load" in points else "depth"
+    label, factor, less, apart, scale, across = LABELS[prescribed]
+    drawing = style.canvas("double", 4.9)
+    panels = drawing.subplots(2, 2)
+    whole, deviation, difference, stiff = panels.flat
+    closed = points.drop_duplicates(prescribed)
+    grey = {"color": style.grey(0.45), "linewidth": style.width(0.8), "zorder": 1}
+    whole.plot(scale * closed[prescribed], factor * closed["closed_form"], label="smooth, closed form", **grey)
+    for axes in (deviation, difference):
+        axes.axhline(0, **grey)
+    for index, (dimension, own) in enumerate(points.groupby("dimension")):
+        solver, x = SOLVER[dimension], scale * own[prescribed] * APART ** (2 * index - 1)
+        _bars(whole, x, own, "rough", solver, factor, label=f"{dimension}, rough")
+        unit = 1.0 if prescribed == "load" else 100.0
+        hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
+        _bars(deviation, x, own, "smooth_deviation", solver, unit, label=f"{dimension}, smooth", **hollow)
+        _bars(deviation, x, own, "rough_deviation", solver, unit, label=f"{dimension}, rough")
+    looks = {
+        "smooth": {"color": style.grey(0.5), "marker": "D", "linestyle": ":", "markerfacecolor": style.paper()},
+        "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
+    }
+    for body, own in differences.groupby("body"):
+        _bars(difference, scale * own[prescribed], own, "difference", "exact", 100.0, label=body, **looks[body])
+    for dimension, own in stiffness.groupby("dimension"):
+        if dimension == CLOSED:
+            stiff.plot(own["normal_force"], 1e-3 * own["stiffness"], label="smooth, closed form", **grey)
+        else:
+            _bars(stiff, own["normal_force"], own, "stiffness", SOLVER[dimension], 1e-3, label=f"{dimension}, rough")
+    for axes, name in ((whole, label), (deviation, less), (difference, apart)):
+        axes.set(xscale="log", xlabel=across, ylabel=name)
+        style.span(axes, scale * points[prescribed])
+        axes.legend(ncols=2 if axes is deviation else 1)
+    if prescribed == "depth":
+        whole.set_yscale("log")
+    stiff.set(xscale="log", yscale="log", xlabel="normal force [N]", ylabel="stiffness [kN/m]")
+    if len(stiffness):
+        stiff.legend()
+    for axes, letter in zip(panels.flat, "abcd", strict=True):
+        axes.set_title(f"({letter})")
+        style.decades(axes)
+    clear(drawing, panels.flat)
+    return drawing
+
+
+def pressed_in(tables: Tables) -> Figure:
+    """Force against depth at each rate: left 1D, middle 3D, right 1D over 3D."""
+    every, ratios = tables["pressed-in"], tables["pressed-in-ratios"]
+    drawing = style.canvas("double", 3.2)
+    one, three, ratio = panels = drawing.subplots(1, 3)
+    three.sharey(one)
+    scale = shades.between(every["rate"])
+    ratio.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
+    rates = sorted(set(every["rate"]))
+    for k, rate in enumerate(rates):
+        colour, apart = shades.SPEED(scale(rate)), APART ** (k - (len(rates) - 1) / 2)
+        for axes, (dimension, solver) in zip((one, three), SOLVER.items(), strict=True):
+            own = every[(every["rate"] == rate) & (every["dimension"] == dimension)]
+            depths, first = 1e6 * own["depth"], k == 0
+            look = {"color": colour, "label": "rough" if first else None}
+            _bars(axes, depths * apart, own, "normal_force", solver, **look)
+            thin = {"color": colour, "linewidth": style.width(0.55)}
+            axes.plot(depths, own["smooth_normal_force"], label="smooth" if first else None, **thin)
+            cross = {"color": style.COLOUR["exact"], "markersize": style.mark(1.25)}
+            axes.plot(depths, own[CLOSED.replace(" ", "_")], "+", label="smooth, closed form" if first else None, **cross)
+        own = ratios[ratios["rate"] == rate]
+        _bars(ratio, 1e6 * own["depth"] * apart, own, "rough_difference", "exact", 100.0, color=colour, marker="D")
+        ratio.plot(1e6 * own["depth"], 100 * own["smooth_difference"], color=colour, linewidth=style.width(0.55))
+    for axes, solver in ((one, "MDR"), (three, "BEM")):
+        axes.set(yscale="log", title=style.LABEL[solver])
+    ratio.set(ylabel="force 1D / 3D - 1 [%]", title="1D over 3D")
+    for axes in panels:
+        axes.set(xscale="log", xlabel="depth [µm]")
+        style.span(axes, 1e6 * every["depth"])
+        style.decades(axes)
+    one.set_ylabel("normal force [N]")
+    one.legend()
+    place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.05, "pad": 0.02}
+    shades.bar(drawing, panels, shades.SPEED, scale, "rate of indentation [m/s]", **place)
+    clear(drawing, (one,))
+    return drawing
+
+
+def _bars(axes, x, points, name, solver, factor=1.0, **look):
+    """Points with intervals of 95 %; a bar that would cross zero on a logarithmic axis ends at it."""
+    values = factor * points[name]
+    ends = style.bars(values, factor * points[f"{name}_low"], factor * points[f"{name}_high"])
+    kept = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": style.LINE[solver]}
+    axes.errorbar(x, values, yerr=ends, **kept | {"linewidth": style.width(0.7), "markersize": style.mark(0.9)} | look)

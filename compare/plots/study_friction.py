@@ -1,0 +1,284 @@
+"""Friction of one series: its curves shifted onto one, the shifts, its level against speed; and several series at once."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter
+from pandas import DataFrame
+
+from ..page import Tables
+from . import shades, style
+from .lettering import clear
+
+SOLVER = {"1D": "MDR", "3D": "BEM"}
+FITTED, PREDICTED, ALONE = "fitted", "predicted", "not shifted"
+COMMON, LAW = "common curve", "Eq. 19 with p(v)"
+# Neighbouring markers are drawn apart by this factor of the speed, either way.
+APART = 1.05
+# Unit of what is prescribed, and what the bar of shades is in.
+UNITS = {"load": "N", "depth": "m"}
+BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
+MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
+
+
+def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
+    """Columns: 1D, 3D. Rows: friction against load, shifted along it, and what is left off the common curve."""
+    points, curves, fits = tables["collapse"], tables["collapse-curves"], tables["collapse-fits"]
+    fitted = set(points.loc[points["shifted_as"] == FITTED, "dimension"])
+    rows = (1, 1, 0.7) if fitted else (1, 1)
+    drawing = style.canvas("double", 1.1 + 2.15 * sum(rows))
+    panels = drawing.subplots(len(rows), 2, sharey="row", height_ratios=rows)
+    scale = shades.between(points["speed"])
+    for column, (dimension, solver) in zip(panels.T, SOLVER.items(), strict=True):
+        own = points[points["dimension"] == dimension]
+        _curves(column[0], own, "normal_force", solver, scale)
+        column[0].set(title=style.LABEL[solver], xlabel="normal force [N]", xscale="log", yscale="log")
+        column[1].set(xlabel="shifted normal force [N]", xscale="log", yscale="log")
+        _curves(column[1], own, "shifted_force", solver, scale, {"linestyle": "none"} if dimension in fitted else {})
+        _lines(column[1], curves[curves["dimension"] == dimension])
+        (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
+        if dimension in fitted:
+            column[1].legend(loc="lower left")
+            _left(column[2], column[1], own[own["shifted_as"] == FITTED], solver, scale, tolerance)
+            column[2].set_title(_misfit(fit), loc="right", fontsize=style.small(), fontweight="normal")
+        else:
+            said = style.fill(
+                f"Shifted by p(v), as no shifts are fitted: {fit['reason']}.",
+                0.38 * style.across("double"),
+                style.small(),
+            )
+            column[1].legend(loc="lower left", title=said, title_fontsize=style.small(), alignment="left")
+            for axes in column[2:]:
+                axes.set_axis_off()
+    labels = ("friction coefficient [1]", "friction coefficient [1]", "off the curve [%]")
+    for axes, label in zip(panels[:, 0], labels, strict=False):
+        axes.set_ylabel(label)
+    for axes in panels.flat:
+        style.decades(axes)
+    place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.02}
+    shades.bar(drawing, panels, shades.SPEED, scale, "speed [m/s]", **place)
+    clear(drawing, panels[1])
+    return drawing
+
+
+def _curves(axes: Axes, points: DataFrame, across: str, solver: str, scale, look: Mapping = {}) -> None:  # noqa: B006
+    """Friction with its intervals, a curve for each speed."""
+    for speed, curve in points.groupby("speed"):
+        _curve(axes, curve, across, "friction_coefficient", solver, shades.SPEED(scale(speed)), **look)
+
+
+def _curve(axes, curve, across, name, solver, colour, factor=1.0, **other):
+    values = factor * curve[name]
+    ends = style.bars(values, factor * curve[f"{name}_low"], factor * curve[f"{name}_high"])
+    look = {
+        "marker": style.MARKER[solver],
+        "linestyle": style.LINE[solver],
+        "linewidth": style.width(0.7),
+        "markersize": style.mark(0.75),
+        "elinewidth": style.width(0.65),
+        "capsize": 0,
+    }
+    axes.errorbar(curve[across], values, yerr=ends, color=colour, **look | other)
+
+
+def _lines(axes, curves):
+    """Common curve and the law of the paper."""
+    looks = {COMMON: ("-", style.ink(), 0.8), LAW: ("--", style.grey(0.5), 1.0)}
+    for name, curve in curves.groupby("curve", sort=False):
+        line, colour, width = looks[name]
+        axes.plot(
+            curve["shifted_force"],
+            curve["friction_coefficient"],
+            line,
+            color=colour,
+            linewidth=style.width(width),
+            zorder=1,
+            label=name,
+        )
+
+
+def _left(axes, above, points, solver, scale, tolerance):
+    """What the means miss the common curve by."""
+    axes.set(xlabel="shifted normal force [N]", xscale="log")
+    axes.sharex(above)
+    axes.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
+    axes.axhline(0, color=style.ink(), linewidth=style.width(0.65))
+    for speed, curve in points.groupby("speed"):
+        colour = shades.SPEED(scale(speed))
+        _curve(axes, curve, "shifted_force", "off_curve", solver, colour, 100, linewidth=style.width(0.55))
+
+
+def _misfit(fit):
+    if not np.isfinite(fit["misfit"]):
+        return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
+    if not np.isfinite(fit["misfit_low"]):
+        return f"δ = {fit['misfit']:.1%}"
+    return f"δ = {fit['misfit']:.1%} ({max(fit['misfit_low'], 0.0):.1%} to {fit['misfit_high']:.1%})"
+
+
+def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
+    """Left: shift along the load. Middle: less what theory has. Right: shift along friction, both fitted."""
+    every, fits = tables["shifts"], tables["shifts-fits"]
+    drawing = style.canvas("double", 2.7)
+    left, middle, right = panels = drawing.subplots(1, 3)
+    for index, (dimension, own) in enumerate(every.groupby("dimension")):
+        solver, apart = SOLVER[dimension], APART ** (2 * index - 1)
+        for axes, name, less in ((left, "log_shift", 0.0), (middle, "log_shift", own["theory"]), (right, "log_lift", 0.0)):
+            value = own[name] - less
+            ends = style.bars(value, own[f"{name}_low"] - less, own[f"{name}_high"] - less)
+            look = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": "none"}
+            axes.errorbar(own["speed"] * apart, value, yerr=ends, **look)
+        (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
+        power = f"$v^{{{fit['exponent']:.2f}}}$" if np.isfinite(fit["exponent"]) else "undecided"
+        left.plot([], [], label=f"{dimension}, {power}", **look)
+    left.plot(
+        own["speed"],
+        own["theory"],
+        "-",
+        color=style.grey(0.45),
+        linewidth=style.width(0.8),
+        zorder=1,
+        label="theory, ln p(v)",
+    )
+    for axes in (middle, right):
+        axes.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
+    right.axhspan(-tolerance, tolerance, color=style.grey(0.9), linewidth=0, zorder=0)
+    left.set(ylabel="horizontal shift $b_v$ [1]", title="(a)")
+    middle.set(ylabel="$b_v$ less ln p(v) [1]", title="(b)")
+    right.set(ylabel="vertical shift $c_v$, both fitted [1]", title="(c)")
+    left.legend(loc="best", handlelength=1.4)
+    for axes in panels:
+        axes.set(xscale="log", xlabel="speed [m/s]")
+        style.span(axes, every["speed"])
+        style.decades(axes)
+    clear(drawing, (left,))
+    return drawing
+
+
+def levels(tables: Tables) -> Figure:
+    """Above: friction against speed at three loads or depths. Below: 1D over 3D, rough and smooth."""
+    every, ratios = tables["levels"], tables["levels-ratios"]
+    prescribed = "load" if "load" in every else "depth"
+    drawing = style.canvas("double", 5.2)
+    above, below = drawing.subfigures(2, 1, squeeze=False, height_ratios=(1.15, 1))[:, 0]
+    values = sorted(set(every[prescribed]))
+    chosen = [values[k] for k in sorted({0, len(values) // 2, len(values) - 1})]
+    panels = above.subplots(1, len(chosen), sharey=True, sharex=True, squeeze=False)[0]
+    panels[0].set(xscale="log", yscale="log", ylabel="friction coefficient [1]")
+    for axes, value in zip(panels, chosen, strict=True):
+        for index, (dimension, curve) in enumerate(every[every[prescribed] == value].groupby("dimension")):
+            _level(axes, curve, dimension, index)
+        axes.set(xlabel="speed [m/s]", title=EngFormatter(UNITS[prescribed])(float(f"{value:.3g}")))
+    # The limit of low speed leaves the panel where it no longer holds.
+    drawn = every.loc[every[prescribed].isin(chosen), ["friction_coefficient", "smooth", "plateau"]].to_numpy()
+    if (positive := drawn[drawn > 0]).size:
+        panels[0].set_ylim(positive.min() / 1.5, positive.max() * 1.5)
+    style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 5)
+    lower = below.subplots(1, 2, sharey=True)
+    _ratios(below, lower, ratios, prescribed)
+    for axes in (*panels, *lower):
+        style.decades(axes)
+    return drawing
+
+
+def _level(axes, curve, dimension, index):
+    """Curves of one dimensionality at one load or depth."""
+    solver, speeds = SOLVER[dimension], curve["speed"]
+    colour = style.COLOUR[solver]
+    # Dashes of one lie in the gaps of the other: the laws of both may coincide.
+    law = {"color": colour, "alpha": 0.5, "linewidth": style.width(1.1)}
+    axes.plot(speeds, curve["eq_19"], linestyle=(6 * index, (6, 6)), zorder=1, label=f"{dimension}, Eq. 19", **law)
+    plateau = curve["plateau"].iloc[0]
+    axes.axhline(plateau, linestyle=(2 * index, (2, 2)), zorder=0, label=f"{dimension}, Eq. 14", **law)
+    mu = curve["friction_coefficient"]
+    axes.errorbar(
+        speeds,
+        mu,
+        yerr=style.bars(mu, curve["friction_coefficient_low"], curve["friction_coefficient_high"]),
+        color=colour,
+        marker=style.MARKER[solver],
+        linestyle=style.LINE[solver],
+        markersize=style.mark(0.9),
+        label=f"{dimension}, rough",
+    )
+    thin = {"linestyle": style.LINE[solver], "linewidth": style.width(0.55), "alpha": 0.8}
+    axes.plot(speeds, curve["smooth"], color=colour, label=f"{dimension}, smooth", **thin)
+    dots = {"linestyle": (0, (1, 1.6 + 1.6 * index)), "linewidth": style.width(1.1)}
+    axes.plot(speeds, curve["low_speed"], color=colour, label=f"{dimension}, low speed", **dots)
+
+
+def _ratios(drawing, panels, ratios, prescribed):
+    """Friction in 1D over that in 3D: rough at left, smooth at right, a shade for each load or depth."""
+    unit, label = BAR[prescribed]
+    scale = shades.between(unit * ratios[prescribed])
+    for axes, (body, (memory, name)) in zip(panels, MEMORIES.items(), strict=True):
+        for level, line in ((1, "-"), (2, ":")):
+            axes.axhline(level, color=style.grey(0.6), linewidth=style.width(0.65), linestyle=line, zorder=0)
+        for j, (value, curve) in enumerate(ratios[ratios["body"] == body].groupby(prescribed)):
+            ratio = curve["friction_1d_over_3d"]
+            axes.errorbar(
+                curve[memory],
+                ratio,
+                yerr=style.bars(ratio, curve["friction_1d_over_3d_low"], curve["friction_1d_over_3d_high"]),
+                color=shades.PRESS(scale(unit * value)),
+                marker=style.SERIES_MARKERS[j % len(style.SERIES_MARKERS)],
+                markersize=style.mark(0.75),
+                linewidth=style.width(0.65),
+                elinewidth=style.width(0.65),
+            )
+        axes.set(xscale="log", xlabel=name, title=body)
+        axes.set_ylim(bottom=0)
+    panels[0].set_ylabel("friction 1D / 3D [1]")
+    shades.bar(drawing, panels, shades.PRESS, scale, label, location="right", fraction=0.04, pad=0.02)
+
+
+def family(tables: Tables) -> Figure:
+    """Friction over its plateau against xi. Rows: shapes. Columns: 1D, 3D. A marker for each series."""
+    every, law = tables["family"], tables["family-law"]
+    shapes = list(dict.fromkeys(every["shape"]))
+    most = max(every.groupby("shape")["series"].nunique())
+    drawing = style.canvas("double", 0.3 + len(shapes) * (2.6 + 0.16 * -(-most // 2)))
+    bands = drawing.subfigures(len(shapes), 1, squeeze=False)[:, 0]
+    for band, shape in zip(bands, shapes, strict=True):
+        panels = band.subplots(1, 2, sharex=True, sharey=True)
+        for axes, (dimension, solver) in zip(panels, SOLVER.items(), strict=True):
+            own, line = (
+                frame[(frame["shape"] == shape) & (frame["dimension"] == dimension)] for frame in (every, law)
+            )
+            _markers(axes, own)
+            axes.plot(
+                line["xi"],
+                line["friction_over_plateau"],
+                "-",
+                color=style.ink(),
+                linewidth=style.width(0.8),
+                zorder=1,
+                label="Eq. 19",
+            )
+            axes.set(xscale="log", yscale="log", xlabel=r"$\xi$ [1]", title=f"{style.LABEL[solver]}, {shape}")
+            style.decades(axes)
+        panels[0].set_ylabel("friction over its plateau [1]")
+        style.legend(band, panels[0].get_legend_handles_labels()[0], "outside lower center", 2)
+    return drawing
+
+
+def _markers(axes, points):
+    names = list(dict.fromkeys(points["series"]))
+    for index, name in enumerate(names):
+        own = points[points["series"] == name]
+        value = own["friction_over_plateau"]
+        axes.errorbar(
+            own["xi"],
+            value,
+            yerr=style.bars(value, own["friction_over_plateau_low"], own["friction_over_plateau_high"]),
+            color=shades.PRESS(index / max(1, len(names) - 1)),
+            marker=style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
+            markersize=style.mark(0.75),
+            markerfacecolor="none" if index >= len(style.SERIES_MARKERS) else None,
+            linestyle="none",
+            elinewidth=style.width(0.55),
+            capsize=0,
+            label=name,
+        )

@@ -1,0 +1,230 @@
+"""Claims of the paper judged on series of contacts: `crosscheck study`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from scene.reading import InvalidInput, text_of
+
+from ..describe import described, slug
+from ..finding import REPORTED, VERDICTS, Finding, sentences
+from ..inputs import located
+from ..library import Listing, ready
+from ..outcome import Outcome
+from ..page import Block, Findings, Plot, Section, Table, Text
+from ..pipeline import Study
+from ..rectangle import Rectangle
+from ..suggest import known
+from ..task import Batch, Task
+from . import study_plots
+from .catalogue import SIZES, STUDIES, ReadyStudy
+from .families import family_findings
+from .inputs import study_of
+from .judgement import JudgedSeries, judge_series
+from .points import failures, points
+from .series import SOLVERS, Contacts, Series
+
+UNMATCHED = (
+    "The roughness is a line in 1D and a surface in 3D. The spectra are tied by the rule of the method, "
+    "C_1D = π q C_2D, which keeps the rms height and the rms of the full gradient; real contact is a length in one and "
+    "an area in the other, and no claim compares them."
+)
+
+
+@dataclass(frozen=True)
+class JudgedStudy:
+    """A study, judged: its series one after the other, and findings on several of them together."""
+
+    series: tuple[JudgedSeries, ...]
+    together: tuple[Finding, ...]
+
+    @property
+    def findings(self) -> list[Finding]:
+        """Findings on every series, then on all together."""
+        return [*(each for judged in self.series for each in judged.findings), *self.together]
+
+
+@dataclass(frozen=True)
+class ClaimStudy(Study):
+    """A study of the catalogue, or of a file, at a size.
+
+    name : of its folder
+    study : the question
+    size : a name of SIZES
+    source : text of the file of a study that does not come with the package
+    """
+
+    name: str
+    study: ReadyStudy
+    size: str
+    source: str | None = None
+    _judged: dict[int, tuple[xarray.DataTree, JudgedStudy]] = field(default_factory=dict, repr=False, compare=False)
+
+    command = "study"
+
+    @classmethod
+    def of(cls, name: str | Path, size: str = "quick") -> "ClaimStudy":
+        """The study of a name that comes with the package, else of a file. Raises InvalidInput, Refused."""
+        known("size", size, SIZES)
+        if name in STUDIES:
+            found = cls(str(name), STUDIES[str(name)], size)
+        else:
+            path = _located(name)
+            text = text_of(path)
+            found = cls(path.stem, study_of(text, str(path)), size, text)
+        for rectangle in found.rectangles().values():
+            rectangle.refuse()
+        return found
+
+    @classmethod
+    def listing(cls) -> Listing:
+        """Studies that come with the package."""
+        return Listing(STUDIES)
+
+    @property
+    def title(self) -> str:  # type: ignore[override]
+        """Heading of the page."""
+        return self.study.title
+
+    @property
+    def about(self) -> str:  # type: ignore[override]
+        """What is asked."""
+        return self.study.about
+
+    @property
+    def place(self) -> str:  # type: ignore[override]
+        """One folder for a study and a size."""
+        return slug(f"{self.name}-{self.size}")
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """Name, size and, if it is a user's own, the whole text."""
+        own = {} if self.source is None else {"source": self.source}
+        return {"name": self.name, "size": self.size} | own
+
+    @cached_property
+    def series(self) -> tuple[Series, ...]:
+        """What is solved at this size."""
+        return tuple(self.study.series(SIZES[self.size]))
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Rectangles of the rough and of the smooth body of every series, by "series/body"."""
+        return {name: each for series in self.series for name, each in series.rectangles.items()}
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Everything that was solved, at /series/body/solver; a series has its title and its note as attributes."""
+        tree = super().answers(outcomes)
+        for each in self.series:
+            tree[each.name].attrs = {"title": each.title, "note": each.note, "prescribed": each.prescribed}
+        return tree
+
+    def judged(self, answers: xarray.DataTree) -> JudgedStudy:
+        """Every series and all together, judged once for the same answers."""
+        if id(answers) not in self._judged:
+            series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
+            self._judged.clear()
+            self._judged[id(answers)] = answers, JudgedStudy(series, tuple(family_findings(series)))
+        return self._judged[id(answers)][1]
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """What becomes of each claim, in every series and dimensionality."""
+        return self.judged(answers).findings
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """A sentence for each claim, from all findings on it; numbers without a claim stand in the tables alone."""
+        return sentences([each for each in findings if each.verdict != REPORTED])
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """Verdicts, an overview of them, and what belongs to several series; then each series."""
+        judged = self.judged(answers)
+        whole = [plot for plot in plots if not plot.folder]
+        blocks: list[Block] = [Text(self.about), *whole[:1]]
+        if overview := list(_overview(findings)):
+            blocks.append(
+                Table("overview", DataFrame(overview), "Findings of each verdict, by claim and dimensionality.")
+            )
+        blocks.append(Section("What cannot be matched between the dimensionalities", [Text(UNMATCHED)]))
+        if judged.together:
+            together = [*whole[1:], Findings(judged.together)]
+            blocks.append(Section("Several series together", together))
+        return blocks + [
+            Section(f"{number}. {each.series.title}", list(_section(each, plots)))
+            for number, each in enumerate(judged.series, 1)
+        ]
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
+        """Figures of the study, then of each series in its folder."""
+        judged = self.judged(answers)
+        found = list(study_plots.plots_of_study(judged.series, findings, bool(judged.together)))
+        return found + [plot for each in judged.series for plot in study_plots.plots_of_series(each)]
+
+
+def _located(name: str | Path) -> Path:
+    """File of a study of one's own. Raises InvalidInput that says what there is."""
+    try:
+        return located(name, "study")
+    except InvalidInput as error:
+        offered = ready()
+        if not Path(name).exists() and str(name) not in offered:
+            own = [each for each, found in offered.items() if found.kind == "study"]
+            known("NAME", str(name), [*STUDIES, *own], str(error))
+        raise
+
+
+def _overview(findings: Sequence[Finding]) -> Iterator[dict]:
+    """How many findings of each verdict, for each claim and dimensionality."""
+    claimed = [each for each in findings if each.verdict != REPORTED]
+    for key in dict.fromkeys((each.claim.id, each.row["dimension"]) for each in claimed):
+        own = [each for each in claimed if (each.claim.id, each.row["dimension"]) == key]
+        verdicts = [each.verdict for each in own]
+        counts = {name: verdicts.count(name) for name in VERDICTS if name != REPORTED}
+        yield {"sentence": own[0].claim.sentence, "dimension": key[1], **counts}
+
+
+def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
+    """What was asked of one series, its figures, findings, points, and what failed."""
+    series = judged.series
+    yield Text("\n".join(f"- {line}" for line in _asked(judged)))
+    yield from (plot for plot in plots if plot.folder == f"{series.folder}/")
+    if judged.findings:
+        yield Findings(judged.findings)
+    else:
+        yield Text("No claim can be judged, or none is asked, of this series.")
+    yield Table(
+        f"{series.folder}/points", points(judged.contacts), "Means over surfaces with intervals of 95 %.", long=True
+    )
+    failed = failures(judged.contacts)
+    if len(failed):
+        yield Table(f"{series.folder}/failed", failed, f"{len(failed)} solves failed and are left out.", long=True)
+
+
+def _asked(judged: JudgedSeries) -> Iterator[str]:
+    """Scene, points, draws and grids of a series, in words; slopes and regime as measured."""
+    series, scene = judged.series, judged.series.scene
+    if series.note:
+        yield series.note
+    yield f"contact: {described(scene.indenter)}; {described(scene.elastomer)}; {described(scene.roughness)}"
+    moved = "at rest"
+    if series.speeds:
+        kind = "rates of pressing in" if series.pressed_in else "speeds"
+        moved = f"{len(series.speeds)} {kind}, {series.speeds[0]:.3g} to {series.speeds[-1]:.3g} m/s, and at rest"
+    unit = {"load": "N", "depth": "m"}[series.prescribed]
+    yield f"{moved}; {len(series.values)} {series.prescribed}s, {series.values[0]:.3g} to {series.values[-1]:.3g} {unit}"
+    yield (
+        f"{series.profiles} profiles of {series.mdr.points} points in 1D, {series.surfaces} surfaces of "
+        f"{series.bem.points}² in 3D, each also on half the points a side"
+    )
+    for solver, dimension in SOLVERS.items():
+        answers = judged.contacts(solver)
+        known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)
+        if np.isfinite(known).any():
+            words = f"; {judged.laws[solver].regime.words}" if judged.laws else ""
+            yield f"{dimension}: rms slope {np.nanmean(known):.3g}{words}"

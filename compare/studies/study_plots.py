@@ -1,0 +1,364 @@
+"""Plots of a study: the tables behind each figure, from its answers, laws, shifts and findings."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from pandas import DataFrame, concat
+
+from mdr1d.equations import interpolation
+
+from ..finding import REPORTED, Finding, table
+from ..page import Plot
+from ..plots import study_depth, study_friction, study_verdicts
+from ..plots.study_friction import ALONE, COMMON, FITTED, LAW, PREDICTED
+from ..rectangle import COARSE, FINE
+from ..statistics import eq23
+from ..statistics.jackknife import friction, mean, mean_ratio
+from ..statistics.means import Interval
+from .claims_depth import closed_forms, loading
+from .families import families, reduced
+from .judgement import JudgedSeries
+from .points import force_at, friction_at, interval
+from .series import ROUGH, SMOOTH, SOLVERS, Contacts
+
+FORCES = "friction_force", "normal_force"
+
+
+def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], together: bool) -> Iterator[Plot]:
+    """Verdicts on every claim, and several series against one variable.
+
+    together : whether findings on several series are among them
+    """
+    judged = [each for each in findings if each.verdict != REPORTED]
+    if judged:
+        titles = [(each.series.name, each.series.title) for each in series]
+        titles += [(place, place) for place in dict.fromkeys(each.where for each in judged) if place not in dict(titles)]
+        named = "; ".join(f"{k}: {title}" for k, (_, title) in enumerate(titles, 1))
+        told = f" Columns: {named}." if study_verdicts.FEW < len(titles) <= 2 * study_verdicts.FEW else ""
+        yield Plot(
+            "verdicts",
+            study_verdicts.verdicts,
+            {"verdicts": table(judged)},
+            "Verdicts: rows are claims, columns are series, with one dimension left (blue) and three right (vermillion); "
+            f"below, claims that compare both (black). Filled: holds; cross: fails; hollow: undecided.{told}",
+            _counted(judged),
+            {"titles": titles},
+        )
+    found = families(series)
+    if found and together:
+        yield _family(found)
+
+
+def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
+    """How far each claim is from what was measured; friction, or depth and force."""
+    series = judged.series
+    claims = [each for each in judged.findings if each.verdict != REPORTED]
+    if claims:
+        yield Plot(
+            f"{series.folder}/effects",
+            study_verdicts.effects,
+            {"effects": table(claims)},
+            "What was measured less what is claimed, over the tolerance, whose band is grey; beyond one the axis is "
+            "logarithmic. Thick: 95 % from the scatter of surfaces; thin: wider by the change on halving the grid. "
+            "Hollow: undecided. An arrow stands for what lies beyond 100 tolerances.",
+            _counted(claims),
+        )
+    if judged.laws:
+        yield _collapse(judged)
+        if judged.collapses:
+            yield _shifts(judged)
+        yield _levels(judged)
+    yield _depth(judged.contacts)
+    if series.pressed_in and series.speeds:
+        yield _pressed_in(judged.contacts)
+
+
+def _counted(findings):
+    """Number of findings of each verdict, in words."""
+    verdicts = [each.verdict for each in findings]
+    return ", ".join(f"{name} {verdicts.count(name)}" for name in dict.fromkeys(verdicts))
+
+
+def _columns(name: str, found: Interval) -> dict[str, np.ndarray]:
+    """Numbers and both ends of their intervals, flat, under a name."""
+    return {f"{name}{end}": np.ravel(each) for end, each in zip(("", "_low", "_high"), found, strict=True)}
+
+
+def _places(series, name="speed") -> dict[str, np.ndarray]:
+    """Speed, and load or depth, of each point, flat."""
+    speeds, values = np.meshgrid(series.speeds, series.values, indexing="ij")
+    return {name: speeds.ravel(), series.prescribed: values.ravel()}
+
+
+def _collapse(judged) -> Plot:
+    points, curves, fits = [], [], []
+    for solver, dimension in SOLVERS.items():
+        parts = (_shifted(judged, solver), _curves(judged, solver), _fit(judged, solver, dimension))
+        for frames, frame in zip((points, curves, fits), parts, strict=True):
+            frame.insert(0, "dimension", dimension)
+            frames.append(frame)
+    names = "collapse", "collapse-curves", "collapse-fits"
+    tables = {name: concat(frames, ignore_index=True) for name, frames in zip(names, (points, curves, fits), strict=True)}
+    verdicts = [each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id]
+    return Plot(
+        f"{judged.series.folder}/collapse",
+        study_friction.collapse,
+        tables,
+        "Friction against normal force, a curve for each speed, with intervals of 95 %; then shifted along the force "
+        "(Eq. 23) so as to come closest to one curve (black), or as p(v) of Eq. 22 if no shifts can be fitted; then "
+        "what the curve is missed by, with the tolerance in grey. δ: rms without scatter.",
+        "; ".join(f"{each.dimension}: {each.verdict}" for each in verdicts),
+        {"tolerance": eq23.TOLERANCE},
+    )
+
+
+def _shifted(judged, solver) -> DataFrame:
+    """Every point, shifted as fits best or, where no shifts are known, as theory has it."""
+    contacts, series = judged.contacts, judged.series
+    mu, load = friction_at(contacts, solver), force_at(contacts, solver).value
+    found = judged.collapses.get(solver)
+    fitted = found is not None and found.horizontal.curve is not None
+    frame = DataFrame(_places(series) | {"normal_force": load.ravel()} | _columns("friction_coefficient", mu))
+    shift, how = np.full(load.shape, np.nan), np.full(load.shape, ALONE, object)
+    if fitted:
+        for speed, by, known in zip(found.speeds, found.horizontal.horizontal.value, found.data.known, strict=True):
+            row = series.speeds.index(speed)
+            shift[row, known], how[row, known] = by, FITTED
+    else:
+        shift[:], how[:] = _predicted(judged, solver)[:, None], PREDICTED
+    frame["shifted_force"] = (load * np.exp(shift)).ravel()
+    frame["shifted_as"] = how.ravel()
+    curve = found.horizontal.curve(np.log(frame["shifted_force"])) if fitted else np.nan
+    for end in ("", "_low", "_high"):
+        frame[f"off_curve{end}"] = np.log(frame[f"friction_coefficient{end}"].where(lambda value: value > 0)) - curve
+    return frame
+
+
+def _middle(judged, solver):
+    """Place of the speed whose curve is not moved."""
+    found, series = judged.collapses.get(solver), judged.series
+    speeds = series.speeds if found is None or found.horizontal.curve is None else found.speeds.tolist()
+    return series.speeds.index(speeds[len(speeds) // 2])
+
+
+def _predicted(judged, solver):
+    """ln p(v) of all speeds over that of the middle one."""
+    shifts = judged.laws[solver].shifts
+    return shifts - shifts[_middle(judged, solver)]
+
+
+def _curves(judged, solver) -> DataFrame:
+    """The common curve, and Eq. 19 at all points, which is one curve once shifted as theory has it."""
+    laws, found, parts = judged.laws[solver], judged.collapses.get(solver), []
+    if found is not None and found.horizontal.curve is not None:
+        x = np.linspace(*found.horizontal.curve.domain, 201)
+        columns = {"shifted_force": np.exp(x), "friction_coefficient": np.exp(found.horizontal.curve(x))}
+        parts.append(DataFrame({"curve": COMMON} | columns))
+    load = (np.exp(_predicted(judged, solver))[:, None] * laws.load).ravel()
+    law = DataFrame({"curve": LAW, "shifted_force": load, "friction_coefficient": laws.law.ravel()})
+    return concat([*parts, law.dropna().sort_values("shifted_force")], ignore_index=True)
+
+
+def _fit(judged, solver, dimension) -> DataFrame:
+    found = judged.collapses.get(solver)
+    if found is None:
+        return DataFrame([{"misfit": np.nan, "reason": "too few points"}])
+    (claim,) = (
+        each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id and each.dimension == dimension
+    ) if any(each.claim.id == eq23.COLLAPSE.id for each in judged.findings) else (None,)
+    low, high = found.horizontal.misfit.interval() if claim is None else claim.interval
+    row = {
+        "misfit": found.horizontal.misfit.value,
+        "misfit_low": low,
+        "misfit_high": high,
+        "rms": found.horizontal.rms,
+        "degree": found.degree,
+        "points_left_out": found.points_left_out,
+        "surfaces_left_out": found.surfaces_left_out,
+        "reason": found.horizontal.reason,
+    }
+    return DataFrame([row])
+
+
+def _shifts(judged) -> Plot:
+    shifts, fits, said = [], [], []
+    for solver, found in judged.collapses.items():
+        dimension = SOLVERS[solver]
+        places = [judged.series.speeds.index(speed) for speed in found.speeds.tolist()]
+        theory = judged.laws[solver].shifts[places]
+        frame = found.shifts
+        frame.insert(0, "dimension", dimension)
+        frame["theory"] = theory - theory[len(theory) // 2]
+        shifts.append(frame)
+        reason = found.horizontal.reason or found.inseparable
+        exponent = found.horizontal.exponent.value
+        low, high = found.horizontal.exponent.interval()
+        fits.append(
+            {"dimension": dimension, "exponent": exponent, "exponent_low": low, "exponent_high": high, "reason": reason}
+        )
+        said.append(f"{dimension}: {reason}" if reason else "")
+    return Plot(
+        f"{judged.series.folder}/shifts",
+        study_friction.shifts,
+        {"shifts": concat(shifts, ignore_index=True), "shifts-fits": DataFrame(fits)},
+        "Shifts that bring the curves onto one, zero at the middle speed, with intervals of 95 % over surfaces. (a) "
+        "Along ln F_N alone, and ln p(v) of Eq. 22 (line). (b) Their difference. (c) Along ln μ, both fitted; grey, "
+        "the tolerance.",
+        "; ".join(each for each in said if each),
+        {"tolerance": eq23.TOLERANCE},
+    )
+
+
+def _levels(judged) -> Plot:
+    contacts, series, frames = judged.contacts, judged.series, []
+    for solver, laws in judged.laws.items():
+        columns = {"dimension": SOLVERS[solver], **_places(series)}
+        columns |= {name: laws.ratio(name).ravel() for name, _ in study_friction.MEMORIES.values()}
+        columns |= _columns("friction_coefficient", friction_at(contacts, solver))
+        columns["smooth"] = friction_at(contacts, solver, SMOOTH).value.ravel()
+        columns |= {"low_speed": laws.slow.ravel(), "smooth_low_speed": laws.smooth.ravel()}
+        frames.append(DataFrame(columns | {"plateau": laws.plateau, "eq_19": laws.law.ravel()}))
+    ratios = []
+    for body in (ROUGH, SMOOTH):
+        ratio = interval(_friction_ratio, contacts, body)
+        memories = {name: judged.laws["BEM"].ratio(name).ravel() for name, _ in study_friction.MEMORIES.values()}
+        ratios.append(
+            DataFrame({"body": body, **_places(series), **memories, **_columns("friction_1d_over_3d", ratio)})
+        )
+    return Plot(
+        f"{series.folder}/levels",
+        study_friction.levels,
+        {"levels": concat(frames, ignore_index=True), "levels-ratios": concat(ratios, ignore_index=True)},
+        f"Friction against speed at the least, a middle and the greatest {series.prescribed}, with intervals of 95 %: "
+        "rough (markers), smooth (thin), exact limit of low speed (dotted), Eqs. 19 and 14 (pale). Below: 1D over 3D, "
+        "rough and smooth, with lines at 1 and at 2, the limit of smooth bodies at low speed.",
+        f"Friction of {series.title} in both dimensionalities",
+    )
+
+
+def _friction_ratio(sample):
+    one, three = (friction(sample[solver])[1:] for solver in SOLVERS)
+    return one / three
+
+
+def _depth(contacts: Contacts) -> Plot:
+    series = contacts.series
+    load, depth = closed_forms(series)
+    at_load = series.prescribed == "load"
+    name, known, unit = (
+        ("depth_reached", depth, series.scene.roughness.rms_height) if at_load else ("normal_force", load, load)
+    )
+    frames, stiffness = [], []
+    for solver, dimension in SOLVERS.items():
+        columns = {"dimension": dimension, series.prescribed: series.values, "closed_form": known}
+        for body in (ROUGH, SMOOTH):
+            found = interval(lambda sample, solver=solver: mean(sample[solver], name)[0], contacts, body, solver)
+            less = Interval(*((each - known) / unit for each in found))
+            columns |= _columns(body, found) | _columns(f"{body}_deviation", less)
+        frames.append(DataFrame(columns))
+        if len(series.values) > 1:
+            force = mean(contacts.sample(FINE, ROUGH, solver)[solver], "normal_force")[0]
+            secants = _columns("stiffness", interval(_stiffness(solver), contacts, ROUGH, solver))
+            stiffness.append(
+                DataFrame({"dimension": dimension, "normal_force": np.sqrt(force[1:] * force[:-1]), **secants})
+            )
+    if len(series.values) > 1:
+        closed = {"normal_force": np.sqrt(load[1:] * load[:-1]), "stiffness": np.diff(load) / np.diff(depth)}
+        stiffness.append(DataFrame({"dimension": study_depth.CLOSED, **closed}))
+
+    def apart(sample):
+        one, three = (mean(sample[solver], name)[0] for solver in SOLVERS)
+        return (one - three) / depth if at_load else one / three - 1
+
+    differences = [
+        DataFrame(
+            {"body": body, series.prescribed: series.values, **_columns("difference", interval(apart, contacts, body))}
+        )
+        for body in (ROUGH, SMOOTH)
+    ]
+    empty = DataFrame(columns=["dimension", "normal_force", "stiffness", "stiffness_low", "stiffness_high"])
+    what = "Depth under prescribed loads" if at_load else "Force at prescribed depths"
+    return Plot(
+        f"{series.folder}/depth",
+        study_depth.depth,
+        {
+            "depth": concat(frames, ignore_index=True),
+            "depth-differences": concat(differences, ignore_index=True),
+            "depth-stiffness": concat(stiffness, ignore_index=True) if stiffness else empty,
+        },
+        f"(a) {what} at rest, and the closed form of the smooth body (line). (b) Less that closed form. (c) 1D against 3D. "
+        "(d) Stiffness between neighbours. Bars are intervals of 95 %; points are drawn apart along the axis. Depth is "
+        "that of the macroscopic tip, below zero where only the highest asperities touch.",
+        f"{what}, one dimension against three",
+    )
+
+
+def _stiffness(solver):
+    """dF/dd [N/m] between neighbouring loads or depths, on the same surfaces."""
+
+    def secants(sample):
+        answers = sample[solver].isel(speed=0)
+        force, depth = (
+            np.diff(answers[name].transpose(..., "draw").values, axis=0) for name in ("normal_force", "depth_reached")
+        )
+        return mean_ratio(force, depth).value
+
+    return secants
+
+
+def _pressed_in(contacts: Contacts) -> Plot:
+    series, frames = contacts.series, []
+    closed = study_depth.CLOSED.replace(" ", "_")
+    for solver, dimension in SOLVERS.items():
+        columns = {"dimension": dimension, **_places(series, "rate"), **_columns("normal_force", force_at(contacts, solver))}
+        columns["smooth_normal_force"] = force_at(contacts, solver, SMOOTH).value.ravel()
+        frames.append(DataFrame(columns | {closed: loading(series).ravel()}))
+
+    def apart(sample):
+        one, three = (mean(sample[solver], "normal_force")[1:] for solver in SOLVERS)
+        return one / three - 1
+
+    ratios = _places(series, "rate") | _columns("rough_difference", interval(apart, contacts, ROUGH))
+    ratios |= _columns("smooth_difference", interval(apart, contacts, SMOOTH))
+    return Plot(
+        f"{series.folder}/pressed-in",
+        study_depth.pressed_in,
+        {"pressed-in": concat(frames, ignore_index=True), "pressed-in-ratios": DataFrame(ratios)},
+        "Force at the end of an indentation at a constant rate, by colour: rough (markers), smooth (lines), Lee and Radok "
+        "(crosses). Right: 1D over 3D at the same depth and rate, less one; in 3D the last half step is still to come, "
+        "which the claims allow for and the figure does not. Bars are intervals of 95 %.",
+        "Force against depth at each rate, one dimension against three",
+    )
+
+
+def _family(found) -> Plot:
+    frames, laws = [], []
+    for shape, members in found.items():
+        for solver, dimension in SOLVERS.items():
+            fine, coarse = (reduced(members, solver, grid) for grid in (FINE, COARSE))
+            own = []
+            for k, each in enumerate(members):
+                count = each.laws[solver].xi.size
+                mu, other = (mean_ratio(data.friction_force[k], data.load[k]) for data in (fine, coarse))
+                low, high = mu.interval()
+                grid = np.abs(mu.value - other.value)
+                columns = _columns("friction_over_plateau", Interval(mu.value, low - grid, high + grid))
+                xi = 1 / mean_ratio(fine.load[k]).value
+                own.append(DataFrame({"series": each.series.title, "xi": xi, **columns})[:count])
+            points = concat(own, ignore_index=True)
+            points.insert(0, "shape", shape)
+            points.insert(1, "dimension", dimension)
+            frames.append(points)
+            if (known := points["xi"].dropna()).size:
+                xi = np.geomspace(known.min(), known.max(), 101)
+                columns = {"xi": xi, "friction_over_plateau": interpolation(xi)}
+                laws.append(DataFrame({"shape": shape, "dimension": dimension, **columns}))
+    return Plot(
+        "family",
+        study_friction.family,
+        {"family": concat(frames, ignore_index=True), "family-law": concat(laws, ignore_index=True)},
+        "Friction over its plateau, Eq. 14, against ξ of Eq. 18, with the loss at the shortest wave and the rms slope as "
+        "each dimensionality has it; bars are intervals of 95 %, a marker for each series. Line: Eq. 19. If roughness and "
+        "solid count through ξ alone, all markers lie on one curve.",
+        f"{len(frames)} panels of friction against ξ",
+    )
