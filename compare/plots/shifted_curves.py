@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import nan
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -143,7 +144,7 @@ def _verdict(fit):
     return f"collapse {fit['verdict']}{how}{misfit}"
 
 
-def _curves(axes: Axes, points: DataFrame, across: str, colours: np.ndarray) -> None:
+def _curves(axes: Axes, points: DataFrame, across: str, colours: Any) -> None:
     """Lines with intervals; points filled where the conditions of the laws hold, or none are known."""
     known = points[across].notna().to_numpy()
     points, colours = points[known], colours[known]
@@ -155,13 +156,13 @@ def _curves(axes: Axes, points: DataFrame, across: str, colours: np.ndarray) -> 
     ends = style.bars(mu, points["friction_coefficient_low"], points["friction_coefficient_high"])
     axes.errorbar(x, mu, yerr=ends, fmt="none", ecolor=colours, elinewidth=style.width(0.45), capsize=0)
     holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
-    look = {"s": style.mark(0.5) ** 2, "linewidths": style.width(0.35), "zorder": 2.5}
+    look: dict[str, Any] = {"s": style.mark(0.5) ** 2, "linewidths": style.width(0.35), "zorder": 2.5}
     for where, inside in ((holds, colours[holds]), (~holds, style.paper())):
         if where.any():
             axes.scatter(x[where], mu[where], facecolors=inside, edgecolors=colours[where], **look)
 
 
-def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> None:
+def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any) -> None:
     """Shifts with intervals, hollow where curves do not collapse, and powers of the speed."""
     speed, shift = shifts["speed"].to_numpy(), shifts["log_shift"] / LOG10
     known = np.isfinite(shift)
@@ -169,8 +170,9 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> N
     if known.any():
         axes.errorbar(speed, shift, yerr=ends, fmt="none", ecolor=colours, capsize=0)
         inside = colours if fit["decided"] else style.paper()
-        look = {"facecolors": inside, "edgecolors": colours, "linewidths": style.width(0.8)}
+        look: dict[str, Any] = {"facecolors": inside, "edgecolors": colours, "linewidths": style.width(0.8)}
         axes.scatter(speed, shift, s=style.mark(0.8) ** 2, zorder=2, **look)
+    colour: Any
     decades, others = np.log10(speed / fit["reference_speed"]), iter(OTHERS)
     for power in powers.itertuples():
         label = f"{power.power} {power.exponent:.3g}"

@@ -300,10 +300,14 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
         }
 
     found, increments = data.resampled(numbers), sought(fit)
-    sizes = {name: found.pop(name).rms for name in ("raised", "misfit", "mended")}
     return Alignment(
-        **{name: each.estimated for name, each in found.items()},
-        **sizes,
+        horizontal=found["horizontal"].estimated,
+        vertical=found["vertical"].estimated,
+        exponent=found["exponent"].estimated,
+        vertical_exponent=found["vertical_exponent"].estimated,
+        raised=found["raised"].rms,
+        misfit=found["misfit"].rms,
+        mended=found["mended"].rms,
         rms=_rms(fit.residuals(increments)),
         curve=_curve(fit, increments),
     )

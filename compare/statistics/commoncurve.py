@@ -114,7 +114,7 @@ def bounds(curves: Sequence[Curve]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def near(fit: Fit, guess: np.ndarray) -> np.ndarray:
-    """Increments of least misfit close to a guess (Gauss-Newton); by a search within the bounds if none is near."""
+    """Increments of least misfit close to a guess (Gauss-Newton), or of a search within the bounds."""
     lower, upper = bounds(fit.curves)
     at, least = guess, np.inf
     for _ in range(_STEPS):

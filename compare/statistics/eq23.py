@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import isfinite, nan
+from typing import TypeVar
 
 import numpy as np
 
@@ -56,6 +57,7 @@ BOTH = Claim(
     sentence="Misfit of friction to one curve with shifts along load and friction",
     meaning=f"{_MISFIT}, with both shifts at each speed.",
 )
+_Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
 _UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
 
@@ -101,10 +103,8 @@ def findings(
         yield replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
 
 
-def finding(
-    claim: Claim, fine: RmsMisfit | Estimated, coarse: RmsMisfit | Estimated | None, reason: str = ""
-) -> Finding:
-    """Finding of a number that fits on two grids give; on one only, None, of data that have no grid."""
+def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "") -> Finding:
+    """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
     grid = 0.0 if coarse is None else fine.apart(coarse)
     method = EXACT if coarse is None else HALVED if isfinite(grid) else UNKNOWN
     low, high = (float(end) for end in fine.interval())

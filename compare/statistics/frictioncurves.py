@@ -1,16 +1,16 @@
 """Curves of friction against load at several speeds: simulated on the same rough surfaces, or measured."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import inf, nan, sqrt
-from typing import Protocol, Self
+from typing import Any, Protocol, Self
 
 import numpy as np
 import xarray
 
 from .jackknife import Replicates, groups, resample
 
-Statistic = Callable[["FrictionCurves"], Mapping[str, float | np.ndarray]]
+Statistic = Callable[[Any], Mapping[str, float | np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Curve:
 
 
 class FrictionCurves(Protocol):
-    """Curves of ln mu (ln F) at several speeds, and how anything that follows from them scatters."""
+    """Curves of ln mu (ln F) at several speeds, and the scatter of what follows from them."""
 
     @property
     def speeds(self) -> np.ndarray:
@@ -54,7 +54,7 @@ class FrictionCurves(Protocol):
         The mean of products over K estimates the covariance.
         """
 
-    def replicates(self, value: np.ndarray, deviations: np.ndarray) -> Replicates:
+    def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers (M,) whose deviations (K, M) follow from those of the points."""
 
 
@@ -156,7 +156,7 @@ class SimulatedCurves:
         load, friction = ((force / force.mean(axis=1, keepdims=True) - 1)[:, surfaces] for force in forces)
         return (friction - (1 + np.reshape(slopes, (-1, 1))) * load).T
 
-    def replicates(self, value: np.ndarray, deviations: np.ndarray) -> Replicates:
+    def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers whose deviations follow from those of the surfaces."""
         return Replicates.first_order(value, deviations)
 
@@ -170,7 +170,7 @@ class MeasuredCurves:
     """
 
     curves: tuple[Curve, ...]
-    freedom: float = field(default=inf)
+    freedom: float = inf
 
     @property
     def speeds(self) -> np.ndarray:
@@ -210,7 +210,7 @@ class MeasuredCurves:
         """Errors of the points (N, N); loads are known exactly."""
         return np.diag(self._errors)
 
-    def replicates(self, value: np.ndarray, deviations: np.ndarray) -> Replicates:
+    def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers whose deviations follow from those of independent points."""
         return Replicates(value, sqrt(len(deviations)) * deviations, self.freedom)
 

@@ -170,7 +170,7 @@ class Mastercurve(Study):
 def read_measured(path: str | Path) -> xarray.Dataset:
     """Table of friction coefficient mu, normal force F_N [N] and speed v [m/s], a row a measurement.
 
-    Columns stand in this order, or as a heading names them. Raises ValueError naming file, line and allowed values.
+    Columns stand in this order, or as a heading names them. Raises ValueError naming file and line.
     """
     heading, rows = read_rows(path, COLUMNS)
     order = _order(heading)
