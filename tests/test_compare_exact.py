@@ -1,7 +1,7 @@
 """Closed forms against integrals and derivatives that are written out here."""
 
 from dataclasses import replace
-from math import pi, sqrt, tan
+from math import pi, tan
 
 import numpy as np
 import pytest
@@ -63,17 +63,6 @@ def test_pressure_carries_the_load(shape):
     middle = (p[1:] + p[:-1]) / 2
     assert pi * np.sum(middle * np.diff(r**2)) == pytest.approx(1.0, rel=RING_SUM)
     assert np.all(p >= 0)
-
-
-def test_hertz_and_sneddon_are_the_two_shapes_everyone_knows():
-    stiffness, depth = RUBBER.indentation_modulus, 1e-4
-    sphere = Exact().solve(Scene(Sphere(radius=2e-2), RUBBER, Indent(depth=depth)))
-    assert sphere.normal_force == pytest.approx(4 / 3 * stiffness * sqrt(2e-2) * depth**1.5, rel=ROUNDING)
-    cone = Exact().solve(Scene(Cone(angle=0.2), RUBBER, Indent(depth=depth)))
-    assert cone.normal_force == pytest.approx(2 / pi * stiffness * depth**2 / tan(0.2), rel=ROUNDING)
-    r, p = cone.fields["r"], cone.fields["pressure"]
-    radius = cone.measures["contact_length"] / 2
-    assert p == pytest.approx(stiffness * tan(0.2) / 2 * np.arccosh(radius / r), rel=1e-10, abs=1e-6)
 
 
 @pytest.mark.parametrize("shape", SHAPES)

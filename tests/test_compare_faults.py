@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-
-from compare.outcome import Outcome, Row
 from compare.paper import campaign, law, parameters, shifts
 from compare.paper.campaign import Campaign
 from compare.paper.planes import Planes
 from compare.workprecision.promises import asked
+
+from compare.outcome import Outcome, Row
 from mdr1d import equations
 from scene import SolveError
 

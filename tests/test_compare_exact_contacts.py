@@ -1,7 +1,7 @@
-"""References against their own definitions: integrals, limits, and the figures of others."""
+"""Closed forms of contacts against their own definitions: integrals, limits, and the figures of others."""
 
 from itertools import pairwise
-from math import inf, pi, sqrt
+from math import inf, nan, pi, sqrt
 
 import numpy as np
 import pytest
@@ -27,23 +27,6 @@ def cylinder(f, memory, load=LOAD):
     return line_contact.sliding(RADIUS, RELAXED, (1 + f) * RELAXED, 1.0, memory * slow, load), slow
 
 
-# Line contact
-
-
-@pytest.mark.parametrize(
-    ("f", "expected"),
-    [
-        (1, (0.046258, 0.196843, 0.075388)),
-        (9, (0.085059, 0.463906, 0.171391)),
-        (inf, (0.095009, 0.558310, 0.294353)),
-    ],
-)
-def test_line_contact_gives_the_friction_that_was_found_before(f, expected):
-    for memory, mu in zip((0.1, 1.0, 10.0), expected, strict=True):
-        contact, slow = cylinder(f, memory)
-        assert contact.friction_coefficient * RADIUS / slow == pytest.approx(mu, abs=6e-7)
-
-
 def test_peak_pressures_are_those_of_a_published_program():
     """Combined radius 50 mm, E_g = 1905 MPa, f = 1, 600 N/mm; memories in mm, pressures in MPa to its 4 digits."""
     for memory, peak in ((0, 60.32), (9, 78.74), (45, 84.72), (2000, 85.31)):
@@ -66,40 +49,6 @@ def test_line_pressure_carries_the_load_and_its_moment_is_the_friction(f, memory
     assert -(p * x) @ dx / (LOAD * RADIUS) == pytest.approx(
         contact.friction_coefficient, rel=1e-10, abs=1e-12 * slow / RADIUS
     )
-
-
-@pytest.mark.parametrize("memory", [0.1, 2.0])
-def test_the_surface_under_the_line_pressure_has_the_slope_of_the_cylinder(memory):
-    """w' of the elastic half-space by quadrature, remembered along the flow by another."""
-    contact, _ = cylinder(3.0, memory)
-    lead, trail = contact.edges
-    v, w = np.polynomial.legendre.leggauss(400)
-    angle = pi * ((v + 1) / 2) ** 2
-    s = contact.centre - contact.half_width * np.cos(angle)
-    ds = contact.half_width * np.sin(angle) * w / 2 * 2 * ((v + 1) / 2) * pi
-    p = contact.pressure(s)
-
-    def elastic(x):
-        """w of p by -(2/pi) int p ln|x - s| ds, relaxed; log singularity taken off with p(x)."""
-        here = contact.pressure(x)
-        span = np.array([x - lead, x - trail])
-        logs = span[0] * np.log(abs(span[0])) - span[1] * np.log(abs(span[1])) - (trail - lead)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            rest = np.where(s == x, 0.0, (p - here) * np.log(np.abs(x - s)))
-        return -2 / pi / RELAXED * (rest @ ds + here * logs)
-
-    def displacement(x):
-        breaks = [t for t in ((x - lead) / contact.memory, (x - trail) / contact.memory) if 0 < t < 40]
-        cuts = sorted([0.0, *breaks, 1.0, 5.0, 40.0])
-        remembered = sum(
-            quad(lambda t: np.exp(-t) * elastic(x - t * contact.memory), a, b, epsrel=1e-8, limit=100)[0]
-            for a, b in pairwise(cuts)
-        )
-        return elastic(x) / 4 + 3 / 4 * remembered
-
-    depths = [displacement(x) + x**2 / (2 * RADIUS) for x in (lead * 0.6 + trail * 0.4, lead * 0.2 + trail * 0.8)]
-    sag = contact.half_width**2 / (2 * RADIUS)
-    assert depths[0] == pytest.approx(depths[1], abs=1e-4 * sag)
 
 
 @pytest.mark.parametrize("f", [1e-3, 1.0, 1e3])
@@ -144,39 +93,6 @@ def test_line_contact_overflows_nowhere(memory, f):
     assert np.all(np.isfinite(contact.pressure(np.linspace(*contact.edges, 50))))
 
 
-def test_line_contact_names_what_is_wrong():
-    with pytest.raises(ValueError, match="glassy_modulus"):
-        line_contact.sliding(1.0, 2.0, 1.0, 1.0, 1.0, 1.0)
-    with pytest.raises(ValueError, match="speed"):
-        line_contact.sliding(1.0, 1.0, 2.0, 1.0, -1.0, 1.0)
-    for bad in (0.0, -1.0, inf, float("nan")):
-        with pytest.raises(ValueError, match="line_load"):
-            line_contact.sliding(1.0, 1.0, 2.0, 1.0, 1.0, bad)
-
-
-# Waves
-
-
-@pytest.mark.parametrize("fraction", [1e-6, 0.05, 0.4, 0.9, 1.0])
-def test_westergaards_pressure_has_its_mean_and_leaves_the_mean_gap(fraction):
-    """The crest rises by -(2/(pi E*)) int p ln|2 sin(pi x/lambda)| dx over the mean; lambda = E* = 1."""
-    edge = pi / 2 * waves.wave_contact_fraction(fraction)
-
-    def over_contact(f):
-        # sin t = sin(edge) sin(u) takes the square root away
-        def integrand(u):
-            t = np.arcsin(np.sin(edge) * np.sin(u))
-            return waves.wave_pressure(fraction, t) * f(t) * np.sin(edge) * np.cos(u) / np.cos(t)
-
-        top = pi / 2 * (1 - 1e-12)
-        return 2 / pi * (quad(integrand, 0, 0.1)[0] + quad(integrand, 0.1, top)[0])
-
-    assert over_contact(lambda t: 1.0) == pytest.approx(1, rel=1e-8)
-    # h0 = 1: p* = pi, so the mean pressure is pi times the fraction
-    crest = -2 / pi * pi * fraction * over_contact(lambda t: np.log(2 * np.sin(np.maximum(t, 1e-300))))
-    assert 1 - crest == pytest.approx(waves.wave_mean_gap(fraction), rel=1e-7, abs=1e-7)
-
-
 def test_westergaards_pressure_flattens_the_wave():
     n, fraction = 4096, 0.6
     x = np.arange(n) / n
@@ -193,16 +109,6 @@ def test_westergaards_pressure_flattens_the_wave():
     assert gap.mean() == pytest.approx(waves.wave_mean_gap(fraction), abs=1e-4)
 
 
-def test_full_contact_pressure_of_waves_closes_them():
-    for fraction, touched, gap in ((0.0, 0.0, 1.0), (1.0, 1.0, 0.0)):
-        assert waves.wave_contact_fraction(fraction) == pytest.approx(touched, abs=1e-7)
-        assert waves.wave_mean_gap(fraction) == gap
-    t = np.linspace(-4, 4, 9)
-    assert waves.wave_pressure(1.0, t) == pytest.approx(1 + np.cos(2 * t), abs=1e-7)
-    assert waves.wave_closure(4e6, 1e-6, 1e-3) == pytest.approx(4e3 * pi, rel=ROUNDING)
-    assert waves.crossed_closure(4e6, 1e-6, 1e-3) == pytest.approx(4e3 * pi * sqrt(2), rel=ROUNDING)
-
-
 def test_crossed_waves_tend_to_their_asymptotes():
     table = waves.CROSSED_FRACTIONS
     assert waves.crossed_contact_fraction_heavy(0.95) == pytest.approx(table[0.95], abs=3e-4)
@@ -213,21 +119,6 @@ def test_crossed_waves_tend_to_their_asymptotes():
     force = fraction * waves.crossed_closure(1, 1, 1) / 2
     hertz = 2 * pi * (3 * force / (4 * (2 * pi) ** 2)) ** (2 / 3)
     assert waves.crossed_contact_fraction_light(fraction) == pytest.approx(hertz, rel=ROUNDING)
-
-
-@pytest.mark.parametrize("fraction", [-0.1, 1.1, float("nan")])
-def test_waves_refuse_a_fraction_that_is_none(fraction):
-    for form in (waves.wave_contact_fraction, waves.wave_mean_gap, waves.crossed_contact_fraction_heavy):
-        with pytest.raises(ValueError, match="0 to 1"):
-            form(fraction)
-
-
-def test_without_load_there_is_no_pressure_in_units_of_its_mean():
-    with pytest.raises(ValueError, match="load"):
-        waves.wave_pressure(0.0, 0.1)
-
-
-# Full contact
 
 
 @pytest.mark.parametrize("solid", [RUBBER, SOLID, CHAIN])
@@ -272,15 +163,6 @@ def test_full_contact_friction_is_traction_times_slope(solid):
     assert (doubled == pytest.approx(2, rel=1e-12)) == isinstance(solid, Kelvin)
 
 
-def test_full_contact_names_what_is_wrong():
-    with pytest.raises(ValueError, match="two dimensions"):
-        full_contact.friction(np.zeros(8), (1.0, 1.0), RUBBER, 1.0)
-    with pytest.raises(ValueError, match="sides"):
-        full_contact.friction(np.zeros((8, 8)), (1.0, 0.0), RUBBER, 1.0)
-
-
-# Indentation
-
 UP_AND_DOWN = ([0.0, 2.0, 4.0], [0.0, 0.2, 0.0])
 
 
@@ -302,19 +184,6 @@ def test_cone_up_and_down_is_elementary():
     for f, a, t in zip(force, radius, times, strict=True):
         assert (f, a) == pytest.approx(cone_while_shrinking(t), rel=1e-11)
     assert force[0] == pytest.approx(2 / pi * 0.02 * (2 + 4 * (1 + np.exp(-2))), rel=ROUNDING)
-
-
-@pytest.mark.parametrize(
-    ("shape", "expected"),
-    [
-        (Sphere(radius=1.0), (0.3624872, 0.2383434, 0.0989906)),
-        (Cone(angle=pi / 4), (0.0832678, 0.0506557, 0.0170928)),
-    ],
-)
-def test_indentation_is_near_the_forces_of_a_time_stepped_foundation(shape, expected):
-    """Stored figures of finite steps: the elementary solution of the cone shows them to be off by up to 1.2e-3."""
-    force, _ = indentation.force_of_depth(shape, SOLID, *UP_AND_DOWN, [2.0, 2.2, 2.5])
-    assert force == pytest.approx(expected, rel=1.3e-3)
 
 
 SHAPES = [
@@ -398,15 +267,6 @@ def test_withdrawing_slowly_is_elastic_and_fast_leaves_no_touch(shape, solid):
     assert (force, radius) == (0, 0)
 
 
-def test_a_hold_before_the_withdrawal_counts():
-    shape = Sphere(radius=1.0)
-    history = [0, 1.0, 6.0, 7.0], [0, 0.1, 0.1, 0]
-    force, radius = indentation.force_of_depth(shape, SOLID, *history, [1.0, 6.0, 6.01])
-    assert force[0] > force[1] > force[2] > 0
-    assert radius[0] == radius[1] == pytest.approx(sqrt(0.1), rel=1e-12)
-    assert radius[2] < radius[1]
-
-
 def test_dashpot_of_a_kelvin_body_adds_its_rate():
     """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
     force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
@@ -416,24 +276,6 @@ def test_dashpot_of_a_kelvin_body_adds_its_rate():
     again = indentation.loading_force(Sphere(radius=1.0), chain, [0, 2.0], [0, 0.2], [0.5, 2.0])
     assert again == pytest.approx(force, rel=1e-12)
 
-
-def test_indentation_names_what_is_wrong():
-    sphere = Sphere(radius=1.0)
-    with pytest.raises(ValueError, match="force_of_depth"):
-        indentation.loading_force(sphere, SOLID, *UP_AND_DOWN, 1.0)
-    with pytest.raises(ValueError, match="one top"):
-        indentation.force_of_depth(sphere, SOLID, [0, 1, 2, 3], [0, 2, 1, 2], 1.0)
-    with pytest.raises(ValueError, match="times from"):
-        indentation.loading_force(sphere, SOLID, [0, 1], [0, 1], 2.0)
-    with pytest.raises(ValueError, match="first zero"):
-        indentation.loading_force(sphere, SOLID, [0, 1], [1, 2], 0.5)
-    with pytest.raises(ValueError, match="two at least"):
-        indentation.loading_force(sphere, SOLID, [0, 1], [0, 1, 2], 0.5)
-    with pytest.raises(ValueError, match="depth falls"):
-        indentation.loading_depth(sphere, SOLID, [0, 1, 1.01], [0, 1, 0], [0.9, 1.0, 1.01])
-
-
-# One-dimensional foundation
 
 STANDARD = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxation_time=1.0)
 BODIES = (Sphere(radius=2.0), Cone(angle=0.4))
@@ -471,16 +313,6 @@ def test_the_kelvin_sphere_leaves_where_the_closed_form_says():
     assert friction == pytest.approx(-np.trapezoid(x * f, x), rel=1e-9)
 
 
-def test_the_kelvin_cone_ends_at_its_own_slope():
-    """mu = (pi/2) tan(angle) exactly once v tau >= a: nothing of the trailing flank is left."""
-    shape = Cone(angle=0.4)
-    for memory in (1.0, 30.0):
-        normal, friction = foundation.sliding_forces(
-            shape, RUBBER, memory / RUBBER.relaxation_time, shape.mdr_coefficient
-        )
-        assert friction / normal == pytest.approx(shape.mdr_coefficient, rel=ROUNDING)
-
-
 @pytest.mark.parametrize("shape", BODIES)
 @pytest.mark.parametrize("memory", [0.02, 0.5, 40.0])
 def test_the_stretch_of_the_branch_solves_its_equation(shape, memory):
@@ -492,12 +324,6 @@ def test_the_stretch_of_the_branch_solves_its_equation(shape, memory):
         rate = (stretch(x + h, memory, 1.0) - stretch(x - h, memory, 1.0)) / (2 * h)
         bend = 2 * x if shape.exponent == 2 else np.sign(x)
         assert rate == pytest.approx(-bend - stretch(x, memory, 1.0) / memory, abs=1e-7)
-
-
-def test_other_bodies_and_solids_have_no_closed_form_on_the_foundation():
-    for shape, solid in ((PowerLaw(coefficient=1.0, exponent=3.0), RUBBER), (BODIES[0], CHAIN)):
-        with pytest.raises(ValueError, match="has a closed form"):
-            foundation.sliding_forces(shape, solid, 1.0, 1.0)
 
 
 @pytest.mark.parametrize("shape", BODIES)
@@ -519,3 +345,34 @@ def test_the_one_dimensional_solver_tends_to_the_closed_form_at_second_order(sha
     assert order[0] == pytest.approx(2.0, abs=0.4)
     assert order[1] > 1.4
     assert np.abs(errors[-1]).max() < 2e-6
+
+
+SPHERE = Sphere(radius=1.0)
+
+
+@pytest.mark.parametrize(
+    ("form", "given", "named"),
+    [
+        (line_contact.sliding, (1.0, 2.0, 1.0, 1.0, 1.0, 1.0), "glassy_modulus"),
+        (line_contact.sliding, (1.0, 1.0, 2.0, 1.0, -1.0, 1.0), "speed"),
+        (line_contact.sliding, (1.0, 1.0, 2.0, 1.0, 1.0, inf), "line_load"),
+        (line_contact.sliding, (1.0, 1.0, 2.0, 1.0, 1.0, 0.0), "line_load"),
+        (waves.wave_contact_fraction, (-0.1,), "0 to 1"),
+        (waves.wave_mean_gap, (1.1,), "0 to 1"),
+        (waves.crossed_contact_fraction_heavy, (nan,), "0 to 1"),
+        (waves.wave_pressure, (0.0, 0.1), "load"),
+        (full_contact.friction, (np.zeros(8), (1.0, 1.0), RUBBER, 1.0), "two dimensions"),
+        (full_contact.friction, (np.zeros((8, 8)), (1.0, 0.0), RUBBER, 1.0), "sides"),
+        (indentation.loading_force, (SPHERE, SOLID, *UP_AND_DOWN, 1.0), "force_of_depth"),
+        (indentation.force_of_depth, (SPHERE, SOLID, [0, 1, 2, 3], [0, 2, 1, 2], 1.0), "one top"),
+        (indentation.loading_force, (SPHERE, SOLID, [0, 1], [0, 1], 2.0), "times from"),
+        (indentation.loading_force, (SPHERE, SOLID, [0, 1], [1, 2], 0.5), "first zero"),
+        (indentation.loading_force, (SPHERE, SOLID, [0, 1], [0, 1, 2], 0.5), "two at least"),
+        (indentation.loading_depth, (SPHERE, SOLID, [0, 1, 1.01], [0, 1, 0], [0.9, 1.0, 1.01]), "depth falls"),
+        (foundation.sliding_forces, (PowerLaw(coefficient=1.0, exponent=3.0), RUBBER, 1.0, 1.0), "closed form"),
+        (foundation.sliding_forces, (SPHERE, CHAIN, 1.0, 1.0), "closed form"),
+    ],
+)
+def test_what_has_no_closed_form_is_named(form, given, named):
+    with pytest.raises(ValueError, match=named):
+        form(*given)
