@@ -89,7 +89,7 @@ class SceneTask:
     @property
     def packages(self) -> tuple[str, ...]:
         """Packages of the scenes and of the solver."""
-        return "scene", type(self.solver).__module__.split(".")[0]
+        return "scene", type(self.solver).__module__.rpartition(".")[0]
 
     def solve(self) -> Outcome:
         """Solve every scene, one after the other.

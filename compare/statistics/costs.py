@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import exp, inf, log, nan, sqrt
 
 import numpy as np
-from scipy import stats
+from scipy import special
 from scipy.optimize import OptimizeWarning, curve_fit
 from scipy.special import expit
 
@@ -115,7 +115,7 @@ def fit_whole(x: np.ndarray, cost: np.ndarray) -> Law | NoLaw:
         return _no_law(f"{len(x)} points are too few", x, cost)
     law = _fitted(x, cost)
     squares = law.scatter**2 * law.freedom / REPEATABLE**2
-    if stats.chi2.sf(squares, law.freedom) < CHANCE:
+    if special.chdtrc(law.freedom, squares) < CHANCE:
         return _no_law("the misfit of a power is beyond the scatter", x, cost)
     return law
 
@@ -149,7 +149,7 @@ def _fitted(x, cost):
     if with_it >= without or more.exponent <= 0:  # what falls to a level is no cost that grows beside another
         return plain
     gain = (without - with_it) / max(with_it / more.freedom, np.finfo(float).tiny)
-    return more if stats.f.sf(gain, 1, more.freedom) < NEEDED else plain
+    return more if special.fdtrc(1, more.freedom, gain) < NEEDED else plain
 
 
 def _beside(x, centre, seen, start):

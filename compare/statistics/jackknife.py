@@ -257,7 +257,9 @@ def student(level: float, freedom: float | np.ndarray) -> float:
     """By how many standard errors either end of an interval lies off, as often inside as stated."""
     # scipy.stats has the same functions, and takes a second to import.
     with_errors = np.where(np.asarray(freedom) > 0, freedom, nan)
-    found = np.where(np.isinf(with_errors), special.ndtri((1 + level) / 2), special.stdtrit(with_errors, (1 + level) / 2))
+    found = np.where(
+        np.isinf(with_errors), special.ndtri((1 + level) / 2), special.stdtrit(with_errors, (1 + level) / 2)
+    )
     return found[()]
 
 

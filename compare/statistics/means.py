@@ -86,9 +86,7 @@ class Compared:
     draws: int
 
 
-def compared(
-    above: xarray.Dataset, below: xarray.Dataset | None, over: str, under: str | None = None
-) -> Compared:
+def compared(above: xarray.Dataset, below: xarray.Dataset | None, over: str, under: str | None = None) -> Compared:
     """Ratio of two solvers in a mean, or in a ratio of two means; the number of one where `below` is None.
 
     over, under : variables

@@ -14,7 +14,7 @@ from math import log10, pi, sqrt
 
 import numpy as np
 from scipy.special import digamma, polygamma
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 DRAWN = 400  # spectra
 COARSE = 0.05  # relative, of the density of a ring beside its scatter: its width, and the lattice of few waves
@@ -99,7 +99,7 @@ def fit(
         rolloff=band.first > 0,
         cutoff=band.end < len(x),
         misfit=float(squares[best, 0] / freedom[best]),
-        follows=bool(chi2.sf(squares[best, 0], freedom[best]) > UNLIKELY),
+        follows=bool(chdtrc(freedom[best], squares[best, 0]) > UNLIKELY),
     )
 
 

@@ -6,7 +6,7 @@ from math import ceil, inf, isfinite, nan, sqrt
 from typing import Self
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from .jackknife import student
 
@@ -31,7 +31,7 @@ class Scatter:
         """Interval of 95 % by the chi-square distribution of normal deviates; what is skewed scatters more."""
         if self.freedom < 1:
             return nan, nan
-        low, high = stats.chi2.ppf([(1 + LEVEL) / 2, (1 - LEVEL) / 2], self.freedom)
+        low, high = special.chdtri(self.freedom, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
         return self.value * sqrt(self.freedom / low), self.value * sqrt(self.freedom / high)
 
     @property
