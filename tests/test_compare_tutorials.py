@@ -13,6 +13,7 @@ NAMES = [
     pytest.param("first", marks=pytest.mark.slow),
     "regression",
     pytest.param("study", marks=pytest.mark.slow),
+    "sweep",
 ]
 
 
@@ -39,3 +40,12 @@ def test_every_tutorial_is_listed_and_has_cells_that_are_found(path):
     if path.stem != "index":
         assert path.stem in (FOLDER / "index.md").read_text(encoding="utf-8")
         assert "assert " in text
+
+
+def test_friction_of_a_scene_of_ones_own_takes_at_most_eight_lines():
+    _, question, plot, *_ = cells("sweep")
+    lines = [line for line in (question + plot).splitlines() if line]
+    assert len(lines) <= 8
+    assert "compare.sweep(" in question
+    assert "to_dataframe()" in question
+    assert "friction_plot(" in plot

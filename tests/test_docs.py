@@ -8,6 +8,7 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+import pandas
 import pytest
 from scipy.integrate import trapezoid
 
@@ -15,8 +16,8 @@ import bem3d
 import compare
 import mdr1d
 import scene
-from compare import publish
-from compare.figures import style
+from compare import commands
+from compare.cli import COMMANDS
 from scene import SelfAffine
 
 ROOT = Path(__file__).parent.parent
@@ -105,7 +106,7 @@ def test_shifts_bring_1d_together_and_are_not_known_in_3d(shown):
     before, after = names["misfits"]["MDR"]
     assert before > 0.5
     assert after < 0.1  # of ln mu, with the scatter of two surfaces
-    assert names["found"]["MDR"].horizontal.reason is None
+    assert names["found"]["MDR"].horizontal.reason == ""
     assert "overlap" in names["found"]["BEM"].horizontal.reason
 
 
@@ -138,8 +139,10 @@ def test_the_examples_of_the_readme_print_what_they_say(capsys, tmp_path, monkey
     monkeypatch.chdir(tmp_path)
     exec(whole, {"__name__": "__main__"})
     told = capsys.readouterr().out
-    assert "1D / 3D friction" in told
-    assert "surfaces" in told
+    assert "holds" in told
+    assert "{'grid': 2, 'speed': 3, 'load': 1, 'draw': 2}" in told
+    assert re.search(r"BEM +0\.01", told)
+    assert Path("friction.pdf").stat().st_size > 1000
 
 
 def test_the_first_page_has_friction_of_1d_twice_that_of_3d():
@@ -169,27 +172,38 @@ def test_the_examples_of_the_page_on_scenes_run(files, capsys):
 
 
 def test_the_example_of_the_page_on_the_command_asks_for_what_there_is(monkeypatch, capsys):
-    asked, takes = [], inspect.signature(compare.crosscheck)
-    monkeypatch.setattr(compare, "crosscheck", lambda *given, **named: asked.append(takes.bind(*given, **named)))
+    asked, takes = [], inspect.signature(compare.run)
+    monkeypatch.setattr(compare, "run", lambda *given, **named: asked.append(takes.bind(*given, **named)))
     (example,) = PYTHON.findall((DOCS / "command.md").read_text(encoding="utf-8"))
     exec(example, {"__name__": "__main__"})
-    assert [bound.arguments["folder"] for bound in asked] == ["report"]
+    assert [bound.arguments["output"] for bound in asked] == ["report"]
     assert capsys.readouterr().out
 
 
+def test_the_page_on_the_command_has_every_command_and_function():
+    page = (DOCS / "command.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| (?:`(\w+)[^`]*`)? ?\| `compare\.(\w+)\(", page, re.MULTILINE)
+    assert {command for command, _ in table if command} == {each.title for each in COMMANDS}
+    functions = {name for name in vars(commands) if name in compare.__all__ and name != "Case"}
+    assert {function for _, function in table} == functions - {"solve", "friction_plot"}
+
+
 def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_path, monkeypatch):
-    drawn, takes = [], inspect.signature(publish.draw)
     monkeypatch.chdir(tmp_path)
     Path("mine.mplstyle").write_text("lines.linewidth: 3.5", encoding="utf-8")
-
-    def draw(*given):
-        with style.applied():
-            drawn.append((takes.bind(*given).arguments["data"], matplotlib.rcParams["lines.linewidth"]))
-
-    monkeypatch.setattr(publish, "draw", draw)
-    (example,) = PYTHON.findall((DOCS / "figures.md").read_text(encoding="utf-8"))
-    exec(example, {"judgement": "what was judged"})
-    assert drawn == [("what was judged", 3.5)]
+    rows = [
+        {"solver": solver, "speed": speed, "load": 1.0, "friction": speed, "friction_low": 0.9 * speed}
+        for solver in ("MDR", "BEM")
+        for speed in (0.1, 1.0)
+    ]
+    means = pandas.DataFrame(rows).assign(friction_high=lambda frame: 1.1 * frame["friction"])
+    Path("crosscheck-sweep").mkdir()
+    means.to_csv("crosscheck-sweep/friction.csv", index=False)
+    figure = run(DOCS / "figures.md", PYTHON)["figure"]
+    lines = [bar[0] for bar in figure.axes[0].containers]
+    assert [line.get_linewidth() for line in lines] == [3.5, 3.5]
+    assert [line.get_color() for line in lines] == ["#117733", "#AA4499"]
+    assert Path("friction.pdf").stat().st_size > 1000
 
 
 def test_no_example_of_the_pages_is_left_out():
