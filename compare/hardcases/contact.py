@@ -124,7 +124,6 @@ def load_to_nothing(size):
     "Pressure of the mirrored problem is the mirrored one, to 1e-6 of its peak: contact is solved to 1e-9.",
 )
 def mirrored_plateaus(size):
-    """Of a mirrored plateau the pressure is mirrored, ties or not."""
     heights = np.round(np.random.default_rng(5).standard_normal((15, 15)))
     matrix = Matrix(15, 15)
     found = solved(matrix, heights, FINE, load=20.0)

@@ -96,7 +96,6 @@ def extents_that_miss(size):
     "Hertz's depth within 1/N of the 3D grid.",
 )
 def mixed_extremes(size):
-    """A kilometre of glass under a picometre of load beside its opposite."""
     for radius, modulus, load in ((1e3, 1e12, 1e-12), (1e-9, 1.0, 1e-15), (1e6, 1e-6, 1e6), (1e-9, 1e12, 1e-6)):
         scene = resting(indenter=Sphere(radius), elastomer=Elastic(modulus), motion=Indent(load=load))
         known = (9 * load**2 / (16 * radius * (4 * modulus) ** 2)) ** (1 / 3)

@@ -123,7 +123,6 @@ def one_wave_on_a_row(size):
     "Conditions of contact by a plain product to 1e-9.",
 )
 def oblong_problems(size):
-    """The complementarity problem itself is solved on any rectangle."""
     for ny, nx in ((3, 40), (40, 3), (7, 13), (1, 60)):
         for memory in (0.0, 4.0):
             matrix = Matrix(ny, nx, memory)
@@ -171,7 +170,6 @@ def settings_that_do_not_exist(size):
     "Force on a cone exact to 1e-12: it is linear between nodes.",
 )
 def odd_lines(size):
-    """A cone is linear between nodes, on whatever nodes."""
     known = 2 / np.pi * ELASTIC.indentation_modulus * DEPTH**2 / CONE.coefficient
     for points in (9, 31, 101, 997):
         answer = MDR(points=points).solve(resting(indenter=CONE))
@@ -185,7 +183,6 @@ def odd_lines(size):
     "to 1e-9.",
 )
 def lines_off_the_period(size):
-    """Rough lines whose period the grid does not divide."""
     for points in (997, 1009):
         answer = MDR(points=points, extent=sqrt(2) * 3 * RADIUS).solve(sliding(1.0, KELVIN, roughness=ROUGH))
         period = ROUGH.longest / answer.measures["pixel"]
@@ -200,7 +197,6 @@ def lines_off_the_period(size):
     "waves feel some hundred times as much.",
 )
 def turned_grids(size):
-    """At rest a surface and its transpose carry the same, on even and odd grids."""
     scene = resting(roughness=CrossedWaves(amplitude=DEPTH / 10, wavelength=RADIUS / 2))
     for points in (31, 32):
         pressure = space(size, points=points).solve(scene).fields["pressure"]
@@ -214,7 +210,6 @@ def turned_grids(size):
     "A window sought on grids that halve to odd ones.", "The contact lies inside of it, solved to the tolerance."
 )
 def windows_of_odd_grids(size):
-    """Sought without an extent, on grids that halve to odd ones."""
     for points in (size.square - 1, 65, 130):
         answer = replace(space(size, points=points), extent=None).solve(sliding(3.0, roughness=ROUGH))
         touched = answer.fields["pressure"] > 0

@@ -46,7 +46,6 @@ def _balanced(what, answer):
     "sliding within 0.02, of 400 points; work is energy lost and stored to 1e-10.",
 )
 def many_steps_1d(size):
-    """The same window of elastomer after hundreds of its lengths: steady sliding."""
     solver = line(size, points=400, extent=2.4 * RADIUS, steps=size.steps)
     path = size.steps / 400 * 2.4 * RADIUS
     scene = program(stage(TIME, depth=DEPTH), stage(path / PACE, speed=PACE), elastomer=SOLID)
@@ -85,7 +84,6 @@ def many_steps_3d(size):
     "The indenter never rises, and ends at the relaxed depth: within 1e-4 in 1D and 0.02 in 3D, of the grids.",
 )
 def held_for_ages(size):
-    """A load held for a billion relaxation times creeps to its relaxed depth, monotonously."""
     for solver, allowed in (
         (line(size, points=400, steps=size.steps // 4), 1e-4),
         (space(size, points=24, steps=40), 0.02),
@@ -102,7 +100,6 @@ def held_for_ages(size):
     "Depth of Lee and Radok within 1e-3, as a load is met once a step.",
 )
 def load_up_hold_up(size):
-    """Lee and Radok at every step of a load that rises, holds and rises."""
     times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
     scene = program(stage(TIME, load=LOAD), stage(2 * TIME), stage(TIME, load=2 * LOAD))
     answer = line(size, points=1000, steps=200).solve(scene)
@@ -118,7 +115,6 @@ def load_up_hold_up(size):
     "points and 60 steps; no pull; zero at the end.",
 )
 def drawn_out(size):
-    """Drawn back faster than the elastomer recovers, and out of it."""
     times, depths = (0.0, 2 * TIME, 4 * TIME), (0.0, DEPTH, 0.0)
     for name, shape in (("sphere", SPHERE), ("cone", CONE)):
         for solver, allowed in (
@@ -144,7 +140,6 @@ def drawn_out(size):
     "one it is less.",
 )
 def separation_and_return(size):
-    """After separation and a long rest the second pressing is like the first; after a short one it is lighter."""
     for solver in (line(size, points=400, steps=20), space(size, points=24, steps=20)):
         forces = []
         for rest in (1e3 * TIME, TIME):
@@ -163,7 +158,6 @@ def separation_and_return(size):
     "last step in 3D.",
 )
 def load_to_zero_and_back(size):
-    """A load that falls to zero: the indenter lifts off, and comes back."""
     for solver in (line(size, points=400, steps=100), space(size, points=24, steps=60)):
         scene = program(stage(TIME, load=LOAD), stage(TIME, load=0.0), stage(TIME), stage(TIME, load=LOAD))
         answer = solver.solve(scene)
@@ -178,7 +172,6 @@ def load_to_zero_and_back(size):
     "Work is energy lost and stored to 1e-10; lost energy never comes back; no pull.",
 )
 def forty_cycles(size):
-    """Forty cycles of load on a rough body in sliding."""
     stages = [stage(TIME, depth=DEPTH)]
     for _ in range(40):
         stages += [stage(TIME / 5, depth=DEPTH / 5, speed=PACE / 10), stage(TIME / 5, depth=DEPTH)]
@@ -194,7 +187,6 @@ def forty_cycles(size):
     "Friction falls to a hundredth of its greatest at least.",
 )
 def stop(size):
-    """Sliding, then standing still for a thousand relaxation times: friction goes."""
     for solver in (line(size, points=400, steps=200), space(size, points=24, steps=60)):
         scene = program(stage(TIME, depth=DEPTH), stage(2 * TIME, speed=PACE), stage(1e3 * TIME))
         answer = solver.solve(scene)
@@ -208,7 +200,6 @@ def stop(size):
     "in 3D, of the sums over pixels.",
 )
 def elastic_march(size):
-    """Nothing is remembered and nothing lost."""
     scene = program(
         stage(TIME, depth=DEPTH),
         stage(TIME, speed=PACE),
@@ -233,7 +224,6 @@ def elastic_march(size):
     "Force at rest in the end, within 1e-4; work is energy lost and stored to 1e-10.",
 )
 def dashpot_march(size):
-    """A dashpot answers a change of rate with a jump of force."""
     scene = program(stage(TIME, depth=DEPTH), stage(1e-6 * TIME), stage(50 * TIME), elastomer=KELVIN)
     answer = line(size, points=1000, steps=200).solve(scene)
     still = line(size).solve(resting()).normal_force

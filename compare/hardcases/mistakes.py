@@ -144,7 +144,6 @@ def not_for_this_solver(size):
     "Refused: every mistake by its place in the file, its value and what is allowed.",
 )
 def files_with_mistakes(size):
-    """Every mistake of a file at once, by its place."""
     five = "indenter.radius = -1.0 | elastomer.modulus = nan | relaxation_time: missing | motion.speed | depht"
     scenes = {
         "a scene with five mistakes": (FILE, five),

@@ -95,7 +95,6 @@ def speed_to_infinity(size):
     "contact; in 3D friction is the energy lost, to 1e-6.",
 )
 def glassy_friction(size):
-    """Speed times friction settles as the last of the solid relaxes in passing."""
     paces = 1e5, 1e7, 1e9
     for solver in (line(size), space(size)):
         answers = [solver.solve(sliding(pace)) for pace in paces]
@@ -244,7 +243,6 @@ def line_beyond_digits(size):
     "the grid; in 3D, of first order in 40 steps, within 0.1.",
 )
 def depth_at_once_and_in_an_age(size):
-    """A depth reached in no time meets the glass, and in all the time in the world the rubber."""
     for duration, solid, allowed in ((1e-9 * TIME, GLASS, 1e-8), (1e9 * TIME, ELASTIC, 1e-8)):
         motion = Program(stages=(Stage(duration=duration, depth=DEPTH),))
         yield from _as_another(size, SOLID, motion, solid, allowed + 3 / size.line**2, (line,))

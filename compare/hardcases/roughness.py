@@ -42,6 +42,13 @@ from .ordinary import (
 CASES = case = Group("roughness")
 
 
+def _as_on_springs(what, answer):
+    """Displacement is the greatest of what was pressed before, and friction is the energy lost."""
+    apart = np.abs(kelvin_surface(answer) - answer.fields["displacement"]).max() / answer.depth
+    yield Check(f"{what}displacement against the greatest of what was pressed before", apart, 1e-12)
+    yield energy_is_lost(what, answer, 1e-9)
+
+
 @case(
     "Roughness of height zero, of 1e-300 m and of 1e-20 m, a part in 1e16 of the depth.",
     "Force of the smooth body: to the last bit at 0 and 1e-300 m, to 1e-12 at 1e-20 m.",
@@ -79,7 +86,6 @@ def hurst_zero_and_one(size):
     "The load is met to 1e-10 in 1D and 1e-9 in 3D; conditions of contact, computed anew.",
 )
 def rougher_than_deep(size):
-    """A load that one asperity carries: the depth is far less than the roughness."""
     for load in (1e-6, 1e-3):
         scene = resting(motion=Indent(load=load * LOAD), roughness=replace(ROUGH, rms_height=DEPTH))
         answer = line(size).solve(scene)
@@ -101,10 +107,7 @@ def ends_of_hurst_in_a_flow(size):
         for pace in (1e-3, 1.0, 1e3):
             scene = sliding(pace, KELVIN, roughness=replace(ROUGH, hurst=hurst, rms_height=DEPTH))
             answer = line(size).solve(scene)
-            apart = np.abs(kelvin_surface(answer) - answer.fields["displacement"]).max() / answer.depth
-            yield Check(f"H = {hurst:g}, v tau/a = {pace:g}: displacement", apart, 1e-12)
-            lost, driven = answer.friction_force, answer.measures["friction_by_traction"]
-            yield deviation(f"H = {hurst:g}, v tau/a = {pace:g}: friction by traction", driven, lost, 1e-9)
+            yield from _as_on_springs(f"H = {hurst:g}, v tau/a = {pace:g}: ", answer)
 
 
 @case(
@@ -174,7 +177,6 @@ def a_single_octave(size):
     "Stretched by 2^40 force and depth grow by as much, friction by its square, to 1e-12, rounding.",
 )
 def steep_beyond_sense(size):
-    """Both solvers are linear: heights, depth and force may be stretched alike."""
     factor = 2.0**40
     stretched = replace(ROUGH, rms_height=factor * ROUGH.rms_height)
     body, steep = (PowerLaw(coefficient=scale * 50.0, exponent=2.0) for scale in (1.0, factor))
@@ -202,9 +204,6 @@ def huge_seeds(size):
     "Displacement and energy as of ends-of-hurst-in-a-flow.",
 )
 def as_rough_as_the_grid(size):
-    """Waves down to the Nyquist wave number of the grid, and a rms slope of thousands."""
     rough = SelfAffine(hurst=0.0, rms_height=DEPTH, longest=2 * RADIUS)
     answer = MDR(points=size.line, extent=4.5 * RADIUS).solve(sliding(1.0, KELVIN, roughness=rough))
-    apart = np.abs(kelvin_surface(answer) - answer.fields["displacement"]).max() / answer.depth
-    yield Check("displacement against the greatest of what was pressed before", apart, 1e-12)
-    yield energy_is_lost("", answer, 1e-9)
+    yield from _as_on_springs("", answer)

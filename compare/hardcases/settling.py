@@ -20,7 +20,6 @@ CASES = case = Group("settling")
     "lifts the trailing points, conditions of contact by a plain product.",
 )
 def flat_punch_of_ties(size):
-    """Everything ties: the whole grid is a flat punch."""
     still, heights = Matrix(10, 13), np.zeros((10, 13))
     known = np.linalg.solve(still.values, np.ones(heights.size))
     found = solved(still, heights, FINE, load=1.0).pressure.ravel()
@@ -35,7 +34,6 @@ def flat_punch_of_ties(size):
     "algorithm, to 1e-6 of its peak.",
 )
 def terraces(size):
-    """Heights that take five values: every pixel ties with many."""
     n = 16
     y, x = np.mgrid[:n, :n] - (n - 1) / 2
     heights = np.floor((x**2 + y**2) / 30) + np.random.default_rng(3).integers(0, 2, (n, n)) / 4
@@ -90,7 +88,6 @@ def wrong_start(size):
     "Conditions of contact by a plain product to 1e-9.",
 )
 def rough_and_fast(size):
-    """Rough and fast: at once, the set of contact takes many rounds to settle."""
     n = 24
     y, x = np.mgrid[:n, :n] - (n - 1) / 2
     for memory in (1.0, 100.0, 1e4):
@@ -123,7 +120,6 @@ def contact_set_cycles(size):
     "Refused after a bounded number of sets of contact, with the violation that was left and the one wanted.",
 )
 def tolerance_out_of_reach(size):
-    """An operator in single precision cannot be solved to twelve digits."""
     matrix = Matrix(12, 12)
 
     def rounded(plane, out):

@@ -100,7 +100,6 @@ def named_and_general(size):
 
 @case("Exponents 1e-9 below and above 2.", "Forces lie within 1e-8 and the tolerance of contact.")
 def next_to_a_sphere(size):
-    """A sphere lies between bodies of exponents a little below and above."""
     for solver in (line(size), dense(size)):
         forces = []
         for exponent in (2 - 1e-9, 2.0, 2 + 1e-9):
@@ -114,7 +113,6 @@ def next_to_a_sphere(size):
     "Conditions of contact, computed anew; the peak is at most a hundred times the mean.",
 )
 def tip_of_a_cone(size):
-    """Pressure at the tip of a cone is infinite; sums are not."""
     scene = Scene(CONE, KELVIN, Slide(speed=PACE, depth=CONE.mdr_coefficient * RADIUS))
     for points in (size.dense - 1, size.dense):
         answer = dense(size, points=points).solve(scene)
@@ -129,7 +127,6 @@ def tip_of_a_cone(size):
     "Sneddon's force within 3/N; a load of 1e-100 N is met to 1e-9.",
 )
 def powers_that_vanish(size):
-    """z = c r^100: a tenth of the radius is a height of 1e-100 of that at the edge."""
     solvers = line(size), BEM(points=size.dense)
     for depth in (1e-50, 1e-100):
         scene = Scene(PowerLaw(coefficient=1.0, exponent=100.0), ELASTIC, Indent(depth=depth))

@@ -123,7 +123,6 @@ def marches_in_all_units(size):
     "Depth and mu scale to 1e-9: the logarithm rounds.",
 )
 def lines_in_all_units(size):
-    """Forces of a line are per length."""
     one = dense(size, points=size.row, extent=None)
 
     def scene(length, modulus):
@@ -143,7 +142,6 @@ def lines_in_all_units(size):
     "Displacement in 1D and pressure in 3D scale at every point, to the last bit.",
 )
 def fields_in_all_units(size):
-    """Point by point, not only in the sum."""
     for build in (line, dense):
         one = build(size, extent=4 * RADIUS)
         small = replace(one, extent=2.0**-20 * 4 * RADIUS)
