@@ -10,11 +10,12 @@ from pathlib import Path
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from pandas import DataFrame
 from scipy import stats
 from tables import table
 
+from compare import csvfiles
 from compare.finding import verdict
-from compare.publish import write_csv, write_text
 from compare.statistics import eq23
 from compare.statistics.collapse import Collapse, collapse
 from compare.statistics.commoncurve import Fit, near
@@ -462,8 +463,8 @@ def main() -> None:
     sections = [INTRODUCTION, *_ratios(rows), *_sizes(rows)]
     fits = {law: repeated(law) for law in LAWS}
     sections += [*_verdicts(rows, verdicts(fits)), *_weak(rows, fits)]
-    write_csv(PAGE.with_suffix(".csv"), rows)
-    write_text(PAGE, "\n".join(sections))
+    csvfiles.write_text(PAGE.with_suffix(".csv"), csvfiles.text(DataFrame(rows)))
+    csvfiles.write_text(PAGE, "\n".join(sections))
 
 
 def _row(section, case, surfaces, hits, repeats, counted="interval holds the truth"):
