@@ -45,14 +45,17 @@ class Study:
     command : name of the command, and of the Python function
     title, about : for people
     place : folder of the page below that of the command; empty if that folder itself
-    inputs : what was asked, as JSON can hold it
     """
 
     command: ClassVar[str] = "study"
     title: str = ""
     about: str = ""
     place: str = ""
-    inputs: Mapping[str, Any] = {}  # noqa: RUF012
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What was asked, as JSON can hold it."""
+        return {}
 
     def rectangles(self) -> Mapping[str, Rectangle]:
         """Rectangles of contacts by name. Raises InvalidInput, Refused."""

@@ -103,7 +103,7 @@ class ClaimStudy(Study):
         return slug(f"{self.name}-{self.size}")
 
     @property
-    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, Any]:
         """Name, size and, if it is a user's own, the whole text."""
         own = {} if self.source is None else {"source": self.source}
         return {"name": self.name, "size": self.size} | own

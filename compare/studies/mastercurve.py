@@ -90,7 +90,7 @@ class Mastercurve(Study):
         return f"Friction of {self.path.stem} on one curve"
 
     @property
-    def inputs(self) -> Mapping[str, str]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, str]:
         """The file."""
         return {"table": str(self.path)}
 

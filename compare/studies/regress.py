@@ -79,7 +79,7 @@ class Regress(Study):
         return cls(asked, path, stored, update)
 
     @property
-    def inputs(self) -> dict[str, Any]:
+    def inputs(self) -> Mapping[str, Any]:
         """Name of the file."""
         return {"baseline": self.path.name}
 

@@ -68,7 +68,7 @@ class Run(Study):
         return run
 
     @property
-    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, Any]:
         """Every case, as JSON can hold it."""
         return {"cases": {name: as_json(Case, case) for name, case in self.cases.items()}}
 

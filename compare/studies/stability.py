@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import xarray
 from pandas import DataFrame
@@ -51,7 +52,7 @@ class Stability(Study):
         return cls(size)
 
     @property
-    def inputs(self) -> dict[str, str]:
+    def inputs(self) -> Mapping[str, Any]:
         """The size."""
         return {"size": self.size}
 

@@ -75,7 +75,7 @@ class Sweep(Study):
         return asked
 
     @property
-    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, Any]:
         """What was asked, as JSON can hold it."""
         return {"speed": self.speeds, self.case.motion.pressed_by: self.values, "draws": self.draws}
 

@@ -80,7 +80,7 @@ class Map(Study):
         return f"Topography of {self.path.name}"
 
     @property
-    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, Any]:
         """The file and what was stated of it."""
         return {"file": str(self.path), **self.stated}
 
