@@ -19,7 +19,7 @@ from . import prose
 from .columns import Row, columns
 
 # A longer table is no reading, and a larger file is not put into the page.
-MOST_ROWS, MOST_BYTES = 400, 1_000_000
+MOST_ROWS, MOST_BYTES = 400, 3_000_000
 # Digits of numbers that are there to be looked up.
 DIGITS = 6
 # Need no escape within a data URI.
@@ -138,10 +138,10 @@ def _cell(column, value, shown):
 
 
 def _download(name: str, tables: Mapping[str, str]) -> str:
-    """Where a table is: within the page, or beside it if it is large."""
+    """A table as a file within the page; empty of a large one, which lies beside it alone."""
     content = tables[name]
     if len(content) > MOST_BYTES:
-        return quote(f"{name}.csv")
+        return ""
     return f"data:text/csv;charset=utf-8,{quote(content, safe=SAFE)}"
 
 
