@@ -20,11 +20,11 @@ PAGE = Path(__file__).parent.parent / "docs" / "extending.md"
 
 
 @pytest.fixture(scope="module")
-def page():
+def page(tmp_path_factory):
     """Names of the page, all its code run from top to bottom, and what it printed."""
     code = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     names, printed = {"__name__": "extending"}, io.StringIO()
-    with contextlib.redirect_stdout(printed):
+    with contextlib.redirect_stdout(printed), contextlib.chdir(tmp_path_factory.mktemp("extending")):
         for block in code:
             exec(compile(block, str(PAGE), "exec"), names)
     return names | {"printed": printed.getvalue().splitlines()}
@@ -38,6 +38,13 @@ def test_the_page_prints_what_it_says(page):
     assert float(soft) < 1
     assert max(map(float, applications.split())) < 60
     assert left_out == "nothing is built for it"
+
+
+def test_the_study_of_the_page_finds_what_it_claims(page):
+    (found,) = page["report"].claims
+    assert found.verdict == "holds"
+    assert 1.98 < found.interval[0] < found.value < found.interval[1] < 2.0
+    assert found.grid_method == "change on halving"
 
 
 def test_springs_in_series_with_a_stiffer_elastomer_tend_to_springs_alone(page):
