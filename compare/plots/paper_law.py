@@ -35,10 +35,9 @@ def plot(points: Sequence[DataFrame], fits: DataFrame) -> Plot | None:
         NAME,
         figure,
         {NAME: concat(points, ignore_index=True), ALPHA: fits},
-        "μ̃ against ξ: means over profiles with intervals of 95 %, and Eq. 19 with α = 1.5. Below: how far the "
-        "points, and Eq. 19 with the best α of each shape, are from it. Dotted: every place of the contact "
-        "taken for a rough plane pressed as deep as it is there; places of a cone differ more in depth. "
-        "Hollow: a condition breaks.",
+        "μ̃ against ξ: means over profiles with intervals of 95 %, and Eq. 19 with α = 1.5. Below: deviation "
+        "from it of the points and of Eq. 19 with the best α of each shape. Dotted: every place of the contact "
+        "a rough plane pressed as deep as it is there. Hollow: a condition breaks.",
         f"Friction follows one law up to its plateau. {'; '.join(told)}.",
     )
 

@@ -32,10 +32,10 @@ def plot(rubbers: Sequence[DataFrame]) -> Plot | None:
         NAME,
         figure,
         {NAME: concat(rubbers, ignore_index=True)},
-        "How far Eq. 22 is off the simulated friction, at three speeds: with the loss of the shortest wave for "
+        "How far Eq. 22 is off the simulated friction at three speeds: with the loss of the shortest wave for "
         "all waves, as published; of every wave at its own frequency; and with the friction of the smooth "
-        "sphere added, as Eq. 22 leaves the macroscopic slope out. Hollow: a condition breaks, as where "
-        "|G(v/a)| exceeds G₀ by more than a tenth.",
+        "sphere added, as Eq. 22 leaves the macroscopic slope out. Hollow: a condition breaks, as a constant "
+        "modulus |G(v/a)|.",
         f"Deviations of the forms of Eq. 22. {'; '.join(told)}.",
     )
 

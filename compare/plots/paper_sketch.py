@@ -21,10 +21,9 @@ def plot() -> Plot:
         NAME,
         figure,
         {},
-        "(a) A rigid cone at the depth d moves to the left at the speed v. The elastomer, a Kelvin solid, "
-        f"meets it at −a₁, leaves it at a₂, and returns over the length v τ (here v τ/d = {MEMORY:g}). (b) The "
-        "elastomer is a row of elements, each a spring 4 G Δx beside a dashpot 4 η Δx, η = G τ; those pressed "
-        "are dark.",
+        "(a) A rigid cone at the depth d moves to the left at the speed v. The Kelvin solid meets it at −a₁, "
+        f"leaves it at a₂, and returns over the length v τ, here {MEMORY:g} d. (b) A row of elements, each a "
+        "spring 4 G Δx beside a dashpot 4 η Δx, η = G τ; those pressed are dark.",
         "Left, a cone in an elastomer with depth, ends of contact and speed. Right, a row of springs and "
         "dashpots.",
     )
@@ -44,7 +43,7 @@ def figure(tables: Tables) -> Figure:
 
 
 def displacement(x):
-    """Displacement u/d into the elastomer at x/d: d - g from -a1 to a2, where d = g + l g', and exponential behind it."""
+    """Displacement u/d into the elastomer at x/d: d - g in contact, exponential behind it."""
     left_behind = (1 - SLOPE * TRAILING) * np.exp(-(np.maximum(x, TRAILING) - TRAILING) / MEMORY)
     return np.where(x <= TRAILING, np.maximum(0, 1 - SLOPE * np.abs(x)), left_behind)
 

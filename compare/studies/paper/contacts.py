@@ -34,7 +34,9 @@ def contact_rectangle(shape: str) -> Rectangle:
 def with_nodes(dataset: xarray.Dataset, fields: Mapping[str, Mapping[str, np.ndarray]]) -> xarray.Dataset:
     """A contact with its fields at the nodes of the profile, none where it has no answer."""
     kept = fields.get("MDR", {})
-    return dataset.assign({name: ("node", np.asarray(kept[name], float), attributes(name)) for name in AT_NODES if kept})
+    return dataset.assign(
+        {name: ("node", np.asarray(kept[name], float), attributes(name)) for name in AT_NODES if kept}
+    )
 
 
 def contact_tables(contacts: Mapping[str, xarray.Dataset]) -> tuple[DataFrame, dict[str, DataFrame]]:

@@ -16,7 +16,7 @@ from mdr1d import MDR, equations
 from scene import Regime, SolveError
 
 from ...rectangle import FINE, Rectangle
-from ...statistics.collapse import Collapse, collapse
+from ...statistics.collapse import Collapse, along_load, collapse
 from ...statistics.frictioncurves import SimulatedCurves
 from . import parameters
 from .conditions import with_conditions
@@ -26,7 +26,7 @@ from .predicted import CONSTANT, EVERY, SHORTEST, WITH_SMOOTH, predict
 # Misfit of ln mu up to which the curves of a law, which have no scatter, are one: as well as Eq. 19 is followed.
 ONE = 0.01
 STIFFNESS = "macroscopic_modulus"
-WHOLE, ROUGH = "whole friction", "less that of the smooth body"
+WHOLE, ROUGH = "whole friction", "less smooth body"
 
 
 def rectangles(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> dict[str, Rectangle]:
@@ -44,9 +44,9 @@ def rectangles(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> dict[str
 class Lossy:
     """One rubber.
 
-    points : speed, normal_force, friction simulated and of the smooth body, that of each form of Eq. 22, conditions
+    points : speed, normal_force, friction simulated, of the smooth body and of each form of Eq. 22, conditions
     collapses : what shifts along the load make of the whole friction, and of what exceeds that of the smooth body
-    powers : exponents of the shifts that each form of Eq. 22 has of its own; NaN of one whose curves do not collapse
+    powers : exponents of the shifts that each form of Eq. 22 has of its own; NaN where its curves do not collapse
     profiles : number that are averaged
     """
 
@@ -122,7 +122,7 @@ def lossy(loss: Loss, rough: xarray.Dataset, smooth: xarray.Dataset) -> Lossy:
 def own_exponent(friction: np.ndarray) -> float:
     """Exponent of the shifts that bring curves of a law (speeds, loads) onto one; NaN where none do."""
     loads = np.broadcast_to(parameters.FORCES, friction.shape)
-    found = collapse(SimulatedCurves(np.array(parameters.SPEEDS), loads, friction * loads)).horizontal
+    found = along_load(SimulatedCurves(np.array(parameters.SPEEDS), loads, friction * loads))
     return float(found.exponent.value) if not found.reason and found.rms <= ONE else nan
 
 

@@ -55,7 +55,7 @@ class ParameterStudies:
         return [Profiles(self, tuple(seeds[first : first + TOGETHER])) for first in seeds[::TOGETHER]]
 
     def dataset(self, outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
-        """Dataset with the dimensions hurst, study, step and draw; `value` is the parameter that a study varies."""
+        """Dataset with the dimensions hurst, study, step and draw; `parameter` is what a study varies."""
         found, tasks = contacts(self), self.tasks()
         shape = len(self.hurst), len(parameters.STUDIES), self.values
         parts = [outcomes[task].fields for task in tasks]
@@ -73,11 +73,15 @@ class ParameterStudies:
         coordinates = {
             "hurst": list(self.hurst),
             "study": [study.name for study in parameters.STUDIES],
-            "value": (DIMS[1:3], np.array([place.value for place in found]).reshape(shape)[0]),
+            "parameter": (DIMS[1:3], np.array([place.value for place in found]).reshape(shape)[0]),
             "points": (DIMS[1:3], np.array([place.points for place in found]).reshape(shape)[0]),
             "draw": list(range(self.profiles)),
         }
-        return xarray.Dataset(made, coordinates, {"solver": "MDR"})
+        dataset = xarray.Dataset(made, coordinates, {"solver": "MDR"})
+        for name in arrays:
+            dataset[name].encoding = {"zlib": True, "complevel": 1}
+        dataset["status"].encoding = {"zlib": True, "complevel": 1, "dtype": "S1"}
+        return dataset
 
 
 @dataclass(frozen=True)
@@ -136,14 +140,16 @@ class Profiles(ArrayTask):
     def arrays(self) -> Mapping[str, np.ndarray]:
         """Arrays of mdr1d.ensemble.Answers."""
         found = contacts(self.studies)
-        return vars(solve_profiles([place.scene for place in found], [place.points for place in found], self.seeds))
+        return vars(
+            solve_profiles([place.scene for place in found], [place.points for place in found], self.seeds)
+        )
 
 
 @dataclass(frozen=True)
 class SlowFriction:
     """Fig. 3 in the coordinates of Eqs. 17 and 18.
 
-    points : study, value, hurst, xi, normalised_friction with its interval of 95 % over profiles, and conditions
+    points : study, parameter, hurst, xi, normalised_friction with its interval of 95 % over profiles, and conditions
     samples : mu-tilde of each profile (points, profiles)
     sweeps : mean number of sweeps of a solve
     """
@@ -185,7 +191,7 @@ def slow_friction(studies: ParameterStudies, dataset: xarray.Dataset) -> SlowFri
     points = DataFrame(
         {
             "study": [parameters.STUDIES[place.study].name for place in found],
-            "value": [place.value for place in found],
+            "parameter": [place.value for place in found],
             "hurst": [place.hurst for place in found],
             "xi": xi,
             "normalised_friction": mean,

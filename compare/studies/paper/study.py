@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -66,7 +67,7 @@ class Paper(Study):
         return cls(SIZES[size] if profiles is None else profiles)
 
     @property
-    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, Any]:
         """Number of profiles."""
         return {"profiles": self.profiles}
 
@@ -76,6 +77,11 @@ class Paper(Study):
 
     def rectangles(self) -> Mapping[str, Rectangle]:
         """Contacts of Fig. 1, of Fig. 4, and of Figs. 5 to 7."""
+        return self._rectangles
+
+    @cached_property
+    def _rectangles(self):
+        """All rectangles; kept, as they keep their scenes."""
         found = {f"contact-{shape}": contact_rectangle(shape) for shape in parameters.SHAPES}
         found |= {f"law-{shape}": law.rectangle(shape, self.profiles) for shape in parameters.SHAPES}
         for loss in parameters.LOSSES:
@@ -151,7 +157,10 @@ class Paper(Study):
             Findings(findings, "Claims of the paper, with intervals of 95 % over rough profiles."),
             Section(
                 "What becomes of the shift",
-                [Text(SHIFTS), Table("shifts", _shifts(found.rubbers, findings), "Exponents of the shift of Eq. 23.")],
+                [
+                    Text(SHIFTS),
+                    Table("shifts", _shifts(found.rubbers, findings), "Exponents of the shift of Eq. 23."),
+                ],
             ),
             Section("What the paper leaves open", [Text(OPEN)]),
             Section("What was solved", [Text(_solved(answers, found.slow))]),
@@ -195,9 +204,7 @@ def _shifts(rubbers, findings):
             **{f"exponent_of_{name.replace(' ', '_')}": power for name, power in lossy.powers.items()},
         }
         for of, name in ((losses.WHOLE, "whole"), (losses.ROUGH, "excess")):
-            found = {
-                each.claim.id: each for each in findings if each.where == f"{lossy.loss.symbols}, {of}"
-            }
+            found = {each.claim.id: each for each in findings if each.where == f"{lossy.loss.symbols}, {of}"}
             exponent = found[eq23.EXPONENT.id]
             row |= {
                 f"collapse_{name}": found[eq23.COLLAPSE.id].verdict,
