@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 from pandas import DataFrame
 
-from ..amounts import digits, share
+from ..amounts import digits
 from ..page import Plot, Tables
 from . import style
 from .lettering import Letter, letter, write
@@ -35,7 +35,10 @@ def plot(name: str, tables: Tables) -> Plot:
     """Plot of a diagram, of its table of steps and of its table of orders."""
     steps, orders = tables
     return Plot(
-        name, figure, tables, caption(tables[steps]),
+        name, figure, tables,
+        "Relative error against processor time of one solve, the least of its repeats; settings at the points where "
+        "there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power of a "
+        "ladder of points. Other estimates are those of the first ladder.",
         "Panels of falling curves: relative error over processor time.", {"steps": steps, "orders": orders},
     )  # fmt: skip
 
@@ -78,7 +81,6 @@ class Panel:
     """A contact by one quantity: all ladders by the first estimate, and the first of them by the others too."""
 
     title: str
-    reference: str
     reference_error: float
     curves: tuple[Curve, ...]
     estimates: tuple[str, ...]
@@ -118,7 +120,7 @@ def panels(steps: DataFrame, orders: DataFrame | None = None) -> list[Panel]:
             )
         first = rows.iloc[0]
         title = f"{first['title']}\n{label}"
-        found.append(Panel(title, first["reference"], float(first["reference_error"]), tuple(curves), estimates))
+        found.append(Panel(title, float(first["reference_error"]), tuple(curves), estimates))
     return found
 
 
@@ -142,20 +144,6 @@ def figure(tables: Tables, steps: str, orders: str) -> Figure:
     for axes, panel in zip(all_axes, drawn, strict=True):
         write(axes, list(_letters(panel)), style.tiny())
     return drawing
-
-
-def caption(steps: DataFrame) -> str:
-    """What the figure shows, and what each panel is measured against."""
-    sources: dict[str, list[str]] = {}
-    for k, panel in enumerate(panels(steps)):
-        own = panel.reference_error
-        doubt = f" to {share(own)}" if own > 0 else "" if isfinite(own) else ", not solved"
-        sources.setdefault(f"{panel.reference}{doubt}", []).append(letter(k))
-    told = "; ".join(f"({', '.join(letters)}) {source}" for source, letters in sources.items())
-    return (
-        "Relative error against processor time; settings at the points. Grey: error of the reference, points within "
-        f"it hollow. Dotted: fitted power of the points. References: {told}."
-    )
 
 
 def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:

@@ -110,6 +110,7 @@ class ConvergenceDiagram:
             {
                 "contact": each.title,
                 "quantity": each.label,
+                "against": against(each),
                 "ladder": each.ladder,
                 **{f"within {share(level)}": each.cell(level) for level in LEVELS},
             }
@@ -165,6 +166,12 @@ def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Findin
     if k == len(each.values) - 1:
         why = "every step gains"
     return Finding(claim, nan if k is None else float(each.values[k]), where=where_of(each), reason=why, plot=plot)
+
+
+def against(each: MeasuredLadder) -> str:
+    """Reference of a ladder, and how well it is known."""
+    own, source = each.reference_error, each.dataset.attrs["reference"]
+    return f"{source}, known to {share(own)}" if own > 0 else source if isfinite(own) else f"{source}, not solved"
 
 
 def where_of(each: MeasuredLadder) -> str:

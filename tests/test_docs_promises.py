@@ -8,7 +8,7 @@ import pytest
 from bem3d import accuracy
 from bem3d.accuracy import BANDS, band
 from compare.outcome import Outcome, Row
-from compare.workprecision import ladder, promises
+from promises_page import ladder, promises
 from scene.protocol import refuse
 
 
