@@ -42,8 +42,8 @@ OPTIONS = {
     "journal": (str, "Whose columns and least sizes; none in particular if default."),
     "style": (str | None, "Style of matplotlib of your own: a .mplstyle file, or a name."),
     "to": (str, "csv or latex."),
-    "frames": (int | None, "How many pictures."),
-    "seconds": (float | None, "How long the animation lasts [s]."),
+    "frames": (int, "How many pictures."),
+    "seconds": (float, "How long the animation lasts [s]."),
     "folder": (Path, "Folder of what has been solved."),
     "workers": (int | None, "Processes; as many as processors if absent."),
     "scheduler": (str | None, "Address of a dask scheduler, as tcp://host:8786, whose workers then solve."),
@@ -106,6 +106,8 @@ class Command:
         with said_to_people(f"--output {given.get('output')}", solves=self.solves):
             if self.solves:
                 given["progress"] = "lines" if verbose else not (quiet or json)
+            elif "progress" in inspect.signature(self.function).parameters:
+                given["progress"] = True
             found = self.function(**given)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):

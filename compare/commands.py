@@ -303,19 +303,23 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
 
 def animate(
     scene: Asked,
-    output: str | Path = "animation.gif",
-    frames: int | None = None,
-    seconds: float | None = None,
+    output: str | Path | None = None,
+    frames: int = 60,
+    seconds: float = 6.0,
     folder: str | Path = "crosscheck-animation",
     workers: int | None = None,
     progress: bool = False,
 ) -> Path:
     """Draw a scene as it moves in time, in one and in three dimensions side by side.
 
-    output : a .gif, or an .mp4 where ffmpeg is there
+    output : a .gif, or an .mp4 where ffmpeg is there; the name of the scene with .gif if absent
     frames, seconds : how many pictures, and how long they last
     folder : of what has been solved
     """
-    from .animation import animate
+    from contextlib import nullcontext
 
-    return animate(scene, output, frames, seconds, folder, workers, progress)
+    from .animation import animate
+    from .console import watch
+
+    with watch().solving() if progress else nullcontext() as told:
+        return animate(scene, output, frames, seconds, folder, workers, told)

@@ -2,73 +2,25 @@
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from scene import Cylinder
 
 from ..film import Film
-from ..plots import style, touching
-from ..plots.prefixes import prefixed
+from . import style, touching
+from .contact_maps import TITLES
+from .prefixes import prefixed
 
-NAME = "marching"
-TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: profile and elements"}
 HISTORIES = {"normal_force": "normal force", "friction_force": "friction"}
 ROOM = 0.08  # above and below a history, of what it spans
 
 
-def figure(film: Film) -> Figure:
-    """The last instant. Left: pressure in 3D. Right: its section y = 0, and the 1D contact. Below: forces."""
-    reel = Reel(film)
-    reel.show(len(film.times) - 1)
-    reel.drawing.draw_without_rendering()  # of two passes in which the layout is found
-    return reel.drawing
-
-
-def sheets(film: Film) -> dict[str, dict[str, np.ndarray]]:
-    """Histories of both, and their sections at the last instant, SI units."""
-    last, found = len(film.times) - 1, {}
-    for solver, name in (("BEM", "3d"), ("MDR", "1d")):
-        if solver in film.fields:
-            found[f"marching-history-{name}"] = {
-                column: film.fields[solver][column] for column in ("time", *HISTORIES)
-            }
-    for section, name in ((_section(film, "BEM", last), "3d"), (film.line(last), "1d")):
-        if section is not None:
-            found[f"marching-section-{name}"] = {
-                "x": section.x,
-                "indenter": section.indenter,
-                "surface": section.surface,
-                "contact": section.touching.astype(int),
-            }
-    seen = film.space(last)
-    if seen is not None:
-        y, x = np.meshgrid(seen.y, seen.x, indexing="ij")
-        pressed = seen.pressure > 0
-        found["marching-pressure"] = {"x": x[pressed], "y": y[pressed], "pressure": seen.pressure[pressed]}
-    return found
-
-
-def caption(film: Film) -> str:
-    """What the figure shows."""
-    said = []
-    if "BEM" in film.fields:
-        said.append("Contact pressure in three dimensions, and the section along the flow through the axis.")
-    if "MDR" in film.fields:
-        said.append("In one dimension, the profile on its row of independent elements, of which some are drawn.")
-    said.append(
-        "Real contact in bold, the undeformed level dashed; heights are exaggerated. Below, forces since the "
-        "program began."
-    )
-    if film.radius is not None:
-        said.append("Dashed: the smooth relaxed contact at the greatest load or depth.")
-    return " ".join(said)
-
-
-class Reel:
+class MarchFigure:
     """One figure that shows a film instant by instant, every scale the same throughout.
 
-    drawing : the figure
+    Left: pressure in 3D. Right: its section y = 0, and the 1D contact. Below: forces.
+
+    drawing : the matplotlib Figure
     """
 
     def __init__(self, film: Film):
