@@ -24,9 +24,9 @@ from compare import netcdf
 from compare import store as module
 from compare.exact import Exact
 from compare.outcome import Outcome, Row
-from compare.paper import campaign
 from compare.recalling import of_other_code, recall
 from compare.store import Store, canonical, code_digest, key, write
+from compare.studies.paper.parameter_studies import ParameterStudies
 from compare.task import SceneTask as Task
 from compare.taskfile import OTHERS
 from mdr1d import MDR
@@ -131,10 +131,9 @@ def test_every_row_comes_back_with_its_own_measures_settings_and_reason(tmp_path
 
 def test_a_block_of_the_campaign_comes_back(tmp_path):
     """1320 contacts on 20 profiles, a question of half a megabyte."""
-    (block,) = campaign.blocks(campaign.Campaign(profiles=20))
+    (block,) = ParameterStudies(profiles=20).tasks()
     assert len(canonical(block.question)) > 2**17
-    shape = len(campaign.places(block.campaign)), len(block.seeds)
-    found = np.random.default_rng(1).random((6, *shape))
+    found = np.random.default_rng(1).random((6, *block.shape))
     found[2, 7, 5] = np.nan
     names = ("friction", "depth", "length", "span", "rms_slope", "sweeps")
     outcome = Outcome((), dict(zip(names, found, strict=True)))

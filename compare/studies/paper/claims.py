@@ -41,15 +41,16 @@ _SLOPE_KEPT = replace(
     _EXPONENT,
     id="paper.eq17.exponent.slope-kept",
     sentence="Eq. 17: friction at low speed grows as xi^1 with the macroscopic slope kept as in Eq. 10",
-    meaning="Exponent without the condition on the macroscopic slope, with the mean square of both slopes in place "
-    "of that of the roughness.",
+    meaning="Exponent without the condition on the macroscopic slope, with the mean square of both slopes in "
+    "place of that of the roughness.",
 )
 _ALPHA = Claim(
     id="paper.eq19.alpha",
     sentence="Eq. 19: the exponent alpha that joins low speed and plateau is 1.5",
     expected=1.5,
     tolerance=0.1,
-    meaning="Least squares of ln mu over all xi. How it depends on what is made least is in the table of exponents.",
+    meaning="Least squares of ln mu over all xi. How it depends on what is made least is in the table of "
+    "exponents.",
     dimension=DIMENSION,
 )
 _SAME_ALPHA = Claim(
