@@ -4,6 +4,7 @@ import subprocess
 import tempfile
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
@@ -22,8 +23,8 @@ from .task import SceneTask
 
 DOTS_PER_INCH = 100
 FASTEST = 50  # frames a second: players show a GIF of more with delays of their own
-# An even number of pixels a side, which this way of colours takes, and what is needed to begin before all is loaded.
-MP4 = ("-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart")
+# An even number of pixels a side, which these colours take, and a file that begins before all of it is loaded.
+MP4 = ["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
 
 
 def animate(
@@ -43,13 +44,17 @@ def animate(
     frames, seconds : instants that are shown, and how long the picture lasts
     folder : of what has been solved: the picture is made again from it
 
-    Raises InvalidInput, Refused where both solvers refuse or the file cannot be written so, SolveError where a march
+    Raises InvalidInput, Refused where both solvers refuse or no such file can be written, SolveError where a march
     fails.
     """
     path = Path(output or f"{Path(scene).stem if isinstance(scene, str | Path) else 'scene'}.gif")
     case = case_of(scene)
     check(path, frames, seconds)
-    record(filmed(case.scene, case.mdr, case.bem, frames, Store(Path(folder) / SOLVED), workers, progress), path, seconds)
+    record(
+        filmed(case.scene, case.mdr, case.bem, frames, Store(Path(folder) / SOLVED), workers, progress),
+        path,
+        seconds,
+    )
     return path
 
 
@@ -100,7 +105,7 @@ def record(film: Film, path: Path, seconds: float) -> None:
     Raises Refused as `check`, SolveError with the words of ffmpeg where it fails.
     """
     check(path, len(film.times), seconds)
-    rate = len(film.times) / seconds
+    rate: Any = len(film.times) / seconds  # a float does, whatever the stubs say
     gif = path.suffix.lower() == ".gif"
     writer: AbstractMovieWriter = PillowWriter(rate) if gif else FFMpegWriter(rate, extra_args=MP4)
     with style.applied(), tempfile.TemporaryDirectory() as folder:

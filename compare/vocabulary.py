@@ -126,6 +126,17 @@ LABELS: Mapping[str, Entry] = {
     "density_1d_mapped": Term("m³", "Spectral density by the rule of the MDR.", formula="C_1D = π q C_2D"),
     "waves": Entry("1", "Waves of a map in a ring of wave numbers, a wave and its opposite counted as one."),
     "in_band": Entry("", "Whether a wave number lies in the band in which the power law was fitted."),
+    "ratio": Entry("1", "Number in one dimension over that in three."),
+    "deviation": Entry("1", "Number in one dimension over that in three, less one."),
+    "v_tau_over_a": Entry("1", "Speed times retardation time over the radius of the smooth relaxed contact."),
+    "friction_over_slope": Entry("1", "Coefficient of friction over the slope of the body at the edge of the contact."),
+    "friction_over_slope_low_speed": Entry(
+        "1", "Closed form of first order in the speed for friction over the slope of the body at the edge of the contact."
+    ),
+    "eq_19": Entry("1", "Coefficient of friction of Eq. 19 at the same load and speed, in one dimension."),
+    "indenter": Entry("m", "Height of the rigid indenter above the undeformed surface."),
+    "surface": Entry("m", "Height of the surface of the elastomer above the undeformed one."),
+    "touching": Entry("", "Whether indenter and elastomer touch."),
     # Dimensionless groups.
     "depth_over_height": Term(
         "1", "Depth of the smooth relaxed contact over the rms height of the roughness.", formula="d / h₀"

@@ -1,6 +1,7 @@
 """The contact of a scene: profile in one dimension, map of pressure in three (paper, Fig. 1)."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,7 +19,8 @@ LINE, PLANE = f"{NAME}-1d", f"{NAME}-3d"
 def plot(fields: Mapping[str, Fields], radius: float, flow: str, about: str, folder: str = "") -> Plot | None:
     """Plot of the fields that answers kept, by the name of their solver; None without those of both.
 
-    radius : of the smooth relaxed contact [m]; flow : which way the elastomer passes; about : what presses, in words
+    radius : of the smooth relaxed contact [m]; flow : which way the elastomer passes
+    about : what presses, in words
     """
     if not {"MDR", "BEM"} <= fields.keys():
         return None
@@ -39,9 +41,9 @@ def plot(fields: Mapping[str, Fields], radius: float, flow: str, about: str, fol
         PLANE: DataFrame({"x": x[touched], "y": y[touched], "pressure": plane["pressure"][touched]}),
     }
     caption = (
-        f"The contact {about}. Left: rigid indenter and surface of the elastomer in one dimension, real contact in "
-        "bold; heights are exaggerated. Right: contact pressure in three dimensions, seen from above, colours cut at "
-        "the 99th percentile. Dashed circle: the smooth relaxed contact."
+        f"The contact {about}. Left: rigid indenter and surface of the elastomer in one dimension, real contact "
+        "in bold; heights are exaggerated. Right: contact pressure in three dimensions, seen from above, colours "
+        "cut at the 99th percentile. Dashed circle: the smooth relaxed contact."
     )
     alternative = "Left a rigid profile above the elastomer's surface, right a patchy disc of pressure."
     options = {"radius": radius, "pixel": float(plane["x"][1] - plane["x"][0]), "flow": flow}
@@ -69,7 +71,7 @@ def _profile(axes: Axes, line: DataFrame, radius: float) -> None:
     axes.fill_between(x, surface, bottom, color=materials.elastomer(), linewidth=0)
     axes.fill_between(x, body, top, color=materials.indenter(), linewidth=0)
     axes.plot(x, surface, color=materials.surface(), linewidth=style.width(0.65))
-    look = {"color": style.COLOUR["MDR"], "linewidth": style.width(2), "solid_capstyle": "butt"}
+    look: dict[str, Any] = {"color": style.COLOUR["MDR"], "linewidth": style.width(2), "solid_capstyle": "butt"}
     axes.plot(x, np.where(touching, surface, np.nan), label="real contact", **look)
     axes.set(xlim=(x[shown].min(), x[shown].max()), ylim=(bottom, top), xlabel="x [mm]", ylabel="height [µm]")
     axes.legend(loc="lower right", handlelength=1.4)

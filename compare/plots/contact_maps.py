@@ -32,7 +32,12 @@ def plot(view: View | None, folder: str = "") -> Plot | None:
     found = {} if view.space is None else {"BEM": view.space.section}
     found = found if view.line is None else {**found, "MDR": view.line}
     tables = {SECTIONS[solver]: _section(each, view.span) for solver, each in found.items()}
-    options: dict[str, Any] = {"span": list(view.span), "aside": view.aside, "radius": view.radius, "flow": _flow(view)}
+    options: dict[str, Any] = {
+        "span": list(view.span),
+        "aside": view.aside,
+        "radius": view.radius,
+        "flow": _flow(view),
+    }
     if view.space is not None:
         around, pressure = view.space.around, view.space.pressure
         y, x = np.meshgrid(around.y, around.x, indexing="ij")
@@ -62,7 +67,8 @@ def figure(
     """Above: pressure, gap and real contact in three dimensions. Below: the section y = 0, and the 1D contact.
 
     span, aside : first and last x, farthest y [m]; radius : of the smooth relaxed contact [m]; flow : in words
-    pixel : of the maps [m]; alike : whether the contact is alike along y, and the pressure stands in place of the maps
+    pixel : of the maps [m]
+    alike : whether the contact is alike along y, and the pressure stands in place of the maps
     deepest, highest_gap : displacement and gap at which colours end [m]
     """
     sections = {solver: touching.section_of(tables[name]) for solver, name in SECTIONS.items() if name in tables}
@@ -105,12 +111,16 @@ def _surface(view, x, y) -> DataFrame:
     return DataFrame({name: values[shown].ravel() for name, values in found.items()})
 
 
-def _maps(drawing, tables: Mapping[str, DataFrame], span, aside, radius, flow, pixel, deepest, highest_gap) -> None:
+def _maps(
+    drawing, tables: Mapping[str, DataFrame], span, aside, radius, flow, pixel, deepest, highest_gap
+) -> None:
     """Three panels to one scale, each with its bar below."""
     scale, unit = prefixed([*span, aside], "m")
     panels = drawing.subplots(1, 3, sharex=True, sharey=True)
     x, y, pressure = touching.gridded(tables[PRESSURE], "pressure", pixel)
-    surface = {name: tables[SURFACE].pivot(index="y", columns="x", values=name) for name in ("gap", "displacement")}
+    surface = {
+        name: tables[SURFACE].pivot(index="y", columns="x", values=name) for name in ("gap", "displacement")
+    }
     at = scale * surface["gap"].columns.to_numpy(), scale * surface["gap"].index.to_numpy()
     highest = touching.highest_pressure(pressure)
     up, name = prefixed(highest, "Pa")
@@ -177,7 +187,9 @@ def _flow(view) -> str:
 def _caption(view) -> str:
     told, plane = [], isinstance(view.scene.indenter, Plane)
     if view.space is not None and len(view.space.around.y) > 1:
-        told.append("Pressure, colours cut at the 99th percentile; gap; and real contact, the surface darker where deeper.")
+        told.append(
+            "Pressure, colours cut at the 99th percentile; gap; and real contact, the surface darker where deeper."
+        )
     elif view.space is not None:
         told.append("Left: contact pressure.")
     told.append("Sections: rigid indenter and elastomer, real contact in bold; heights are exaggerated.")

@@ -33,8 +33,8 @@ def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], fo
     ]
     names = ["body", "depth", "deviation", "deviation_low", "deviation_high"]
     caption = (
-        "Force against depth, pressed in at rest. Below: the force in 1D over that in 3D, less one; an arrow marks a "
-        f"bar that goes on. {averaged(own)}"
+        "Force against depth, pressed in at rest. Below: the force in 1D over that in 3D, less one; an arrow "
+        f"marks a bar that goes on. {averaged(own)}"
     )
     alternative = "Force grows with depth; below, deviations of 1D from 3D around zero."
     tables = {NAME: own, DEVIATIONS: DataFrame(rows, columns=names)}
@@ -50,14 +50,16 @@ def figure(tables: Tables) -> Figure:
     style.span(above, MICRONS * points["depth"])
     exact = points[points["solver"] == "exact"]
     if len(exact):
-        look = {"color": style.grey(0.45), "linewidth": style.width(0.8), "label": "smooth, closed form"}
-        above.plot(MICRONS * exact["depth"], exact["normal_force"], "-", **look)
+        known = {"color": style.grey(0.45), "linewidth": style.width(0.8), "label": "smooth, closed form"}
+        above.plot(MICRONS * exact["depth"], exact["normal_force"], "-", **known)
     for solver in ("MDR", "BEM"):
         for body in ("smooth", "rough"):
             curve = points[(points["solver"] == solver) & (points["body"] == body)]
             if curve.empty:
                 continue
-            look: dict[str, Any] = {"markerfacecolor": style.paper(), "linestyle": "none"} if body == "smooth" else {}
+            look: dict[str, Any] = (
+                {"markerfacecolor": style.paper(), "linestyle": "none"} if body == "smooth" else {}
+            )
             if body == "smooth" and solver == "BEM":
                 look |= {"markersize": style.mark(1.6), "zorder": 1}
             label = f"{style.LABEL[solver]}, {body}"
@@ -82,7 +84,12 @@ def _deviations(axes: Axes, found: DataFrame) -> None:
             continue
         depth, value, low, high = (
             curve[name].to_numpy(float) * times
-            for name, times in (("depth", MICRONS), ("deviation", 100), ("deviation_low", 100), ("deviation_high", 100))
+            for name, times in (
+                ("depth", MICRONS),
+                ("deviation", 100),
+                ("deviation_low", 100),
+                ("deviation_high", 100),
+            )
         )
         axes.errorbar(depth, value, yerr=style.bars(value, low, high), label=body, **look)
         if body == "rough" and np.isfinite(high - low).any():

@@ -16,9 +16,7 @@ from .means import averaged, line
 
 SPEED, LOAD = "friction-speed", "friction-load"
 RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
-EQ_19 = (
-    "Eq. 19 with exponent 1.5 and the rms slope that the 1D profiles have; it leaves the slope of the smooth shape out."
-)
+EQ_19 = "Eq. 19 with exponent 1.5 and the rms slope of the 1D profiles, without the slope of the smooth shape."
 # mu of Eq. 19 at loads [N], speeds [m/s] and an rms slope.
 Law = Callable[[Any, Any, float], Any]
 
@@ -82,7 +80,9 @@ def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
     own = own.assign(eq_19=np.where(known, law(own["normal_force"], own["speed"], slope), nan))
     pressed = "" if "load" in own else " The depth is prescribed: loads are means."
     told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
-    caption = f"Coefficient of friction against normal force, a curve for each speed.{pressed}{told} {averaged(own)}"
+    caption = (
+        f"Coefficient of friction against normal force, a curve for each speed.{pressed}{told} {averaged(own)}"
+    )
     alternative = "Friction of both models against load in two panels of the same axes, a curve for each speed."
     return Plot(f"{folder}{LOAD}", load_figure, {LOAD: own}, caption, alternative)
 
@@ -97,7 +97,9 @@ def load_figure(tables: Tables) -> Figure:
     for axes, solver in zip(panels, ("MDR", "BEM"), strict=True):
         axes.set(xlabel="normal force [N]", title=style.LABEL[solver])
         curves = list(points[points["solver"] == solver].groupby("speed"))
-        for index, (shade, (speed, curve)) in enumerate(zip(style.shades(solver, len(curves)), curves, strict=True)):
+        for index, (shade, (speed, curve)) in enumerate(
+            zip(style.shades(solver, len(curves)), curves, strict=True)
+        ):
             look: dict[str, Any] = {
                 "color": shade,
                 "marker": style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
@@ -134,7 +136,7 @@ def _slope(points) -> float:
 
 
 def _law(points, law) -> DataFrame:
-    """Eq. 19 from the lowest to the highest speed; empty of a smooth body, where a depth is prescribed, or at one speed."""
+    """Eq. 19 over the speeds; empty of a smooth body, where a depth is prescribed, or at one speed."""
     slope = _slope(points)
     if not np.isfinite(slope) or "load" not in points or points["speed"].nunique() < 2:
         return DataFrame(columns=["speed", "friction_coefficient"])

@@ -10,7 +10,7 @@ from . import style
 def line(axes: Axes, points: DataFrame, across: str, name: str, solver: str, times: float = 1.0, **look) -> None:
     """One curve: bars are intervals of 95 %, the band is the standard deviation of one surface.
 
-    points : rows of the curve, with the columns `name`, `name`_low, `name`_high and, if there is one, `name`_deviation
+    points : rows of the curve, with the columns `name`, `name`_low, `name`_high and perhaps `name`_deviation
     times : factor on the abscissa
     """
     look = {
@@ -36,6 +36,6 @@ def averaged(points: DataFrame) -> str:
         return "The body is smooth: bars are the change on halving the grid."
     count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
     return (
-        f"Means over {count.get('MDR', 0)} profiles (1D) and {count.get('BEM', 0)} surfaces (3D); bars are intervals "
-        "of 95 %, bands the standard deviation of one surface."
+        f"Means over {count.get('MDR', 0)} profiles (1D) and {count.get('BEM', 0)} surfaces (3D); bars are "
+        "intervals of 95 %, bands the standard deviation of one surface."
     )

@@ -28,9 +28,9 @@ def plot(points: DataFrame, limits: Mapping[str, float], folder: str = "") -> Pl
     curves = points.pivot(index="v_tau_over_a", columns="solver", values="friction_over_slope")
     ratio = DataFrame({"v_tau_over_a": curves.index, "ratio": (curves["MDR"] / curves["BEM"]).to_numpy()})
     caption = (
-        "The smooth body at the scene's load or depth: friction over the slope of the body at the edge of the smooth "
-        "relaxed contact of radius a. Lines: closed forms of first order in the speed. At low speed 1D over 3D tends "
-        "to 2. Smooth: there is no scatter."
+        "The smooth body at the scene's load or depth: friction over the slope of the body at the edge of the "
+        "smooth relaxed contact of radius a. Lines: closed forms of first order in the speed. At low speed 1D over "
+        "3D tends to 2. Smooth: there is no scatter."
     )
     alternative = "Friction of both models against speed on logarithmic axes; below, their ratio falls from 2."
     tables = {NAME: points.assign(friction_over_slope_low_speed=low), RATIO: ratio}
@@ -44,7 +44,9 @@ def figure(tables: Tables) -> Figure:
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
     above.set(xscale="log", yscale="log", ylabel=r"$\mu$ / slope at the edge [1]")
     style.span(above, points["v_tau_over_a"])
-    curves = {str(solver): curve.sort_values("v_tau_over_a") for solver, curve in points.groupby("solver", sort=False)}
+    curves = {
+        str(solver): curve.sort_values("v_tau_over_a") for solver, curve in points.groupby("solver", sort=False)
+    }
     for solver, curve in curves.items():
         look = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "label": style.LABEL[solver]}
         above.plot(curve["v_tau_over_a"], curve["friction_over_slope"], linestyle="none", **look)
@@ -53,8 +55,8 @@ def figure(tables: Tables) -> Figure:
         # Straight through the slow half, where the first order in the speed is meant to hold.
         slow = np.array([slowest["v_tau_over_a"], SLOW])
         limit = slowest["friction_over_slope_low_speed"] / slowest["v_tau_over_a"]
-        look = {"color": style.COLOUR[solver], "linewidth": style.width(0.7), "linestyle": style.LINE[solver]}
-        above.plot(slow, limit * slow, label=f"{style.LABEL[solver][:2]} limit", **look)
+        thin = {"color": style.COLOUR[solver], "linewidth": style.width(0.7), "linestyle": style.LINE[solver]}
+        above.plot(slow, limit * slow, label=f"{style.LABEL[solver][:2]} limit", **thin)
     below.axhline(2, color=style.grey(0.45), linewidth=style.width(0.8), linestyle="-")
     place = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": style.small()}
     below.annotate("2, derived", (points["v_tau_over_a"].max(), 2), **place)

@@ -25,7 +25,6 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from scene.reading import InvalidInput
 
-from ..metrics import Estimate
 from .journals import JOURNALS, Journal
 
 if TYPE_CHECKING:
@@ -347,26 +346,6 @@ def _parsed(path: Path) -> Mapping[Any, Any]:
     if heard:
         raise ValueError(f"{path} is no style of matplotlib: {heard[0].split(' You probably')[0]}")
     return given
-
-
-def line(axes: Axes, x, estimates: list[Estimate], solver: str, **other) -> None:
-    """A curve of means: bars are standard errors, the band is the standard deviation of one surface."""
-    look = {
-        "color": COLOUR[solver],
-        "marker": MARKER[solver],
-        "linestyle": LINE[solver],
-        "label": LABEL[solver],
-    } | other
-    x = np.asarray(x, float)
-    mean = np.array([e.mean for e in estimates])
-    deviation = np.nan_to_num([e.deviation for e in estimates])
-    error = np.nan_to_num([e.error for e in estimates])
-    axes.errorbar(x, mean, yerr=error, **look)
-    if deviation.any():
-        below = mean - deviation
-        if axes.get_yscale() == "log":
-            below = np.maximum(below, 1e-2 * mean)
-        axes.fill_between(x, below, mean + deviation, color=look["color"], alpha=0.13, linewidth=0)
 
 
 def span(axes: Axes, values) -> None:

@@ -1,4 +1,4 @@
-"""Means over draws at every point of a Dataset, and ratios of two solvers, with intervals of 95 % that count the grid."""
+"""Means over draws at every point of a Dataset, and ratios of two solvers, with intervals of 95 %."""
 
 from dataclasses import dataclass
 from math import nan

@@ -1,4 +1,4 @@
-"""Curves around one scene: its own contact, force against depth, friction against speed and load, the smooth body."""
+"""Curves around one scene: its own contact, force against depth, friction against speed and against load."""
 
 from collections.abc import Mapping
 from dataclasses import replace

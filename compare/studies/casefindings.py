@@ -169,12 +169,11 @@ class CaseFindings:
     @cached_property
     def grid(self) -> list[Finding]:
         """Change of the scene's own answer from half the points to all."""
-        over, under = FRICTION
-        if not (self.case.slides and self.case.motion.speed > 0):
-            over, under = ("normal_force" if self.case.motion.load is None else "depth_reached"), None
+        names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
+        names = FRICTION if self.case.slides and self.case.motion.speed > 0 else names
         found = []
         for solver, dimension in DIMENSIONS.items():
-            number = compared(self._of(OWN, solver), None, over, under)
+            number = compared(self._of(OWN, solver), None, *names)
             value = float((number.grid / np.abs(number.value))[0, 0])
             found.append(Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension))
         return found
@@ -277,9 +276,12 @@ class CaseFindings:
             if touched[k]
         }
 
-    def _finding(self, claim, found: Compared, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
+    def _finding(
+        self, claim, found: Compared, at, place="", plot="", less=0.0, regime="", dimension=""
+    ) -> Finding:
         value, low, high, grid = (
-            float(each[at]) for each in (found.value, found.low, found.high, np.broadcast_to(found.grid, found.value.shape))
+            float(each[at])
+            for each in (found.value, found.low, found.high, np.broadcast_to(found.grid, found.value.shape))
         )
         return Finding(
             claim=claim,
@@ -305,5 +307,3 @@ class CaseFindings:
             return collapse(SimulatedCurves.of(dataset.sel(grid=grid)))
         except ValueError:
             return None
-
-

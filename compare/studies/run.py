@@ -30,7 +30,16 @@ from ..taskfile import along_axes
 from ..views import view
 from ..vocabulary import attributes
 from ..written import as_json
-from .casecurves import CURVES, OWN, curves, edge_slope, friction_law, predicted_exponent, scaled_speed, slow_friction
+from .casecurves import (
+    CURVES,
+    OWN,
+    curves,
+    edge_slope,
+    friction_law,
+    predicted_exponent,
+    scaled_speed,
+    slow_friction,
+)
 from .casefindings import DIMENSIONS, ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
 
 FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"
@@ -58,7 +67,9 @@ class Run(Study):
         except Refused as error:
             if not isinstance(scene, str | Path):
                 raise
-            alone = "crosscheck plan says what each solver makes of it, and crosscheck animate shows motion in time"
+            alone = (
+                "crosscheck plan says what each solver makes of it, and crosscheck animate shows motion in time"
+            )
             raise Refused(f"{error}. So {scene} cannot be compared; {alone}") from error
         except (ArithmeticError, SolveError, ValidationError) as error:
             # The file is valid; what follows from it is not.
@@ -140,11 +151,14 @@ def _blocks(found: CaseFindings, answers) -> list[Block]:
     if len(found.failures):
         blocks.append(Table(f"{folder}failures", found.failures, "Solves without an answer."))
     times = answers[TIMES].to_dataset(inherit=False).to_dataframe().reset_index()
-    return [*blocks, Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included.")]
+    return [
+        *blocks,
+        Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included."),
+    ]
 
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:
-    """A row for each claim and dimension, a column for each case: the number and the verdict, or counts of verdicts."""
+    """A row for each claim and dimension, a column for each case: number and verdict, or counts of verdicts."""
     rows: dict[tuple[str, str], dict[str, str]] = {}
     for case in cases:
         several: dict[tuple[str, str], list[Finding]] = {}
@@ -175,7 +189,9 @@ def _asked(case: Case) -> str:
     plan = case.plan()
     parts = [(each.name, getattr(case, each.name)) for each in fields(Scene)]
     lines = [f"- {name}: {described(part)}" for name, part in parts if part is not None]
-    counts = f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
+    counts = (
+        f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
+    )
     lines.append(f"- averaged: {counts}")
     lines.append(f"- grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
     return "\n".join([*lines, "", *(f"- {note}" for note in case.notes)]).strip()
@@ -189,7 +205,8 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     fields = {
         solver: {str(name): each.values for name, each in node.variables.items()} for solver, node in below.items()
     }
-    pressed = f"load of {motion.load:g} N" if motion.load is not None else f"depth of {motion.greatest * 1e6:g} µm"
+    load, depth = f"load of {motion.greatest:g} N", f"depth of {motion.greatest * 1e6:g} µm"
+    pressed = load if motion.load is not None else depth
     moved = f"at a {pressed}, sliding at {motion.speed:g} m/s" if motion.speed else f"at a {pressed}, at rest"
     flow, radius = ("elastomer flows →" if case.slides else "elastomer"), elastic_contact(case.scene).radius
     forces = [
@@ -240,7 +257,9 @@ def _smooth_limit(found: CaseFindings) -> Plot | None:
 def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
     """Fields of one contact along their axes."""
     variables = along_axes(kept, indenter).variables
-    return xarray.Dataset({name: (each.dimensions, each.values, each.attributes) for name, each in variables.items()})
+    return xarray.Dataset(
+        {name: (each.dimensions, each.values, each.attributes) for name, each in variables.items()}
+    )
 
 
 def _times(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:

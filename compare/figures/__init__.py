@@ -1,1 +1,0 @@
-"""Figures of a judgement, a module each: figure(judgement) -> Figure, sheets(judgement), caption(judgement)."""

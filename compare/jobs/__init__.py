@@ -1,1 +1,0 @@
-"""What each command does between its question and its page, one job a module."""
