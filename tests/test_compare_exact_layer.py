@@ -110,5 +110,3 @@ def test_a_film_under_a_sphere_holds_the_volume_that_it_displaces():
 def test_what_is_not_known_is_named(asked, message):
     with pytest.raises(ValueError, match=message):
         asked(Layer(thickness=1e-4))
-
-
