@@ -1,6 +1,8 @@
-"""Figures for publication: every figure in every journal's size, in a style of one's own, in grey and in files."""
+"""Looks of figures: widths and texts of journals, styles of one's own, colours that every reader tells apart.
 
-import csv
+Every figure that a command can leave is drawn from the tables in tests/plots, as `crosscheck figures` draws it.
+"""
+
 import re
 import zlib
 from dataclasses import replace
@@ -13,7 +15,6 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from figure_samples import EVERY, sample
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import same_color, to_rgb
 from matplotlib.image import imread
@@ -22,28 +23,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
-from compare import publish
-from compare.figures import (
-    contact,
-    curves,
-    effect_costs,
-    effect_shear,
-    force_depth,
-    friction_load,
-    friction_speed,
-    lettering,
-    paper_losses,
-    paper_studies,
-    shades,
-    study_verdicts,
-    style,
-    workprecision_models,
-)
-from compare.figures.journals import JOURNALS, journal
+from compare import csvfiles, manifest
+from compare.page import Plot
+from compare.plots import lettering, shades, style
+from compare.plots.journals import JOURNALS, journal
+from compare.plots.rendering import FORMS, picture
+from compare.redraw import function
 from scene.reading import InvalidInput
 
-FOLDER = Path(style.__file__).parent
-# Figures whose own tests hold them against these laws, as what they draw is solved there.
+SAMPLES = Path(__file__).parent / "plots"
+ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES)).manifest.plots}
+# Figures too large to keep, whose own tests hold them against these laws.
 ELSEWHERE = {"contact_maps", "marching"}
 NARROW, OTHERS = "iop", [name for name in JOURNALS if name != "iop"]
 # Boxes of texts hold a pixel of nothing on each side [pixel].
@@ -66,22 +56,20 @@ VISION = {
 # eleven, as print tells them apart.
 APART, LIGHTER = 15.0, 10.0
 
-# Figures held against every law in each run: an image, curves with bands and bars, words, formulas, shades; the
-# others, which take longer, on demand.
-OFTEN = (
-    contact,
-    effect_costs,
-    effect_shear,
-    force_depth,
-    friction_speed,
-    paper_losses,
-    study_verdicts,
-)
+# Figures held against every law in each run: an image, curves with bands and bars; the others on demand.
+OFTEN = {"contact-figure", "force_depth-figure", "friction_curves-speed_figure", "shifted_curves-figure"}
 
 every_figure = pytest.mark.parametrize(
-    "module",
-    [pytest.param(each, id=each.NAME, marks=() if each in OFTEN else pytest.mark.slow) for each in EVERY],
+    "name", [pytest.param(each, marks=() if each in OFTEN else pytest.mark.slow) for each in ENTRIES]
 )
+
+
+@cache
+def sample(name):
+    """A figure with the tables of its sample."""
+    entry = ENTRIES[name]
+    tables = {table: csvfiles.read(SAMPLES / name / f"{table}.csv") for table in entry.tables}
+    return Plot(name, function(entry, SAMPLES), tables, "", options=entry.options)
 
 
 def lab(colour, vision="normal"):
@@ -104,25 +92,26 @@ def difference(one, other, vision="normal"):
     return float(np.linalg.norm(lab(one, vision) - lab(other, vision)))
 
 
-def drawn(module, look=None):
+def drawn(name, look=None):
     with style.applied(look or style.Look()):
-        return module.figure(sample(module))
+        return sample(name).figure()
 
 
 @cache
-def plain(module):
+def plain(name):
     """As it is without a journal or a style of one's own; only to be looked at."""
-    return drawn(module)
+    return drawn(name)
 
 
 @cache
-def laid_out(module, name):
+def laid_out(name, asked):
     """The figure in a journal, and the texts and lines that drawing puts into it."""
     texts: dict[int, Text] = {}
     lines: dict[int, Line2D] = {}
-    with style.applied(style.Look(journal(name))), pytest.MonkeyPatch.context() as patch:
-        drawing = module.figure(sample(module))
-        FigureCanvasAgg(drawing).draw()
+    with style.applied(style.Look(journal(asked))), pytest.MonkeyPatch.context() as patch:
+        drawing = sample(name).figure()
+        FigureCanvasAgg(drawing)
+        style.lay_out(drawing)
         for kind, kept in ((Text, texts), (Line2D, lines)):
             patch.setattr(kind, "draw", _noting(kind.draw, kept))
         drawing.canvas.draw()
@@ -138,11 +127,11 @@ def _noting(draw, kept):
     return noted
 
 
-def laws_of_layout(module, name):
+def laws_of_layout(name, asked):
     """What is wrong with the figure in a journal."""
-    drawing, texts, lines = laid_out(module, name)
+    drawing, texts, lines = laid_out(name, asked)
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts]
-    least = JOURNALS[name]
+    least = JOURNALS[asked]
     for text in texts:
         if text.get_fontsize() < least.least - ROUNDING:
             yield f"{text.get_text()!r} has {text.get_fontsize():.3g} points"
@@ -165,31 +154,39 @@ def laws_of_layout(module, name):
             yield f"a legend of {axes.get_title(loc='left')!r} lies over curves"
 
 
-def test_every_figure_is_held_against_the_laws_below():
-    names = {path.stem for path in FOLDER.glob("*.py") if re.search(r"^NAME = ", path.read_text(), re.MULTILINE)}
-    assert names - ELSEWHERE == {module.__name__.rpartition(".")[2] for module in EVERY}
+def test_a_sample_is_there_for_every_figure_of_the_package():
+    drawn_by = {(entry.module.rpartition(".")[2], entry.function) for entry in ENTRIES.values()}
+    known = {
+        (path.stem, name)
+        for path in Path(style.__file__).parent.glob("*.py")
+        if path.stem not in ELSEWHERE
+        for name in re.findall(
+            r"^def ([a-z]\w*)\(\s*tables: Tables.*?\) -> Figure:", path.read_text(), re.M | re.S
+        )
+    }
+    assert known <= drawn_by
 
 
 @every_figure
-def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(module):
-    assert not list(laws_of_layout(module, NARROW))
+def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(name):
+    assert not list(laws_of_layout(name, NARROW))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("asked", OTHERS)
 @every_figure
-def test_in_every_journal_texts_are_large_enough_whole_and_apart(module, name):
-    assert not list(laws_of_layout(module, name))
+def test_in_every_journal_texts_are_large_enough_whole_and_apart(name, asked):
+    assert not list(laws_of_layout(name, asked))
 
 
 def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
-    for module, width, wrong in ((effect_costs, 3.2, "is cut"), (contact, 4.0, "lies over")):
-        monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=width))
-        assert any(wrong in found for found in laws_of_layout(module, "narrow"))
-    drawing, texts, lines = laid_out(friction_speed, NARROW)
+    monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=4.0))
+    found = list(laws_of_layout("contact-figure", "narrow"))
+    assert any("is cut" in fault or "lies over" in fault for fault in found)
+    drawing, texts, lines = laid_out("contact-figure", NARROW)
     texts[0].set_fontsize(7.9)
     monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
-    assert any("has 7.9 points" in found for found in laws_of_layout(friction_speed, NARROW))
+    assert any("has 7.9 points" in fault for fault in laws_of_layout("contact-figure", NARROW))
     texts[0].set_fontsize(8)
 
 
@@ -206,16 +203,14 @@ def test_a_journal_has_its_source_and_no_text_below_its_least(name):
 
 
 @every_figure
-@pytest.mark.parametrize("name", ["elsevier"])
-def test_a_figure_is_exactly_as_wide_as_a_column_or_the_page(module, name):
-    with style.applied(style.Look(journal(name))):
-        width = module.figure(sample(module)).get_figwidth()
-    assert width in (JOURNALS[name].single, JOURNALS[name].double)
+def test_a_figure_is_exactly_as_wide_as_a_column_or_the_page(name):
+    asked = JOURNALS["elsevier"]
+    assert drawn(name, style.Look(asked)).get_figwidth() in (asked.single, asked.double)
 
 
 @every_figure
-def test_every_axis_says_its_unit(module):
-    drawing, texts, _ = laid_out(module, NARROW)
+def test_every_axis_says_its_unit(name):
+    drawing, texts, _ = laid_out(name, NARROW)
     said = {id(text) for text in texts}
     for axes in drawing.axes:
         if not axes.axison:
@@ -237,14 +232,14 @@ def test_every_axis_says_its_unit(module):
 
 
 @every_figure
-def test_a_style_of_ones_own_changes_fonts_sizes_and_lines_of_every_figure(module):
+def test_a_style_of_ones_own_changes_fonts_sizes_and_lines_of_every_figure(name):
     """A quarter more text, twice the lines, in another font."""
     own = {"font.size": 10, "lines.linewidth": 2.2, "lines.markersize": 8, "font.family": "serif"}
-    styled = drawn(module, style.Look(sheet=own))
-    sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(module), styled))
+    styled = drawn(name, style.Look(sheet=own))
+    sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(name), styled))
     assert larger == pytest.approx(1.25 * sizes, rel=ROUNDING)
     assert {text.get_fontfamily()[0] for text in _written(styled)} == {"serif"}
-    widths, wider = (_widths(each) for each in (plain(module), styled))
+    widths, wider = (_widths(each) for each in (plain(name), styled))
     assert max(wider, default=0) == pytest.approx(2 * max(widths, default=0), rel=ROUNDING)
 
 
@@ -263,10 +258,10 @@ def _widths(drawing):
 
 
 @every_figure
-def test_the_colours_of_both_dimensionalities_stay_whatever_the_style(module):
-    styled = drawn(module, style.Look(sheet="dark_background"))
+def test_the_colours_of_both_dimensionalities_stay_whatever_the_style(name):
+    styled = drawn(name, style.Look(sheet="dark_background"))
     for solver in style.COLOURS.values():
-        assert _uses(plain(module), solver) == _uses(styled, solver)
+        assert _uses(plain(name), solver) == _uses(styled, solver)
 
 
 def _uses(drawing, colour):
@@ -274,18 +269,18 @@ def _uses(drawing, colour):
 
 
 @every_figure
-def test_other_colours_of_the_dimensionalities_hold_in_every_figure(module):
+def test_other_colours_of_the_dimensionalities_hold_in_every_figure(name):
     own = {"MDR": "#117733", "BEM": "#AA4499"}
-    changed = drawn(module, style.Look(colours=own))
+    changed = drawn(name, style.Look(colours=own))
     for solver, colour in style.COLOURS.items():
         assert _uses(changed, colour) == 0
-        assert _uses(changed, own[solver]) == _uses(plain(module), colour)
+        assert _uses(changed, own[solver]) == _uses(plain(name), colour)
 
 
 @every_figure
-def test_nothing_of_the_caller_changes(module):
+def test_nothing_of_the_caller_changes(name):
     before = dict(matplotlib.rcParams)
-    drawn(module, style.Look(journal("nature"), "ggplot"))
+    drawn(name, style.Look(journal("nature"), "ggplot"))
     assert dict(matplotlib.rcParams) == before
     assert style.current() == style.Look()
     assert not plt.get_fignums()
@@ -320,8 +315,8 @@ def _hollow(line):
 
 
 @every_figure
-def test_what_a_legend_names_is_told_apart_in_grey_and_by_every_reader(module):
-    for handles in _handles(plain(module)):
+def test_what_a_legend_names_is_told_apart_in_grey_and_by_every_reader(name):
+    for handles in _handles(plain(name)):
         for (colour, form), (other, beside) in combinations(handles, 2):
             if form != beside:
                 continue
@@ -343,7 +338,7 @@ def test_red_and_green_would_not_be_told_apart():
     assert difference("#D62728", "#2CA02C", "deuteranopia") < 50
 
 
-@pytest.mark.parametrize("shades_of", [shades.SPEED, shades.PRESS, paper_studies.SHADES])
+@pytest.mark.parametrize("shades_of", [shades.SPEED, shades.PRESS])
 def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
     """Even: of 20 steps none is twice the mean; viridis and plasma are made so for normal vision."""
     colours = shades_of(np.linspace(0, 1, 21))
@@ -355,31 +350,24 @@ def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
 
 
 @pytest.fixture(scope="module")
-def files(tmp_path_factory):
-    """Some figures as files, twice: with an image, formulas, error bars, bands."""
-    folders = [tmp_path_factory.mktemp(name) for name in ("first", "second")]
-    modules = (contact, force_depth, paper_losses)
-    for folder in folders:
-        for module in modules:
-            publish.draw(folder, module, sample(module))
-    return folders
+def files():
+    """Some figures as files: with an image, formulas, error bars, bands."""
+    return {name: picture(sample(name), FORMS) for name in ("contact-figure", "force_depth-figure")}
 
 
 def test_the_same_numbers_give_the_same_files(files):
-    first, second = files
-    names = sorted(path.name for path in first.iterdir())
-    assert {Path(name).suffix for name in names} == {".pdf", ".svg", ".png", ".csv"}
-    for name in names:
-        assert (first / name).read_bytes() == (second / name).read_bytes(), name
+    for name, found in files.items():
+        assert tuple(found.files) == FORMS
+        assert picture(sample(name), FORMS) == found
 
 
 def test_every_font_of_a_pdf_is_inside_as_truetype(files):
-    for path in files[0].glob("*.pdf"):
-        content = path.read_bytes()
+    for name, found in files.items():
+        content = found.files["pdf"]
         streams = [zlib.decompress(each) for each in _compressed(content)]
         whole = content + b"".join(streams)
         fonts, inside = whole.count(b"/Type /FontDescriptor"), whole.count(b"/FontFile2 ")
-        assert fonts == inside > 0, path.name
+        assert fonts == inside > 0, name
         assert b"/Type3" not in whole
         assert b"/Subtype /CIDFontType2" in whole or b"/Subtype /TrueType" in whole
 
@@ -395,7 +383,7 @@ def _compressed(content):
 
 
 def test_a_font_that_is_drawn_as_procedures_would_be_found():
-    figure = drawn(force_depth)
+    figure = drawn("force_depth-figure")
     file = BytesIO()
     with matplotlib.rc_context({"pdf.fonttype": 3}):
         figure.savefig(file, format="pdf")
@@ -403,34 +391,21 @@ def test_a_font_that_is_drawn_as_procedures_would_be_found():
 
 
 def test_pictures_have_300_dots_an_inch_and_the_width_of_the_column(files):
-    for path in files[0].glob("*.png"):
-        width = imread(path).shape[1]
-        columns = [300 * JOURNALS["default"].single, 300 * JOURNALS["default"].double]
-        assert width in [pytest.approx(each, abs=1) for each in columns]
+    for found in files.values():
+        assert found.inches[0] in (JOURNALS["default"].single, JOURNALS["default"].double)
+        assert imread(BytesIO(found.files["png"])).shape[1] == pytest.approx(300 * found.inches[0], abs=1)
 
 
 def test_vector_files_name_no_day_and_hold_their_letters(files):
-    for path in files[0].glob("*.svg"):
-        text = path.read_text()
+    for found in files.values():
+        text = found.files["svg"].decode()
         assert "<dc:date>" not in text
         assert "<text" not in text  # letters are outlines: no font has to be at the reader's
-
-
-def test_a_figure_can_be_written_in_one_form_alone(tmp_path):
-    publish.draw(tmp_path, force_depth, sample(force_depth), forms=("png",))
-    assert {path.suffix for path in tmp_path.iterdir()} == {".png", ".csv"}
-
-
-def test_whatever_is_published_inside_a_look_has_it(tmp_path):
-    with publish.look("nature", {"font.size": 6}):
-        assert publish.draw(tmp_path, force_depth, sample(force_depth)).inches == JOURNALS["nature"].single
-    assert publish.draw(tmp_path, force_depth, sample(force_depth)).inches == JOURNALS["default"].single
 
 
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"journal": "elsvier"}, "did you mean elsevier"),
         ({"sheet": "no-such-style"}, "neither a file nor one of"),
         ({"sheet": {"lines.colour": "red"}}, "lines.colour"),
         ({"colours": {"FEM": "red"}}, "no solver 'FEM'"),
@@ -438,8 +413,10 @@ def test_whatever_is_published_inside_a_look_has_it(tmp_path):
     ],
 )
 def test_a_look_that_does_not_exist_is_refused_with_what_is_known(given, said):
-    with pytest.raises(ValueError, match=re.escape(said)), publish.look(**given):
+    with pytest.raises(ValueError, match=re.escape(said)), style.chosen(style.Look(**given)):
         pass
+    with pytest.raises(ValueError, match="did you mean elsevier"):
+        journal("elsvier")
 
 
 @pytest.mark.parametrize("line", ["lines.linewidth: thick", "lines.width: 2", "lines.linewidth 2", "\xff"])
@@ -461,79 +438,15 @@ def test_a_file_of_settings_is_a_style(tmp_path):
 
 def test_what_the_machine_has_set_does_not_show():
     with matplotlib.rc_context({"lines.linewidth": 9.0, "font.size": 30, "axes.facecolor": "yellow"}):
-        figure = drawn(friction_load)
+        figure = drawn("friction_curves-speed_figure")
     assert figure.axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
     assert max(_widths(figure)) < 2
 
 
-@every_figure
-def test_every_curve_stands_in_a_table_beside_the_figure(module, tmp_path):
-    """Up to a power of ten, as units of axes have prefixes; zero need not stand."""
-    if not hasattr(module, "sheets"):
-        tables = {"kept": sample(module)}
-        publish.write_csv(tmp_path / "kept.csv", sample(module))
-        if beyond := curves.unlisted(plain(module), tables):
-            publish.write_csv(tmp_path / "drawn.csv", beyond)
-    else:
-        publish.draw(tmp_path, module, sample(module), forms=())
-    tables = [_read(path) for path in tmp_path.glob("*.csv")]
-    for axes in curves.panels(plain(module)):
-        for line in axes.lines:
-            x, y = (np.asarray(values, float) for values in line.get_data(orig=False))
-            if len(x) == 0 or line in _caps(axes):
-                continue
-            sides = line.get_transform().contains_branch_seperately(axes.transData)
-            known = np.isfinite(x) & np.isfinite(y)
-            if sides[0]:  # what lies beyond the ends of the axis is not seen
-                known &= (x >= min(axes.get_xlim())) & (x <= max(axes.get_xlim()))
-            values = [each[known] for each, counts in zip((x, y), sides, strict=True) if counts]
-            assert any(all(_stands(each, table) for each in values) for table in tables), line
-
-
-def _caps(axes):
-    return [cap for bars in axes.containers for cap in bars.lines[1]]
-
-
-def _read(path):
-    """All numbers of a file."""
-    with path.open(newline="") as file:
-        cells = [cell for row in list(csv.reader(file))[1:] for cell in row]
-    return np.array([float(cell) for cell in cells if re.fullmatch(r"-?[0-9.]+(e[-+]?[0-9]+)?", cell)])
-
-
-def _stands(values, table):
-    values, table = np.abs(values[values != 0]), np.abs(table[table != 0])
-    if not len(values):
-        return True
-    powers = np.log10(values[:, None] / table)
-    return bool((np.abs(powers - np.round(powers)).min(axis=1) < ROUNDING).all())
-
-
-def test_a_curve_that_no_table_has_is_found():
-    with style.applied():
-        drawing = style.canvas("single", 2.0)
-        axes = drawing.subplots()
-        axes.set(xlabel="x [m]", title="panel")
-        axes.plot([1, 2], [3e-3, 4e-3], label="listed")
-        axes.errorbar([1, 2], [3, 5], [0.1, np.nan], label="of theory")
-        axes.axhline(7)
-        axes.scatter([1, 2], [4, 4])
-        axes.plot([], [])
-    found = curves.unlisted(drawing, {"table": [{"x": 1, "y": 3.0}, {"x": 2, "y": 4.0}]})
-    assert [(row["label"], row["x"], row["y"]) for row in found] == [
-        ("of theory", 1, 3),
-        ("of theory", 2, 5),
-        ("", pytest.approx(np.nan, nan_ok=True), 7),
-    ]
-    assert (found[0]["low"], found[0]["high"]) == pytest.approx((2.9, 3.1))
-    assert {row["title"] for row in found} == {"panel"}
-    assert curves.unlisted(drawing, {"table": {"x": [1, 2, 3], "y": [4, 5, 7], "error": [0.1, 0, 0]}}) == []
-
-
-def test_text_too_large_for_the_panels_is_refused_with_the_size(tmp_path):
-    with publish.look(sheet={"font.size": 40}), pytest.raises(InvalidInput, match="text of 40 points"):
-        publish.draw(tmp_path, friction_load, sample(friction_load))
-    assert not list(tmp_path.iterdir())
+def test_text_too_large_for_the_panels_is_refused_with_the_size():
+    large = style.Look(sheet={"font.size": 40})
+    with style.chosen(large), pytest.raises(InvalidInput, match="text of 40 points"):
+        picture(sample("friction_curves-speed_figure"))
 
 
 def test_a_text_is_broken_where_it_would_be_too_wide():
@@ -571,7 +484,3 @@ def test_a_legend_over_a_curve_is_found_and_given_room():
         lettering.clear(drawing, [axes])
         drawing.draw_without_rendering()
         assert not lettering.covered(axes)
-
-
-def test_panels_of_models_and_of_one_regime_alone_take_the_page_or_a_column():
-    assert drawn(workprecision_models).get_figwidth() == JOURNALS["default"].double
