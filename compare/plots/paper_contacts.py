@@ -52,8 +52,8 @@ def figure(tables: Tables) -> Figure:
     panels = drawing.subplots(2, len(contacts), squeeze=False)
     for (above, below), letter, row in zip(panels.T, "ab", contacts.itertuples(), strict=False):
         line = tables[f"{NAME}-{row.shape}"]
-        heights = [line[name].to_numpy() for name in ("x", "indenter", "surface")]
-        heights.append(line["contact"].to_numpy() == 1)
+        x, body, surface = (line[name].to_numpy() for name in ("x", "indenter", "surface"))
+        heights = x, body, surface, line["contact"].to_numpy() == 1
         whole = SHOWN * row.smooth_half_width * np.array([-1, 1])
         for axes, limits, name, width in (
             (above, whole, f"({letter}) rough {row.shape}", 0.8),

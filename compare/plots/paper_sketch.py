@@ -21,9 +21,9 @@ def plot() -> Plot:
         NAME,
         figure,
         {},
-        "(a) A rigid cone at the depth d moves to the left at the speed v. The Kelvin solid meets it at −a₁, leaves "
-        f"it at a₂, and returns over v τ, here {MEMORY:g} d. (b) Elements of the model, each a spring 4 G Δx beside a "
-        "dashpot 4 η Δx, η = G τ; those pressed are dark.",
+        "(a) A rigid cone at the depth d moves to the left at the speed v. The Kelvin solid meets it at −a₁, "
+        f"leaves it at a₂, and returns over v τ, here {MEMORY:g} d. (b) Elements of the model, each a spring "
+        "4 G Δx beside a dashpot 4 η Δx, η = G τ; those pressed are dark.",
         "Left, a cone in an elastomer with depth, ends of contact and speed. Right, a row of springs and "
         "dashpots.",
     )

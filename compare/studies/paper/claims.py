@@ -6,7 +6,7 @@ body, as the pixel is the cut-off by definition, and one of the parameters of Fi
 intervals.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -81,7 +81,7 @@ def lines(slow: SlowFriction) -> dict[str, Line]:
     holds = points["holds"].to_numpy(bool)
     slowly = _slow(points)
     everywhere = np.ones_like(holds)
-    asked = {
+    asked: dict[str, tuple[np.ndarray, np.ndarray | float]] = {
         "conditions hold": (holds, 1.0),
         "conditions hold, over 1 + r²": (holds, kept),
         "any macroscopic slope": (slowly, 1.0),
@@ -94,7 +94,7 @@ def lines(slow: SlowFriction) -> dict[str, Line]:
 
 
 def findings(
-    slow: SlowFriction, fits: dict[str, Line], laws: Sequence[Law], losses: Sequence[Lossy]
+    slow: SlowFriction, fits: Mapping[str, Line], laws: Sequence[Law], losses: Sequence[Lossy]
 ) -> list[Finding]:
     """Every claim, in the order of the paper."""
     return [*_slope_one(slow, fits), *_alphas(laws), *_plateaus(laws), *_shifts(losses)]

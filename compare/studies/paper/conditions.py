@@ -1,6 +1,7 @@
 """Conditions that the laws of the paper presuppose, as columns of a table of points: ratios, and which hold."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from pandas import DataFrame
@@ -22,8 +23,8 @@ def with_conditions(
 
     others : by the name of a further condition, the name of its ratio, the ratio, and where it holds
     """
-    flags: dict[str, np.ndarray] = {}
-    ratios: dict[str, np.ndarray] = dict(vars(regime))
+    flags: dict[str, Any] = {}
+    ratios: dict[str, Any] = dict(vars(regime))
     for condition, (name, ratio, flag) in (others or {}).items():
         ratios[name], flags[condition] = ratio, flag
     flags |= regime.flags

@@ -24,7 +24,7 @@ def contact_rectangle(shape: str) -> Rectangle:
     return Rectangle(
         scene=parameters.contact(shape),
         speeds=(motion.speed,),
-        values=(motion.load,),
+        values=(float(motion.load or 0.0),),
         grids={"MDR": {FINE: MDR(points=parameters.POINTS)}},
         draws={"MDR": 1},
         keeps_fields=True,

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from math import nan
+from typing import Any
 
 import numpy as np
 import xarray
@@ -65,7 +66,7 @@ class ParameterStudies:
         rows = [outcomes[task].rows for task in tasks for _ in task.seeds]
         reasons = np.array([row[0].reason if row else "" for row in rows], object)
         status = np.where(np.isfinite(arrays["friction_coefficient"]), SOLVED, FAILED)
-        made = {name: (DIMS, values, attributes(name)) for name, values in arrays.items()}
+        made: dict[str, Any] = {name: (DIMS, values, attributes(name)) for name, values in arrays.items()}
         made |= {
             "status": (DIMS, status, attributes("status")),
             "reason": ("draw", reasons, attributes("reason")),
@@ -149,7 +150,7 @@ class Profiles(ArrayTask):
 class SlowFriction:
     """Fig. 3 in the coordinates of Eqs. 17 and 18.
 
-    points : study, parameter, hurst, xi, normalised_friction with its interval of 95 % over profiles, and conditions
+    points : study, parameter, hurst, xi, normalised_friction with its interval of 95 %, and conditions
     samples : mu-tilde of each profile (points, profiles)
     sweeps : mean number of sweeps of a solve
     """

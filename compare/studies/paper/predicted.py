@@ -1,6 +1,7 @@
 """What Eq. 22 says of the friction of Figs. 5 to 7, with the loss at one frequency and with that of every wave."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -71,12 +72,14 @@ def predict(loss: Loss) -> Predicted:
     slow = [equations.wave_force(of_many, q, waves, speed, 2 * radius) / loads for speed in parameters.SPEEDS]
     plateau = equations.plateau(slope)
     stiffness = np.abs(solid.complex_modulus(speeds / radius)) / solid.modulus
-    ratios = Regime.of((c, n), (radius, depth), rough.rms_height, rough.longest, slope)
+    ratios: Any = Regime.of((c, n), (radius, depth), rough.rms_height, rough.longest, slope)
     return Predicted(
         one_frequency=one,
         spectral=plateau * equations.interpolation(np.array(slow) / plateau),
         stiffness=stiffness,
-        regime=Regime(**{name: np.broadcast_to(ratio, stiffness.shape) for name, ratio in vars(ratios).items()}),
+        regime=replace(
+            ratios, **{name: np.broadcast_to(ratio, stiffness.shape) for name, ratio in vars(ratios).items()}
+        ),
     )
 
 

@@ -12,7 +12,7 @@ from pandas import DataFrame
 from scene.reading import InvalidInput
 
 from ... import rectangle
-from ...finding import Finding
+from ...finding import FAILS, Finding
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Table, Text
 from ...pipeline import Study
@@ -205,12 +205,13 @@ def _shifts(rubbers, findings):
         }
         for of, name in ((losses.WHOLE, "whole"), (losses.ROUGH, "excess")):
             found = {each.claim.id: each for each in findings if each.where == f"{lossy.loss.symbols}, {of}"}
-            exponent = found[eq23.EXPONENT.id]
+            collapse, exponent = found[eq23.COLLAPSE.id], found[eq23.EXPONENT.id]
+            meant = collapse.verdict != FAILS
             row |= {
-                f"collapse_{name}": found[eq23.COLLAPSE.id].verdict,
-                f"exponent_{name}": exponent.value,
-                f"exponent_{name}_low": exponent.interval[0],
-                f"exponent_{name}_high": exponent.interval[1],
+                f"collapse_{name}": collapse.verdict,
+                f"exponent_{name}": exponent.value if meant else np.nan,
+                f"exponent_{name}_low": exponent.interval[0] if meant else np.nan,
+                f"exponent_{name}_high": exponent.interval[1] if meant else np.nan,
             }
         rows.append(row)
     return DataFrame(rows)
