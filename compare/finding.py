@@ -13,6 +13,8 @@ HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "
 # How the share of the grid in an interval is known.
 HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exact", "unknown"
 BOTH = "1D/3D"
+# Places of one verdict that a statement names one by one.
+SHOWN = 4
 
 
 def verdict(expected: float, tolerance: float, low: float, high: float) -> str:
@@ -151,18 +153,39 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
 
 
 def sentences(findings: Sequence[Finding]) -> list[str]:
-    """One sentence for each claim, from all of its findings: how often it holds, where it fails, what is undecided."""
+    """A statement for each claim, from all of its findings: in 1D and in 3D where it holds, fails, is undecided."""
     found = []
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
-        places: dict[str, list[str]] = {}
-        for each in findings:
-            if each.claim.sentence == sentence:
-                place = " ".join(part for part in (each.dimension or each.claim.dimension, each.where) if part)
-                places.setdefault(each.verdict, []).append(f"{place} {number(each)}")
-        told = [f"{name}: {', '.join(places[name])}" for name in VERDICTS if name in places]
-        said = "; ".join(told)
-        found.append(f"{sentence}. {said[:1].upper()}{said[1:]}.")
+        own = [each for each in findings if each.claim.sentence == sentence]
+        parts = []
+        for dimension in dict.fromkeys(each.dimension or each.claim.dimension for each in own):
+            here = [each for each in own if (each.dimension or each.claim.dimension) == dimension]
+            verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
+            said = [_said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts]
+            parts.append(f"in {dimension} it {', '.join(said)}" if dimension in ("1D", "3D") else f"it {', '.join(said)}")
+        text = "; ".join(parts)
+        found.append(f"{sentence}. {text[:1].upper()}{text[1:]}.")
     return found
+
+
+def _said(verdict, findings, of):
+    """What becomes of a claim where it has one verdict: each place with its number, or how many and their range."""
+    verb = {UNDECIDED: "is undecided", REPORTED: "is"}.get(verdict, verdict)
+    if len(findings) > SHOWN:
+        known = [each.value for each in findings if isfinite(each.value)]
+        reach = f", from {digits.number(min(known), 3)} to {digits.number(max(known), 3)}" if known else ""
+        count = f"all {of}" if len(findings) == of else f"{len(findings)} of {of}"
+        return f"{verb} in {count} places{reach}"
+    if verdict == REPORTED:
+        return f"{verb} " + _listed([f"{number(each)}{each.where and f' for {each.where}'}" for each in findings])
+    if not any(each.where for each in findings):
+        return f"{verb} at " + _listed([number(each) for each in findings])
+    return f"{verb} for " + _listed([f"{each.where} at {number(each)}" for each in findings])
+
+
+def _listed(parts):
+    *first, last = parts
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def number(found: Finding) -> str:

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from compare import rectangle
 from compare.outcome import Outcome, Row
 from compare.studies.laws import laws
-from compare.studies.series import Series, collect, tasks
+from compare.studies.series import Contacts, Series
 from mdr1d import MDR
 from scene import (
     Cone,
@@ -161,15 +162,16 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
             title="Compressible",
             scene=scene,
             speeds=(0.1, 0.3),
-            presses=(0.05, 0.1),
+            values=(0.05, 0.1),
             surfaces=1,
             profiles=1,
             bem=BEM(points=64),
             mdr=MDR(points=200),
         )
         missing = Outcome((Row(reason="not asked for"),))
-        outcomes = {task: task.solve() if task.solver.name == "MDR" else missing for task in tasks(series)}
-        return laws(collect(series, outcomes), "MDR")
+        tasks = rectangle.unique(series.rectangles)
+        outcomes = {task: task.solve() if task.solver.name == "MDR" else missing for task in tasks}
+        return laws(Contacts(series, rectangle.tree(series.rectangles, outcomes)), "MDR")
 
     wanted, found = ruled(0.5), ruled(0.0)
     for name in ("xi", "shifts", "slow", "smooth", "loss_exponent", "plateau"):

@@ -22,8 +22,9 @@ import os
 from dataclasses import dataclass, replace
 
 from bem3d import BEM
+from compare.rectangle import unique
 from compare.studies.catalogue import kelvin
-from compare.studies.series import Series, tasks
+from compare.studies.series import Series
 from compare.task import SCENES
 from mdr1d import MDR
 
@@ -58,14 +59,18 @@ def series():
     scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
     solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
     return Series("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)
+
+
+def tasks():
+    return unique(series().rectangles)
 """
 STUDY = """
 import marked
-from compare.__main__ import main
-from compare.studies.catalogue import STUDIES, Study
+from compare.cli import main
+from compare.studies.catalogue import STUDIES, ReadyStudy
 
 if __name__ == "__main__":
-    STUDIES["collapse"] = Study("Tiny", "A few contacts.", lambda size: [marked.series()])
+    STUDIES["collapse"] = ReadyStudy("Tiny", "A few contacts.", lambda size: [marked.series()])
     main()
 """
 # A machine under load starts processes slowly.
@@ -80,7 +85,7 @@ class Killed:
         (folder / "study.py").write_text(STUDY)
         (folder / "marked.py").write_text(MARKED)
         self.marks = folder / "marks"
-        self.tasks = marked.tasks(marked.series())
+        self.tasks = marked.tasks()
         self.store = Store(folder / "crosscheck-study" / "solved")
 
     def start(self):

@@ -13,9 +13,9 @@ from compare.cases import Case
 from compare.library import NotReady, find, ready, write
 from compare.planning import plans
 from compare.schema import DIALECT, schema
-from compare.studies.asked import read_study, study_of
 from compare.studies.catalogue import SIZES
-from compare.studies.series import blocks
+from compare.studies.claimstudy import ClaimStudy
+from compare.studies.inputs import study_of
 from scene import Refused, Scene
 from scene.quantities import unit_of
 from scene.reading import InvalidInput, made, read
@@ -73,10 +73,9 @@ def test_those_that_are_not_compared_say_how_they_are_solved():
 
 @pytest.mark.parametrize("name", STUDIES)
 def test_every_study_is_read_and_can_be_asked(name, tmp_path):
-    study = read_study(written(name, tmp_path))
+    study = ClaimStudy.of(written(name, tmp_path))
     assert study.title == find(name).title
-    for series in study.series(SIZES["quick"]):
-        assert blocks(series)
+    assert study.rectangles()
 
 
 @pytest.mark.slow

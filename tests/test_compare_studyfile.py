@@ -5,12 +5,10 @@ from typing import get_args
 
 import pytest
 
-from compare.studies.asked import Claim, read_study, study_of
 from compare.studies.catalogue import SIZES, STUDIES
-from compare.studies.families import family_findings
-from compare.studies.judgement import judge_series
-from compare.studies.question import BOTH
-from compare.studies.series import CLAIMS, collect, tasks
+from compare.studies.claimstudy import ClaimStudy
+from compare.studies.inputs import Claim, study_of
+from compare.studies.series import KINDS
 from compare.studies.sizes import between
 from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
@@ -77,9 +75,9 @@ def test_a_file_says_what_python_says():
     first, second = asked(TEXT)
     rough = SelfAffine(hurst=0.2, rms_height=50e-6, longest=10e-3, shortest=2e-3, seed=1)
     assert first.scene == Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.05, load=0.5), rough)
-    assert (first.speeds, first.presses) == ((0.05, 0.1, 0.2), between(0.5, 2.0, 4))
+    assert (first.speeds, first.values) == ((0.05, 0.1, 0.2), between(0.5, 2.0, 4))
     assert (first.surfaces, first.profiles, first.bem.points, first.mdr.points) == (2, 3, 32, 400)
-    assert (first.name, first.title, first.note, first.claims) == ("a", "a", "", CLAIMS)
+    assert (first.name, first.title, first.note, first.claims) == ("a", "a", "", KINDS)
     assert second.scene == replace(first.scene, indenter=Cone("10 deg"), roughness=replace(rough, hurst=0.6))
     assert (second.title, second.note, second.claims) == ("Another", "Steeper.", ("collapse",))
     study = study_of(TEXT, "mine")
@@ -93,7 +91,7 @@ def test_what_a_file_leaves_out_follows_from_the_size():
     for size in (QUICK, SIZES["standard"]):
         series = asked(short, size)[0]
         assert (series.surfaces, series.profiles, series.bem.points) == (size.surfaces, size.profiles, size.points)
-        assert (len(series.speeds), len(series.presses)) == (size.speeds, size.presses)
+        assert (len(series.speeds), len(series.values)) == (size.speeds, size.values)
         assert series.speeds[0] == 0.05
         assert series.speeds[-1] == pytest.approx(0.2, rel=1e-15)  # of a power
     assert asked(TEXT, SIZES["standard"]) == asked(TEXT)
@@ -128,8 +126,8 @@ def test_bodies_rest_without_speeds_and_are_pressed_in_at_rates():
 def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
     text = TEXT.replace('name = "a"', 'name = "a"\ndepths = ["50 um"]\nrates = [0.1]')
     first, second = asked(text)
-    assert (first.pressed_by, first.slides) == ("depth", False)
-    assert (second.pressed_by, second.slides) == ("load", True)
+    assert (first.prescribed, first.slides) == ("depth", False)
+    assert (second.prescribed, second.slides) == ("load", True)
 
 
 @pytest.mark.parametrize(
@@ -192,53 +190,22 @@ def test_every_mistake_is_named_at_once():
     ]
 
 
-def test_what_is_no_file_and_no_toml_is_said(tmp_path):
-    with pytest.raises(InvalidInput, match=r"nowhere\.toml: No such file"):
-        read_study(tmp_path / "nowhere.toml")
-    (tmp_path / "mine.toml").write_bytes(b"\xff\xfe")
+def test_a_file_can_ask_every_kind_of_claim():
+    assert set(get_args(Claim)) == set(KINDS)
+
+
+def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(TEXT, encoding="utf-8")
+    study = ClaimStudy.of(path)
+    assert (study.place, study.title, study.inputs["source"]) == ("mine-quick", "Mine", TEXT)
+    for name, said in (("colapse", "did you mean collapse"), (tmp_path, "is a folder"), (tmp_path / "x.toml", "no such")):
+        with pytest.raises(InvalidInput, match=said):
+            ClaimStudy.of(name if isinstance(name, str) else str(name))
+    with pytest.raises(InvalidInput, match="size = paper: allowed are quick, standard, full"):
+        ClaimStudy.of("collapse", "paper")
+    path.write_bytes(b"\xff\xfe")
     with pytest.raises(InvalidInput, match="not valid TOML"):
-        read_study(tmp_path / "mine.toml")
+        ClaimStudy.of(path)
     with pytest.raises(InvalidInput, match="not valid TOML"):
         study_of("x = " + "[" * 100_000, "mine")
-
-
-@pytest.fixture(scope="module")
-def solved():
-    series = asked(TEXT)[0]
-    return collect(series, {task: task.solve() for task in tasks(series)})
-
-
-def asking(solved, *claims, **roughness):
-    scene = solved.series.scene
-    rougher = replace(scene, roughness=replace(scene.roughness, **roughness))
-    return judge_series(replace(solved, series=replace(solved.series, claims=claims, scene=rougher)))
-
-
-def test_a_study_of_ones_own_is_judged_as_any_other_and_only_what_it_asks(solved):
-    whole = judge_series(solved).findings
-    assert {each.dimension for each in whole} == {"1D", "3D", BOTH}
-    shifts = asking(solved, "collapse").findings
-    assert shifts
-    assert all("23" in each.claim for each in shifts)
-    friction = asking(solved, "friction").findings
-    assert friction
-    assert not any("23" in each.claim or each.dimension == BOTH for each in friction)
-    both = asking(solved, "dimensions").findings
-    assert {each.dimension for each in both} == {BOTH}
-    assert [each.claim for each in (*shifts, *friction, *both)] == [
-        each.claim for each in sorted(whole, key=lambda each: each.dimension == BOTH)
-    ]
-    assert not asking(solved, "families").findings
-
-
-def test_series_are_held_together_only_where_they_ask_it(solved):
-    def held(*claims):
-        return list(family_findings([asking(solved, *claims), asking(solved, *claims, hurst=0.3)]))
-
-    assert held("families")
-    assert held(*CLAIMS)
-    assert not held("friction")
-
-
-def test_a_file_can_ask_every_kind_of_claim():
-    assert set(get_args(Claim)) == set(CLAIMS)

@@ -1,7 +1,7 @@
 """Claims of the paper judged on series of contacts: `crosscheck study`."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -30,6 +30,7 @@ from .judgement import JudgedSeries, judge_series
 from .points import failures, points
 from .series import SOLVERS, Contacts, Series
 
+ALL = "all"
 UNMATCHED = (
     "The roughness is a line in 1D and a surface in 3D. The spectra are tied by the rule of the method, "
     "C_1D = π q C_2D, which keeps the rms height and the rms of the full gradient; real contact is a length in one and "
@@ -69,10 +70,16 @@ class ClaimStudy(Study):
     command = "study"
 
     @classmethod
-    def of(cls, name: str | Path, size: str = "quick") -> "ClaimStudy":
-        """The study of a name that comes with the package, else of a file. Raises InvalidInput, Refused."""
+    def of(cls, name: str | Path, size: str = "quick") -> "ClaimStudy | AllStudies":
+        """The study of a name that comes with the package, all of them, or that of a file.
+
+        Raises InvalidInput, Refused.
+        """
         known("size", size, SIZES)
-        if name in STUDIES:
+        found: ClaimStudy | AllStudies
+        if name == ALL:
+            found = AllStudies(tuple(cls(each, study, size) for each, study in STUDIES.items()))
+        elif name in STUDIES:
             found = cls(str(name), STUDIES[str(name)], size)
         else:
             path = _located(name)
@@ -85,7 +92,7 @@ class ClaimStudy(Study):
     @classmethod
     def listing(cls) -> Listing:
         """Studies that come with the package."""
-        return Listing(STUDIES)
+        return Listing(STUDIES, end=f"`crosscheck study {ALL}` does all of them; a file of your own is a study too.")
 
     @property
     def title(self) -> str:  # type: ignore[override]
@@ -167,6 +174,72 @@ class ClaimStudy(Study):
         return found + [plot for each in judged.series for plot in study_plots.plots_of_series(each)]
 
 
+@dataclass(frozen=True)
+class AllStudies(Study):
+    """All studies of the catalogue on one page: the answer, and verdicts on each; their own pages show every series."""
+
+    studies: tuple[ClaimStudy, ...]
+
+    command, title = "study", "The laws of the paper in one and in three dimensions"
+    about = (
+        "Claims of Popov, Voll, Li, Chai, Popov, Sci. Rep. 4, 3750 (2014), asked of one dimension and of three on the "
+        "same scenes. A claim holds if its whole interval of 95 % lies within the tolerance, fails if none of it does, and "
+        "is undecided otherwise, or where an error is unknown. Surfaces are left out at all points at once; the interval "
+        "is wider at both ends by the change on halving the grid. Every series with its figures and points is on the page "
+        "of its study, `crosscheck study NAME`."
+    )
+
+    @property
+    def place(self) -> str:  # type: ignore[override]
+        """One folder for a size."""
+        return slug(f"{ALL}-{self.studies[0].size}")
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """Name and size."""
+        return {"name": ALL, "size": self.studies[0].size}
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Rectangles of every study, by "study/series/body"."""
+        return {f"{each.name}/{name}": found for each in self.studies for name, found in each.rectangles().items()}
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Findings of every study."""
+        return [found for each in self.studies for found in self._own(each, answers)]
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """A statement for each claim, from the findings of all studies."""
+        return sentences([each for each in findings if each.verdict != REPORTED])
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
+        """Verdicts of each study, and its series against one variable."""
+        found = []
+        for each in self.studies:
+            judged = each.judged(answers[each.name])
+            plots = study_plots.plots_of_study(judged.series, judged.findings, bool(judged.together))
+            found += [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
+        return found
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """What is asked, then a section for each study."""
+        blocks: list[Block] = [Text(self.about), Text(UNMATCHED)]
+        for each in self.studies:
+            own = [plot for plot in plots if plot.folder == f"{each.name}/"]
+            command = f"`crosscheck study {each.name} --size {each.size}`."
+            claimed = [found for found in self._own(each, answers) if found.verdict != REPORTED]
+            blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, Findings(claimed)]))
+        return blocks
+
+    def _own(self, each, answers):
+        """Findings of one study, each with the study in front of its place and its plot."""
+        found = each.judged(answers[each.name]).findings
+        return [
+            replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found
+        ]
+
+
 def _located(name: str | Path) -> Path:
     """File of a study of one's own. Raises InvalidInput that says what there is."""
     try:
@@ -175,7 +248,7 @@ def _located(name: str | Path) -> Path:
         offered = ready()
         if not Path(name).exists() and str(name) not in offered:
             own = [each for each, found in offered.items() if found.kind == "study"]
-            known("NAME", str(name), [*STUDIES, *own], str(error))
+            known("NAME", str(name), [*STUDIES, ALL, *own], str(error))
         raise
 
 

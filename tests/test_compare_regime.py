@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.pointregime import PointRegime, gathered
+from compare.studies.regime import PointRegime, gathered
 from mdr1d import MDR
 from scene import (
     Cone,
