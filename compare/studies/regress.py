@@ -121,11 +121,11 @@ class Regress(Study):
         return [_finding(id, named.get(id), *row) for id, *row in rows]
 
     def failed(self, findings: Sequence[Finding]) -> bool:
-        """Whether anything asks for somebody's attention; after an update, whether anything could not be stored."""
+        """Whether anything asks for somebody's attention; after an update, whether something is not stored."""
         wrong = [each for each in findings if each.stated != HOLDS]
-        return (
-            any(not isfinite(each.value) and each.reason != GONE for each in wrong) if self.update else bool(wrong)
-        )
+        if self.update:
+            wrong = [each for each in wrong if not isfinite(each.value) and each.reason != GONE]
+        return bool(wrong)
 
     def store(self, findings: Sequence[Finding]) -> None:
         """Store what has moved, is new or is gone, and nothing else; what has failed keeps its value.
