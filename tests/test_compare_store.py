@@ -24,7 +24,6 @@ from compare import netcdf
 from compare import store as module
 from compare.exact import Exact
 from compare.outcome import Outcome, Row
-from compare.recalling import of_other_code, recall
 from compare.store import Store, canonical, code_digest, key, write
 from compare.studies.paper.parameter_studies import ParameterStudies
 from compare.task import SceneTask as Task
@@ -313,11 +312,11 @@ def test_other_code_has_a_file_of_its_own_and_is_recalled_until_this_code_has_an
             store.put(TASK, Outcome((replace(ROW, depth=number),)))
     assert store.get(TASK) is None
     assert store.recall(TASK).rows[0].depth == 2.0  # the newer of the two
-    assert of_other_code([TASK], store) == [TASK]
+    assert not store.holds(TASK)
     store.put(TASK, Outcome((later,)))
     assert len(list(tmp_path.glob("*.nc"))) == 3
     assert store.recall(TASK).rows[0].depth == store.get(TASK).rows[0].depth == 3.0
-    assert of_other_code([TASK], store) == []
+    assert store.holds(TASK)
 
 
 def test_what_is_recalled_by_other_code_fits_what_is_asked(tmp_path, monkeypatch):
@@ -329,16 +328,6 @@ def test_what_is_recalled_by_other_code_fits_what_is_asked(tmp_path, monkeypatch
     store.put(TASK, Outcome((ROW,)))
     monkeypatch.undo()
     assert store.recall(PICTURE).fields["x"].size == 3
-
-
-def test_recalling_solves_nothing_and_counts_what_is_missing(tmp_path):
-    store, others = Store(tmp_path), [replace(TASK, solver=MDR(points=100 + k)) for k in range(2, 10, 2)]
-    store.put(TASK, Outcome((ROW,)))
-    swept = recall([TASK, TASK], store)
-    assert (swept.solved, swept.reused, list(swept.outcomes)) == (0, 1, [TASK])
-    with pytest.raises(Refused, match=f"4 of 5 tasks are not solved in {tmp_path}: MDR sphere"):
-        recall([TASK, *others], store)
-    assert len(list(tmp_path.iterdir())) == 1
 
 
 FORKS = pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
