@@ -13,8 +13,9 @@ from compare.outcome import Outcome, Row
 from compare.page import Plot
 from compare.plots import style
 from compare.statistics.costs import REPEATABLE, Law, NoLaw, fit, fit_whole, held_out
-from compare.studies.workprecision.costladders import KELVIN, LOAD, SPHERE, ladders, plane
-from compare.studies.workprecision.costs import LARGEST, fits_of, forecasts
+from compare.studies.workprecision.cost_fit import fits_of
+from compare.studies.workprecision.cost_ladders import KELVIN, LOAD, SPHERE, ladders, plane
+from compare.studies.workprecision.forecasts import LARGEST, forecasts
 from compare.studies.workprecision.study import WorkPrecision
 from scene import Indent, Scene
 

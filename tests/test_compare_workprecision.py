@@ -36,6 +36,7 @@ HERTZ = ClosedForm("Hertz", {"force": Known(elastic_contact(PRESSED).load)})
 FINE = SelfAffine(hurst=0.5, rms_height=1e-6, longest=2e-3, shortest=1e-4, seed=1)
 # Observed orders scatter, as the edge of a contact moves by whole pixels.
 SCATTER = 0.35
+FAILED_BETWEEN = {"errors": [1e-2, nan, 1e-4], "seconds": [0.1, 0.001, 1.0], "reasons": [None, "too steep", None]}
 
 
 def alone(tasks, folder):
@@ -43,7 +44,7 @@ def alone(tasks, folder):
 
 
 def solved(contact):
-    """Ladders of a contact solved once, without the repeats of a measurement, by quantity and label of the ladder."""
+    """Ladders of a contact, each step solved once, by quantity and label of the ladder."""
     outcomes = {}
     for task in contact.timed:
         result = task.solver.solve(task.scene)
@@ -64,7 +65,9 @@ def made(errors, seconds=None, reasons=None, reference_error=0.0, estimates=("",
     seconds = np.geomspace(0.01, 1.0, len(errors)) if seconds is None else seconds
     reasons = reasons or [None] * len(errors)
     rows = [
-        Row(reason=reason) if reason else Row(1 + error, measures={"processor": spent, "wall": spent, "memory": 1e6})
+        Row(reason=reason)
+        if reason
+        else Row(1 + error, measures={"processor": spent, "wall": spent, "memory": 1e6})
         for error, spent, reason in zip(errors, seconds, reasons, strict=True)
     ]
     contact = Convergence("sphere", "sphere", truth, quantities, (ladder,))
@@ -135,7 +138,9 @@ def test_a_finer_solution_knows_its_own_error():
 def test_a_page_is_made_of_what_was_solved_which_is_not_measured_again(tmp_path, monkeypatch):
     ladder = Ladder.of("MDR", PRESSED, MDR(), "points", (64, 128, 256))
     contact = Convergence("sphere", "a sphere", HERTZ, (FORCE,), (ladder,), {"force": 2.0})
-    monkeypatch.setitem(DIAGRAMS, "little", ConvergenceDiagram("little", "Little", "Three steps.", lambda size: [contact]))
+    monkeypatch.setitem(
+        DIAGRAMS, "little", ConvergenceDiagram("little", "Little", "Three steps.", lambda size: [contact])
+    )
     study = WorkPrecision.of("little")
     untimed, timed = study.batches()
     assert (untimed.tasks, timed.timed) == ((), True)
@@ -210,7 +215,11 @@ def test_an_order_rests_on_no_failed_step_and_on_none_within_the_error_of_the_re
 
 @pytest.mark.parametrize(
     ("errors", "verdict"),
-    [((0.04, 0.01, 0.0025, 0.000625), "holds"), ((0.04, 0.02, 0.01, 0.005), "fails"), ((0.04, 0.01, 0.001), "undecided")],
+    [
+        ((0.04, 0.01, 0.0025, 0.000625), "holds"),
+        ((0.04, 0.02, 0.01, 0.005), "fails"),
+        ((0.04, 0.01, 0.001), "undecided"),
+    ],
 )
 def test_an_order_is_judged_by_the_whole_interval_of_its_fit(errors, verdict):
     each = measured(errors)
@@ -222,13 +231,13 @@ def test_an_order_is_judged_by_the_whole_interval_of_its_fit(errors, verdict):
 @pytest.mark.parametrize(
     ("how", "level", "text"),
     [
-        ({"errors": [1e-2, nan, 1e-4], "seconds": [0.1, 0.001, 1.0], "reasons": [None, "too steep", None]}, 1e-2, "128 points: 1 s"),
+        (FAILED_BETWEEN, 1e-2, "128 points: 1 s"),
         ({"errors": [1e-2, 1e-3, 1e-4], "reference_error": 5e-4}, 1e-4, "reference known to 0.05 %"),
         ({"errors": [1e-2, 1e-3, 1e-4], "reference_error": 5e-4}, 1.1e-2, "32 points: 10 ms"),
         ({"errors": [1e-2, 1e-3]}, 1e-4, "not reached; best 0.1 %"),
     ],
     ids=["failed", "below the reference", "reached", "not reached"],
-)  # fmt: skip
+)
 def test_a_wanted_error_takes_the_cheapest_step_after_which_all_keep_it(how, level, text):
     assert measured(**how).cell(level) == text
 
@@ -366,7 +375,8 @@ def test_points_within_the_error_of_the_reference_are_hollow_and_failures_are_na
     _, figure = drawn([1e-2, nan, 1e-4], reasons=[None, "too steep", None], reference_error=1e-3)
     (axes,) = figure.axes
     marks = [line for line in axes.lines if line.get_linestyle() == "None"]
-    faces = {round(y, 12): line.get_markerfacecolor() for line in marks for y in line.get_ydata() if np.isfinite(y)}
+    points = [(line.get_markerfacecolor(), y) for line in marks for y in line.get_ydata()]
+    faces = {round(y, 12): face for face, y in points if np.isfinite(y)}
     assert faces == {1e-2: style.COLOUR["BEM"], 1e-4: "white"}
     written = {text.get_text() for text in axes.texts}
     assert {"failed: points 64", "32", "128"} <= written

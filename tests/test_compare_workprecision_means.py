@@ -12,9 +12,10 @@ from compare.outcome import Outcome, Row
 from compare.plots import style
 from compare.plots.workprecision_surfaces import means as drawn_means
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
+from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes_of
 from compare.studies.workprecision.convergence import Convergence, Ladder
 from compare.studies.workprecision.ensemble import Ensemble, means
-from compare.studies.workprecision.models import LEVELS, MODELS, SURFACES, answers_table, cells, regimes_of
+from compare.studies.workprecision.models import MODELS, SURFACES
 from compare.studies.workprecision.reference import FORCE, FRICTION, ClosedForm, Known
 from mdr1d import MDR
 from scene import Elastic, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
@@ -183,7 +184,9 @@ def test_the_bias_of_a_grid_is_found_far_below_the_scatter():
     assert found.plain[-1].bias.most == found.discretisation == pytest.approx(0.015, rel=0.2)
 
 
-@pytest.mark.parametrize(("parts", "above", "below"), [(made(), 0.7, 0.3), (smooth(), 0.3, 0.1)], ids=["rough", "smooth"])
+@pytest.mark.parametrize(
+    ("parts", "above", "below"), [(made(), 0.7, 0.3), (smooth(), 0.3, 0.1)], ids=["rough", "smooth"]
+)
 def test_one_dimension_is_taken_where_its_floor_allows_and_only_there(parts, above, below):
     found = regime(parts)
     assert found.answer(above).solver == "MDR"

@@ -4,11 +4,11 @@ from math import inf, nan
 
 import numpy as np
 import pytest
+from promises_page import ladder, promises
 
 from bem3d import accuracy
 from bem3d.accuracy import BANDS, band
 from compare.outcome import Outcome, Row
-from promises_page import ladder, promises
 from scene.protocol import refuse
 
 

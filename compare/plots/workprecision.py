@@ -36,9 +36,9 @@ def plot(name: str, tables: Tables) -> Plot:
     steps, orders = tables
     return Plot(
         name, figure, tables,
-        "Relative error against processor time of one solve, the least of its repeats; settings at the points where "
-        "there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power of a "
-        "ladder of points. Other estimates are those of the first ladder.",
+        "Relative error against processor time of one solve, the least of its repeats; settings at the points "
+        "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
+        "of a ladder of points. Other estimates are those of the first ladder.",
         "Panels of falling curves: relative error over processor time.", {"steps": steps, "orders": orders},
     )  # fmt: skip
 
@@ -102,7 +102,9 @@ def panels(steps: DataFrame, orders: DataFrame | None = None) -> list[Panel]:
     for (contact, label), rows in steps.groupby(["contact", "label"], sort=False):
         estimates, labels = tuple(rows["estimate"].unique()), tuple(rows["ladder"].unique())
         curves = []
-        for estimate, ladder in [(estimates[0], each) for each in labels] + [(e, labels[0]) for e in estimates[1:]]:
+        for estimate, ladder in [(estimates[0], each) for each in labels] + [
+            (e, labels[0]) for e in estimates[1:]
+        ]:
             own = rows[(rows["estimate"] == estimate) & (rows["ladder"] == ladder)]
             first = own.iloc[0]
             curves.append(
@@ -188,7 +190,9 @@ def _panel(axes: Axes, panel, looks):
         corner(axes, f"failed: {', '.join(failed)}")
 
 
-def dots(axes: Axes, x: np.ndarray, y: np.ndarray, hollow: np.ndarray, marker: str, colour, size: float = 1.0) -> None:
+def dots(
+    axes: Axes, x: np.ndarray, y: np.ndarray, hollow: np.ndarray, marker: str, colour, size: float = 1.0
+) -> None:
     """Markers at points, hollow where the error of the reference hides them."""
     for part, face in ((hollow, style.paper()), (~hollow, colour)):
         own = {"marker": marker, "markersize": style.mark(size), "color": colour, "markerfacecolor": face}

@@ -41,10 +41,10 @@ def plot(name: str, tables: Tables, axes: Mapping[str, str], options: Mapping[st
     """Plot of its tables of steps, laws and forecasts. axes : label of each setting; options : see figure"""
     return Plot(
         name, figure, tables,
-        "Cost of a solve; 3D vermilion, 1D blue, rough bodies filled; lines, fitted powers over the range where they "
-        f"hold; small, forecasts for {options['largest']}² points with intervals of 95 %. (a) Processor time. (b) "
-        "Operator applications. (c) Memory, and what machines have. (d) Time against modes or steps, (e) speed, (f) "
-        "real contact.",
+        "Cost of a solve; 3D vermilion, 1D blue, rough bodies filled; lines, fitted powers over the range where "
+        f"they hold; small, forecasts for {options['largest']}² points with intervals of 95 %. (a) Processor "
+        "time. (b) Operator applications. (c) Memory, and what machines have. (d) Time against modes or steps, "
+        "(e) speed, (f) real contact.",
         "Six panels of costs that rise with points, modes and steps, and vary with speed and contact.",
         {"name": name, "labels": dict(axes), **options},
     )  # fmt: skip
@@ -56,7 +56,8 @@ def figure(
     """Time, applications and memory against points; time against modes and steps, speed and contact.
 
     name : of the tables; labels : of the axes by setting
-    largest : points a side that forecasts are for; memories : of machines [GiB]; memory_from : least nodes of memory
+    largest : points a side that forecasts are for; memories : of machines [GiB]
+    memory_from : nodes from which on memory is drawn
     """
     steps, laws = tables[name], tables[f"{name}-laws"]
     forecasts = tables[f"{name}-forecasts"]
@@ -117,7 +118,9 @@ def _against_points(axes: Axes, ladders, laws, cost, label, times=1.0):
         points, line = _look(name, rows)
         values = times * rows[cost]
         shown = values > 0
-        axes.plot(rows["x"][shown], values[shown], linestyle="none", label=rows["title"].iloc[0], zorder=3, **points)
+        axes.plot(
+            rows["x"][shown], values[shown], linestyle="none", label=rows["title"].iloc[0], zorder=3, **points
+        )
         law = _law(laws, name, cost)
         if law is not None:
             x = np.geomspace(law["lowest"], law["highest"], 60)
@@ -136,7 +139,11 @@ def _forecasts(axes: Axes, ladders, laws, forecasts, what, cost, largest, times=
         look: dict[str, Any] = {"color": style.COLOUR[rows["solver"].iloc[0]], "linewidth": style.width(0.65)}
         axes.plot(x, times * _at(law, x), **look | {"linewidth": style.width(0.45), "alpha": 0.6}, zorder=1)
         bars = [[each["value"] - each["low"]], [each["high"] - each["value"]]]
-        marks = {"marker": LOOKS[each["ladder"]][0], "markersize": style.mark(0.65), "linestyle": "none"}
+        marks: dict[str, Any] = {
+            "marker": LOOKS[each["ladder"]][0],
+            "markersize": style.mark(0.65),
+            "linestyle": "none",
+        }
         axes.errorbar([place], [each["value"]], bars, **marks, **look)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -38,9 +39,9 @@ def plot(name: str, tables: Tables) -> Plot:
     kinds = {name.split("-")[2]: name for name in tables}
     return Plot(
         name, figure, tables,
-        "Error against the true answer of three dimensions, over processor time. Smooth: points of the grid; grey, "
-        "error of the reference. Rough: expected error of a mean of 1, 10, 100, ... surfaces on so many points; "
-        "thick, cheapest plan in 3D. Blue, interval of 95 % of the error that 1D keeps.",
+        "Error against the true answer of three dimensions, over processor time. Smooth: points of the grid; "
+        "grey, error of the reference. Rough: expected error of a mean of 1, 10, 100, ... surfaces on so many "
+        "points; thick, cheapest plan in 3D. Blue, interval of 95 % of the error that 1D keeps.",
         "Panels of error over time: 1D is quick and level, 3D slower and falling.",
         {kind: kinds.get(kind, "") for kind in ("steps", "plans")},
     )  # fmt: skip
@@ -60,7 +61,11 @@ class Smooth:
         """Errors of both ladders, and the powers they follow."""
         for curve in self.curves:
             colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
-            line = {"color": colour, "linestyle": style.LINE[curve.solver], "linewidth": style.width(0.8)}
+            line: dict[str, Any] = {
+                "color": colour,
+                "linestyle": style.LINE[curve.solver],
+                "linewidth": style.width(0.8),
+            }
             axes.plot(curve.seconds, errors, **line)
             hollow = errors <= self.reference_error
             dots(axes, curve.seconds, errors, hollow, style.MARKER[curve.solver], colour, 0.8)
@@ -107,7 +112,7 @@ class Rough:
             axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
         for plan in self.means.of("MDR")[-1:]:
             if isfinite(plan.bias.most):
-                band = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
+                band: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
                 axes.axhspan(max(plan.bias.least, LEAST), plan.bias.most, **band)
         if self.means.grid_error > 0:
             axes.axhspan(LEAST / 10, self.means.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
@@ -116,7 +121,9 @@ class Rough:
 
     def letters(self) -> list[Letter]:
         """Points at the first marks of the coarsest and of the finest grid."""
-        ends = [plan for own in (self.means.plain, self.means.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])]
+        ends = [
+            plan for own in (self.means.plain, self.means.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])
+        ]
         found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
         return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
 

@@ -30,8 +30,8 @@ def plot(name: str, tables: Tables, levels: Sequence[float]) -> Plot:
     return Plot(
         name, figure, tables,
         "Expected error of a mean over rough surfaces in 3D against their number, on grids of so many points; "
-        f"dotted, what scatter leaves. Markers, the cheapest plan to {', '.join(map(share, levels))} with its time: "
-        "star, one grid; diamond, the coarsest corrected on finer ones. Grey, grid error of the truth.",
+        f"dotted, what scatter leaves. Markers, the cheapest plan to {', '.join(map(share, levels))} with its "
+        "time: star, one grid; diamond, the coarsest corrected on finer ones. Grey, grid error of the truth.",
         "Panels of curves that fall with the number of surfaces and flatten at the error of their grid.",
         {"plans": name, "levels": list(levels)},
     )  # fmt: skip

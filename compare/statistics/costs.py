@@ -138,7 +138,7 @@ def _usable(x, cost):
 
 def _fitted(x, cost):
     centre = exp(np.log(x).mean())
-    along, seen = np.log(x / centre), np.log(cost)
+    seen = np.log(cost)
     plain = _law(x, centre, seen, _power, _power_slopes, (seen.mean(), STARTS[0]))
     if len(x) < WITH_OVERHEAD or plain.scatter < EXACT:
         return plain

@@ -90,9 +90,9 @@ class Level:
 class SamplingPlan:
     """One way to the mean over surfaces: a mean of answers, or of coarse answers and of their corrections.
 
-    With n_k surfaces on each level the expected error is sqrt(bias^2 + sum_k s_k^2 / n_k), and n_k ~ s_k / sqrt(t_k)
-    gives the least for the time sum_k n_k t_k: sqrt(bias^2 + (sum_k s_k sqrt(t_k))^2 / time). Giles, Oper. Res. 56,
-    607 (2008). Scatter and bias are relative, as errors are.
+    With n_k surfaces on each level the expected error is sqrt(bias^2 + sum_k s_k^2 / n_k), and n_k as
+    s_k / sqrt(t_k) gives the least for the time sum_k n_k t_k: sqrt(bias^2 + (sum_k s_k sqrt(t_k))^2 / time).
+    Giles, Oper. Res. 56, 607 (2008). Scatter and bias are relative, as errors are.
 
     solver : by name
     """
@@ -112,7 +112,7 @@ class SamplingPlan:
         return len(self.levels) > 1
 
     def error(self, seconds: np.ndarray | float) -> np.ndarray | float:
-        """Error expected after so much processor time [s]; numbers of surfaces count as if they were no integers."""
+        """Error expected after so much processor time [s], with any broken numbers of surfaces."""
         return np.sqrt(self.bias.size**2 + self._work**2 / seconds)
 
     def error_of(self, counts: np.ndarray | float) -> np.ndarray | float:

@@ -31,7 +31,6 @@ from scene import (
 from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
-
 RADIUS = 0.1  # of the smooth contact at rest [m]
 KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
 STANDARD = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=2.5, relaxation_time=0.1)

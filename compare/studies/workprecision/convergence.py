@@ -11,11 +11,11 @@ import xarray
 
 from scene import Scene
 
+from ...amounts import seconds, setting, share
 from ...rectangle import FAILED, SOLVED
 from ...statistics.convergence import Order, observed
 from ...task import Task
 from ...vocabulary import attributes
-from ...amounts import seconds, setting, share
 from .reference import Outcomes, Quantity, Reference
 from .timed_solve import COSTS, OnGrid, TimedSolve
 
@@ -124,8 +124,8 @@ class Convergence:
             "reference_method": self.reference.method,
         }
         dataset = xarray.Dataset(found, coordinates, about)
-        for name in dataset.variables:
-            dataset[name].attrs = attributes(str(name), self.ladders[0].solves[0].scene)
+        for label in dataset.variables:
+            dataset[label].attrs = attributes(str(label), self.ladders[0].solves[0].scene)
         return {self.name: dataset}
 
 

@@ -1,223 +1,31 @@
 """What a solve costs: ladders measured, the powers they follow, and what those say of larger sizes."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from functools import cached_property
-from math import isfinite, nan
+from math import nan
 from typing import Any
 
 import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ...amounts import HOUR, short
+from ...amounts import short
 from ...finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from ...outcome import Outcome
 from ...page import Block, Plot, Table
 from ...plots import workprecision_costs
 from ...rectangle import FAILED, SOLVED
-from ...statistics.costs import REPEATABLE, Law, NoLaw, fit, fit_whole, held_out
+from ...statistics.costs import Law, NoLaw
 from ...store import stored_size
 from ...task import Task
 from ...vocabulary import attributes
-from .convergence import DIMENSIONS
-from .costladders import AXES, ladders
+from .cost_fit import GROWING, LABELS, MEMORY_FROM, CostFit, fits_of
+from .cost_ladders import AXES, ladders
+from .forecasts import LARGEST, MEMORIES, Forecast, forecasts
 from .reference import Outcomes
 from .timed_solve import COSTS
 
-# Points of a grid, or of a line, below which the memory of a solve drowns in that of the process.
-MEMORY_FROM = 256**2
-# Settings whose largest values are asked about; of the others, a power holds for all values or is none.
-GROWING = ("points", "modes", "steps")
-LABELS = {
-    "processor": "processor time",
-    "applications": "operator applications",
-    "per_application": "time of an application",
-    "per_transform": "time of an application, of n² log n",
-    "memory": "memory",
-}
-LARGEST = 16384  # points a side that the 3D solver takes at most
-GIBIBYTE = 2.0**30
-MEMORIES = (24, 64, 128)  # of machines [GiB]
-SURFACES = 10**5
-# Rough ladders that stand for an ensemble, with the points that it takes: some that were measured.
-ENSEMBLES = {"plane": (256, 512), "slide-rough": (256, 512), "mdr-rough": (5000, 10**5)}
 MEASURED = (*COSTS, "repeats", "transform_pairs", "plain_product", "padded_product")
-
-
-@dataclass(frozen=True)
-class CostFit:
-    """Costs of the steps of a ladder, arrays (steps,) with NaN where a solve failed, and the powers they follow.
-
-    name : of the ladder
-    dataset : of its steps, see CostDiagram.datasets
-    """
-
-    name: str
-    dataset: xarray.Dataset
-
-    def __getattr__(self, name: str) -> np.ndarray:
-        """A variable of the dataset by its name."""
-        if name.startswith("_") or name not in self.dataset:
-            raise AttributeError(name)
-        return self.dataset[name].values
-
-    @property
-    def solver(self) -> str:
-        """Name of the solver."""
-        return self.dataset.attrs["solver"]
-
-    @property
-    def dimension(self) -> str:
-        """Dimensionality of the solver."""
-        return DIMENSIONS[self.solver]
-
-    @property
-    def setting(self) -> str:
-        """What costs are asked against."""
-        return self.dataset.attrs["setting"]
-
-    @property
-    def title(self) -> str:
-        """Dimensionality and label, for people."""
-        label = self.dataset.attrs["title"]
-        return label if self.dimension in label else f"{self.dimension} {label}"
-
-    @property
-    def nodes(self) -> np.ndarray:
-        """Points of each step in all (steps,)."""
-        points = self.points.astype(float)
-        return points if self.solver == "MDR" else points**2
-
-    @property
-    def per_application(self) -> np.ndarray:
-        """Processor time over operator applications [s]."""
-        return self.processor / self.applications
-
-    @property
-    def limit(self) -> np.ndarray:
-        """Processor time of the products by transforms alone [s], NaN where it was not measured."""
-        plain = (self.transform_pairs - self.applications) * self.plain_product
-        return self.applications * self.padded_product + plain
-
-    @property
-    def over_limit(self) -> np.ndarray:
-        """Processor time over that of the products alone."""
-        return self.processor / self.limit
-
-    @cached_property
-    def laws(self) -> Mapping[str, Law | NoLaw]:
-        """Laws by the names of LABELS: costs against x, memory from MEMORY_FROM on; per_transform against n^2 log n."""
-        enough, follows = self.nodes >= MEMORY_FROM, fit if self.setting in GROWING else fit_whole
-        found = {name: follows(self.x, getattr(self, name)) for name in tuple(LABELS)[:3]}
-        if self.dimension == "3D" and self.setting == "points":
-            found["per_transform"] = follows(self.x**2 * np.log(self.x), self.per_application)
-        return found | {"memory": follows(self.x[enough], self.memory[enough])}
-
-
-@dataclass(frozen=True)
-class Forecast:
-    """One number that a law gives, with its interval of 95 % for one more measurement, NaN where not known.
-
-    ladder : name of what the law was fitted to; title : for people
-    what : is forecast; kind : short name of that
-    found : the same as measured, NaN where it was not
-    reason : why there is none, empty where there is one
-    """
-
-    ladder: str
-    title: str
-    kind: str
-    what: str
-    unit: str
-    value: float = nan
-    low: float = nan
-    high: float = nan
-    found: float = nan
-    reason: str = ""
-
-    @property
-    def held(self) -> bool | None:
-        """Whether what was found lies in the interval; None where nothing was found, or nothing forecast."""
-        if self.reason or not isfinite(self.found):
-            return None
-        return self.low <= self.found <= self.high
-
-    @property
-    def factor(self) -> float:
-        """Factor by which the forecast missed what was found."""
-        return max(self.found / self.value, self.value / self.found)
-
-
-def forecasts(fits: Sequence[CostFit]) -> list[Forecast]:
-    """Forecasts of all ladders of points: held-out points first, as they say how far to trust the others."""
-    by_points = {each.name: each for each in fits if each.setting == "points"}
-    checks = {name: _checks(each) for name, each in by_points.items()}
-    found = [check for own in checks.values() for check in own.values()]
-    for name, each in by_points.items():
-        if each.dimension == "3D":
-            found += _largest(each, checks[name])
-    for name, points in ENSEMBLES.items():
-        if name in by_points:
-            found += _ensembles(by_points[name], points)
-    return found
-
-
-def _checks(each) -> dict[str, Forecast]:
-    """The largest grid from those below it: its time, and its memory."""
-    enough, found = each.nodes >= MEMORY_FROM, {}
-    for what, unit, part, cost in (
-        ("time", "s", slice(None), each.processor),
-        ("memory", "GiB", enough, each.memory / GIBIBYTE),
-    ):
-        x, law, seen = held_out(each.x[part], cost[part])
-        found[what] = _of(law, x, each, f"held-out-{what}", f"{what} with {x:g} points, from fewer", unit, found=seen)
-    return found
-
-
-def _largest(each, checks) -> Iterator[Forecast]:
-    """Nothing is forecast from a law that has missed already by more than scatter."""
-    time, memory = (
-        _unless_missed(each.laws[cost], checks[what]) for cost, what in (("processor", "time"), ("memory", "memory"))
-    )
-    yield _of(time, LARGEST, each, "largest-time", f"time with {LARGEST}² points", "s")
-    yield _of(memory, LARGEST, each, "largest-memory", f"memory with {LARGEST}² points", "GiB", 1 / GIBIBYTE)
-    for size in MEMORIES:
-        told = each.name, each.title, f"points-in-{size}-gib", f"points a side that {size} GiB hold", "1"
-        if isinstance(memory, NoLaw):
-            yield Forecast(*told, reason=memory.reason)
-        else:
-            yield Forecast(*told, *memory.reach(size * GIBIBYTE))
-
-
-def _unless_missed(law, check):
-    if check.held is not False or check.factor <= 1 + REPEATABLE:
-        return law
-    return NoLaw(f"without its largest grid the law misses it by a factor of {check.factor:.2g}", nan, nan, nan)
-
-
-def _ensembles(each, points) -> Iterator[Forecast]:
-    """As many times what one surface was measured to take: how that scatters between surfaces is not known."""
-    for n in points:
-        grid = f"{n} points" if each.dimension == "1D" else f"{n}² points"
-        told = each.name, each.title, f"surfaces-{n}", f"{SURFACES} surfaces with {grid}", "core hours"
-        measured = each.processor[each.x == n]
-        if np.isfinite(measured).any():
-            yield Forecast(*told, float(measured[0]) * SURFACES / HOUR)
-        else:
-            yield Forecast(*told, reason="not measured")
-    rows = each.stored_bytes[each.status == SOLVED]
-    if len(rows):
-        low, middle, high = (float(SURFACES * f(rows) / GIBIBYTE) for f in (np.min, np.median, np.max))
-        what = f"rows of {SURFACES} surfaces on disk"
-        yield Forecast(each.name, each.title, "stored", what, "GiB", middle, low, high)
-
-
-def _of(law: Law | NoLaw, x, each, kind, what, unit, times=1.0, found=nan):
-    if isinstance(law, NoLaw):
-        return Forecast(each.name, each.title, kind, what, unit, found=found, reason=law.reason)
-    low, high = law.interval(x)
-    return Forecast(each.name, each.title, kind, what, unit, times * law.at(x), times * low, times * high, found)
 
 
 @dataclass(frozen=True)
@@ -261,7 +69,9 @@ class CostDiagram:
         }
         options = {"largest": LARGEST, "memories": list(MEMORIES), "memory_from": MEMORY_FROM}
         axes = {name: axis.label for name, axis in AXES.items()}
-        return [workprecision_costs.plot(name, {key: DataFrame(rows) for key, rows in tables.items()}, axes, options)]
+        return [
+            workprecision_costs.plot(name, {key: DataFrame(rows) for key, rows in tables.items()}, axes, options)
+        ]
 
     def tables(self, node: xarray.DataTree) -> list[Block]:
         """Times along all that is no number of points."""
@@ -283,12 +93,11 @@ class CostDiagram:
                         "power": short(law.exponent) if isinstance(law, Law) else f"none: {law.reason}",
                     }
                 )
-        return [Table("workprecision-cost-ranges", DataFrame(rows), "Processor time along each ladder.")] if rows else []
-
-
-def fits_of(node: xarray.DataTree) -> list[CostFit]:
-    """Every ladder with its laws."""
-    return [CostFit(name, child.to_dataset(inherit=False)) for name, child in node.children.items()]
+        return (
+            [Table("workprecision-cost-ranges", DataFrame(rows), "Processor time along each ladder.")]
+            if rows
+            else []
+        )
 
 
 def _dataset(name, ladder, outcomes):
@@ -352,7 +161,7 @@ def _over_limit(each):
 
 def _forecast(each: Forecast):
     """What is forecast is reported; what was left out and measured is a law that holds or not."""
-    told = {"where": each.title, "reason": each.reason, "plot": "workprecision-costs"}
+    told: dict[str, Any] = {"where": each.title, "reason": each.reason, "plot": "workprecision-costs"}
     if each.kind.startswith("held-out"):
         claim = Claim(
             f"workprecision.costs.{each.kind}",
@@ -364,7 +173,9 @@ def _forecast(each: Forecast):
         )
         stated = UNDECIDED if each.held is None else HOLDS if each.held else FAILS
         return Finding(claim, each.found / each.value, stated=stated, **told)
-    claim = Claim(f"workprecision.costs.{each.kind}", each.what.capitalize(), unit=each.unit, dimension=each.title[:2])
+    claim = Claim(
+        f"workprecision.costs.{each.kind}", each.what.capitalize(), unit=each.unit, dimension=each.title[:2]
+    )
     return Finding(claim, each.value, (each.low, each.high), 0.0, **told)
 
 
@@ -393,13 +204,20 @@ def _steps(each: CostFit) -> Iterator[dict[str, Any]]:
 def _laws(each: CostFit) -> Iterator[dict[str, Any]]:
     fitted = ("overhead", "factor", "centre", "scatter", "lowest", "highest", "count")
     for cost, law in each.laws.items():
-        row = {"ladder": each.name, "dimension": each.dimension, "cost": LABELS[cost], "variable": cost}
+        row: dict[str, Any] = {
+            "ladder": each.name,
+            "dimension": each.dimension,
+            "cost": LABELS[cost],
+            "variable": cost,
+        }
         low, high = law.exponent_interval if isinstance(law, Law) else (nan, nan)
         row |= {"exponent": getattr(law, "exponent", nan), "low": low, "high": high}
         row |= {name: getattr(law, name, nan) for name in fitted}
-        yield row | {"reason": getattr(law, "reason", "")} | {
-            name: getattr(law, name, nan) for name in ("least", "most", "at_most")
-        }
+        yield (
+            row
+            | {"reason": getattr(law, "reason", "")}
+            | {name: getattr(law, name, nan) for name in ("least", "most", "at_most")}
+        )
 
 
 COSTS_DIAGRAM = CostDiagram(

@@ -127,7 +127,9 @@ def order_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding
     judged = isfinite(expected)
     claim = Claim(
         f"workprecision.{diagram}.order" + (f"-{short(expected)}" if judged else ""),
-        f"The error falls with the power {short(expected)} of the points" if judged else "Observed order of the error",
+        f"The error falls with the power {short(expected)} of the points"
+        if judged
+        else "Observed order of the error",
         expected,
         ORDER_TOLERANCE if judged else nan,
         "Exponent fitted to the errors well above that of the reference",
@@ -150,7 +152,9 @@ def time_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
     )
     k = None if each.reference_error > WANTED else each.reaching(WANTED)
     value = nan if k is None else float(each.processor[k])
-    return Finding(claim, value, where=where_of(each), reason="" if k is not None else each.cell(WANTED), plot=plot)
+    return Finding(
+        claim, value, where=where_of(each), reason="" if k is not None else each.cell(WANTED), plot=plot
+    )
 
 
 def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
@@ -183,12 +187,14 @@ def reported(
     id: str, sentence: str, value: float, where: str = "", unit: str = "1", dimension: str = "3D", **more: Any
 ) -> Finding:
     """Finding of a number that is reported without a claim."""
-    return Finding(Claim(f"workprecision.{id}", sentence, unit=unit, dimension=dimension), value, where=where, **more)
+    return Finding(
+        Claim(f"workprecision.{id}", sentence, unit=unit, dimension=dimension), value, where=where, **more
+    )
 
 
 def advice(findings: Sequence[Finding]) -> list[str]:
     """One sentence for each claim: verdicts of what is claimed, the range of what is reported."""
-    told = []
+    told: list[str] = []
     for name in dict.fromkeys(each.claim.id for each in findings):
         own = [each for each in findings if each.claim.id == name]
         told += [_range(own)] if own[0].claim.unit and all(e.verdict == REPORTED for e in own) else _counts(own)
@@ -227,7 +233,7 @@ def _counts(own):
 def _amount(value, unit):
     if unit == "s":
         return seconds(value)
-    return share(abs(value)) if unit == "%" else f"{short(value)}{'' if unit == '1' else ' ' + unit}"
+    return f"{short(value)}{'' if unit == '1' else ' ' + unit}"
 
 
 def _place(each):

@@ -65,7 +65,9 @@ class Ensemble:
     def datasets(self, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
         """Answers (points, draw) of each solver, with the costs (points,) of one draw, at name/solver."""
         return {
-            f"{self.name}/{name}": self._dataset(name, [each for each in self._solvers if each.name == name], outcomes)
+            f"{self.name}/{name}": self._dataset(
+                name, [each for each in self._solvers if each.name == name], outcomes
+            )
             for name in ("BEM", "MDR")
         }
 
@@ -91,7 +93,9 @@ class Ensemble:
             rows = [[of(row) for row in grid] + [empty] * (draws - len(grid)) for grid in grids]
             return ("points", "draw"), np.array(rows, kind)
 
-        found = {VARIABLES[each.name]: filled(lambda row, of=each.of: of(row, {}), nan) for each in self.quantities}
+        found = {
+            VARIABLES[each.name]: filled(lambda row, of=each.of: of(row, {}), nan) for each in self.quantities
+        }
         found["status"] = filled(lambda row: SOLVED if row.reason is None else FAILED, NOT_ASKED, object)
         found["reason"] = filled(lambda row: row.reason or "", "", object)
         measured = [[outcomes[task].rows[0] for task in self._timed_of(each)] for each in solvers]

@@ -138,26 +138,28 @@ def _ladders(motion, size, keeps):
     return (
         Ladder("cell that repeats, by period over 2 a", "period over 2 a", periods, tuple(cells)),
         Ladder.through("free, by extent over 2 a", free, windows, "extent over 2 a", extents, keeps=keeps),
-        Ladder.of("free, extent fitted, by points", free, BEM(), "points", (across, 2 * across, 4 * across), keeps=keeps),
+        Ladder.of(
+            "free, extent fitted, by points", free, BEM(), "points", (across, 2 * across, 4 * across), keeps=keeps
+        ),
     )
 
 
 def shape(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
-    """Errors of free windows over their extent, and what of the error of a cell is left without the wave's shape."""
+    """Errors of free windows, and the share of those of a cell that is left without the wave's shape."""
     for own in found.values():
         first = own[0].quantity
         for each in own:
             if each.ladder.startswith("free, by extent") and each.quantity == first:
                 spread = float(np.nanmax(each.errors)) if np.isfinite(each.errors).any() else nan
                 sentence = "Largest error of a free window of any extent that holds the contact"
-                yield reported("extent.free", sentence, spread, each.title, "%", reason=each.unsolved)
+                yield reported("extent.free", sentence, spread, each.title, reason=each.unsolved)
         cells = [each for each in own if each.ladder.startswith("cell")]
         for less in cells[1:]:
             left = less.errors / cells[0].errors
             known = bool(np.isfinite(left).any())
             value, why = (float(np.nanmax(left)), "") if known else (nan, cells[0].unsolved)
             sentence = "Share of the error of a cell that is left without the wave's shape, largest"
-            yield reported("extent.shape", sentence, value, less.title, "%", reason=why)
+            yield reported("extent.shape", sentence, value, less.title, reason=why)
 
 
 DIAGRAM = ConvergenceDiagram(

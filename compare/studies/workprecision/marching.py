@@ -88,7 +88,9 @@ def _set_in_motion(path):
 
 def price(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
     """Time of marching to the steady state over that of solving at once, on the same points."""
-    steady, marched = (each for each in found["started"] if each.quantity == FORCE.name and each.setting == "points")
+    steady, marched = (
+        each for each in found["started"] if each.quantity == FORCE.name and each.setting == "points"
+    )
     times = dict(zip(steady.values, steady.processor, strict=True))
     for value, spent in zip(marched.values, marched.processor, strict=True):
         ratio = float(spent / times[value])

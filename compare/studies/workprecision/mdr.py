@@ -32,7 +32,7 @@ SMOOTH = {
 
 def contacts(size: str) -> Sequence[Convergence]:
     """Rest, sliding, a rough sphere, and a withdrawal."""
-    smooth = (_sliding(*each, size) for each in some(SMOOTH, size))
+    smooth = (_sliding(each, size) for each in some(SMOOTH, size))
     return [_at_rest(size), *smooth, _rough(size), _withdrawal(size)]
 
 
@@ -47,7 +47,8 @@ def _at_rest(size):
     return Convergence("rest-sphere", "sphere at rest", truth, (FORCE,), ladders, {FORCE.name: 2.0})
 
 
-def _sliding(name, shape, solid_name, solid, size):
+def _sliding(contact, size):
+    name, shape, solid_name, solid = contact
     scene = slid(shape, solid, 1.0)
     normal, friction = foundation.sliding_forces(shape, solid, scene.motion.speed, scene.motion.depth)
     values = {FORCE.name: Known(normal), FRICTION.name: Known(friction / normal)}

@@ -50,7 +50,7 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         for each in own:
             sentence = f"Least error in {each.ladder.split(', ')[1]} precision"
             id = f"precision.least-{each.ladder.split(', ')[1]}"
-            yield reported(id, sentence, each.best, where_of(each), "%", reason=each.unsolved)
+            yield reported(id, sentence, each.best, where_of(each), reason=each.unsolved)
         double, single = own[0], next(each for each in own if "single" in each.ladder)
         times = dict(zip(double.values, double.processor, strict=True))
         ratios = np.array([times.get(value, nan) for value in single.values]) / single.processor

@@ -115,9 +115,11 @@ class Finer:
 
     @classmethod
     def of(cls, scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None, **coarser):
-        """A scene on the finest grid. coarser : settings of the next, where half the points are not what is meant."""
+        """A scene on the finest grid. coarser : settings of the next, if it is not on half the points"""
         coarser = coarser or {"points": solver.points // 2}
-        finest, next = (SceneTask(each, (scene,), work=work(each)) for each in (solver, replace(solver, **coarser)))
+        finest, next = (
+            SceneTask(each, (scene,), work=work(each)) for each in (solver, replace(solver, **coarser))
+        )
         return cls(source, finest, next, scale or {})
 
     @property

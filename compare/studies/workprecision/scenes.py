@@ -9,7 +9,7 @@ from scene import Cone, Indent, Kelvin, Scene, Slide, Sphere, StandardLinearSoli
 
 from .. import contacts
 
-# quick: few contacts on short ladders; standard: all contacts on short ladders; full: all contacts on long ladders.
+# quick: few contacts on short ladders; standard: all contacts on short ladders; full: all on long ladders.
 SIZES = QUICK, STANDARD, FULL = "quick", "standard", "full"
 # Radius [m] of the contacts at rest, and the time [s] in which the solids relax.
 CONTACT, TIME = 1e-3, 1e-3
@@ -43,7 +43,7 @@ def pressed(shape) -> Scene:
 
 
 def slid(shape, solid, flow: float) -> Scene:
-    """A body sliding at that depth; flow : v tau / a, of the speed, the relaxation time and the contact at rest."""
+    """A body sliding at that depth; flow : v tau / a of the speed, the relaxation time and the contact at rest"""
     return Scene(shape, solid, Slide(speed=flow * CONTACT / TIME, depth=depth(shape)))
 
 

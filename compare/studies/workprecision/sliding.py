@@ -142,12 +142,12 @@ def estimates(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
     """Mean error of each estimate over all contacts, and what the indicator is worth."""
     every = [each for own in found.values() for each in own]
     for quantity in (JOINED, *BESIDE):
-        errors = [each.errors for each in every if each.quantity == quantity.name and each.setting == "points"]
-        errors = np.concatenate([np.empty(0), *errors])
+        own = (each.errors for each in every if each.quantity == quantity.name and each.setting == "points")
+        errors = np.concatenate([np.empty(0), *own])
         errors = errors[np.isfinite(errors) & (errors > 0)]
         value = float(np.exp(np.log(errors).mean())) if errors.size else nan
         sentence = f"Error of friction {quantity.by}, geometric mean over all grids"
-        yield reported(f"sliding.estimate-{quantity.by.split()[-1]}", sentence, value, unit="%")
+        yield reported(f"sliding.estimate-{quantity.by.split()[-1]}", sentence, value)
     ratios = _over_indicator(every)
     why = "" if ratios.size else "no error stands out from the reference"
     sentence = "Error of friction over the solver's own indicator (friction_disagreement)"

@@ -106,11 +106,11 @@ class WorkPrecision(Study):
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
         """Findings of all diagrams."""
-        return [found for each in self.diagrams for found in each.findings(answers[each.name])]
+        return [found for each in self.diagrams for found in each.findings(answers.children[each.name])]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         """Figures of all diagrams."""
-        return [plot for each in self.diagrams for plot in each.plots(answers[each.name])]
+        return [plot for each in self.diagrams for plot in each.plots(answers.children[each.name])]
 
     def answer(self, findings: Sequence[Finding]) -> list[str]:
         """A sentence for each claim of each diagram, from all of its findings."""
@@ -124,10 +124,10 @@ class WorkPrecision(Study):
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         """A section a diagram."""
-        found = [Text(ABOUT.replace("\n", " "))]
+        found: list[Block] = [Text(ABOUT.replace("\n", " "))]
         for each in self.diagrams:
             figures = [plot for plot in plots if plot.name.startswith(f"workprecision-{each.name}")]
-            tables = each.tables(answers[each.name])
+            tables = each.tables(answers.children[each.name])
             found.append(
                 Section(each.title, [Text(each.about), *figures, *tables, Findings(self._of(each, findings))])
             )

@@ -66,7 +66,8 @@ class TimedSolve(SceneTask):
     @property
     def label(self) -> str:
         """Short description for people."""
-        return f"{self.solver.name}, {self.solver.points} points, {type(self.scene.indenter).__name__.lower()}"
+        points = getattr(self.solver, "points", 0)
+        return f"{self.solver.name}, {points} points, {type(self.scene.indenter).__name__.lower()}"
 
     @property
     def question(self) -> dict:
