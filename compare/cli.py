@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -198,4 +199,6 @@ def crosscheck(
 
 def main() -> None:
     """Entry point of the console command."""
+    # The matrices of the judge are small: threads of BLAS would wait for one another on a busy machine.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     app()

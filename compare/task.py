@@ -57,7 +57,7 @@ class Batch(NamedTuple):
 
 @dataclass(frozen=True)
 class SceneTask:
-    """Scenes that differ only in the seed of their roughness, answered by one solver.
+    """Scenes that differ only in the seed of their roughness, answered by one solver; equal if these are.
 
     keeps_fields : whether the fields of the first scene are kept, for pictures
     work : rough cost, see `Task`
