@@ -153,7 +153,7 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
 
 
 def sentences(findings: Sequence[Finding]) -> list[str]:
-    """A statement for each claim, from all of its findings: in 1D and in 3D where it holds, fails, is undecided."""
+    """A statement for each claim, from all of its findings: where in 1D and in 3D it holds, fails, is undecided."""
     found = []
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
@@ -161,8 +161,10 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
         for dimension in dict.fromkeys(each.dimension or each.claim.dimension for each in own):
             here = [each for each in own if (each.dimension or each.claim.dimension) == dimension]
             verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
-            said = [_said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts]
-            parts.append(f"in {dimension} it {', '.join(said)}" if dimension in ("1D", "3D") else f"it {', '.join(said)}")
+            said = ", ".join(
+                _said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts
+            )
+            parts.append(f"in {dimension} it {said}" if dimension in ("1D", "3D") else f"it {said}")
         text = "; ".join(parts)
         found.append(f"{sentence}. {text[:1].upper()}{text[1:]}.")
     return found
@@ -177,7 +179,8 @@ def _said(verdict, findings, of):
         count = f"all {of}" if len(findings) == of else f"{len(findings)} of {of}"
         return f"{verb} in {count} places{reach}"
     if verdict == REPORTED:
-        return f"{verb} " + _listed([f"{number(each)}{each.where and f' for {each.where}'}" for each in findings])
+        places = (f" for {each.where}" if each.where else "" for each in findings)
+        return f"{verb} " + _listed([number(each) + place for each, place in zip(findings, places, strict=True)])
     if not any(each.where for each in findings):
         return f"{verb} at " + _listed([number(each) for each in findings])
     return f"{verb} for " + _listed([f"{each.where} at {number(each)}" for each in findings])

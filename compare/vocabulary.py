@@ -46,11 +46,11 @@ LABELS: Mapping[str, Entry] = {
     "where": Entry("", "Case, series or diagram in which it was measured."),
     "dimension": Entry(
         "",
-        "1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: one over the other.",
+        "1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio.",
     ),
     "verdict": Entry(
         "",
-        "holds: the whole interval of 95 % lies within the tolerance around the number expected; fails: none of it "
+        "holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it "
         "does; undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a "
         "stored value the verdict is whether the number is within its bound.",
     ),
@@ -129,14 +129,50 @@ LABELS: Mapping[str, Entry] = {
     "ratio": Entry("1", "Number in one dimension over that in three."),
     "deviation": Entry("1", "Number in one dimension over that in three, less one."),
     "v_tau_over_a": Entry("1", "Speed times retardation time over the radius of the smooth relaxed contact."),
-    "friction_over_slope": Entry("1", "Coefficient of friction over the slope of the body at the edge of the contact."),
+    "friction_over_slope": Entry("1", "Friction over the slope of the body at the edge of the contact."),
     "friction_over_slope_low_speed": Entry(
-        "1", "Closed form of first order in the speed for friction over the slope of the body at the edge of the contact."
+        "1", "Friction over the slope of the body at the edge of the contact, to first order in the speed."
     ),
     "eq_19": Entry("1", "Coefficient of friction of Eq. 19 at the same load and speed, in one dimension."),
     "indenter": Entry("m", "Height of the rigid indenter above the undeformed surface."),
     "surface": Entry("m", "Height of the surface of the elastomer above the undeformed one."),
     "touching": Entry("", "Whether indenter and elastomer touch."),
+    # Of series of contacts, and of the figures of a study.
+    "off_curve": Entry("1", "ln of friction less that of the common curve at the shifted force."),
+    "rms": Entry("1", "rms of ln of friction about the common curve, with scatter of surfaces."),
+    "points_left_out": Entry(
+        "1", "Points that were not fitted, as fewer than half of the surfaces have an answer."
+    ),
+    "surfaces_left_out": Entry("1", "Surfaces that were not fitted, as a solve failed at some point that is."),
+    "theory": Term("1", "ln of the shift p(v) that the loss at the shortest wave predicts.", source=f"{PAPER}22"),
+    "rough": Entry("", "Depth [m] under the load, or force [N] at the depth, of the rough body at rest."),
+    "closed_form": Entry("", "Depth [m] or force [N] of the smooth body in closed form."),
+    "rough_deviation": Entry(
+        "1", "rough less closed_form: of depths over the rms height, of forces over closed_form."
+    ),
+    "smooth_deviation": Entry(
+        "1", "smooth less closed_form: of depths over the rms height, of forces over closed_form."
+    ),
+    "difference": Entry("1", "1D less 3D: of depths over the closed form, of forces over that in 3D."),
+    "rough_difference": Entry("1", "Force on the rough body in 1D over that in 3D, less one."),
+    "smooth_difference": Entry("1", "Force on the smooth body in 1D over that in 3D, less one."),
+    "stiffness": Entry("N/m", "Difference of forces over difference of depths, between neighbouring contacts."),
+    "rate": Entry("m/s", "Rate of pressing in."),
+    "smooth_normal_force": Entry("N", "Normal force on the body without its roughness."),
+    "low_speed": Entry(
+        "1", "Friction of the rough body in the exact limit of low speed, from its contact at rest."
+    ),
+    "smooth_low_speed": Entry("1", "Friction of the smooth body in the exact limit of low speed."),
+    "friction_1d_over_3d": Entry("1", "Coefficient of friction in 1D over that in 3D."),
+    "friction_over_plateau": Term(
+        "1", "Friction over that of the plateau.", formula="μ / (√2 s)", source=f"{PAPER}14"
+    ),
+    "contact_fraction": Entry("1", "Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D."),
+    "contact_over_period": Entry("1", "Diameter of the smooth relaxed contact over the period of the roughness."),
+    "fails": Entry("1", "Number of findings that fail."),
+    "undecided": Entry("1", "Number of findings that are undecided."),
+    "series": Entry("", "Title of the series."),
+    "shape": Entry("", "Shape of the bodies."),
     # Dimensionless groups.
     "depth_over_height": Term(
         "1", "Depth of the smooth relaxed contact over the rms height of the roughness.", formula="d / h₀"
@@ -205,7 +241,9 @@ LABELS: Mapping[str, Entry] = {
     "step": Entry("1", "Number of the value of the parameter."),
     "parameter": Entry("", "Value of the parameter that is varied, in its SI unit; angles in radians."),
     "hurst": Entry("1", "Hurst exponent of the roughness."),
-    "macroscopic_modulus": Term("1", "Modulus on the scale of the contact over the static one.", formula="|G(v/a)|/G₀"),
+    "macroscopic_modulus": Term(
+        "1", "Modulus on the scale of the contact over the static one.", formula="|G(v/a)|/G₀"
+    ),
     "points_fitted": Entry("", "Points that a straight line through the logarithms was fitted to."),
     "slope": Entry("1", "Slope of the line, the exponent of ξ."),
     "factor": Entry("1", "Factor of the power law."),
@@ -220,12 +258,57 @@ LABELS: Mapping[str, Entry] = {
     "simulated": Entry("1", "Coefficient of friction, mean over profiles."),
     "smooth": Entry("1", "Coefficient of friction of the smooth body."),
     "shortest_wave": Entry("1", "Coefficient of friction of Eq. 22 with the loss of the shortest wave."),
-    "every_wave": Entry("1", "Coefficient of friction of Eq. 22 with the loss of every wave at its own frequency."),
-    "every_wave_and_smooth_body": Entry("1", "Friction of Eq. 22 with the loss of every wave and of the smooth body."),
+    "every_wave": Entry(
+        "1", "Coefficient of friction of Eq. 22 with the loss of every wave at its own frequency."
+    ),
+    "every_wave_and_smooth_body": Entry(
+        "1", "Friction of Eq. 22 with the loss of every wave and of the smooth body."
+    ),
     "smooth_half_width": Entry("m", "Half of the width of the smooth contact at rest."),
     "smooth_depth": Entry("m", "Depth of the smooth contact at rest."),
     "conditions_broken": Entry("", "Conditions of the laws that break."),
+    "rubber": Entry("", "Number of the elastomer in the study of loss moduli."),
+    "angle": Entry("rad", "Angle of the side of the cone against the plane."),
+    "radius": Entry("m", "Radius of the sphere."),
+    "modulus": Entry("Pa", "Static shear modulus of the elastomer."),
+    "profiles": Entry("1", "Number of rough profiles over which a mean is taken."),
+    "count": Entry("1", "Number of contacts behind a mean."),
+    "alpha_by_logarithms": Entry("1", "Best α by deviations of the logarithm of μ̃."),
+    "alpha_by_differences": Entry("1", "Best α by deviations of μ̃ itself."),
+    "alpha_by_chi_square": Entry("1", "Best α by deviations over the scatter of profiles."),
+    "alpha_by_worst_point": Entry("1", "Best α by the deviation of the farthest point."),
+    "least_modulus": Entry("1", "Least modulus on the scale of the contact over the static one."),
+    "greatest_modulus": Entry("1", "Greatest modulus on the scale of the contact over the static one."),
+    "exponent_expected": Entry("1", "Power of the speed in the shift of Eq. 23."),
+    "exponent_whole": Entry("1", "Power of the speed in the shifts of the whole friction."),
+    "exponent_excess": Entry(
+        "1", "Power of the speed in the shifts of the friction beyond that of the smooth body."
+    ),
+    "exponent_of_shortest_wave": Entry("1", "Power of the speed in the shifts of Eq. 22 with the shortest wave."),
+    "exponent_of_every_wave": Entry("1", "Power of the speed in the shifts of Eq. 22 with every wave."),
+    "exponent_of_every_wave_and_smooth_body": Entry(
+        "1", "Power of the speed in the shifts of Eq. 22 with every wave and the smooth body."
+    ),
+    "collapse_whole": Entry("1", "Misfit of the curves of the whole friction about one curve."),
+    "collapse_excess": Entry("1", "Misfit of the curves of the friction beyond that of the smooth body."),
+    # Of studies of claims.
+    # Of accuracy and cost.
+    "ladder": Entry("", "Settings of one solver, each finer than the one before."),
+    "setting": Entry("1", "Number that is refined along the ladder: points, or steps in time."),
+    "steps": Entry("1", "Number of settings of a ladder, or of steps in time."),
+    "constant": Entry("1", "Factor of the power law of the error."),
+    "standard_error": Entry("1", "Standard error of the order."),
+    "estimate": Entry("1", "Error that the solver itself expects."),
+    "precision": Entry("", "Floating-point numbers of the solve: single or double."),
+    "extent": Entry("1", "Side of the grid over the width of the contact."),
+    "reference": Entry("", "What errors are measured against."),
 }
+
+# Columns that explain themselves.
+PLAIN = frozenset(
+    ("case", "cases", "group", "broken", "solved", "checks", "outcome", "title", "label", "series", "shape")
+)
+PREFIXES = ("holds: ", "within ", "must hold", "hard because", "refused as it should", "tolerances moved")
 
 # What an ending adds to the meaning of a name.
 ENDINGS = {

@@ -12,7 +12,7 @@ import pytest
 from compare.cases import Case
 from compare.library import NotReady, find, ready, write
 from compare.planning import plans
-from compare.schema import DIALECT, schema
+from compare.json_schema import DIALECT, schema
 from compare.studies.catalogue import SIZES
 from compare.studies.claimstudy import ClaimStudy
 from compare.studies.inputs import study_of

@@ -1,4 +1,4 @@
-"""Studies: what claims come to on answers that obey a law, on answers with gaps, and on answers of both solvers."""
+"""Studies: what claims come to on answers that obey a law, on answers with gaps, and on those of solvers."""
 
 from dataclasses import replace
 
@@ -73,10 +73,19 @@ def obeying(law, series=SERIES, scatter=0.02, grid=0.0, seed=1, level=1.0, slope
             }
             dims = ["grid", "speed", series.prescribed, "draw"]
             variables = {name: (dims, np.broadcast_to(each, mu.shape).copy()) for name, each in columns.items()}
-            variables |= {"status": (dims, np.full(mu.shape, SOLVED, object)), "reason": (dims, np.full(mu.shape, "", object))}
-            coordinates = {"grid": [FINE, COARSE], "speed": [0.0, *series.speeds], series.prescribed: list(series.values)}
+            variables |= {
+                "status": (dims, np.full(mu.shape, SOLVED, object)),
+                "reason": (dims, np.full(mu.shape, "", object)),
+            }
+            coordinates = {
+                "grid": [FINE, COARSE],
+                "speed": [0.0, *series.speeds],
+                series.prescribed: list(series.values),
+            }
             dataset = xarray.Dataset(variables, coordinates | {"points": ("grid", [64, 32])})
-            parts[f"/{series.name}/{body}/{solver}"] = dataset if body == ROUGH else dataset.isel(draw=0, drop=True)
+            parts[f"/{series.name}/{body}/{solver}"] = (
+                dataset if body == ROUGH else dataset.isel(draw=0, drop=True)
+            )
     return Contacts(series, xarray.DataTree.from_dict(parts))
 
 
@@ -109,7 +118,12 @@ def cut(contacts, speeds=None, values=None, surfaces=None):
             dataset = dataset.isel(draw=slice(surfaces)) if body == ROUGH else dataset
             parts[f"/{series.name}/{body}/{solver}"] = dataset
     count = surfaces or series.surfaces
-    few = {"speeds": series.speeds[:speeds], "values": series.values[:values], "surfaces": count, "profiles": count}
+    few = {
+        "speeds": series.speeds[:speeds],
+        "values": series.values[:values],
+        "surfaces": count,
+        "profiles": count,
+    }
     return Contacts(replace(series, **few), xarray.DataTree.from_dict(parts))
 
 
@@ -185,7 +199,9 @@ def test_of_straight_lines_the_shifts_cannot_be_told_apart():
 
 
 def test_an_error_of_the_grid_leaves_undecided_what_it_may_have_made(judged):
-    (exact,), (coarse,) = (of(each, "eq17.level", "3D") for each in (judged, judge_series(obeying(eq_19, grid=0.2))))
+    (exact,), (coarse,) = (
+        of(each, "eq17.level", "3D") for each in (judged, judge_series(obeying(eq_19, grid=0.2)))
+    )
     assert (exact.verdict, coarse.verdict) == ("holds", "undecided")
     assert exact.grid_method == coarse.grid_method == "change on halving"
 
@@ -247,12 +263,16 @@ def test_speeds_are_named_by_where_they_lie(whole, judged):
     names = [each.claim.id.split("-")[1] for each in of(judged, "pair.friction")]
     assert names == ["slow", "knee", "fast"]
     # three speeds that lie far below the knee
-    assert [each.claim.id for each in of(judge_series(cut(whole, speeds=3)), "pair.friction")] == ["pair.friction-slow"]
+    assert [each.claim.id for each in of(judge_series(cut(whole, speeds=3)), "pair.friction")] == [
+        "pair.friction-slow"
+    ]
 
 
 def test_a_series_of_which_nothing_was_solved_has_no_finding():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
-    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in rectangle.unique(series.rectangles)}
+    outcomes = {
+        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in rectangle.unique(series.rectangles)
+    }
     contacts = Contacts(series, rectangle.tree(series.rectangles, outcomes))
     assert judge_series(contacts).findings == ()
     assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
@@ -355,7 +375,9 @@ def solved():
     """Answers of both solvers to a small series."""
     rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
     scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
-    series = Series("s", "S", scene, (1e-2, 1.5e-2, 2.2e-2), (2.0, 4.0, 8.0), 4, 4, BEM(points=64), MDR(points=1000))
+    series = Series(
+        "s", "S", scene, (1e-2, 1.5e-2, 2.2e-2), (2.0, 4.0, 8.0), 4, 4, BEM(points=64), MDR(points=1000)
+    )
     tasks = rectangle.unique(series.rectangles)
     return Contacts(series, rectangle.tree(series.rectangles, {task: task.solve() for task in tasks}))
 

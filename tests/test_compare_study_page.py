@@ -24,14 +24,21 @@ def resting():
     """The sphere at rest, depths prescribed."""
     depths = tuple(float(depth) for depth in np.geomspace(5e-5, 1e-3, 4))
     scene = SERIES.at(1.0)
-    rest = replace(SERIES, name="rest", title="At rest", scene=replace(scene, motion=replace(scene.motion, load=None, depth=1e-4)))
+    rest = replace(
+        SERIES,
+        name="rest",
+        title="At rest",
+        scene=replace(scene, motion=replace(scene.motion, load=None, depth=1e-4)),
+    )
     return obeying(lambda load, speed: eq_19(load * 1e4, speed), replace(rest, speeds=(), values=depths))
 
 
 def pressed_in():
     """The sphere pressed in at two rates."""
     scene = replace(SERIES.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),)))
-    series = replace(SERIES, name="pressed", title="Pressed in", scene=scene, speeds=(0.1, 1.0), values=(1e-4, 2e-4, 4e-4))
+    series = replace(
+        SERIES, name="pressed", title="Pressed in", scene=scene, speeds=(0.1, 1.0), values=(1e-4, 2e-4, 4e-4)
+    )
     return obeying(lambda load, speed: eq_19(load * 1e4, speed), series)
 
 

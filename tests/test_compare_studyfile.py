@@ -199,7 +199,11 @@ def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(
     path.write_text(TEXT, encoding="utf-8")
     study = ClaimStudy.of(path)
     assert (study.place, study.title, study.inputs["source"]) == ("mine-quick", "Mine", TEXT)
-    for name, said in (("colapse", "did you mean collapse"), (tmp_path, "is a folder"), (tmp_path / "x.toml", "no such")):
+    for name, said in (
+        ("colapse", "did you mean collapse"),
+        (tmp_path, "is a folder"),
+        (tmp_path / "x.toml", "no such"),
+    ):
         with pytest.raises(InvalidInput, match=said):
             ClaimStudy.of(name if isinstance(name, str) else str(name))
     with pytest.raises(InvalidInput, match="size = paper: allowed are quick, standard, full"):

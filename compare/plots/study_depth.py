@@ -1,5 +1,7 @@
 """Depth and force of one series at rest, and pressed in at constant rates, in one dimension against three."""
 
+from typing import Any
+
 from matplotlib.figure import Figure
 
 from ..page import Tables
@@ -12,8 +14,22 @@ CLOSED = "closed form"
 APART = 1.02
 # Where the load is prescribed the depth is measured, in µm and in rms heights; else the force.
 LABELS = {
-    "load": ("depth [µm]", 1e6, "depth less the smooth one [$h_0$]", "depth 1D - 3D [% of smooth]", 1.0, "normal force [N]"),
-    "depth": ("normal force [N]", 1.0, "force less the smooth one [%]", "force 1D / 3D - 1 [%]", 1e6, "depth [µm]"),
+    "load": (
+        "depth [µm]",
+        1e6,
+        "depth less the smooth one [$h_0$]",
+        "depth 1D - 3D [% of smooth]",
+        1.0,
+        "normal force [N]",
+    ),
+    "depth": (
+        "normal force [N]",
+        1.0,
+        "force less the smooth one [%]",
+        "force 1D / 3D - 1 [%]",
+        1e6,
+        "depth [µm]",
+    ),
 }
 
 
@@ -37,7 +53,7 @@ def depth(tables: Tables) -> Figure:
         hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
         _bars(deviation, x, own, "smooth_deviation", solver, unit, label=f"{dimension}, smooth", **hollow)
         _bars(deviation, x, own, "rough_deviation", solver, unit, label=f"{dimension}, rough")
-    looks = {
+    looks: dict[str, dict[str, Any]] = {
         "smooth": {"color": style.grey(0.5), "marker": "D", "linestyle": ":", "markerfacecolor": style.paper()},
         "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
     }
@@ -47,7 +63,9 @@ def depth(tables: Tables) -> Figure:
         if dimension == CLOSED:
             stiff.plot(own["normal_force"], 1e-3 * own["stiffness"], label="smooth, closed form", **grey)
         else:
-            _bars(stiff, own["normal_force"], own, "stiffness", SOLVER[dimension], 1e-3, label=f"{dimension}, rough")
+            _bars(
+                stiff, own["normal_force"], own, "stiffness", SOLVER[dimension], 1e-3, label=f"{dimension}, rough"
+            )
     for axes, name in ((whole, label), (deviation, less), (difference, apart)):
         axes.set(xscale="log", xlabel=across, ylabel=name)
         style.span(axes, scale * points[prescribed])
@@ -83,7 +101,9 @@ def pressed_in(tables: Tables) -> Figure:
             thin = {"color": colour, "linewidth": style.width(0.55)}
             axes.plot(depths, own["smooth_normal_force"], label="smooth" if first else None, **thin)
             cross = {"color": style.COLOUR["exact"], "markersize": style.mark(1.25)}
-            axes.plot(depths, own[CLOSED.replace(" ", "_")], "+", label="smooth, closed form" if first else None, **cross)
+            axes.plot(
+                depths, own[CLOSED.replace(" ", "_")], "+", label="smooth, closed form" if first else None, **cross
+            )
         own = ratios[ratios["rate"] == rate]
         _bars(ratio, 1e6 * own["depth"] * apart, own, "rough_difference", "exact", 100.0, color=colour, marker="D")
         ratio.plot(1e6 * own["depth"], 100 * own["smooth_difference"], color=colour, linewidth=style.width(0.55))
@@ -107,4 +127,6 @@ def _bars(axes, x, points, name, solver, factor=1.0, **look):
     values = factor * points[name]
     ends = style.bars(values, factor * points[f"{name}_low"], factor * points[f"{name}_high"])
     kept = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": style.LINE[solver]}
-    axes.errorbar(x, values, yerr=ends, **kept | {"linewidth": style.width(0.7), "markersize": style.mark(0.9)} | look)
+    axes.errorbar(
+        x, values, yerr=ends, **kept | {"linewidth": style.width(0.7), "markersize": style.mark(0.9)} | look
+    )

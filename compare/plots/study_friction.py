@@ -1,4 +1,4 @@
-"""Friction of one series: its curves shifted onto one, the shifts, its level against speed; and several series at once."""
+"""Friction of one series: curves shifted onto one, shifts, level against speed; and several series at once."""
 
 from collections.abc import Mapping
 
@@ -36,7 +36,9 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
         _curves(column[0], own, "normal_force", solver, scale)
         column[0].set(title=style.LABEL[solver], xlabel="normal force [N]", xscale="log", yscale="log")
         column[1].set(xlabel="shifted normal force [N]", xscale="log", yscale="log")
-        _curves(column[1], own, "shifted_force", solver, scale, {"linestyle": "none"} if dimension in fitted else {})
+        _curves(
+            column[1], own, "shifted_force", solver, scale, {"linestyle": "none"} if dimension in fitted else {}
+        )
         _lines(column[1], curves[curves["dimension"] == dimension])
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
         if dimension in fitted:
@@ -63,7 +65,7 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
     return drawing
 
 
-def _curves(axes: Axes, points: DataFrame, across: str, solver: str, scale, look: Mapping = {}) -> None:  # noqa: B006
+def _curves(axes: Axes, points: DataFrame, across: str, solver: str, scale, look: Mapping = {}) -> None:
     """Friction with its intervals, a curve for each speed."""
     for speed, curve in points.groupby("speed"):
         _curve(axes, curve, across, "friction_coefficient", solver, shades.SPEED(scale(speed)), **look)
@@ -125,7 +127,11 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
     left, middle, right = panels = drawing.subplots(1, 3)
     for index, (dimension, own) in enumerate(every.groupby("dimension")):
         solver, apart = SOLVER[dimension], APART ** (2 * index - 1)
-        for axes, name, less in ((left, "log_shift", 0.0), (middle, "log_shift", own["theory"]), (right, "log_lift", 0.0)):
+        for axes, name, less in (
+            (left, "log_shift", 0.0),
+            (middle, "log_shift", own["theory"]),
+            (right, "log_lift", 0.0),
+        ):
             value = own[name] - less
             ends = style.bars(value, own[f"{name}_low"] - less, own[f"{name}_high"] - less)
             look = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": "none"}

@@ -28,7 +28,7 @@ FEW = 5
 END = 100.0
 
 
-def verdicts(tables: Tables, titles: Sequence[Sequence[str]] = ()) -> Figure:
+def verdicts(tables: Tables, titles: Sequence[tuple[str, str]] = ()) -> Figure:
     """Rows: claims, those on both dimensionalities last. Columns: series.
 
     titles : name and title of each column
@@ -146,5 +146,10 @@ def _effect(axes, y, found):
     elif isfinite(effect):
         arrow = look | {"marker": ">" if effect > 0 else "<", "markersize": style.mark(1.25), "clip_on": False}
         axes.plot(np.sign(effect) * END, y, markerfacecolor=inside, zorder=3, **arrow)
-    place = {"xycoords": ("axes fraction", "data"), "va": "center", "fontsize": style.tiny(), "color": look["color"]}
+    place = {
+        "xycoords": ("axes fraction", "data"),
+        "va": "center",
+        "fontsize": style.tiny(),
+        "color": look["color"],
+    }
     axes.annotate(found["verdict"], (1.02, y), **place)

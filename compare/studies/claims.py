@@ -29,16 +29,16 @@ CLAIMS = {
             "eq17.load-exponent",
             "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))",
             tolerance=TOLERANCE,
-            meaning="d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law leaves "
-            "out the slope of the macroscopic shape.",
+            meaning="d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law "
+            "leaves out the slope of the macroscopic shape.",
         ),
         Claim(
             "eq17.level",
             "Eq. 17: friction at low speed has the level of the law",
             1.0,
             TOLERANCE,
-            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope as this "
-            "dimensionality has it and every wave taken for the shortest.",
+            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope "
+            "as this dimensionality has it and every wave taken for the shortest.",
         ),
         Claim(
             "limit.slow",
@@ -46,18 +46,18 @@ CLAIMS = {
             1.0,
             TOLERANCE,
             "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
-            "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads or "
-            "depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D friction is "
-            "found by that mean where the contact trails by less than a quarter of a pixel (docs/theory.md, Eq. 5e): "
-            "the check is then of the pressure found in sliding.",
+            "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads "
+            "or depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
+            "friction is found by that mean where the contact trails by less than a quarter of a pixel "
+            "(docs/theory.md, Eq. 5e): the check is then of the pressure found in sliding.",
         ),
         Claim(
             "eq14.plateau",
             "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
             1.0,
             TOLERANCE,
-            "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or depths "
-            "at which xi is large.",
+            "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or "
+            "depths at which xi is large.",
         ),
         Claim(
             "eq19.law",
@@ -71,28 +71,40 @@ CLAIMS = {
             "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
             0.0,
             2 * TOLERANCE,
-            "rms of ln mu about one curve through all points of several series, none shifted, without what scatter "
-            "adds.",
+            "rms of ln mu about one curve through all points of several series, none shifted, without what "
+            "scatter adds.",
         ),
         Claim(
             "eq17.slope-exponent",
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
             2.0,
             2 * TOLERANCE,
-            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths at "
-            "which all are at that limit, but for what Eq. 19 still lacks of it.",
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or "
+            "depths at which all are at that limit, but for what Eq. 19 still lacks of it.",
         ),
         Claim(
             "eq14.slope-exponent",
             "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
             1.0,
             TOLERANCE,
-            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths at "
-            "which all are at that limit, but for what Eq. 19 still lacks of it.",
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or "
+            "depths at which all are at that limit, but for what Eq. 19 still lacks of it.",
         ),
-        Claim("pair.friction-slow", "Rough, at the slowest speed: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
+        Claim(
+            "pair.friction-slow",
+            "Rough, at the slowest speed: friction in 1D is that in 3D",
+            1.0,
+            TOLERANCE,
+            _RATIO,
+        ),
         Claim("pair.friction-knee", "Rough, at the knee: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
-        Claim("pair.friction-fast", "Rough, at the fastest speed: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
+        Claim(
+            "pair.friction-fast",
+            "Rough, at the fastest speed: friction in 1D is that in 3D",
+            1.0,
+            TOLERANCE,
+            _RATIO,
+        ),
         Claim(
             "pair.smooth",
             "Smooth, at the slowest speed: friction in 1D is that in 3D",
@@ -147,7 +159,8 @@ CLAIMS = {
         *(
             Claim(
                 f"pressed-in.{name}",
-                f"Pressed in at the {name}est rate, rough: the force at the greatest depth is the same in 1D and 3D",
+                f"Pressed in at the {name}est rate, rough: the force at the greatest depth is the same in 1D "
+                "and 3D",
                 0.0,
                 TOLERANCE,
                 _PRESSED,

@@ -94,7 +94,9 @@ def _at_rest(series) -> Iterator[Claim]:
             continue
 
         def depth_apart(sample, places=places):
-            return ((_rest(sample, "MDR", "depth_reached") - _rest(sample, "BEM", "depth_reached")) / depths)[places]
+            return ((_rest(sample, "MDR", "depth_reached") - _rest(sample, "BEM", "depth_reached")) / depths)[
+                places
+            ]
 
         def force_apart(sample, places=places):
             one, three = (np.log(_rest(sample, solver, "normal_force")) for solver in SOLVERS)
@@ -109,9 +111,7 @@ def _at_rest(series) -> Iterator[Claim]:
 def _stiffness(series) -> Iterator[Claim]:
     """Claim on the relaxed contact: secants between neighbouring loads or depths, in 1D and 3D at the same."""
     if not series.speeds and not series.pressed_in and len(series.values) > 2:
-        yield claim(
-            "rest.stiffness", lambda sample: np.log(_secants(sample["MDR"]) / _secants(sample["BEM"]))
-        )
+        yield claim("rest.stiffness", lambda sample: np.log(_secants(sample["MDR"]) / _secants(sample["BEM"])))
 
 
 def _pressed_in(series) -> Iterator[tuple[Claim, float]]:

@@ -1,4 +1,4 @@
-"""Claims on friction of one series: the laws in each dimensionality, one against three, and shifts onto one curve."""
+"""Claims on friction of one series: laws in each dimensionality, one against three, shifts onto one curve."""
 
 from collections.abc import Iterator, Mapping
 from math import nan
@@ -40,7 +40,9 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
     return [*found, finding(claim("pair.smooth", _smooth_ratio), contacts, SMOOTH, words)]
 
 
-def finding(each: Claim, contacts: Contacts, body: str, regime: str, *solvers: str, plot: str = "levels") -> Finding:
+def finding(
+    each: Claim, contacts: Contacts, body: str, regime: str, *solvers: str, plot: str = "levels"
+) -> Finding:
     """Finding of a claim on one body of a series.
 
     solvers : those whose surfaces are left out; both if absent
@@ -164,5 +166,3 @@ def shift_findings(
         yield from eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots)
     elif eq23.shiftable(len(series.speeds), len(series.values)):
         yield eq23.too_few(dimension, series.name, draws, words, plots[0])
-
-

@@ -21,7 +21,7 @@ from ..page import Block, Findings, Plot, Section, Table, Text
 from ..pipeline import Study
 from ..rectangle import Rectangle
 from ..suggest import known
-from ..task import Batch, Task
+from ..task import Task
 from . import study_plots
 from .catalogue import SIZES, STUDIES, ReadyStudy
 from .families import family_findings
@@ -32,9 +32,9 @@ from .series import SOLVERS, Contacts, Series
 
 ALL = "all"
 UNMATCHED = (
-    "The roughness is a line in 1D and a surface in 3D. The spectra are tied by the rule of the method, "
-    "C_1D = π q C_2D, which keeps the rms height and the rms of the full gradient; real contact is a length in one and "
-    "an area in the other, and no claim compares them."
+    "The roughness is a line in 1D and a surface in 3D. The spectra are tied by the rule of the method, C_1D = π "
+    "q C_2D, which keeps the rms height and the rms of the full gradient; real contact is a length in one and an "
+    "area in the other, and no claim compares them."
 )
 
 
@@ -65,7 +65,9 @@ class ClaimStudy(Study):
     study: ReadyStudy
     size: str
     source: str | None = None
-    _judged: dict[int, tuple[xarray.DataTree, JudgedStudy]] = field(default_factory=dict, repr=False, compare=False)
+    _judged: dict[int, tuple[xarray.DataTree, JudgedStudy]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     command = "study"
 
@@ -92,7 +94,9 @@ class ClaimStudy(Study):
     @classmethod
     def listing(cls) -> Listing:
         """Studies that come with the package."""
-        return Listing(STUDIES, end=f"`crosscheck study {ALL}` does all of them; a file of your own is a study too.")
+        return Listing(
+            STUDIES, end=f"`crosscheck study {ALL}` does all of them; a file of your own is a study too."
+        )
 
     @property
     def title(self) -> str:  # type: ignore[override]
@@ -125,7 +129,7 @@ class ClaimStudy(Study):
         return {name: each for series in self.series for name, each in series.rectangles.items()}
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """Everything that was solved, at /series/body/solver; a series has its title and its note as attributes."""
+        """Everything that was solved, at /series/body/solver; a series has title and note as attributes."""
         tree = super().answers(outcomes)
         for each in self.series:
             tree[each.name].attrs = {"title": each.title, "note": each.note, "prescribed": each.prescribed}
@@ -144,7 +148,7 @@ class ClaimStudy(Study):
         return self.judged(answers).findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A sentence for each claim, from all findings on it; numbers without a claim stand in the tables alone."""
+        """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone."""
         return sentences([each for each in findings if each.verdict != REPORTED])
 
     def blocks(
@@ -160,8 +164,7 @@ class ClaimStudy(Study):
             )
         blocks.append(Section("What cannot be matched between the dimensionalities", [Text(UNMATCHED)]))
         if judged.together:
-            together = [*whole[1:], Findings(judged.together)]
-            blocks.append(Section("Several series together", together))
+            blocks.append(Section("Several series together", [*whole[1:], Findings(judged.together)]))
         return blocks + [
             Section(f"{number}. {each.series.title}", list(_section(each, plots)))
             for number, each in enumerate(judged.series, 1)
@@ -176,17 +179,17 @@ class ClaimStudy(Study):
 
 @dataclass(frozen=True)
 class AllStudies(Study):
-    """All studies of the catalogue on one page: the answer, and verdicts on each; their own pages show every series."""
+    """All studies of the catalogue on one page: the answer, and verdicts; their own pages show every series."""
 
     studies: tuple[ClaimStudy, ...]
 
     command, title = "study", "The laws of the paper in one and in three dimensions"
     about = (
-        "Claims of Popov, Voll, Li, Chai, Popov, Sci. Rep. 4, 3750 (2014), asked of one dimension and of three on the "
-        "same scenes. A claim holds if its whole interval of 95 % lies within the tolerance, fails if none of it does, and "
-        "is undecided otherwise, or where an error is unknown. Surfaces are left out at all points at once; the interval "
-        "is wider at both ends by the change on halving the grid. Every series with its figures and points is on the page "
-        "of its study, `crosscheck study NAME`."
+        "Claims of Popov, Voll, Li, Chai, Popov, Sci. Rep. 4, 3750 (2014), asked of one dimension and of three "
+        "on the same scenes. A claim holds if its whole interval of 95 % lies within the tolerance, fails if "
+        "none of it does, and is undecided otherwise, or where an error is unknown. Surfaces are left out at all "
+        "points at once; the interval is wider at both ends by the change on halving the grid. Every series with "
+        "its figures and points is on the page of its study, `crosscheck study NAME`."
     )
 
     @property
@@ -195,7 +198,7 @@ class AllStudies(Study):
         return slug(f"{ALL}-{self.studies[0].size}")
 
     @property
-    def inputs(self) -> Mapping[str, Any]:  # type: ignore[override]
+    def inputs(self) -> Mapping[str, Any]:
         """Name and size."""
         return {"name": ALL, "size": self.studies[0].size}
 
@@ -215,7 +218,7 @@ class AllStudies(Study):
         """Verdicts of each study, and its series against one variable."""
         found = []
         for each in self.studies:
-            judged = each.judged(answers[each.name])
+            judged = self._judged(each, answers)
             plots = study_plots.plots_of_study(judged.series, judged.findings, bool(judged.together))
             found += [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
         return found
@@ -232,12 +235,13 @@ class AllStudies(Study):
             blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, Findings(claimed)]))
         return blocks
 
+    def _judged(self, each, answers) -> JudgedStudy:
+        return each.judged(answers[each.name])
+
     def _own(self, each, answers):
         """Findings of one study, each with the study in front of its place and its plot."""
-        found = each.judged(answers[each.name]).findings
-        return [
-            replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found
-        ]
+        found = self._judged(each, answers).findings
+        return [replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found]
 
 
 def _located(name: str | Path) -> Path:
@@ -272,7 +276,10 @@ def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
     else:
         yield Text("No claim can be judged, or none is asked, of this series.")
     yield Table(
-        f"{series.folder}/points", points(judged.contacts), "Means over surfaces with intervals of 95 %.", long=True
+        f"{series.folder}/points",
+        points(judged.contacts),
+        "Means over surfaces with intervals of 95 %.",
+        long=True,
     )
     failed = failures(judged.contacts)
     if len(failed):
@@ -290,7 +297,8 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
         kind = "rates of pressing in" if series.pressed_in else "speeds"
         moved = f"{len(series.speeds)} {kind}, {series.speeds[0]:.3g} to {series.speeds[-1]:.3g} m/s, and at rest"
     unit = {"load": "N", "depth": "m"}[series.prescribed]
-    yield f"{moved}; {len(series.values)} {series.prescribed}s, {series.values[0]:.3g} to {series.values[-1]:.3g} {unit}"
+    least, greatest = series.values[0], series.values[-1]
+    yield f"{moved}; {len(series.values)} {series.prescribed}s, {least:.3g} to {greatest:.3g} {unit}"
     yield (
         f"{series.profiles} profiles of {series.mdr.points} points in 1D, {series.surfaces} surfaces of "
         f"{series.bem.points}² in 3D, each also on half the points a side"

@@ -17,8 +17,8 @@ class JudgedSeries:
 
     contacts : its answers
     laws : by solver's name; empty of a series that does not slide, or of which a solver has no rough answer
-    collapses : by solver's name, what shifts of its curves achieve on the fine grid; a solver with too few points is
-        missing
+    collapses : by solver's name, what shifts of its curves achieve on the fine grid; a solver with too few points
+        is missing
     findings : what each claim comes to
     """
 

@@ -52,7 +52,7 @@ def force_at(contacts: Contacts, solver: str, body: str = ROUGH) -> Interval:
 
 
 def points(contacts: Contacts) -> DataFrame:
-    """A row for each solver, body, speed, and load or depth: means with intervals of 95 %, and dimensionless groups."""
+    """A row for each solver, body, speed, and load or depth: means, intervals of 95 %, dimensionless groups."""
     return concat(
         [_rows(contacts, solver, body) for solver in SOLVERS for body in (ROUGH, SMOOTH)], ignore_index=True
     )

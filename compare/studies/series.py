@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import xarray
 
@@ -117,15 +118,14 @@ class Contacts:
 
     def dataset(self, solver: str, body: str = ROUGH) -> xarray.Dataset:
         """Dataset on both grids."""
-        return self.answers[f"{self.series.name}/{body}/{solver}"].to_dataset(inherit=False)
+        node = cast(xarray.DataTree, self.answers[f"{self.series.name}/{body}/{solver}"])
+        return node.to_dataset(inherit=False)
 
     def sample(self, grid: str, body: str, *solvers: str) -> Sample:
         """Datasets by the name of the solver, of which draws can be left out; always the same object."""
         key = grid, body, solvers
         if key not in self._samples:
-            self._samples[key] = Sample(
-                {solver: _measured(self(solver, body, grid)) for solver in solvers}
-            )
+            self._samples[key] = Sample({solver: _measured(self(solver, body, grid)) for solver in solvers})
         return self._samples[key]
 
     @cached_property

@@ -32,15 +32,18 @@ def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], 
     judged = [each for each in findings if each.verdict != REPORTED]
     if judged:
         titles = [(each.series.name, each.series.title) for each in series]
-        titles += [(place, place) for place in dict.fromkeys(each.where for each in judged) if place not in dict(titles)]
+        titles += [
+            (place, place) for place in dict.fromkeys(each.where for each in judged) if place not in dict(titles)
+        ]
         named = "; ".join(f"{k}: {title}" for k, (_, title) in enumerate(titles, 1))
         told = f" Columns: {named}." if study_verdicts.FEW < len(titles) <= 2 * study_verdicts.FEW else ""
         yield Plot(
             "verdicts",
             study_verdicts.verdicts,
             {"verdicts": table(judged)},
-            "Verdicts: rows are claims, columns are series, with one dimension left (blue) and three right (vermillion); "
-            f"below, claims that compare both (black). Filled: holds; cross: fails; hollow: undecided.{told}",
+            "Verdicts: rows are claims, columns are series, with one dimension left (blue) and three right "
+            "(vermillion); below, claims that compare both (black). Filled: holds; cross: fails; hollow: "
+            f"undecided.{told}",
             _counted(judged),
             {"titles": titles},
         )
@@ -58,9 +61,9 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
             f"{series.folder}/effects",
             study_verdicts.effects,
             {"effects": table(claims)},
-            "What was measured less what is claimed, over the tolerance, whose band is grey; beyond one the axis is "
-            "logarithmic. Thick: 95 % from the scatter of surfaces; thin: wider by the change on halving the grid. "
-            "Hollow: undecided. An arrow stands for what lies beyond 100 tolerances.",
+            "What was measured less what is claimed, over the tolerance, whose band is grey; beyond one the "
+            "axis is logarithmic. Thick: 95 % from the scatter of surfaces; thin: wider by the change on "
+            "halving the grid. Hollow: undecided. An arrow stands for what lies beyond 100 tolerances.",
             _counted(claims),
         )
     if judged.laws:
@@ -91,22 +94,22 @@ def _places(series, name="speed") -> dict[str, np.ndarray]:
 
 
 def _collapse(judged) -> Plot:
-    points, curves, fits = [], [], []
+    kinds: tuple[list[DataFrame], ...] = [], [], []
     for solver, dimension in SOLVERS.items():
         parts = (_shifted(judged, solver), _curves(judged, solver), _fit(judged, solver, dimension))
-        for frames, frame in zip((points, curves, fits), parts, strict=True):
+        for frames, frame in zip(kinds, parts, strict=True):
             frame.insert(0, "dimension", dimension)
             frames.append(frame)
     names = "collapse", "collapse-curves", "collapse-fits"
-    tables = {name: concat(frames, ignore_index=True) for name, frames in zip(names, (points, curves, fits), strict=True)}
+    tables = {name: concat(frames, ignore_index=True) for name, frames in zip(names, kinds, strict=True)}
     verdicts = [each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id]
     return Plot(
         f"{judged.series.folder}/collapse",
         study_friction.collapse,
         tables,
-        "Friction against normal force, a curve for each speed, with intervals of 95 %; then shifted along the force "
-        "(Eq. 23) so as to come closest to one curve (black), or as p(v) of Eq. 22 if no shifts can be fitted; then "
-        "what the curve is missed by, with the tolerance in grey. δ: rms without scatter.",
+        "Friction against normal force, a curve for each speed, with intervals of 95 %; then shifted along the "
+        "force (Eq. 23) so as to come closest to one curve (black), or as p(v) of Eq. 22 if no shifts can be "
+        "fitted; then what the curve is missed by, with the tolerance in grey. δ: rms without scatter.",
         "; ".join(f"{each.dimension}: {each.verdict}" for each in verdicts),
         {"tolerance": eq23.TOLERANCE},
     )
@@ -121,7 +124,9 @@ def _shifted(judged, solver) -> DataFrame:
     frame = DataFrame(_places(series) | {"normal_force": load.ravel()} | _columns("friction_coefficient", mu))
     shift, how = np.full(load.shape, np.nan), np.full(load.shape, ALONE, object)
     if fitted:
-        for speed, by, known in zip(found.speeds, found.horizontal.horizontal.value, found.data.known, strict=True):
+        for speed, by, known in zip(
+            found.speeds, found.horizontal.horizontal.value, found.data.known, strict=True
+        ):
             row = series.speeds.index(speed)
             shift[row, known], how[row, known] = by, FITTED
     else:
@@ -130,7 +135,9 @@ def _shifted(judged, solver) -> DataFrame:
     frame["shifted_as"] = how.ravel()
     curve = found.horizontal.curve(np.log(frame["shifted_force"])) if fitted else np.nan
     for end in ("", "_low", "_high"):
-        frame[f"off_curve{end}"] = np.log(frame[f"friction_coefficient{end}"].where(lambda value: value > 0)) - curve
+        frame[f"off_curve{end}"] = (
+            np.log(frame[f"friction_coefficient{end}"].where(lambda value: value > 0)) - curve
+        )
     return frame
 
 
@@ -151,7 +158,8 @@ def _curves(judged, solver) -> DataFrame:
     """The common curve, and Eq. 19 at all points, which is one curve once shifted as theory has it."""
     laws, found, parts = judged.laws[solver], judged.collapses.get(solver), []
     if found is not None and found.horizontal.curve is not None:
-        x = np.linspace(*found.horizontal.curve.domain, 201)
+        first, last = found.horizontal.curve.domain
+        x = np.linspace(first, last, 201)
         columns = {"shifted_force": np.exp(x), "friction_coefficient": np.exp(found.horizontal.curve(x))}
         parts.append(DataFrame({"curve": COMMON} | columns))
     load = (np.exp(_predicted(judged, solver))[:, None] * laws.load).ravel()
@@ -163,10 +171,12 @@ def _fit(judged, solver, dimension) -> DataFrame:
     found = judged.collapses.get(solver)
     if found is None:
         return DataFrame([{"misfit": np.nan, "reason": "too few points"}])
-    (claim,) = (
-        each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id and each.dimension == dimension
-    ) if any(each.claim.id == eq23.COLLAPSE.id for each in judged.findings) else (None,)
-    low, high = found.horizontal.misfit.interval() if claim is None else claim.interval
+    ends = [
+        each.interval
+        for each in judged.findings
+        if each.claim.id == eq23.COLLAPSE.id and each.dimension == dimension
+    ]
+    low, high = ends[0] if ends else found.horizontal.misfit.interval()
     row = {
         "misfit": found.horizontal.misfit.value,
         "misfit_low": low,
@@ -194,16 +204,22 @@ def _shifts(judged) -> Plot:
         exponent = found.horizontal.exponent.value
         low, high = found.horizontal.exponent.interval()
         fits.append(
-            {"dimension": dimension, "exponent": exponent, "exponent_low": low, "exponent_high": high, "reason": reason}
+            {
+                "dimension": dimension,
+                "exponent": exponent,
+                "exponent_low": low,
+                "exponent_high": high,
+                "reason": reason,
+            }
         )
         said.append(f"{dimension}: {reason}" if reason else "")
     return Plot(
         f"{judged.series.folder}/shifts",
         study_friction.shifts,
         {"shifts": concat(shifts, ignore_index=True), "shifts-fits": DataFrame(fits)},
-        "Shifts that bring the curves onto one, zero at the middle speed, with intervals of 95 % over surfaces. (a) "
-        "Along ln F_N alone, and ln p(v) of Eq. 22 (line). (b) Their difference. (c) Along ln μ, both fitted; grey, "
-        "the tolerance.",
+        "Shifts that bring the curves onto one, zero at the middle speed, with intervals of 95 % over surfaces. "
+        "(a) Along ln F_N alone, and ln p(v) of Eq. 22 (line). (b) Their difference. (c) Along ln μ, both "
+        "fitted; grey, the tolerance.",
         "; ".join(each for each in said if each),
         {"tolerance": eq23.TOLERANCE},
     )
@@ -229,9 +245,10 @@ def _levels(judged) -> Plot:
         f"{series.folder}/levels",
         study_friction.levels,
         {"levels": concat(frames, ignore_index=True), "levels-ratios": concat(ratios, ignore_index=True)},
-        f"Friction against speed at the least, a middle and the greatest {series.prescribed}, with intervals of 95 %: "
-        "rough (markers), smooth (thin), exact limit of low speed (dotted), Eqs. 19 and 14 (pale). Below: 1D over 3D, "
-        "rough and smooth, with lines at 1 and at 2, the limit of smooth bodies at low speed.",
+        f"Friction against speed at the least, a middle and the greatest {series.prescribed}, with intervals of "
+        "95 %: rough (markers), smooth (thin), exact limit of low speed (dotted), Eqs. 19 and 14 (pale). "
+        "Below: 1D over 3D, rough and smooth, with lines at 1 and at 2, the limit of smooth bodies at low "
+        "speed.",
         f"Friction of {series.title} in both dimensionalities",
     )
 
@@ -252,7 +269,7 @@ def _depth(contacts: Contacts) -> Plot:
     for solver, dimension in SOLVERS.items():
         columns = {"dimension": dimension, series.prescribed: series.values, "closed_form": known}
         for body in (ROUGH, SMOOTH):
-            found = interval(lambda sample, solver=solver: mean(sample[solver], name)[0], contacts, body, solver)
+            found = interval(_at_rest(solver, name), contacts, body, solver)
             less = Interval(*((each - known) / unit for each in found))
             columns |= _columns(body, found) | _columns(f"{body}_deviation", less)
         frames.append(DataFrame(columns))
@@ -272,7 +289,11 @@ def _depth(contacts: Contacts) -> Plot:
 
     differences = [
         DataFrame(
-            {"body": body, series.prescribed: series.values, **_columns("difference", interval(apart, contacts, body))}
+            {
+                "body": body,
+                series.prescribed: series.values,
+                **_columns("difference", interval(apart, contacts, body)),
+            }
         )
         for body in (ROUGH, SMOOTH)
     ]
@@ -286,11 +307,17 @@ def _depth(contacts: Contacts) -> Plot:
             "depth-differences": concat(differences, ignore_index=True),
             "depth-stiffness": concat(stiffness, ignore_index=True) if stiffness else empty,
         },
-        f"(a) {what} at rest, and the closed form of the smooth body (line). (b) Less that closed form. (c) 1D against 3D. "
-        "(d) Stiffness between neighbours. Bars are intervals of 95 %; points are drawn apart along the axis. Depth is "
-        "that of the macroscopic tip, below zero where only the highest asperities touch.",
+        f"(a) {what} at rest, and the closed form of the smooth body (line). (b) Less that closed form. (c) 1D "
+        "against 3D. (d) Stiffness between neighbours. Bars are intervals of 95 %; points are drawn apart "
+        "along the axis. Depth is that of the macroscopic tip, below zero where only the highest asperities "
+        "touch.",
         f"{what}, one dimension against three",
     )
+
+
+def _at_rest(solver, name):
+    """Means of a variable at rest."""
+    return lambda sample: mean(sample[solver], name)[0]
 
 
 def _stiffness(solver):
@@ -299,7 +326,8 @@ def _stiffness(solver):
     def secants(sample):
         answers = sample[solver].isel(speed=0)
         force, depth = (
-            np.diff(answers[name].transpose(..., "draw").values, axis=0) for name in ("normal_force", "depth_reached")
+            np.diff(answers[name].transpose(..., "draw").values, axis=0)
+            for name in ("normal_force", "depth_reached")
         )
         return mean_ratio(force, depth).value
 
@@ -310,7 +338,11 @@ def _pressed_in(contacts: Contacts) -> Plot:
     series, frames = contacts.series, []
     closed = study_depth.CLOSED.replace(" ", "_")
     for solver, dimension in SOLVERS.items():
-        columns = {"dimension": dimension, **_places(series, "rate"), **_columns("normal_force", force_at(contacts, solver))}
+        columns = {
+            "dimension": dimension,
+            **_places(series, "rate"),
+            **_columns("normal_force", force_at(contacts, solver)),
+        }
         columns["smooth_normal_force"] = force_at(contacts, solver, SMOOTH).value.ravel()
         frames.append(DataFrame(columns | {closed: loading(series).ravel()}))
 
@@ -324,9 +356,9 @@ def _pressed_in(contacts: Contacts) -> Plot:
         f"{series.folder}/pressed-in",
         study_depth.pressed_in,
         {"pressed-in": concat(frames, ignore_index=True), "pressed-in-ratios": DataFrame(ratios)},
-        "Force at the end of an indentation at a constant rate, by colour: rough (markers), smooth (lines), Lee and Radok "
-        "(crosses). Right: 1D over 3D at the same depth and rate, less one; in 3D the last half step is still to come, "
-        "which the claims allow for and the figure does not. Bars are intervals of 95 %.",
+        "Force at the end of an indentation at a constant rate, by colour: rough (markers), smooth (lines), Lee "
+        "and Radok (crosses). Right: 1D over 3D at the same depth and rate, less one; in 3D the last half step "
+        "is still to come, which the claims allow for and the figure does not. Bars are intervals of 95 %.",
         "Force against depth at each rate, one dimension against three",
     )
 
@@ -357,8 +389,8 @@ def _family(found) -> Plot:
         "family",
         study_friction.family,
         {"family": concat(frames, ignore_index=True), "family-law": concat(laws, ignore_index=True)},
-        "Friction over its plateau, Eq. 14, against ξ of Eq. 18, with the loss at the shortest wave and the rms slope as "
-        "each dimensionality has it; bars are intervals of 95 %, a marker for each series. Line: Eq. 19. If roughness and "
-        "solid count through ξ alone, all markers lie on one curve.",
+        "Friction over its plateau, Eq. 14, against ξ of Eq. 18, with the loss at the shortest wave and the rms "
+        "slope as each dimensionality has it; bars are intervals of 95 %, a marker for each series. Line: Eq. "
+        "19. If roughness and solid count through ξ alone, all markers lie on one curve.",
         f"{len(frames)} panels of friction against ξ",
     )
