@@ -91,21 +91,21 @@ def _placed(axes, letter, size, avoided, inside):
 def _markers(axes) -> Iterator[Bbox]:
     for line in axes.lines:
         if line.get_marker() not in ("None", "none", "", None):
-            yield from (_around(axes, at, MARKER) for at in _shown(axes, line))
+            yield from (_around(axes, at, MARKER) for at in _shown(line))
 
 
 def _lines(axes) -> Iterator[Bbox]:
     for line in axes.lines:
         if line.get_linestyle() in ("None", "none", ""):
             continue
-        at = _shown(axes, line)
+        at = _shown(line)
         for start, end in pairwise(at):
             count = max(2, int(np.hypot(*(end - start)) / (PITCH * _scale(axes))))
             yield from (_around(axes, start + t * (end - start), LINE) for t in np.linspace(0, 1, count))
 
 
-def _shown(axes, line):
-    at = axes.transData.transform(line.get_xydata())
+def _shown(line):
+    at = line.get_transform().transform(line.get_xydata())  # of level lines across, not that of the data
     return at[np.isfinite(at).all(axis=1)]
 
 

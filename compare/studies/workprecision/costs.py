@@ -204,12 +204,8 @@ def _steps(each: CostFit) -> Iterator[dict[str, Any]]:
 def _laws(each: CostFit) -> Iterator[dict[str, Any]]:
     fitted = ("overhead", "factor", "centre", "scatter", "lowest", "highest", "count")
     for cost, law in each.laws.items():
-        row: dict[str, Any] = {
-            "ladder": each.name,
-            "dimension": each.dimension,
-            "cost": LABELS[cost],
-            "variable": cost,
-        }
+        row: dict[str, Any] = {"ladder": each.name, "dimension": each.dimension}
+        row |= {"cost": LABELS[cost], "variable": cost}
         low, high = law.exponent_interval if isinstance(law, Law) else (nan, nan)
         row |= {"exponent": getattr(law, "exponent", nan), "low": low, "high": high}
         row |= {name: getattr(law, name, nan) for name in fitted}
