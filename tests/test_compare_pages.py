@@ -5,6 +5,7 @@ import re
 from dataclasses import replace
 from html.parser import HTMLParser
 from math import inf, nan
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -264,8 +265,8 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
 
 @pytest.mark.parametrize(
     ("damage", "said"),
-    [(b"", "cannot be drawn"), (b"\xff", "is no table"), (b"a,b\n1\n1,2,3\n", "is no table"), (b"a\n1\n", "'speed'")],
-)  # fmt: skip
+    [(b"", "cannot be drawn"), (b"\xff", "no table"), (b"a,b\n1\n1,2,3\n", "no table"), (b"a\n1\n", "'speed'")],
+)
 def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
     (tmp_path / "sphere").mkdir()
@@ -276,8 +277,8 @@ def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
 
 @pytest.mark.parametrize(
     ("given", "said"),
-    [({"journal": "natur"}, "did you mean nature"), ({"style": "nowhere"}, "no style"), ({"style": {"a": 1}}, "a")],
-)  # fmt: skip
+    [({"journal": "natur"}, "mean nature"), ({"style": "nowhere"}, "no style"), ({"style": {"a": 1}}, "a")],
+)
 def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, said):
     with pytest.raises(InvalidInput, match=said):
         redraw(folder, output=tmp_path, **given)
@@ -354,3 +355,10 @@ def test_a_figure_without_a_table_of_its_own_is_drawn_from_all_that_it_names():
     plot = next(page().every(Plot))
     assert plot.folder == "sphere/"
     assert replace(plot, name="friction").folder == ""
+
+
+def test_every_column_of_every_figure_is_defined_or_explains_itself():
+    for path in (Path(__file__).parent / "plots").rglob("*.csv"):
+        for name in csvfiles.read(path):
+            explains_itself = name in vocabulary.PLAIN or name.startswith(vocabulary.PREFIXES)
+            assert explains_itself or vocabulary.entry(name), (path.parent.name, name)

@@ -29,7 +29,7 @@ from compare.studies.paper.parameter_studies import ParameterStudies
 from compare.task import SceneTask as Task
 from compare.taskfile import OTHERS
 from mdr1d import MDR
-from scene import Indent, Kelvin, Prony, Refused, Scene, SelfAffine, Slide, Sphere
+from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere
 from scene.vocabulary import MEASURES, NUMBERS
 
 SCENE = Scene(

@@ -21,11 +21,12 @@ SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
 SUPERSCRIPTS = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 SUBSCRIPTS = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 GREEK = {
-    "Δ": "Delta", "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "η": "eta",
-    "θ": "theta", "λ": "lambda", "µ": "mu", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau",
-    "φ": "varphi", "ω": "omega", "±": "pm", "×": "times", "·": "cdot", "√": "surd", "≤": "leq", "≥": "geq",
-    "∞": "infty", "°": "circ", "→": "to", "≈": "approx", "∫": "int", "∂": "partial", "∇": "nabla", "′": "prime",
-    "⟨": "langle", "⟩": "rangle", "∝": "propto",
+    "Δ": "Delta", "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon",
+    "η": "eta", "θ": "theta", "λ": "lambda", "µ": "mu", "μ": "mu", "ν": "nu",
+    "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau", "φ": "varphi",
+    "ω": "omega", "±": "pm", "×": "times", "·": "cdot", "√": "surd", "≤": "leq",
+    "≥": "geq", "∞": "infty", "°": "circ", "→": "to", "≈": "approx", "∫": "int",
+    "∂": "partial", "∇": "nabla", "′": "prime", "⟨": "langle", "⟩": "rangle", "∝": "propto",
 }  # fmt: skip
 ESCAPED = (
     {character: f"\\{character}" for character in "&%$#_{}"}
@@ -53,7 +54,7 @@ def escaped(words: str) -> str:
 
 
 def table(frame: DataFrame, caption: str = "", label: str = "") -> str:
-    """A table with booktabs in a float: text on the left, numbers on the right with their errors in their cells."""
+    """A table with booktabs in a float: text on the left, numbers on the right with their errors."""
     shown = columns(frame)
     texts = [[escaped(" ".join(cell.split())) for cell in column.texts] for column in shown]
     # By number, as two columns may have one title once they are escaped.
