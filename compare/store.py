@@ -1,14 +1,13 @@
 """What has been solved, on disk: one file a task, named by everything that its answer depends on."""
 
 import hashlib
-import json
 import os
 import platform
 import re
 import tempfile
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
@@ -20,6 +19,7 @@ from typing import IO, Any
 
 from .outcome import Outcome
 from .task import Task
+from .taskfile import canonical, read, written
 
 TRACE = ".fault.txt"  # of how a task broke, behind its key
 DAY = 86400.0  # as long no write takes
@@ -120,11 +120,9 @@ def _read(path, task, text):
         content = path.read_bytes()
     except OSError:
         return NONE
-    from .taskfile import read
-
     try:
-        written, outcome = read(content, text, task.keeps_fields)
-        return (written, outcome) if task.fits(outcome) else NONE
+        created, outcome = read(content, text, task.keeps_fields)
+        return (created, outcome) if task.fits(outcome) else NONE
     # What something else has written under this name raises nearly anything.
     except Exception:
         return NONE
@@ -136,8 +134,6 @@ def stored_size(task: Task, outcome: Outcome) -> int:
 
 
 def _content(task, outcome, question, text):
-    from .taskfile import written
-
     about = {"title": task.label, "source": "mdr-bem-crosscheck", **_code_texts(tuple(task.packages))}
     return written(outcome, question, text, about, task.keeps_fields)
 
@@ -190,28 +186,6 @@ def _ended(machine, process):
     except PermissionError:
         pass
     return False
-
-
-def canonical(value: Any) -> str:
-    """JSON that is the same for equal values on every platform; numbers that JSON lacks are named."""
-    try:
-        return _json(value)
-    except ValueError:
-        return _json(_named(value))
-
-
-def _json(value):
-    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-def _named(value):
-    if isinstance(value, float) and not isfinite(value):
-        return {"not finite": repr(value)}
-    if isinstance(value, Mapping):
-        return {name: _named(entry) for name, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_named(entry) for entry in value]
-    return value
 
 
 def _digest(text):

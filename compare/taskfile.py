@@ -12,7 +12,6 @@ from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 
 from .netcdf import Group, Reader, Variable, encoded, opened
 from .outcome import Outcome, Row
-from .store import canonical
 from .vocabulary import LABELS
 
 CONVENTIONS = "CF-1.11"
@@ -85,6 +84,28 @@ def described(name: str, entries: Mapping[str, Entry], indenter: str = "") -> di
         return {"long_name": plain}
     entry = entries[name]
     return {"units": entry.unit_under(indenter), "long_name": plain, "comment": entry.text}
+
+
+def canonical(value: Any) -> str:
+    """JSON that is the same for equal values on every platform; numbers that JSON lacks are named."""
+    try:
+        return _json(value)
+    except ValueError:
+        return _json(_named(value))
+
+
+def _json(value):
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _named(value):
+    if isinstance(value, float) and not math.isfinite(value):
+        return {"not finite": repr(value)}
+    if isinstance(value, Mapping):
+        return {name: _named(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_named(entry) for entry in value]
+    return value
 
 
 def _numbers(rows, indenter) -> dict[str, Variable]:
