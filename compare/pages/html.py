@@ -19,7 +19,7 @@ from . import prose
 from .columns import Row, columns
 
 # A longer table is no reading, and a larger file is not put into the page.
-MOST_ROWS, MOST_BYTES = 400, 3_000_000
+MOST_ROWS, MOST_BYTES = 400, 300_000
 # Digits of numbers that are there to be looked up.
 DIGITS = 6
 # Need no escape within a data URI.
