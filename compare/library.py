@@ -109,16 +109,15 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
     Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """
-    from scene.reading import InvalidInput  # slow, and a list does without
-
     try:
         text, path = find(name).text, Path(path)
         with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
-    except NotReady as error:
-        raise InvalidInput(f"NAME = {name}: {error}") from error
-    except FileExistsError as error:
-        raise InvalidInput(f"{path} is there already, and nothing is overwritten: name another FILE") from error
+    except (NotReady, FileExistsError) as error:
+        from scene.reading import InvalidInput  # slow, and only a mistake needs it
+
+        why = error if isinstance(error, NotReady) else "is there already, and nothing is overwritten: name another FILE"
+        raise InvalidInput(f"{name if isinstance(error, NotReady) else path}: {why}") from error
     return path
 
 
