@@ -27,8 +27,8 @@ FINER, ONE, PROFILES = (2100, 4096, 8192), 11000, 20
 INTRODUCTION = """# The spectrum of the paper, once
 
 The sphere of Fig. 1 with all waves of the paper's own spectrum, down to two of its pixels, 4 µm: 1 N, 0.1 m/s, one
-surface. Its rms slope is far beyond any linear theory; the numbers say what the model makes of it. In 1D, means of 20
-profiles. Written by `python docs/spectrum.py`.
+surface. Its rms slope is far beyond any linear theory; the numbers say what the model makes of it. In 1D, means of
+20 profiles. Written by `python docs/spectrum.py`.
 
 """
 HEADER = "|points|friction|by traction, by loss|depth [µm]|real over nominal contact|rms slope|processor time [s]"
