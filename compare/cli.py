@@ -17,7 +17,10 @@ app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_
 
 # One meaning of an argument wherever it stands: its type on a command line, and what it is.
 ARGUMENTS = {
-    ("run", "scene"): (str | None, "Scene as TOML, or the name of a ready one; the paper's sphere and cone if absent."),
+    ("run", "scene"): (
+        str | None,
+        "Scene as TOML, or the name of a ready one; the paper's sphere and cone if absent.",
+    ),
     ("plan", "scene"): (str, "Scene as TOML, or the name of a ready one."),
     ("animate", "scene"): (str, "Scene as TOML, or the name of a ready one."),
     ("study", "name"): (str | None, "Study, or a file with one of your own; absent, the studies are listed."),
@@ -134,7 +137,9 @@ class Command:
             told = typer.Option(f"--{name}", help=text, **({"min": 1} if name == "workers" else {}))
         if isinstance(default, str) and kind in (Path, Path | None):
             default = Path(default)
-        return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, told])
+        return inspect.Parameter(
+            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, told]
+        )
 
 
 def _keyword(name, annotation):

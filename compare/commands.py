@@ -29,14 +29,11 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from scene import Scene
-
-    from .cases import Case
     from .inputs import Asked
+    from .library import Listing
     from .pipeline import Report, Study
     from .planning import Plans
     from .quantity import Quantity
-    from .library import Listing
 
 
 class Options(TypedDict, total=False):

@@ -96,7 +96,7 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """"holds", "fails" or "undecided"; "reported" of a number without a claim."""
+        """ "holds", "fails" or "undecided"; "reported" of a number without a claim."""
         if self.stated:
             return self.stated
         if not isfinite(self.claim.tolerance):

@@ -116,7 +116,11 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
     except (NotReady, FileExistsError) as error:
         from scene.reading import InvalidInput  # slow, and only a mistake needs it
 
-        why = error if isinstance(error, NotReady) else "is there already, and nothing is overwritten: name another FILE"
+        why = (
+            error
+            if isinstance(error, NotReady)
+            else "is there already, and nothing is overwritten: name another FILE"
+        )
         raise InvalidInput(f"{name if isinstance(error, NotReady) else path}: {why}") from error
     return path
 

@@ -27,8 +27,8 @@ from .page import Block, Findings, Page, Plot
 from .rectangle import Rectangle
 from .runner import Progress, SweepResult
 from .statistics.jackknife import judge
-from .suggest import known
 from .store import TRACE, Store, write
+from .suggest import known
 from .task import Batch, Task
 
 SOLVED, RESULTS = "solved", "results.nc"
@@ -101,7 +101,6 @@ class Study:
         return Page(self.title, self.answer(findings), blocks)
 
 
-
 class Broken(SolveError):
     """So many tasks broke that nothing can be judged."""
 
@@ -168,7 +167,7 @@ class Figures(Mapping[str, Figure]):
         plot = {each.name: each for each in self.plots}[name]
         with style.applied():
             figure = plot.figure()
-        figure._repr_png_ = lambda: _png(figure)
+        figure._repr_png_ = lambda: _png(figure)  # type: ignore[attr-defined]
         return figure
 
     def __iter__(self) -> Iterator[str]:
@@ -182,7 +181,9 @@ class Figures(Mapping[str, Figure]):
 
     def _repr_html_(self) -> str:
         shown = ((name, b64encode(_png(self[name])).decode()) for name in self)
-        return "".join(f'<p><img alt="{escape(name)}" src="data:image/png;base64,{image}"></p>' for name, image in shown)
+        return "".join(
+            f'<p><img alt="{escape(name)}" src="data:image/png;base64,{image}"></p>' for name, image in shown
+        )
 
 
 def _png(figure):
@@ -203,7 +204,9 @@ class Watch:
     """
 
     solving: Callable[[], AbstractContextManager[Progress | None]] = nullcontext
-    writing: Callable[[int], AbstractContextManager[Callable[[str], Any]]] = lambda count: nullcontext(lambda name: None)
+    writing: Callable[[int], AbstractContextManager[Callable[[str], Any]]] = lambda count: nullcontext(
+        lambda name: None
+    )
 
 
 def run(

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import nan
+from typing import Any
 
 import numpy as np
 import xarray
@@ -11,6 +12,7 @@ import xarray
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topography
+from scene.motion import Motion
 from scene.protocol import refuse
 
 from .outcome import Outcome
@@ -63,7 +65,8 @@ class Rectangle:
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The scene under one load or depth, at rest or at a speed."""
-        pressed = {self.prescribed: value}
+        pressed: dict[str, Any] = {self.prescribed: value}
+        motion: Motion
         if speed and isinstance(self.scene.motion, Program):
             motion = Program(stages=(Stage(duration=value / speed, **pressed),))
         else:

@@ -3,6 +3,7 @@
 import inspect
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from operator import methodcaller
 from os import PathLike
 from pathlib import Path
 from pkgutil import walk_packages
@@ -75,7 +76,7 @@ def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
     for form, content in drawn.files.items():
         paths.append(target / f"{entry.name}.{form}")
         paths[-1].parent.mkdir(parents=True, exist_ok=True)
-        write(paths[-1], lambda file, content=content: file.write(content))
+        write(paths[-1], methodcaller("write", content))
     return paths
 
 

@@ -49,7 +49,7 @@ class Task(Protocol):
 
 
 class Batch(NamedTuple):
-    """Tasks solved together. timed : one after the other, each in a process of its own, as its time is measured."""
+    """Tasks solved together. timed : one after the other in a process each, as their times are measured."""
 
     tasks: Sequence[Task]
     timed: bool = False

@@ -136,7 +136,7 @@ def test_a_users_table_is_shifted(folder):
 
 def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(folder):
     (folder / "faulty.py").write_text(FAULTY)
-    status, said, complained = finish(start(folder, "run", "tiny.toml", program=("faulty.py",)))
+    status, _, complained = finish(start(folder, "run", "tiny.toml", program=("faulty.py",)))
     assert status == 1
     broke, of = map(int, re.search(r"(\d+) tasks of (\d+) broke", complained).groups())
     traces = list((folder / "crosscheck-report" / "solved").glob("*.fault.txt"))

@@ -10,7 +10,7 @@ from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
 from bem3d import BEM
-from compare.__main__ import app
+from compare.cli import app
 from compare.planning import plans
 from mdr1d import MDR
 from scene import Scene

@@ -14,7 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 
 import scene.topography
 from compare.cases import Case
-from compare.study import SCENES
+from compare.task import SCENES
 from scene import (
     CrossedWaves,
     Elastic,

@@ -1,6 +1,7 @@
 """Pages: five renderers of `page.Page`, and what lies beside a page: figures and tables."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from operator import methodcaller
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -49,7 +50,7 @@ def write(
         for form, content in pictures[plot.name].files.items():
             path = folder / f"{plot.name}.{form}"
             path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(path, lambda file, content=content: file.write(content))
+            write_whole(path, methodcaller("write", content))
         told(plot.name)
     name, renderer = _RENDERERS[format]
     csvfiles.write_text(folder / name, renderer.text(page, pictures, tables))

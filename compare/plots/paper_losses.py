@@ -81,7 +81,7 @@ def figure(tables: Tables) -> Figure:
         for name, colour, marker in _forms()
     ]
     lines = [
-        Line2D([], [], color=style.grey(0.2), linestyle=line, label=f"{speed:.2g} m/s")
+        Line2D([], [], color=style.grey(0.2), linestyle=line, label=f"{speed:.2g} m/s")  # type: ignore[arg-type]
         for speed, line in zip(shown, LINES, strict=True)
     ]
     pairs = [handle for pair in zip(forms, lines, strict=True) for handle in pair]

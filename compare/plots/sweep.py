@@ -46,6 +46,11 @@ def figure(tables: Tables) -> Figure:
                 capsize=2,
                 label=label,
             )
-    axes.set(xscale="log", yscale="log", xlabel=f"{WORDS[across]} [{UNITS[across]}]", ylabel="coefficient of friction [1]")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel=f"{WORDS[across]} [{UNITS[across]}]",
+        ylabel="coefficient of friction [1]",
+    )
     axes.legend()
     return drawing

@@ -310,7 +310,7 @@ class Sample(Mapping[str, xarray.Dataset]):
             return [np.array([k]) for k in range(min(self.draws, MOST_GROUPS))]
         return groups(self.draws) if self.draws else []
 
-    def without(self, group: np.ndarray) -> Self:
+    def without(self, group: np.ndarray) -> "Sample":
         """The sample without one group of draws, or without one share of the draws of each solver.
 
         It is kept, as every claim on the same Datasets asks for the same ones.
@@ -318,7 +318,7 @@ class Sample(Mapping[str, xarray.Dataset]):
         key = tuple(group.tolist())
         if key not in self._left:
             shares = len(self.groups) if len(self._counts) > 1 else 0
-            self._left[key] = type(self)({name: _without(each, group, shares) for name, each in self.items()})
+            self._left[key] = Sample({name: _without(each, group, shares) for name, each in self.items()})
         return self._left[key]
 
 

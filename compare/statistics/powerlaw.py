@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from math import log10, pi, sqrt
 
 import numpy as np
-from scipy.special import digamma, polygamma
-from scipy.special import chdtrc
+from scipy.special import chdtrc, digamma, polygamma
 
 DRAWN = 400  # spectra
 COARSE = 0.05  # relative, of the density of a ring beside its scatter: its width, and the lattice of few waves

@@ -117,7 +117,7 @@ class Sweep(Study):
 
     def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
         """Everything solved as one Dataset with the dimension solver, and means with intervals of 95 %."""
-        parts = [answers[f"contacts/{solver}"].to_dataset(inherit=False) for solver in ("MDR", "BEM")]
+        parts = [answers.children["contacts"].children[solver].to_dataset() for solver in ("MDR", "BEM")]
         # Points of a grid differ between the solvers.
         parts = [part.reset_coords("points") for part in parts]
         joined = xarray.concat(
