@@ -6,10 +6,10 @@ from math import pi
 import pytest
 from typer.testing import CliRunner
 
-from compare.__main__ import app
-from compare.asked import named_cases
 from compare.cases import read_case, shipped_cases
-from compare.study import points
+from compare.cli import app
+from compare.studies.casecurves import SMOOTH_DEPTH, curves
+from compare.studies.run import Run
 from scene import Cone, Coulomb, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
@@ -87,13 +87,12 @@ def test_friction_of_the_interface_is_refused_in_sliding_though_both_solvers_tak
     with pytest.raises(Refused, match=r"interface = Coulomb with motion = Slide: .*; leave interface out"):
         rubbing.refuse()
     with pytest.raises(Refused, match="interface = Coulomb"):
-        points(rubbing)
+        Run.of(rubbing)
 
 
 def test_friction_of_the_interface_of_what_is_pressed_in_adds_nothing_and_is_compared_with_the_closed_form(case):
     rubbing = replace(case, interface=Coulomb(0.3), motion=Indent(load=1.0))
-    solvers = {point.solver for point in points(rubbing) if point.kind == "force-depth"}
-    assert solvers == {"MDR", "BEM", "exact"}
+    assert set(curves(rubbing)[SMOOTH_DEPTH].grids) == {"MDR", "BEM", "exact"}
 
 
 def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):
@@ -166,7 +165,7 @@ def test_a_folder_that_cannot_be_made_is_a_mistake_too(tmp_path):
     assert "--output" in answer.stderr
 
 
-@pytest.mark.parametrize("name", ["solved", "case", "report.html"])
+@pytest.mark.parametrize("name", ["solved", "report.html"])
 def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved(tmp_path, name):
     (tmp_path / "case.toml").write_text(SCENE)
     (tmp_path / "out").mkdir()
@@ -180,7 +179,7 @@ def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved
 def test_numbers_too_far_apart_are_a_mistake(tmp_path):
     (tmp_path / "case.toml").write_text(SCENE.replace("load = 1.0", "depth = 1e300"))
     with pytest.raises(InvalidInput, match="far apart"):
-        named_cases(tmp_path / "case.toml")
+        Run.of(tmp_path / "case.toml")
 
 
 def test_roughness_of_no_height_is_none(case):

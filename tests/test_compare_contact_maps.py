@@ -2,15 +2,16 @@
 
 from dataclasses import replace
 from functools import cache
-from types import SimpleNamespace
 
 import numpy as np
+import pandas
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from bem3d import BEM
-from compare.figures import contact_maps, style
-from compare.figures.journals import JOURNALS
-from compare.figures.prefixes import prefixed
+from compare.plots import contact_maps, style
+from compare.plots.journals import JOURNALS
+from compare.plots.prefixes import prefixed
 from compare.views import view
 from mdr1d import MDR
 from scene import (
@@ -70,7 +71,7 @@ def seen(name):
 
 def drawn(found):
     with style.applied():
-        drawing = contact_maps.drawn(found)
+        drawing = contact_maps.plot(found).figure()
         drawing.draw_without_rendering()
     return drawing
 
@@ -89,9 +90,9 @@ def test_every_contact_has_a_picture_with_units_and_words_and_its_data(name):
     titles = " ".join(axes.get_title(loc="left") for axes in drawing.get_axes())
     assert ("1D" in titles) == (not LINE.refusals(SCENES[name]))
     assert ("gap" in titles) == (name != "line")
-    assert contact_maps.told(found).endswith(".")
-    for columns in contact_maps.shown(found).values():
-        assert len({len(values) for values in columns.values()}) == 1
+    plot = contact_maps.plot(found)
+    assert len(plot.caption.split()) <= 60
+    assert all(len(table) for name, table in plot.tables.items() if name != contact_maps.PRESSURE)
 
 
 @pytest.mark.parametrize("journal", ["aip", "elsevier"])  # the narrowest page and the widest
@@ -99,7 +100,7 @@ def test_every_contact_has_a_picture_with_units_and_words_and_its_data(name):
 def test_nothing_written_is_smaller_than_a_journal_allows_or_leaves_the_figure(name, journal):
     found = seen(name)
     with style.applied(style.Look(JOURNALS[journal])):
-        drawing = contact_maps.drawn(found)
+        drawing = contact_maps.plot(found).figure()
         drawing.draw_without_rendering()
         assert drawing.get_figwidth() == JOURNALS[journal].double
         page = drawing.bbox.padded(1.0)
@@ -129,12 +130,13 @@ def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
 
 def test_what_is_drawn_lies_beside_the_figure():
     found = seen("rough")
-    drawing, sheets = drawn(found), contact_maps.shown(found)
+    drawing, sheets = drawn(found), contact_maps.plot(found).tables
     pressed = sheets["contact-maps-pressure"]
     image = axes_of(drawing, "3D: pressure").images[0].get_array()
     np.testing.assert_allclose(np.sort(1e-6 * pressed["pressure"]), np.sort(image.compressed()), rtol=1e-12)
     gap = np.asarray(axes_of(drawing, "3D: gap").images[0].get_array())
-    np.testing.assert_allclose(1e6 * np.maximum(sheets["contact-maps-surface"]["gap"], 0), gap.ravel(), atol=1e-9)
+    surface = sheets["contact-maps-surface"].sort_values(["y", "x"])
+    np.testing.assert_allclose(1e6 * np.maximum(surface["gap"], 0), gap.ravel(), atol=1e-9)
     for name, title in (("section-3d", "3D: section"), ("section-1d", "1D")):
         columns = sheets[f"contact-maps-{name}"]
         # the undeformed level, the surface and its contact
@@ -142,7 +144,7 @@ def test_what_is_drawn_lies_beside_the_figure():
         x, y = surface.get_data()
         held = np.isin(np.round(1e-3 * x, 12), np.round(columns["x"], 12))
         np.testing.assert_allclose(1e-6 * y[held], columns["surface"], rtol=0, atol=1e-15)
-        assert np.isfinite(bold.get_ydata()[held]).sum() == columns["contact"].sum() > 0
+        assert np.isfinite(bold.get_ydata()[held]).sum() == columns["touching"].sum() > 0
 
 
 def test_the_wake_is_seen_behind_a_contact_that_slides_and_none_at_rest():
@@ -218,25 +220,27 @@ def test_a_contact_that_goes_backwards_meets_the_elastomer_from_the_other_side()
     assert "← elastomer flows" in texts
 
 
-def test_a_judged_case_without_fields_or_warmed_by_its_friction_has_no_picture():
+def test_what_has_no_fields_or_is_warmed_by_its_friction_has_no_picture():
     warm = WLF(temperature=300.0, reference=300.0, c1=8.86, c2=101.6)
     heated = replace(SCENES["rough"], temperature=warm, heating=Heating(conductivity=0.2, feedback="average"))
     for scene, fields in ((SCENES["rough"], {}), (heated, {"BEM": {}})):
-        judgement = SimpleNamespace(case=SimpleNamespace(scene=scene, bem=SPACE), fields=fields)
-        assert contact_maps.figure(judgement) is None
-        assert contact_maps.sheets(judgement) == {}
-        assert contact_maps.caption(judgement) == ""
+        assert contact_maps.plot(view(scene, SPACE, fields)) is None
 
 
-def test_a_judged_case_is_drawn_from_what_is_kept_of_it(monkeypatch):
-    fields = answered("rough")
-    for solver in (MDR, BEM):
-        monkeypatch.setattr(solver, "solve", None)
-    judgement = SimpleNamespace(case=SimpleNamespace(scene=SCENES["rough"], bem=SPACE), fields=fields)
+def test_the_figure_from_its_files_is_the_figure(tmp_path):
+    plot = contact_maps.plot(seen("rough"))
+    for name, table in plot.tables.items():
+        table.to_csv(tmp_path / f"{name}.csv", index=False)
+    read = {name: pandas.read_csv(tmp_path / f"{name}.csv") for name in plot.tables}
     with style.applied():
-        assert contact_maps.figure(judgement) is not None
-    assert "wake" in contact_maps.caption(judgement)
-    assert "contact-maps-section-1d" in contact_maps.sheets(judgement)
+        pictures = [rendered(each.figure()) for each in (plot, replace(plot, tables=read))]
+    np.testing.assert_array_equal(*pictures)
+
+
+def rendered(drawing):
+    canvas = FigureCanvasAgg(drawing)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from pandas import DataFrame
 from ..finding import Finding
 from ..page import Plot, Tables
 from . import style
-from .means import averaged, line
+from .means import averaged, line, of_curves
 
 NAME = "force-depth"
 DEVIATIONS = f"{NAME}-deviations"
@@ -23,7 +23,7 @@ def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], fo
 
     deviations : body, depth [m], and the finding on 1D over 3D less one
     """
-    own = points[points["curve"].str.startswith(NAME)].dropna(axis=1, how="all")
+    own = of_curves(points, points["curve"].str.startswith(NAME))
     if own.empty:
         return None
     rows = [

@@ -12,7 +12,7 @@ from ..finding import Finding
 from ..page import Plot, Tables
 from . import style
 from .lettering import clear
-from .means import averaged, line
+from .means import averaged, line, of_curves
 
 SPEED, LOAD = "friction-speed", "friction-load"
 RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
@@ -29,7 +29,7 @@ def against_speed(
     ratios : speed [m/s], and the finding on 1D over 3D
     law : Eq. 19; held : what is prescribed at all speeds, in words
     """
-    own = points[points["curve"] == SPEED].dropna(axis=1, how="all")
+    own = of_curves(points, points["curve"] == SPEED)
     if own.empty:
         return None
     rows = [
@@ -72,7 +72,7 @@ def speed_figure(tables: Tables) -> Figure:
 
 def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
     """Plot of friction against load at several speeds; None unless something slides."""
-    own = points[points["curve"] == LOAD].dropna(axis=1, how="all")
+    own = of_curves(points, points["curve"] == LOAD)
     if own.empty:
         return None
     slope = _slope(own)

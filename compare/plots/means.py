@@ -29,6 +29,13 @@ def line(axes: Axes, points: DataFrame, across: str, name: str, solver: str, tim
         axes.fill_between(x, below, value + deviation, color=look["color"], alpha=0.13, linewidth=0)
 
 
+def of_curves(points: DataFrame, chosen) -> DataFrame:
+    """Some of the points, with load or depth as it is prescribed to them."""
+    own = points[chosen]
+    absent = [name for name in ("load", "depth") if name in own and own[name].isna().all()]
+    return own.drop(columns=absent)
+
+
 def averaged(points: DataFrame) -> str:
     """Number of surfaces behind means, and what bars and bands are: sentences of a caption."""
     rough = points[points["body"] == "rough"]

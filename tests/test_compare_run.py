@@ -1,0 +1,345 @@
+"""A run of scenes: curves of a case, what is found of answers that are known, and the page of a small contact."""
+
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+import pandas
+import pytest
+from pandas import DataFrame
+
+from bem3d import BEM
+from compare import pipeline
+from compare.cases import Case, Study
+from compare.describe import described, slug
+from compare.outcome import Outcome, Row
+from compare.page import Findings, Plot, Table
+from compare.plots import force_depth, style
+from compare.rectangle import COARSE, FINE, unique
+from compare.studies.casecurves import (
+    LOAD,
+    OWN,
+    ROUGH_DEPTH,
+    SMOOTH_DEPTH,
+    SMOOTH_SPEED,
+    SPEED,
+    curves,
+    friction_law,
+    predicted_exponent,
+    slow_friction,
+)
+from compare.studies.run import Run, summary
+from mdr1d import MDR
+from scene import Cone, Elastic, Indent, Kelvin, Program, Prony, Refused, SelfAffine, Slide, Sphere, Stage
+from scene.reading import InvalidInput
+from scene.scales import elastic_contact
+
+CASE = Case(
+    indenter=Sphere(radius=1e-2),
+    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+    motion=Slide(speed=0.1, load=1.0),
+    roughness=SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, shortest=2e-3, seed=5),
+    study=Study(
+        speeds=(0.1, 1.0),
+        pressing=(0.3, 1.0, 3.0, 10.0),
+        load_speeds=(0.03, 0.1, 0.3),
+        depths=(0.5, 1.0),
+        surfaces=2,
+        profiles=4,
+    ),
+    bem=BEM(points=32),
+    mdr=MDR(points=500),
+)
+PRONY = Prony(1e6, (1e6, 2e6), (1e-3, 1e-2))
+SMALLEST = replace(CASE, bem=BEM(points=16))
+DEEP = replace(CASE, motion=Slide(speed=0.1, depth=1e-4))
+
+
+def contacts(case):
+    return {name: (each.speeds, each.values) for name, each in curves(case).items()}
+
+
+def test_every_curve_has_its_contacts():
+    found, depth = contacts(CASE), elastic_contact(CASE.scene).depth
+    assert found[OWN] == ((0.1,), (1.0,))
+    assert found[ROUGH_DEPTH] == found[SMOOTH_DEPTH] == ((0.0,), (0.5 * depth, depth))
+    assert found[SPEED] == ((0.1, 1.0), (1.0,))
+    assert found[LOAD] == ((0.03, 0.1, 0.3), (0.3, 1.0, 3.0, 10.0))
+    assert len(found[SMOOTH_SPEED][0]) == 5
+
+
+@pytest.mark.parametrize(
+    ("change", "left"),
+    [
+        ({"motion": Indent(load=1.0)}, {OWN, ROUGH_DEPTH, SMOOTH_DEPTH}),
+        ({"elastomer": Elastic(modulus=1e6)}, {OWN, ROUGH_DEPTH, SMOOTH_DEPTH}),
+        ({"roughness": None}, {OWN, SMOOTH_DEPTH, SPEED, LOAD, SMOOTH_SPEED}),
+        ({"elastomer": PRONY}, {OWN, ROUGH_DEPTH, SMOOTH_DEPTH, SPEED, LOAD}),
+        ({"motion": Slide(speed=0.0, load=1.0)}, {OWN, ROUGH_DEPTH, SMOOTH_DEPTH, SPEED, LOAD, SMOOTH_SPEED}),
+    ],
+    ids=["at rest", "elastic", "smooth", "two times", "starting from rest"],
+)
+def test_only_curves_that_mean_something_are_solved(change, left):
+    assert set(contacts(replace(CASE, **change))) == left
+
+
+def test_depth_stays_prescribed_where_the_scene_prescribes_it():
+    assert all(each.prescribed == "depth" for each in curves(DEEP).values())
+    assert contacts(DEEP)[LOAD][1] == pytest.approx((0.3e-4, 1e-4, 3e-4, 1e-3))
+
+
+def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone():
+    found = unique(curves(CASE))
+    asked = [(task.solver, scene) for task in found for scene in task.scenes]
+    assert len(asked) == len(set(asked))
+    everywhere = {
+        (task.solver, scene) for each in curves(CASE).values() for task in each.tasks() for scene in task.scenes
+    }
+    assert everywhere == set(asked)
+    kept = [task for task in found if task.keeps_fields]
+    assert {task.solver for task in kept} == {CASE.mdr, CASE.bem}
+    assert {task.scenes[0] for task in kept} == {CASE.scene}
+
+
+@pytest.mark.parametrize(
+    ("case", "rough", "smooth"),
+    [
+        (CASE, {FINE, COARSE}, {FINE, COARSE}),
+        (replace(CASE, roughness=replace(CASE.roughness, shortest=None)), {FINE}, {FINE, COARSE}),
+        (SMALLEST, {FINE}, {FINE}),
+    ],
+    ids=["resolved", "cut off by the grid", "too few points to halve"],
+)
+def test_a_grid_of_half_the_points_is_solved_where_it_has_the_same_surface(case, rough, smooth):
+    found = curves(case)
+    assert {name: set(grids) for name, grids in found[OWN].grids.items()}["BEM"] == rough
+    assert set(found[SMOOTH_DEPTH].grids["BEM"]) == smooth
+
+
+# Answers that are known: friction of 3D is v^-0.1 F^-0.2, and twice that in 1D; force is depth, 10 % more in 1D.
+FRICTION, FORCE = 2.0, 1.1
+
+
+def invented(task, halved=0.0, scatter=0.0, broken=()):
+    """Rows of a task. halved : error of a coarse 3D grid; scatter : between surfaces of 3D; broken : seeds."""
+    rows, name = [], task.solver.name
+    coarse = name == "BEM" and task.solver.points < CASE.bem.points
+    for scene in task.scenes:
+        seed = 0 if scene.roughness is None else scene.roughness.seed - CASE.roughness.seed
+        if name == "BEM" and scene.roughness and seed in broken:
+            rows.append(Row(reason="no answer"))
+            continue
+        motion = scene.motion
+        load = motion.load if motion.load is not None else motion.depth * 1e4
+        load *= FORCE if name == "MDR" and motion.load is None else 1.0
+        friction = 0.1 * (motion.speed or 1.0) ** -0.1 * load**0.8 * (FRICTION if name == "MDR" else 1.0)
+        friction *= (1 + halved * coarse) * (1 + scatter * (-1) ** seed * (name == "BEM"))
+        measures = {"friction_by_traction": 1.02 * friction, "friction_by_loss": friction} if name == "BEM" else {}
+        rows.append(Row(load, 1e-4, friction, 0.0, 1.0, 2.0, measures | {"rms_slope": 0.01}))
+    return Outcome(tuple(rows))
+
+
+def judged(case=CASE, **how):
+    run = Run({"a case": case})
+    answers = run.answers({task: invented(task, **how) for task in run.batches()[0].tasks})
+    return run, answers, pipeline.finding.table(run.findings(answers)).set_index(["claim", "where"])
+
+
+def test_known_answers_are_found():
+    _, answers, found = judged()
+    own = found.loc["run.friction.own", "a case"]
+    assert own[["value", "low", "high", "draws", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
+    assert found.loc["run.friction.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
+    for claim in ("run.force-depth.rough", "run.force-depth.smooth"):
+        rows = found.loc[claim]
+        assert len(rows) == 2  # every depth, none chosen
+        np.testing.assert_allclose(rows["value"], FORCE - 1, rtol=1e-12)
+        assert set(rows["verdict"]) == {"fails"}
+    spread = found.loc["run.friction.spread"]
+    np.testing.assert_allclose(spread["value"], 0.02, rtol=1e-12)
+    assert answers["a-case/times"]["seconds"].sel(solver="BEM") == 2.0 * sum(
+        len(task.scenes) for task in Run({"a case": CASE}).batches()[0].tasks if task.solver.name == "BEM"
+    )
+
+
+def test_a_power_law_collapses_by_any_shift_and_is_undecided():
+    _, _, found = judged()
+    assert found.loc["eq23.collapse", "a case"]["verdict"].tolist() == ["undecided"] * 2
+    assert found.loc["eq23.collapse", "a case"]["reason"].str.contains("straight parallel lines").all()
+
+
+def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
+    _, _, found = judged(halved=0.02)
+    own = found.loc["run.friction.own", "a case"]
+    assert own["grid_error"] == pytest.approx(2 * (1 - 1 / 1.02))
+    assert own["high"] - own["value"] == pytest.approx(own["grid_error"])
+    assert own["grid_method"] == "change on halving"
+    assert found.loc["run.grid", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
+    _, _, wide = judged(scatter=0.1)
+    low, high = wide.loc["run.friction.own", "a case"][["scatter_low", "scatter_high"]]
+    # Two surfaces, 10 % each way: 12.7 standard errors of 10 % of the ratio.
+    assert high - low == pytest.approx(2 * 12.706 * 2 * 0.1, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("case", "reason"),
+    [
+        (replace(CASE, study=replace(CASE.study, surfaces=1)), "scatter"),
+        (replace(CASE, roughness=replace(CASE.roughness, shortest=None)), "grid"),
+    ],
+)
+def test_without_an_error_nothing_is_decided(case, reason):
+    _, _, found = judged(case)
+    own = found.loc["run.friction.own", "a case"]
+    assert own["verdict"] == "undecided"
+    assert reason in own["reason"]
+
+
+def test_a_surface_that_failed_is_left_out_and_listed():
+    run, answers, found = judged(broken={1}, case=replace(CASE, study=replace(CASE.study, surfaces=3)))
+    assert found.loc["run.friction.own", "a case"]["value"] == pytest.approx(2)
+    (case,) = run.judged(answers)
+    assert set(case.failures["reason"]) == {"no answer"}
+    assert set(case.failures["draw"]) == {CASE.roughness.seed + 1}
+    points = case.points.query("solver == 'BEM' and body == 'rough'")
+    assert set(points["failures"]) == {1}
+    assert set(points["surfaces"]) == {2}
+
+
+def test_points_have_means_deviations_and_intervals():
+    run, answers, _ = judged(scatter=0.1)
+    points = run.judged(answers)[0].points
+    one = points.query("curve == 'own' and solver == 'BEM'").iloc[0]
+    assert one["friction_coefficient"] == pytest.approx(0.1 * 0.1**-0.1)
+    assert one["friction_coefficient_deviation"] == pytest.approx(np.sqrt(2) * 0.1 * one["friction_coefficient"])
+    half = (one["friction_coefficient_high"] - one["friction_coefficient_low"]) / 2
+    assert half == pytest.approx(12.706 * 0.1 * one["friction_coefficient"], rel=1e-3)
+    assert points.query("solver == 'exact'")["normal_force"].notna().all()
+
+
+def test_cases_stand_side_by_side_in_the_summary():
+    run = Run({"one": CASE, "at rest": replace(CASE, motion=Indent(load=1.0))})
+    answers = run.answers({task: invented(task) for task in run.batches()[0].tasks})
+    table = summary(run.judged(answers)).set_index("sentence")
+    own = "Friction of the scene as it stands is the same in 1D and 3D"
+    assert table.loc[own, "at rest"] == ""
+    assert table.loc[own, "one"].endswith("fails")
+    assert (
+        "fails 2 of 2"
+        in table.loc["The force on the rough body at the same depth is the same in 1D and 3D", "one"]
+    )
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    small = replace(CASE, title="A small sphere", notes=("Far too few points.",))
+    run = Run.of({"Small sphere": small})
+    outcomes = {task: task.solve() for task in run.batches()[0].tasks}
+    answers = run.answers(outcomes)
+    return run, answers, run.page(answers, run.findings(answers))
+
+
+def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
+    run, answers, page = report
+    plots = {plot.name for plot in page.every(Plot)}
+    friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
+    assert plots == {f"small-sphere/{name}" for name in {"contact", "contact-maps", "force-depth"} | friction}
+    tables = {table.name: table.frame for table in page.every(Table)}
+    assert set(tables) == {"summary", "small-sphere/points", "small-sphere/times"}
+    shown = [each for block in page.every(Findings) for each in block.findings]
+    places = [
+        [(each.claim.id, each.dimension, each.where) for each in told] for told in (shown, run.findings(answers))
+    ]
+    assert sorted(places[0]) == sorted(places[1])
+    assert len(set(places[0])) == len(shown)
+    assert {each.plot for each in shown} - {""} <= plots
+    slow = next(each for each in shown if each.claim.id == "run.friction.smooth-slow")
+    assert slow.value == pytest.approx(2, abs=0.1)
+    assert all("±" not in line for line in page.answer)
+
+
+@pytest.mark.parametrize("name", ["contact", "force-depth", "friction-speed", "friction-load", "smooth-limit"])
+def test_figures_are_functions_of_what_their_files_hold(report, tmp_path, name):
+    plot = next(each for each in report[2].every(Plot) if each.name == f"small-sphere/{name}")
+    assert len(plot.caption.split()) <= 60
+    for table, frame in plot.tables.items():
+        frame.to_csv(tmp_path / f"{table}.csv", index=False)
+    read = {table: pandas.read_csv(tmp_path / f"{table}.csv") for table in plot.tables}
+    with style.applied():
+        numbers = [_drawn(each.figure()) for each in (plot, replace(plot, tables=read))]
+    assert len(numbers[0]) > 0
+    for one, other in zip(*numbers, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-12)
+
+
+def _drawn(figure):
+    return [
+        np.ma.filled(np.ma.asarray(line.get_xydata(), float), nan) for axes in figure.axes for line in axes.lines
+    ]
+
+
+def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(report):
+    plot = next(each for each in report[2].every(Plot) if each.name.endswith("force-depth"))
+    deviations = DataFrame({"body": "rough", "depth": [1e-4, 2e-4, 4e-4], "deviation": [-0.1, -0.05, -0.02]})
+    reach = np.array([9.0, 0.05, 0.04])
+    deviations["deviation_low"], deviations["deviation_high"] = -reach, reach
+    with style.applied():
+        below = force_depth.figure({**plot.tables, force_depth.DEVIATIONS: deviations}).axes[1]
+    low, high = below.get_ylim()
+    assert -20 < low < -10 < 5 < high < 20
+    marks = {line.get_marker(): line.get_xdata().tolist() for line in below.lines if line.get_marker() in "v^"}
+    assert marks == {"v": [pytest.approx(100)], "^": [pytest.approx(100)]}
+
+
+@pytest.mark.parametrize("motion", [CASE.motion, DEEP.motion])
+def test_one_value_of_everything_is_drawn_without_a_warning(motion):
+    one = Study(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
+    run = Run({"one": replace(CASE, motion=motion, study=one)})
+    answers = run.answers({task: invented(task) for task in run.batches()[0].tasks})
+    with style.applied():
+        for plot in run.page(answers, run.findings(answers)).every(Plot):
+            plot.figure().draw_without_rendering()
+
+
+def test_results_are_stored_and_read_with_the_fields_of_the_contact(report, tmp_path):
+    _, answers, _ = report
+    pipeline.store_results(tmp_path / "results.nc", answers)
+    again = pipeline.load(tmp_path)
+    assert set(again["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
+    assert [node.path for node in again.subtree] == [node.path for node in answers.subtree]
+
+
+def test_slow_friction_of_the_smooth_body_is_twice_as_high_in_one_dimension():
+    for body in (Sphere(radius=1e-2), Cone(angle=0.2)):
+        found = slow_friction(replace(CASE, indenter=body))
+        assert found["MDR"] == pytest.approx(2 * found["BEM"], rel=1e-12)
+
+
+def test_the_law_of_the_paper_is_its_plateau_at_high_speed_and_the_exponent_is_that_of_eq_23():
+    assert friction_law(CASE, 1.0, 1e6, 0.01) == pytest.approx(np.sqrt(2) * 0.01, rel=1e-3)
+    assert predicted_exponent(CASE) == pytest.approx(-1.5, rel=1e-12)
+    assert predicted_exponent(replace(CASE, indenter=Cone(angle=0.2))) == pytest.approx(-2.0, rel=1e-12)
+
+
+def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
+    program = Program(stages=(Stage(duration=1e-3, load=1.0),))
+    with pytest.raises(Refused, match="motion = Program"):
+        Run.of(replace(CASE, motion=program))
+    with pytest.raises(Refused, match="crosscheck animate shows"):
+        Run.of("there-and-back")
+    with pytest.raises(InvalidInput, match="did you mean quick-start"):
+        Run.of("quick-strat")
+
+
+@pytest.mark.parametrize(
+    ("part", "words"),
+    [
+        (Sphere(radius=1e-2), "Sphere, radius 10 mm"),
+        (Cone(angle=np.pi / 18), "Cone, angle 10°"),
+        (Slide(speed=0.1, load=1.0), "Slide at 0.1 m/s under 1 N"),
+        (Indent(depth=1e-4), "Indent to 100 µm"),
+    ],
+)
+def test_a_scene_is_told_in_words(part, words):
+    assert described(part) == words
+    assert slug("Größe, 2 Körper") == "groe-2-korper"
