@@ -29,8 +29,8 @@ def plot(points: DataFrame, limits: Mapping[str, float], folder: str = "") -> Pl
     ratio = DataFrame({"v_tau_over_a": curves.index, "ratio": (curves["MDR"] / curves["BEM"]).to_numpy()})
     caption = (
         "The smooth body at the scene's load or depth: friction over the slope of the body at the edge of the "
-        "smooth relaxed contact of radius a. Lines: closed forms of first order in the speed. At low speed 1D over "
-        "3D tends to 2. Smooth: there is no scatter."
+        "smooth relaxed contact of radius a. Lines: closed forms of first order in the speed. At low speed 1D "
+        "over 3D tends to 2. Smooth: there is no scatter."
     )
     alternative = "Friction of both models against speed on logarithmic axes; below, their ratio falls from 2."
     tables = {NAME: points.assign(friction_over_slope_low_speed=low), RATIO: ratio}
