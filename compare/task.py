@@ -89,7 +89,8 @@ class SceneTask:
     @property
     def packages(self) -> tuple[str, ...]:
         """Packages of the scenes and of the solver."""
-        return "scene", type(self.solver).__module__.rpartition(".")[0]
+        module = type(self.solver).__module__
+        return "scene", module.rpartition(".")[0] or module
 
     def solve(self) -> Outcome:
         """Solve every scene, one after the other.

@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from compare import run
 from compare.cases import Case
+from compare.json_schema import DIALECT, schema
 from compare.library import NotReady, find, ready, write
 from compare.planning import plans
-from compare.json_schema import DIALECT, schema
 from compare.studies.catalogue import SIZES
 from compare.studies.claimstudy import ClaimStudy
 from compare.studies.inputs import study_of
@@ -81,12 +82,9 @@ def test_every_study_is_read_and_can_be_asked(name, tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"}))
 def test_every_scene_that_can_be_compared_is(name, tmp_path):
-    from compare import crosscheck
-
-    found = crosscheck(written(name, tmp_path), folder=tmp_path / "out", workers=1)
-    judged = next(iter(found.judged.values()))
-    assert not judged.failures
-    assert judged.numbers
+    report = run(written(name, tmp_path), tmp_path / "out", workers=1, report=False)
+    assert not report.faults
+    assert report.claims
 
 
 def test_a_copy_is_the_file_itself_and_never_overwrites(tmp_path):
@@ -94,7 +92,7 @@ def test_a_copy_is_the_file_itself_and_never_overwrites(tmp_path):
     assert write("hertz", path) == path
     assert path.read_text(encoding="utf-8") == find("hertz").text
     path.write_text("mine")
-    with pytest.raises(FileExistsError):
+    with pytest.raises(InvalidInput, match="is there already"):
         write("hertz", path)
     assert path.read_text() == "mine"
 
@@ -108,7 +106,7 @@ def test_a_copy_may_name_a_schema_for_editors(tmp_path):
 def test_a_name_that_is_not_there_is_said_with_what_is():
     with pytest.raises(NotReady, match=r"'hert'; did you mean hertz\? There are .*paper-sphere"):
         find("hert")
-    with pytest.raises(NotReady, match=r"no scene or study is called 'nothing'\. There are"):
+    with pytest.raises(InvalidInput, match=r"no scene or study is called 'nothing'\. There are"):
         write("nothing", "nowhere.toml")
 
 
