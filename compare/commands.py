@@ -99,7 +99,7 @@ def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options
 
     size : "quick" (20 rough profiles averaged), "standard" (50) or "full" (200, as published)
     """
-    from .studies.paper import Paper
+    from .studies.paper.study import Paper
 
     return solve(Paper.of(size), output, **options)
 

@@ -11,11 +11,12 @@ from compare.outcome import Outcome, Row
 from compare.runner import sweep
 from compare.statistics.jackknife import Estimated
 from compare.store import Store
-from compare.studies.paper import Paper, claims, law, losses, parameter_studies, parameters, predicted
+from compare.studies.paper import claims, law, losses, parameter_studies, parameters, predicted
 from compare.studies.paper.conditions import broken, with_conditions
 from compare.studies.paper.parameter_studies import ParameterStudies, contacts, line, slow_friction
 from compare.studies.paper.parameters import Loss
 from compare.studies.paper.planes import Planes
+from compare.studies.paper.study import Paper
 from mdr1d import draw, equations
 from mdr1d import sweep as flow
 from mdr1d.ensemble import solve_profiles

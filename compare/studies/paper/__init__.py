@@ -1,5 +1,1 @@
 """The figures and parameter studies of Popov et al., Sci. Rep. 4, 3750 (2014), simulated again."""
-
-from .study import Paper
-
-__all__ = ["Paper"]
