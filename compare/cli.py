@@ -159,7 +159,9 @@ def _paths(found: Any) -> str:
 
 
 def _written_ready(path: Path) -> str:
-    return f"{path}: crosscheck {'study' if '[[series]]' in path.read_text(encoding='utf-8') else 'run'} {path}"
+    text = path.read_text(encoding="utf-8")
+    command = next(each.command for each in commands.ready().values() if each.text == text)
+    return f"{path}: crosscheck {command} {path}"
 
 
 def _schema(found: Mapping[str, Any]) -> str:

@@ -138,7 +138,7 @@ def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(fol
     (folder / "faulty.py").write_text(FAULTY)
     status, _, complained = finish(start(folder, "run", "tiny.toml", program=("faulty.py",)))
     assert status == 1
-    broke, of = map(int, re.search(r"(\d+) tasks of (\d+) broke", complained).groups())
+    broke, of = map(int, re.search(r"(\d+) of (\d+) tasks broke", complained).groups())
     traces = list((folder / "crosscheck-report" / "solved").glob("*.fault.txt"))
     assert len(traces) == broke <= of
     assert "ZeroDivisionError: a fault" in complained
