@@ -8,7 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
-from .suggest import suggestion
+from .suggest import known, suggestion
 
 _TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
@@ -109,19 +109,15 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
     Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """
+    known("NAME", name, ready())
+    text, path = find(name).text, Path(path)
     try:
-        text, path = find(name).text, Path(path)
         with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
-    except (NotReady, FileExistsError) as error:
+    except FileExistsError as error:
         from scene.reading import InvalidInput  # slow, and only a mistake needs it
 
-        why = (
-            error
-            if isinstance(error, NotReady)
-            else "is there already, and nothing is overwritten: name another FILE"
-        )
-        raise InvalidInput(f"{name if isinstance(error, NotReady) else path}: {why}") from error
+        raise InvalidInput(f"{path}: is there already, and nothing is overwritten: name another FILE") from error
     return path
 
 
