@@ -106,7 +106,7 @@ def test_a_copy_may_name_a_schema_for_editors(tmp_path):
 def test_a_name_that_is_not_there_is_said_with_what_is():
     with pytest.raises(NotReady, match=r"'hert'; did you mean hertz\? There are .*paper-sphere"):
         find("hert")
-    with pytest.raises(InvalidInput, match=r"no scene or study is called 'nothing'\. There are"):
+    with pytest.raises(InvalidInput, match=r"NAME = nothing: allowed are cold-rubber"):
         write("nothing", "nowhere.toml")
 
 
