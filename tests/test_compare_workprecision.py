@@ -14,12 +14,12 @@ from compare.outcome import Outcome, Row, row
 from compare.page import Plot
 from compare.plots import lettering, style, workprecision
 from compare.runner import sweep
-from compare.statistics.convergence import observed
+from compare.statistics.convergence import MeasuredLadder, answers, ladders, observed
 from compare.store import Store
 from compare.studies.workprecision import elastic, extent, marching, mdr, precision, scenes, sliding
-from compare.studies.workprecision.convergence import Convergence, Ladder, MeasuredLadder, answers, ladders
+from compare.studies.workprecision.convergence import Convergence, Ladder, steps_table
 from compare.studies.workprecision.diagram import ConvergenceDiagram, advice, enough_finding, order_finding
-from compare.studies.workprecision.reference import FORCE, FRICTION, ClosedForm, Finer, Known, SlowLimit
+from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form, finer, slow_limit
 from compare.studies.workprecision.study import DIAGRAMS, WorkPrecision
 from compare.studies.workprecision.timed_solve import TimedSolve
 from mdr1d import MDR
@@ -31,7 +31,7 @@ NUMERICAL = [module.DIAGRAM for module in (mdr, elastic, sliding, marching, prec
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 PRESSED = Scene(Sphere(radius=10e-3), SOLID, Indent(depth=1e-4))
 SLIDING = replace(PRESSED, motion=Slide(speed=1.0, depth=1e-4))
-HERTZ = ClosedForm("Hertz", {"force": Known(elastic_contact(PRESSED).load)})
+HERTZ = closed_form("Hertz", {"force": Known(elastic_contact(PRESSED).load)})
 # Two pixels a wave at least: so many points a side, or a solve ends in an error.
 FINE = SelfAffine(hurst=0.5, rms_height=1e-6, longest=2e-3, shortest=1e-4, seed=1)
 # Observed orders scatter, as the edge of a contact moves by whole pixels.
@@ -50,7 +50,7 @@ def solved(contact):
         result = task.solver.solve(task.scene)
         outcomes[task] = Outcome((row(result),), {name: result.fields[name] for name in task.keeps})
     (dataset,) = contact.datasets(outcomes).values()
-    return {(each.quantity, each.ladder): each for each in ladders(dataset)}
+    return {(each.quantity, each.ladder): each for each in ladders(steps_table([dataset]))}
 
 
 def made(errors, seconds=None, reasons=None, reference_error=0.0, estimates=("",)):
@@ -61,7 +61,7 @@ def made(errors, seconds=None, reasons=None, reference_error=0.0, estimates=("",
         replace(FORCE, name=f"force{k}", by=by, of=lambda row, _, k=k: 1 + (row.normal_force - 1) * 2**k)
         for k, by in enumerate(estimates)
     )
-    truth = ClosedForm("Hertz", {each.name: Known(1.0, reference_error) for each in quantities})
+    truth = closed_form("Hertz", {each.name: Known(1.0, reference_error) for each in quantities})
     seconds = np.geomspace(0.01, 1.0, len(errors)) if seconds is None else seconds
     reasons = reasons or [None] * len(errors)
     rows = [
@@ -75,8 +75,12 @@ def made(errors, seconds=None, reasons=None, reference_error=0.0, estimates=("",
     return xarray.DataTree.from_dict(found)
 
 
+def measured_of(dataset):
+    return answers(ladders(steps_table([dataset])))
+
+
 def measured(*arguments, **how) -> MeasuredLadder:
-    return answers(made(*arguments, **how)["sphere"].to_dataset())[0]
+    return measured_of(made(*arguments, **how)["sphere"].to_dataset())[0]
 
 
 def test_a_timed_solve_has_the_answer_of_its_solver_and_what_that_took(tmp_path):
@@ -101,7 +105,7 @@ def test_errors_are_against_the_reference_and_costs_are_as_measured(tmp_path):
     contact = Convergence("sphere", "a sphere", HERTZ, (FORCE,), pair)
     outcomes = alone(contact.timed, tmp_path)
     (dataset,) = contact.datasets(outcomes).values()
-    for each, ladder in zip(answers(dataset), pair, strict=True):
+    for each, ladder in zip(measured_of(dataset), pair, strict=True):
         rows = [outcomes[task].rows[0] for task in ladder.solves]
         truth = elastic_contact(PRESSED).load
         assert each.errors == pytest.approx([abs(row.normal_force / truth - 1) for row in rows], rel=1e-9)
@@ -112,24 +116,24 @@ def test_errors_are_against_the_reference_and_costs_are_as_measured(tmp_path):
 
 def test_a_failed_solve_is_nan_with_its_reason_and_reaches_nothing(tmp_path):
     rough = replace(PRESSED, roughness=FINE)
-    finer = Finer.of(rough, BEM(points=256), "256 points")
+    truth = finer(rough, BEM(points=256), "256 points")
     ladder = Ladder.of("BEM", rough, BEM(), "points", (16, 128))
-    contact = Convergence("rough", "rough", finer, (FORCE,), (ladder,))
+    contact = Convergence("rough", "rough", truth, (FORCE,), (ladder,))
     outcomes = sweep(contact.untimed, Store(tmp_path)).outcomes | alone(contact.timed, tmp_path)
-    (each,) = answers(contact.datasets(outcomes)["rough"])
+    (each,) = measured_of(contact.datasets(outcomes)["rough"])
     assert isnan(each.processor[0])
     assert isnan(each.errors[0])
-    assert each.dataset["status"].values.tolist() == ["failed", "solved"]
+    assert contact.datasets(outcomes)["rough"]["status"].values.tolist() == ["failed", "solved"]
     ((value, reason),) = each.failures
     assert (value, each.reaching(1.0)) == (16, 1)
     assert "less than two pixels" in reason
 
 
 def test_a_finer_solution_knows_its_own_error():
-    finer = Finer.of(SLIDING, BEM(points=64), "64 points")
-    outcomes = {task: task.solve() for task in finer.tasks}
-    known = finer.known((FORCE, FRICTION), outcomes)
-    values = [outcomes[task].rows[0].friction_coefficient for task in finer.tasks]
+    truth = finer(SLIDING, BEM(points=64), "64 points")
+    outcomes = {task: task.solve() for task in truth.tasks}
+    known = truth.values((FORCE, FRICTION), outcomes)
+    values = [outcomes[task].rows[0].friction_coefficient for task in truth.tasks]
     assert known["friction"].value == values[0]
     assert known["friction"].error == abs(values[0] - values[1])
     assert known["friction"].relative_error == pytest.approx(abs(values[1] / values[0] - 1))
@@ -222,9 +226,7 @@ def test_an_order_rests_on_no_failed_step_and_on_none_within_the_error_of_the_re
     ],
 )
 def test_an_order_is_judged_by_the_whole_interval_of_its_fit(errors, verdict):
-    each = measured(errors)
-    each = MeasuredLadder(each.dataset.assign_coords(expected_order=2.0))
-    assert order_finding("made", each).verdict == verdict
+    assert order_finding("made", measured(errors), 2.0).verdict == verdict
     assert order_finding("made", measured(errors)).verdict == "reported"
 
 
@@ -257,8 +259,8 @@ def test_enough_is_the_cheapest_step_that_later_ones_do_not_better(errors, enoug
 
 
 def test_all_estimates_have_one_reference_and_the_indicator_counts_from_zero():
-    inner = ClosedForm("codes", {"friction": Known(0.2, 1e-4)})
-    known = sliding.EstimatesOf(inner).known(sliding.ESTIMATES, {})
+    inner = closed_form("codes", {"friction": Known(0.2, 1e-4)})
+    known = sliding.estimates_of(inner).values(sliding.ESTIMATES, {})
     assert {known[each.name] for each in sliding.ESTIMATES[:-1]} == {Known(0.2, 1e-4)}
     answer = Row(2.0, 1e-4, 0.4, measures={"friction_disagreement": 0.03, "friction_by_loss": 0.5})
     assert known[sliding.INDICATOR.name].error_of(sliding.INDICATOR.of(answer, {})) == pytest.approx(0.15)
@@ -267,14 +269,14 @@ def test_all_estimates_have_one_reference_and_the_indicator_counts_from_zero():
 
 def test_the_limit_of_low_speed_is_the_lag_times_the_curvature_and_is_known_as_well_as_its_grids_and_speed():
     scene = scenes.rough(1e-3)
-    reference = SlowLimit.of(scene, BEM(points=128))
+    reference = slow_limit(scene, BEM(points=128))
     lag = scene.elastomer.relaxation_time
     rows = (
         Row(1.0, measures={"curvature_by_pressure": 1000.0}),
         Row(1.0, measures={"curvature_by_pressure": 990.0}),
         Row(1.0, friction_force=10 * 1e-3 * lag * 970.0),
     )
-    known = reference.known((), dict(zip(reference.tasks, (Outcome((each,)) for each in rows), strict=True)))
+    known = reference.values((), dict(zip(reference.tasks, (Outcome((each,)) for each in rows), strict=True)))
     assert known["friction"].value == pytest.approx(1e-3 * lag * 1000.0)
     assert known["friction"].relative_error == pytest.approx(0.01 + 0.002)
 

@@ -12,11 +12,11 @@ from compare.outcome import Outcome, Row
 from compare.plots import style
 from compare.plots.workprecision_surfaces import means as drawn_means
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
-from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes_of
+from compare.studies.workprecision.answers import LEVELS, answers_table, cells, rough_regimes, smooth_regimes
 from compare.studies.workprecision.convergence import Convergence, Ladder
-from compare.studies.workprecision.ensemble import Ensemble, means
+from compare.studies.workprecision.ensemble import Ensemble, means, plans_table
 from compare.studies.workprecision.models import MODELS, SURFACES
-from compare.studies.workprecision.reference import FORCE, FRICTION, ClosedForm, Known
+from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form
 from mdr1d import MDR
 from scene import Elastic, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
 
@@ -89,7 +89,7 @@ def smooth(own_error=1e-5, errors=None):
     ladders = tuple(
         Ladder.of(solver.name, SMOOTH, solver, "points", points[solver.name]) for solver in (MDR(), BEM())
     )
-    truth = ClosedForm("made", {"friction": Known(TRUE, own_error * TRUE)})
+    truth = closed_form("made", {"friction": Known(TRUE, own_error * TRUE)})
     found = {}
     for ladder in ladders:
         for k, task in enumerate(ladder.solves):
@@ -101,7 +101,8 @@ def smooth(own_error=1e-5, errors=None):
 
 
 def regime(parts):
-    return regimes_of(node(parts))[0]
+    found = node(parts)
+    return [*smooth_regimes(found), *rough_regimes(found)][0]
 
 
 def test_the_expected_error_is_that_of_means_of_normal_deviates():
@@ -165,7 +166,7 @@ def test_truth_and_floor_are_within_their_intervals_as_often_as_they_say():
     for seed in range(200):
         found = mean(seed=seed)
         off = abs(found.truth.value - TRUE * (1 + GRID_BIAS[256]))
-        scattered = found.truth.error - found.discretisation * found.truth.scale
+        scattered = found.truth.error - found.grid_error * found.truth.scale
         floor = found.floor
         covered.append((off <= scattered, off <= found.truth.error, floor.least <= FLOOR <= floor.most))
     by_scatter, *whole = np.mean(covered, axis=0)
@@ -181,7 +182,7 @@ def test_the_bias_of_a_grid_is_found_far_below_the_scatter():
         assert each.bias.value == pytest.approx(expected, abs=0.1 * SCATTER / sqrt(8))
         assert each.bias.least <= expected <= each.bias.most
     # of the finest, no less than what halving its points changes
-    assert found.plain[-1].bias.most == found.discretisation == pytest.approx(0.015, rel=0.2)
+    assert found.plain[-1].bias.most == found.grid_error == pytest.approx(0.015, rel=0.2)
 
 
 @pytest.mark.parametrize(
@@ -202,15 +203,17 @@ def test_nothing_below_what_is_known_of_the_truth_is_claimed():
     assert vague.answer(0.01) is None
     assert vague.best() == pytest.approx(0.022)
     assert regime(smooth()).answer(0.01).settings == "128 points"
-    assert rough.answer(rough.mean.discretisation) is None
+    assert rough.answer(rough.mean.grid_error) is None
 
 
 def test_a_solve_that_failed_is_told_with_its_reason_and_its_grid_reaches_nothing():
     found = regime(smooth(errors={"MDR": (0.0, nan), "BEM": (0.05, 0.01, 0.002)}))
     assert found.answer(0.01, "MDR") is None
-    assert found.failures() == ["MDR with 1000 points: does not converge"]
+    assert found.ladders[0].failures == [(1000, "does not converge")]
     rough = made(fails=lambda solver, k: solver.name == "BEM" and k == 1, timed_fails=lambda s: s.points == 64)
-    assert "1 of 40 in 3D with 64 points: does not converge" in regime(rough).failures()
+    told = {(row["solver"], row["points"]): row for row in plans_table([regime(rough).mean])}
+    coarse = told["BEM", 64]
+    assert (coarse["failed"], coarse["surfaces"], coarse["reason"]) == (1, 40, "does not converge")
     assert not any("64 points" in row["settings"] for row in answers_table([regime(rough)]))
     statuses = rough["made/BEM"]["status"]
     assert (statuses.sel(points=64) == "failed").sum() == 1

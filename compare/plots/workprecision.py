@@ -14,6 +14,7 @@ from pandas import DataFrame
 
 from ..amounts import digits
 from ..page import Plot, Tables
+from ..statistics.convergence import MeasuredLadder, ladders
 from . import style
 from .lettering import Letter, letter, write
 
@@ -33,109 +34,74 @@ BESIDE = (
 
 def plot(name: str, tables: Tables) -> Plot:
     """Plot of a diagram, of its table of steps and of its table of orders."""
-    steps, orders = tables
     return Plot(
         name, figure, tables,
         "Relative error against processor time of one solve, the least of its repeats; settings at the points "
         "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
         "of a ladder of points. Other estimates are those of the first ladder.",
-        "Panels of falling curves: relative error over processor time.", {"steps": steps, "orders": orders},
+        "Panels of falling curves: relative error over processor time.", {"steps": next(iter(tables))},
     )  # fmt: skip
 
 
 @dataclass(frozen=True)
-class Curve:
-    """One ladder by one estimate: arrays (steps,), NaN where a solve failed."""
-
-    ladder: str
-    solver: str
-    setting: str
-    estimate: str
-    values: np.ndarray
-    seconds: np.ndarray
-    errors: np.ndarray
-    failed: tuple[float, ...]
-    power: tuple[float, float]  # order and constant of the error by points; NaN without
-
-    @property
-    def points(self) -> list[tuple[tuple[float, float], float]]:
-        """Place and setting of each step that was solved."""
-        return [
-            ((x, y), value)
-            for x, y, value in zip(self.seconds, self.errors, self.values, strict=True)
-            if isfinite(x) and isfinite(y)
-        ]
-
-    @property
-    def guide(self) -> tuple[np.ndarray, np.ndarray, float] | None:
-        """Times, errors by the power law fitted to a ladder of points, and its order; None where there is none."""
-        order, constant = self.power
-        if self.setting != "points" or not order > 0:
-            return None
-        solved = np.isfinite(self.seconds)
-        return self.seconds[solved], constant * self.values[solved] ** -order, order
-
-
-@dataclass(frozen=True)
 class Panel:
-    """A contact by one quantity: all ladders by the first estimate, and the first of them by the others too."""
+    """A contact by one quantity.
 
-    title: str
-    reference_error: float
-    curves: tuple[Curve, ...]
-    estimates: tuple[str, ...]
+    curves : all ladders by the first estimate, and the first of them by the others too
+    """
+
+    curves: tuple[MeasuredLadder, ...]
 
     @property
-    def answers(self) -> list[Curve]:
+    def first(self) -> MeasuredLadder:
+        """First ladder by the first estimate."""
+        return self.curves[0]
+
+    @property
+    def estimates(self) -> list[str]:
+        """Estimates of the quantity, that of the answer first."""
+        return list(dict.fromkeys(each.estimate for each in self.curves))
+
+    @property
+    def answers(self) -> list[MeasuredLadder]:
         """Curves of the first estimate."""
-        return [each for each in self.curves if each.estimate == self.estimates[0]]
+        return [each for each in self.curves if each.estimate == self.first.estimate]
 
 
-def panels(steps: DataFrame, orders: DataFrame | None = None) -> list[Panel]:
+def panels(steps: DataFrame) -> list[Panel]:
     """Panels in the order of contacts and quantities."""
-    steps = steps.fillna({"estimate": "", "reason": ""})
-    powers = {}
-    if orders is not None:
-        keys = zip(*(orders[name] for name in ("contact", "quantity", "ladder")), strict=True)
-        powers = dict(zip(keys, zip(orders["order"], orders["constant"], strict=True), strict=True))
-    found = []
-    for (contact, label), rows in steps.groupby(["contact", "label"], sort=False):
-        estimates, labels = tuple(rows["estimate"].unique()), tuple(rows["ladder"].unique())
-        curves = []
-        for estimate, ladder in [(estimates[0], each) for each in labels] + [
-            (e, labels[0]) for e in estimates[1:]
-        ]:
-            own = rows[(rows["estimate"] == estimate) & (rows["ladder"] == ladder)]
-            first = own.iloc[0]
-            curves.append(
-                Curve(
-                    ladder,
-                    first["solver"],
-                    first["setting"],
-                    estimate,
-                    own["value"].to_numpy(float),
-                    own["processor"].to_numpy(float),
-                    np.maximum(own["relative_error"].to_numpy(float), LEAST),
-                    tuple(own["value"][own["reason"] != ""]),
-                    powers.get((contact, first["quantity"], ladder), (np.nan, np.nan)),
+    groups: dict[tuple[str, str], list[MeasuredLadder]] = {}
+    for each in ladders(steps):
+        groups.setdefault((each.contact, each.label), []).append(each)
+    return [
+        Panel(
+            tuple(
+                sorted(
+                    (each for each in own if each.estimate == own[0].estimate or each.ladder == own[0].ladder),
+                    key=lambda each: each.estimate != own[0].estimate,
                 )
             )
-        first = rows.iloc[0]
-        title = f"{first['title']}\n{label}"
-        found.append(Panel(title, float(first["reference_error"]), tuple(curves), estimates))
-    return found
+        )
+        for own in groups.values()
+    ]
 
 
-def figure(tables: Tables, steps: str, orders: str) -> Figure:
-    """All panels, and one legend below. steps, orders : names of the tables"""
-    drawn = panels(tables[steps], tables[orders])
+def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float], float]]:
+    """Place and setting of each step that was solved; errors below the least are drawn there."""
+    steps = zip(each.processor, np.maximum(each.errors, least), each.values, strict=True)
+    return [((x, y), value) for x, y, value in steps if isfinite(x) and isfinite(y)]
+
+
+def figure(tables: Tables, steps: str) -> Figure:
+    """All panels, and one legend below. steps : name of the table"""
+    drawn = panels(tables[steps])
     columns = min(COLUMNS, len(drawn)) if len(drawn) != 4 else 2
     rows = ceil(len(drawn) / columns)
     drawing = style.canvas("double", rows * HEIGHT + 0.6)
     looks, all_axes = _looks(drawn), []
     for k, panel in enumerate(drawn):
         axes = drawing.add_subplot(rows, columns, k + 1)
-        style.head(axes, f"({letter(k)}) {panel.title}", columns)
+        style.head(axes, f"({letter(k)}) {panel.first.title}\n{panel.first.label}", columns)
         _panel(axes, panel, looks)
         axes.set_xlabel("processor time [s]")
         if k % columns == 0:
@@ -170,24 +136,37 @@ def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
 def _panel(axes: Axes, panel, looks):
     axes.set(xscale="log", yscale="log")
     solved = [curve for curve in panel.curves if np.isfinite(curve.errors).any()]
+    own = panel.first.reference_error
     for curve in solved:
-        look = dict(_look(panel, curve, looks))
+        look, errors = dict(_look(panel, curve, looks)), np.maximum(curve.errors, LEAST)
         marker = look.pop("marker")
-        axes.plot(curve.seconds, curve.errors, **look)
-        hollow = (curve.errors <= panel.reference_error) & (curve.estimate != "indicator")
-        dots(axes, curve.seconds, curve.errors, hollow, marker, look["color"])
+        axes.plot(curve.processor, errors, **look)
+        dots(
+            axes, curve.processor, errors, (errors <= own) & (curve.estimate != "indicator"), marker, look["color"]
+        )
     if not solved:
         axes.text(0.5, 0.5, "not solved", transform=axes.transAxes, ha="center", va="center")
         return
     _room(axes, panel)
-    if panel.reference_error > 0:
-        axes.axhspan(axes.get_ylim()[0], panel.reference_error, color=style.grey(0.9), zorder=0, linewidth=0)
+    if own > 0:
+        axes.axhspan(axes.get_ylim()[0], own, color=style.grey(0.9), zorder=0, linewidth=0)
     for curve in panel.answers:
-        if curve.guide:
-            guide(axes, *curve.guide[:2])
-    failed = [f"{curve.setting} {digits(value)}" for curve in panel.answers for value in curve.failed]
+        if _falls(curve):
+            guide(axes, *_power(curve))
+    failed = [f"{curve.setting} {digits(value)}" for curve in panel.answers for value, _ in curve.failures]
     if failed:
         corner(axes, f"failed: {', '.join(failed)}")
+
+
+def _falls(curve):
+    """Whether a power is fitted to the errors of a ladder of points."""
+    return curve.setting == "points" and curve.order.order > 0
+
+
+def _power(curve):
+    """Times, and errors by the power."""
+    solved = np.isfinite(curve.processor)
+    return curve.processor[solved], curve.order.at(curve.values[solved])
 
 
 def dots(
@@ -218,11 +197,11 @@ def _look(panel, curve, looks):
 
 def _room(axes, panel):
     """Limits around all points, with room for what is written; at least a decade of errors."""
-    x = np.concatenate([curve.seconds for curve in panel.curves])
-    y = np.concatenate([curve.errors for curve in panel.curves])
+    x = np.concatenate([curve.processor for curve in panel.curves])
+    y = np.maximum(np.concatenate([curve.errors for curve in panel.curves]), LEAST)
     low, high = np.nanmin(y), np.nanmax(y)
-    if panel.reference_error > 0:
-        low = min(low, panel.reference_error)
+    if panel.first.reference_error > 0:
+        low = min(low, panel.first.reference_error)
     room = max((high / low) ** 0.16, 10 ** (0.5 - np.log10(high / low) / 2))
     axes.set_ylim(low / room, high * room)
     low, high = np.nanmin(x), np.nanmax(x)
@@ -237,12 +216,12 @@ def _room(axes, panel):
 def _letters(panel) -> Iterator[Letter]:
     """Settings at the points, then the exponents of the powers at their ends."""
     for curve in panel.answers:
-        for point, value in curve.points:
+        for point, value in marks(curve, LEAST):
             yield Letter(digits(value), point)
     for curve in panel.answers:
-        if curve.guide:
-            x, y, order = curve.guide
-            yield Letter(f"$n^{{-{order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35), needed=False)
+        if _falls(curve):
+            x, y = _power(curve)
+            yield Letter(f"$n^{{-{curve.order.order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35), needed=False)
 
 
 def _legend(drawing, drawn, looks):

@@ -12,13 +12,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..page import Plot, Tables
-from ..statistics.convergence import observed
-from ..statistics.sampling import SamplingPlan, envelope
+from ..statistics.convergence import MeasuredLadder
+from ..statistics.sampling import Mean, SamplingPlan, envelope
 from . import style
 from .lettering import Letter, letter, write
-from .workprecision import Curve, corner, dots, guide
-from .workprecision import panels as smooth_panels
-from .workprecision_surfaces import Means, means, plan_look
+from .workprecision import corner, dots, guide, marks, panels
+from .workprecision_surfaces import means, plan_look
 
 # Size of a panel [inch], and of what surrounds them all.
 HEIGHT, AROUND = 1.75, 0.55
@@ -53,12 +52,12 @@ class Smooth:
 
     title: str
     quantity: str
-    reference_error: float
-    curves: tuple[Curve, ...]
+    curves: tuple[MeasuredLadder, ...]
     rough = False
 
     def draw(self, axes: Axes) -> None:
         """Errors of both ladders, and the powers they follow."""
+        own = self.curves[0].reference_error
         for curve in self.curves:
             colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
             line: dict[str, Any] = {
@@ -66,16 +65,14 @@ class Smooth:
                 "linestyle": style.LINE[curve.solver],
                 "linewidth": style.width(0.8),
             }
-            axes.plot(curve.seconds, errors, **line)
-            hollow = errors <= self.reference_error
-            dots(axes, curve.seconds, errors, hollow, style.MARKER[curve.solver], colour, 0.8)
-            order = observed(curve.values, curve.errors, self.reference_error)
-            if order.order > FALLS:
-                solved = np.isfinite(curve.seconds)
-                guide(axes, curve.seconds[solved], np.maximum(order.at(curve.values)[solved], LEAST))
-        if self.reference_error > 0:
-            axes.axhspan(LEAST / 10, self.reference_error, color=style.grey(0.9), zorder=0, linewidth=0)
-        if failed := sum(len(curve.failed) for curve in self.curves):
+            axes.plot(curve.processor, errors, **line)
+            dots(axes, curve.processor, errors, errors <= own, style.MARKER[curve.solver], colour, 0.8)
+            if curve.order.order > FALLS:
+                solved = np.isfinite(curve.processor)
+                guide(axes, curve.processor[solved], np.maximum(curve.order.at(curve.values)[solved], LEAST))
+        if own > 0:
+            axes.axhspan(LEAST / 10, own, color=style.grey(0.9), zorder=0, linewidth=0)
+        if failed := sum(len(curve.failures) for curve in self.curves):
             corner(axes, f"not solved: {failed}")
 
     def letters(self) -> list[Letter]:
@@ -87,42 +84,34 @@ class Smooth:
 class Rough:
     """One quantity of a rough contact: plans to its mean."""
 
-    means: Means
+    title: str
+    quantity: str
+    mean: Mean
     rough = True
-
-    @property
-    def title(self) -> str:
-        """Contact for people."""
-        return self.means.title
-
-    @property
-    def quantity(self) -> str:
-        """Name of the quantity."""
-        return self.means.quantity
 
     def draw(self, axes: Axes) -> None:
         """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
-        for own in (self.means.plain, self.means.of("MDR")[-1:]):
+        for own in (self.mean.plain, self.mean.of("MDR")[-1:]):
             for plan in own:
                 _mean_curve(axes, plan, plan_look(plan, own))
-        every = self.means.of("BEM")
+        every = self.mean.of("BEM")
         known = [plan.least_seconds for plan in every if isfinite(plan.least_seconds)]
         if known:
             seconds = np.geomspace(min(known), LONGEST * min(known), 200)
             axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
-        for plan in self.means.of("MDR")[-1:]:
+        for plan in self.mean.of("MDR")[-1:]:
             if isfinite(plan.bias.most):
                 band: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
                 axes.axhspan(max(plan.bias.least, LEAST), plan.bias.most, **band)
-        if self.means.grid_error > 0:
-            axes.axhspan(LEAST / 10, self.means.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
-        if self.means.failed:
-            corner(axes, f"not solved: {self.means.failed}")
+        if self.mean.grid_error > 0:
+            axes.axhspan(LEAST / 10, self.mean.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
+        if self.mean.failed:
+            corner(axes, f"not solved: {self.mean.failed}")
 
     def letters(self) -> list[Letter]:
         """Points at the first marks of the coarsest and of the finest grid."""
         ends = [
-            plan for own in (self.means.plain, self.means.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])
+            plan for own in (self.mean.plain, self.mean.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])
         ]
         found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
         return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
@@ -160,11 +149,9 @@ def figure(tables: Tables, steps: str, plans: str) -> Figure:
 def _panels(tables, steps, plans) -> list[Smooth | Rough]:
     found: list[Smooth | Rough] = []
     if steps:
-        names = tables[steps].groupby(["contact", "label"], sort=False)["quantity"].first()
-        for panel, name in zip(smooth_panels(tables[steps]), names, strict=True):
-            found.append(Smooth(panel.title.partition("\n")[0], name, panel.reference_error, panel.curves))
+        found += [Smooth(each.first.title, each.first.quantity, each.curves) for each in panels(tables[steps])]
     if plans:
-        found += [Rough(each) for each in means(tables[plans])]
+        found += [Rough(each.title, each.quantity, each) for each in means(tables[plans])]
     return found
 
 
@@ -174,9 +161,9 @@ def _headed(panel) -> str:
     return f"{body}\n{motion}: {panel.quantity}" if body else f"{motion}\n{panel.quantity}"
 
 
-def _settings(curve: Curve):
+def _settings(curve: MeasuredLadder):
     """First and last first, all in one where the error stays the same."""
-    solved = [((x, max(y, LEAST)), f"{value:g}") for (x, y), value in curve.points]
+    solved = [(point, f"{value:g}") for point, value in marks(curve, LEAST)]
     if not solved:
         return []
     x, y = np.array([point for point, _ in solved]).T

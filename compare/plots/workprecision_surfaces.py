@@ -1,7 +1,6 @@
 """Expected error of a mean over surfaces, of its scatter and of its grid together, against their number."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import ceil, isfinite
 
 import numpy as np
@@ -13,7 +12,7 @@ from pandas import DataFrame
 
 from ..amounts import seconds, share
 from ..page import Plot, Tables
-from ..statistics.sampling import Bias, Effort, Level, SamplingPlan, Scatter, cheapest
+from ..statistics.sampling import Bias, Effort, Level, Mean, SamplingPlan, Scatter, cheapest
 from . import style
 from .lettering import Letter, letter, write
 
@@ -37,38 +36,15 @@ def plot(name: str, tables: Tables, levels: Sequence[float]) -> Plot:
     )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Means:
-    """One quantity of one regime: plans to its mean.
-
-    grid_error : of the truth, relative; failed : solves on all grids
-    """
-
-    title: str
-    quantity: str
-    label: str
-    plans: tuple[SamplingPlan, ...]
-    grid_error: float
-    failed: int
-
-    def of(self, solver: str) -> list[SamplingPlan]:
-        """Plans of one solver."""
-        return [plan for plan in self.plans if plan.solver == solver]
-
-    @property
-    def plain(self) -> list[SamplingPlan]:
-        """Plans in 3D on one grid each."""
-        return [plan for plan in self.of("BEM") if not plan.corrected]
-
-
-def means(table: DataFrame) -> list[Means]:
+def means(table: DataFrame) -> list[Mean]:
     """Means of a table of plans."""
     found = []
     for _, rows in table.groupby(["contact", "quantity"], sort=False):
         plans = tuple(_plan(own) for _, own in rows.groupby(["solver", "plan"], sort=False))
-        first, once = rows.iloc[0], rows.drop_duplicates(["solver", "points"])
-        told = first["title"], first["quantity"], first["label"]
-        found.append(Means(*told, plans, float(first["truth_grid_error"]), int(once["failed"].sum())))
+        told = {name: rows[name].iloc[0] for name in ("contact", "title", "quantity", "label")}
+        failed = rows.drop_duplicates(["solver", "points"])["failed"].sum()
+        own = float(rows["truth_grid_error"].iloc[0])
+        found.append(Mean(**told, plans=plans, grid_error=own, failed=int(failed)))
     return found
 
 
@@ -121,7 +97,7 @@ def plan_look(plan: SamplingPlan, plans: Sequence[SamplingPlan]) -> dict:
     return {"color": shades[k], "linestyle": style.LINE[plan.solver], "linewidth": style.width(0.8)}
 
 
-def _panel(axes: Axes, each: Means, taken):
+def _panel(axes: Axes, each: Mean, taken):
     own = each.plain
     most = max([MOST, *(effort.counts[0] for effort in taken.values())]) * 2
     counts = np.geomspace(1, most, 160)

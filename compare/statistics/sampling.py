@@ -169,6 +169,41 @@ class Effort:
         return told
 
 
+@dataclass(frozen=True)
+class Mean:
+    """Mean over surfaces of one quantity of a regime, and where both models stand with it.
+
+    contact, title : of the regime; quantity, label : its name, and for people
+    plans : to it; relative to the scale of the truth
+    grid_error : of the truth, relative: what the finest grid leaves if the error falls with the first power of its
+        points, as much as halving them changes; NaN where too many of the surfaces have no answer
+    failed : number of solves that failed on all grids
+    """
+
+    contact: str
+    title: str
+    quantity: str
+    label: str
+    plans: tuple[SamplingPlan, ...]
+    grid_error: float
+    failed: int
+
+    def of(self, solver: str) -> list[SamplingPlan]:
+        """Plans of one solver."""
+        return [plan for plan in self.plans if plan.solver == solver]
+
+    @property
+    def plain(self) -> list[SamplingPlan]:
+        """Plans of the 3D solver on one grid each."""
+        return [plan for plan in self.of("BEM") if not plan.corrected]
+
+    @property
+    def floor(self) -> Bias:
+        """Error of the 1D model on its finest grid: no number of profiles passes it."""
+        own = self.of("MDR")
+        return own[-1].bias if own else Bias(nan, nan)
+
+
 def cheapest(plans: Sequence[SamplingPlan], level: float) -> Effort | None:
     """Least effort of all plans that reach a wanted error; None if none does."""
     found = [effort for plan in plans if (effort := plan.reaching(level)) is not None]

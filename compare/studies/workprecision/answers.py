@@ -1,18 +1,20 @@
 """The shortest way to a wanted error of the true answer of three dimensions, in either model."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, nan
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import xarray
 
 from ...amounts import seconds, share
 from ...finding import HALVED, UNKNOWN, Claim, Finding
+from ...statistics.convergence import MeasuredLadder, ladders
 from ...statistics.sampling import Bias, Effort, cheapest
-from .convergence import DIMENSIONS, MeasuredLadder, ladders
-from .ensemble import Mean, means
+from .convergence import DIMENSIONS, steps_table
+from .ensemble import MeasuredMean, means
 
 # Wanted errors of which tables say what they take.
 LEVELS = (0.1, 0.03, 0.01, 0.003)
@@ -38,32 +40,56 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class SmoothRegime:
-    """A regime of a smooth body: ladders of both solvers by one quantity."""
+class Regime(ABC):
+    """One quantity of one contact in both models. title : of the contact; quantity, label : name, for people"""
 
-    ladders: tuple[MeasuredLadder, ...]
-    rough = False
+    title: str
+    quantity: str
+    label: str
 
-    @property
-    def title(self) -> str:
-        """Contact for people."""
-        return self.ladders[0].title
-
-    @property
-    def quantity(self) -> str:
-        """Name of the quantity."""
-        return self.ladders[0].quantity
-
-    @property
-    def label(self) -> str:
-        """Quantity for people."""
-        return self.ladders[0].label
-
+    @abstractmethod
     def answer(self, level: float, solver: str | None = None) -> Answer | None:
         """The shortest way to a level; None where there is none."""
-        room, found = level - self._own, []
+
+    @abstractmethod
+    def best(self, solver: str | None = None) -> float:
+        """Least error that is known to be reached."""
+
+    @property
+    @abstractmethod
+    def floor(self) -> Bias:
+        """Error of the 1D model on its finest grid."""
+
+    @property
+    @abstractmethod
+    def converges(self) -> bool:
+        """Whether the 1D model comes ever closer with its points."""
+
+    @abstractmethod
+    def error_1d(self, claim: Claim) -> Finding:
+        """Error of the 1D model."""
+
+    @property
+    def where(self) -> str:
+        """Contact and quantity in words."""
+        return f"{self.title}: {self.label}"
+
+
+@dataclass(frozen=True)
+class SmoothRegime(Regime):
+    """A regime of a smooth body: ladders of both solvers by one quantity.
+
+    method : how the error of the reference is known
+    """
+
+    ladders: tuple[MeasuredLadder, ...]
+    method: str
+
+    def answer(self, level: float, solver: str | None = None) -> Answer | None:
+        """The shortest way to a level with the error of the reference; None where there is none."""
+        found = []
         for each in self._of(solver):
-            k = each.reaching(room)
+            k = each.reaching(level - self._own)
             if k is not None:
                 settings = f"{each.values[k]:g} {each.setting}"
                 found.append(Answer(each.solver, settings, float(each.processor[k])))
@@ -73,11 +99,13 @@ class SmoothRegime:
         """Least error that is known to be reached."""
         return _least([each.errors[-1] + self._own for each in self._of(solver)])
 
+    @property
     def floor(self) -> Bias:
         """Error of the 1D model on its finest grid."""
         errors = [each.errors[-1] for each in self._of("MDR")]
         return Bias(float(errors[-1]), self._own) if errors else Bias(nan, nan)
 
+    @property
     def converges(self) -> bool:
         """Whether the order between the last two steps in 1D is more than FALLS; one alone cannot tell."""
         own = self._of("MDR")
@@ -88,19 +116,9 @@ class SmoothRegime:
 
     def error_1d(self, claim: Claim) -> Finding:
         """Error of the 1D model, uncertain by that of the reference."""
-        floor = self.floor()
-        method = self.ladders[0].dataset.attrs["reference_method"] if isfinite(self._own) else UNKNOWN
-        ends = (floor.value, floor.value)
-        why = "" if isfinite(floor.value) else "not solved"
-        return Finding(claim, floor.value, ends, self._own, method, f"{self.title}: {self.label}", reason=why)
-
-    def failures(self) -> list[str]:
-        """Solves that failed, and why."""
-        return [
-            f"{each.ladder} with {value:g} {each.setting}: {reason}"
-            for each in self.ladders
-            for value, reason in each.failures
-        ]
+        value, method = self.floor.value, self.method if isfinite(self._own) else UNKNOWN
+        why = "" if isfinite(value) else "not solved"
+        return Finding(claim, value, (value, value), self._own, method, self.where, reason=why)
 
     @property
     def _own(self):
@@ -111,33 +129,17 @@ class SmoothRegime:
 
 
 @dataclass(frozen=True)
-class RoughRegime:
+class RoughRegime(Regime):
     """A regime of a rough body, of which the answer is the mean over surfaces.
 
     The time of a mean grows with the number of surfaces, however large.
     """
 
-    mean: Mean
-    rough = True
-
-    @property
-    def title(self) -> str:
-        """Contact for people."""
-        return self.mean.title
-
-    @property
-    def quantity(self) -> str:
-        """Name of the quantity."""
-        return self.mean.quantity
-
-    @property
-    def label(self) -> str:
-        """Quantity for people."""
-        return self.mean.label
+    mean: MeasuredMean
 
     def effort(self, level: float, solver: str | None = None) -> Effort | None:
         """Plan and numbers of surfaces for a level."""
-        return cheapest([plan for plan in self.mean.plans if solver in (None, plan.solver)], level)
+        return cheapest(self._of(solver), level)
 
     def answer(self, level: float, solver: str | None = None) -> Answer | None:
         """The shortest way to a level; None where there is none."""
@@ -146,51 +148,52 @@ class RoughRegime:
 
     def best(self, solver: str | None = None) -> float:
         """Least error that is known to be reached."""
-        return _least([plan.bias.most for plan in self.mean.plans if solver in (None, plan.solver)])
+        return _least([plan.bias.most for plan in self._of(solver)])
 
+    @property
     def floor(self) -> Bias:
         """Error of the mean of the 1D model on its finest grid."""
         return self.mean.floor
 
+    @property
     def converges(self) -> bool:
         """Never: the scatter of profiles would hide it."""
         return False
 
     def error_1d(self, claim: Claim) -> Finding:
         """Error of the mean of the 1D model, with scatter and grid apart."""
-        floor, grid = self.mean.floor, self.mean.discretisation
+        floor, grid = self.floor, self.mean.grid_error
         half = floor.reach - grid
         ends = (floor.value - half, floor.value + half)
-        known = all(map(isfinite, (floor.value, half, grid)))
         draws = min(sample.count for sample in self.mean.samples)
+        known = all(map(isfinite, (floor.value, half, grid)))
         method, why = (HALVED, "") if known else (UNKNOWN, "too many surfaces have no answer")
-        return Finding(claim, floor.value, ends, grid, method, f"{self.title}: {self.label}", draws, reason=why)
+        return Finding(claim, floor.value, ends, grid, method, self.where, draws, reason=why)
 
-    def failures(self) -> list[str]:
-        """Solves that failed, and why."""
-        return [
-            f"{len(sample.reasons)} of {sample.count} in {DIMENSIONS[sample.solver]} with {sample.points} "
-            f"points: {sample.reasons[0]}"
-            for sample in self.mean.samples
-            if sample.reasons
-        ]
+    def _of(self, solver):
+        return [plan for plan in self.mean.plans if solver in (None, plan.solver)]
 
 
-Regime: TypeAlias = SmoothRegime | RoughRegime
+def smooth_regimes(node: xarray.DataTree) -> list[SmoothRegime]:
+    """Every quantity of every smooth contact of a diagram."""
+    datasets = {name: child.to_dataset(inherit=False) for name, child in node.children.items() if child.data_vars}
+    found: dict[tuple[str, str], list[MeasuredLadder]] = {}
+    for each in ladders(steps_table(datasets.values())):
+        found.setdefault((each.contact, each.quantity), []).append(each)
+    return [
+        SmoothRegime(own[0].title, name, own[0].label, tuple(own), datasets[contact].attrs["reference_method"])
+        for (contact, name), own in found.items()
+    ]
 
 
-def regimes_of(node: xarray.DataTree) -> list[Regime]:
-    """Every quantity of every contact of a diagram."""
-    found: list[Regime] = []
-    for child in node.children.values():
-        if child.children:
-            bem, mdr = (child.children[name].to_dataset(inherit=False) for name in ("BEM", "MDR"))
-            found += [RoughRegime(mean) for mean in means(bem, mdr)]
-        else:
-            every = list(ladders(child.to_dataset(inherit=False)))
-            names = dict.fromkeys(each.quantity for each in every)
-            found += [SmoothRegime(tuple(each for each in every if each.quantity == name)) for name in names]
-    return found
+def rough_regimes(node: xarray.DataTree) -> list[RoughRegime]:
+    """Every quantity of every rough contact of a diagram."""
+    pairs = [
+        [child.children[name].to_dataset(inherit=False) for name in ("BEM", "MDR")]
+        for child in node.children.values()
+        if child.children
+    ]
+    return [RoughRegime(mean.title, mean.quantity, mean.label, mean) for pair in pairs for mean in means(*pair)]
 
 
 def answers_table(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dict[str, Any]]:
@@ -205,10 +208,10 @@ def cells(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dic
     """
     return [
         {
-            "regime": f"{each.title}{', expected (rms)' if each.rough else ''}",
+            "regime": f"{each.title}{', expected (rms)' if isinstance(each, RoughRegime) else ''}",
             "quantity": each.label,
             **{f"within {share(level)}": _cell(each, level) for level in levels},
-            "error that 1D keeps": "none (it converges)" if each.converges() else interval(each.floor()),
+            "error that 1D keeps": "none (it converges)" if each.converges else interval(each.floor),
         }
         for each in found
     ]
@@ -234,7 +237,7 @@ def _cell(each, level):
 
 
 def _row(each, level):
-    taken, own = each.answer(level), each.floor()
+    taken, own = each.answer(level), each.floor
     by_solver = {name: each.answer(level, name) for name in DIMENSIONS}
     return {
         "regime": each.title,
@@ -251,7 +254,7 @@ def _row(each, level):
         "floor_1d": own.size,
         "floor_1d_least": own.least,
         "floor_1d_most": own.most,
-        "converges_1d": each.converges(),
+        "converges_1d": each.converges,
     }
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from math import nan
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray
@@ -14,39 +14,60 @@ from ...finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from ...outcome import Outcome
 from ...page import Block, Plot, Table
 from ...plots import workprecision_costs
-from ...rectangle import FAILED, SOLVED
 from ...statistics.costs import Law, NoLaw
 from ...store import stored_size
 from ...task import Task
-from ...vocabulary import attributes
+from .convergence import Ladder, costs_of, described, settings_of
 from .cost_fit import GROWING, LABELS, MEMORY_FROM, CostFit, fits_of
 from .cost_ladders import AXES, ladders
+from .diagram import Diagram
 from .forecasts import LARGEST, MEMORIES, Forecast, forecasts
 from .reference import Outcomes
-from .timed_solve import COSTS
 
-MEASURED = (*COSTS, "repeats", "transform_pairs", "plain_product", "padded_product")
+# Settings of a solver that tables tell, with what stands where it lacks them.
+SETTINGS = {"points": nan, "steps": nan, "tolerance": nan, "precision": "double"}
 
 
 @dataclass(frozen=True)
-class CostDiagram:
-    """What costs are asked of the solvers."""
+class CostLadder:
+    """A ladder of which the costs are measured; there is no truth, and no error."""
 
     name: str
-    title: str
-    about: str
+    ladder: Ladder
+    untimed: ClassVar[list[Task]] = []
 
-    def untimed(self, size: str) -> list[Task]:
-        """Nothing: there is no error to measure."""
-        return []
+    @property
+    def timed(self) -> list[Task]:
+        """Solves that have to be measured alone."""
+        return list(self.ladder.solves)
 
-    def timed(self, size: str) -> list[Task]:
-        """Solves that are measured alone, each once."""
-        return list(dict.fromkeys(solve for ladder in ladders(size).values() for solve in ladder.solves))
+    def datasets(self, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
+        """Costs (step,), by the name of the ladder."""
+        solves, setting = self.ladder.solves, self.ladder.setting
+        found = costs_of(solves, outcomes, "transform_pairs", "plain_product", "padded_product")
+        found["stored_bytes"] = "step", [float(stored_size(s, Outcome(outcomes[s].rows))) for s in solves]
+        measure, values = AXES[setting].measure, list(map(float, self.ladder.values))
+        coordinates = {
+            "step": ("step", list(range(len(solves)))),
+            "value": ("step", values),
+            "x": (
+                "step",
+                [outcomes[solve].rows[0].measures.get(measure, nan) for solve in solves] if measure else values,
+            ),
+            **settings_of(solves, SETTINGS),
+        }
+        about = {
+            "contact": self.name,
+            "title": self.ladder.label,
+            "setting": setting,
+            "solver": solves[0].solver.name,
+        }
+        return {self.name: described(xarray.Dataset(found, coordinates, about), solves[0].scene)}
 
-    def datasets(self, size: str, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
-        """Costs (step,) of each ladder, by its name."""
-        return {name: _dataset(name, ladder, outcomes) for name, ladder in ladders(size).items()}
+
+@dataclass(frozen=True)
+class CostDiagram(Diagram):
+    """What costs are asked of the solvers."""
 
     def findings(self, node: xarray.DataTree) -> list[Finding]:
         """Exponents with their intervals, time over that of transforms, and forecasts with their checks."""
@@ -98,37 +119,6 @@ class CostDiagram:
             if rows
             else []
         )
-
-
-def _dataset(name, ladder, outcomes):
-    rows = [outcomes[solve].rows[0] for solve in ladder.solves]
-    measure, values = AXES[ladder.setting].measure, np.array(ladder.values, float)
-
-    def measured(label):
-        return "step", [row.measures.get(label, nan) for row in rows]
-
-    found = {label: measured(label) for label in MEASURED}
-    found |= {
-        "applications": ("step", [row.applications for row in rows]),
-        "stored_bytes": ("step", [float(stored_size(s, Outcome(outcomes[s].rows))) for s in ladder.solves]),
-        "status": ("step", [SOLVED if row.reason is None else FAILED for row in rows]),
-        "reason": ("step", [row.reason or "" for row in rows]),
-    }
-    solvers = [solve.solver for solve in ladder.solves]
-    coordinates = {
-        "step": ("step", list(range(len(rows)))),
-        "value": ("step", values),
-        "x": measured(measure) if measure else ("step", values),
-        "points": ("step", [solver.points for solver in solvers]),
-        "steps": ("step", [solver.steps for solver in solvers]),
-        "tolerance": ("step", [getattr(solver, "tolerance", nan) for solver in solvers]),
-        "precision": ("step", [getattr(solver, "precision", "double") for solver in solvers]),
-    }
-    about = {"contact": name, "title": ladder.label, "setting": ladder.setting, "solver": solvers[0].name}
-    dataset = xarray.Dataset(found, coordinates, about)
-    for label in dataset.variables:
-        dataset[label].attrs = attributes(str(label), ladder.solves[0].scene)
-    return dataset
 
 
 def _exponents_of(each):
@@ -221,4 +211,5 @@ COSTS_DIAGRAM = CostDiagram(
     "What a solve costs",
     "Time, memory and operator applications of both solvers against points, modes, steps, speed and contact; the "
     "powers they follow, and what those say of larger sizes.",
+    lambda size: [CostLadder(name, ladder) for name, ladder in ladders(size).items()],
 )

@@ -1,5 +1,6 @@
 """A diagram: contacts solved along ladders of settings, the findings on them, their plots and tables."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite, nan
@@ -12,8 +13,9 @@ from ...amounts import seconds, share, short
 from ...finding import EXACT, REPORTED, Claim, Finding, sentences
 from ...page import Block, Plot, Table
 from ...plots import workprecision
+from ...statistics.convergence import MeasuredLadder, answers, ladders
 from ...task import Task
-from .convergence import DIMENSIONS, Convergence, MeasuredLadder, answers, ladders, orders_table, steps_table
+from .convergence import DIMENSIONS, Convergence, orders_table, steps_table
 from .reference import Outcomes
 
 # Wanted errors of which tables say what they take, and the one of which findings do.
@@ -22,57 +24,37 @@ LEVELS, WANTED = (1e-1, 3e-2, 1e-2, 1e-3, 1e-4), 1e-2
 ORDER_TOLERANCE = 0.35
 
 
-class Diagram(Protocol):
+class Measurable(Protocol):
+    """A contact, or a ladder of costs: what is solved for it, and the Datasets that come of it."""
+
+    @property
+    def untimed(self) -> list[Task]:
+        """Tasks solved besides."""
+
+    @property
+    def timed(self) -> list[Task]:
+        """Solves that have to be measured alone."""
+
+    def datasets(self, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
+        """Everything measured, by the path below the name of the diagram."""
+
+
+@dataclass(frozen=True)
+class Diagram(ABC):
     """What the command measures and tells under one name.
 
     name : of the command and of files
     title, about : what is compared, how and why, for people
-    """
-
-    @property
-    def name(self) -> str: ...
-
-    @property
-    def title(self) -> str: ...
-
-    @property
-    def about(self) -> str: ...
-
-    def untimed(self, size: str) -> list[Task]:
-        """Tasks solved besides, each once."""
-
-    def timed(self, size: str) -> list[Task]:
-        """Solves that are measured alone, each once."""
-
-    def datasets(self, size: str, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
-        """Everything measured, by the path below the name of the diagram."""
-
-    def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """Findings from these Datasets."""
-
-    def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """Figures with their tables; none where nothing can be drawn."""
-
-    def tables(self, node: xarray.DataTree) -> list[Block]:
-        """Tables that people read."""
-
-
-@dataclass(frozen=True)
-class ConvergenceDiagram:
-    """Errors over time of contacts, by points, tolerance, steps or whatever else is set.
-
     contacts : at a size
-    more : findings on all contacts besides orders and times, from their ladders by contact
     """
 
     name: str
     title: str
     about: str
-    contacts: Callable[[str], Sequence[Convergence]]
-    more: Callable[[Mapping[str, list[MeasuredLadder]]], Iterable[Finding]] = lambda found: ()
+    contacts: Callable[[str], Sequence[Measurable]]
 
     def untimed(self, size: str) -> list[Task]:
-        """Tasks of the references, each once."""
+        """Tasks solved besides, each once."""
         return list(dict.fromkeys(task for each in self.contacts(size) for task in each.untimed))
 
     def timed(self, size: str) -> list[Task]:
@@ -80,51 +62,82 @@ class ConvergenceDiagram:
         return list(dict.fromkeys(task for each in self.contacts(size) for task in each.timed))
 
     def datasets(self, size: str, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
-        """A Dataset a contact."""
+        """Everything measured, by the path below the name of the diagram."""
         return {name: dataset for each in self.contacts(size) for name, dataset in each.datasets(outcomes).items()}
+
+    @abstractmethod
+    def findings(self, node: xarray.DataTree) -> list[Finding]:
+        """Findings from these Datasets."""
+
+    @abstractmethod
+    def plots(self, node: xarray.DataTree) -> list[Plot]:
+        """Figures with their tables; none where nothing can be drawn."""
+
+    @abstractmethod
+    def tables(self, node: xarray.DataTree) -> list[Block]:
+        """Tables that people read."""
+
+
+@dataclass(frozen=True)
+class ConvergenceDiagram(Diagram):
+    """Errors over time of contacts, by points, tolerance, steps or whatever else is set.
+
+    more : findings on all contacts besides orders and times, from their ladders by contact
+    """
+
+    contacts: Callable[[str], Sequence[Convergence]]
+    more: Callable[[Mapping[str, list[MeasuredLadder]]], Iterable[Finding]] = lambda found: ()
 
     def findings(self, node: xarray.DataTree) -> list[Finding]:
         """Orders, times to a wanted error, and what more the diagram finds."""
-        found = [each for dataset in _datasets(node) for each in answers(dataset)]
-        plot = f"workprecision-{self.name}"
-        whole = {dataset.attrs["contact"]: list(ladders(dataset)) for dataset in _datasets(node)}
+        found = ladders(_steps(node))
+        own, plot = answers(found), f"workprecision-{self.name}"
+        orders = {name: child["expected_order"] for name, child in node.children.items()}
+        whole: dict[str, list[MeasuredLadder]] = {}
+        for each in found:
+            whole.setdefault(each.contact, []).append(each)
         return [
-            *(order_finding(self.name, each, plot) for each in found if each.setting in ("points", "steps")),
-            *(time_finding(self.name, each, plot) for each in found if each.setting == "points"),
-            *(enough_finding(self.name, each, plot) for each in found if each.setting != "points"),
+            *(
+                order_finding(self.name, each, orders[each.contact].sel(quantity=each.quantity).item(), plot)
+                for each in own
+                if each.setting in ("points", "steps")
+            ),
+            *(time_finding(self.name, each, plot) for each in own if each.setting == "points"),
+            *(enough_finding(self.name, each, plot) for each in own if each.setting != "points"),
             *self.more(whole),
         ]
 
     def plots(self, node: xarray.DataTree) -> list[Plot]:
         """One figure, a panel a contact and quantity."""
-        found = [each for dataset in _datasets(node) for each in ladders(dataset)]
-        if not found:
-            return []
-        name = f"workprecision-{self.name}"
-        tables = {name: steps_table(found), f"workprecision-orders-{self.name}": orders_table(found)}
-        return [workprecision.plot(name, {key: DataFrame(rows) for key, rows in tables.items()})]
+        steps, name = _steps(node), f"workprecision-{self.name}"
+        tables = {name: steps, f"workprecision-orders-{self.name}": orders_table(ladders(steps))}
+        return [workprecision.plot(name, tables)] if len(steps) else []
 
     def tables(self, node: xarray.DataTree) -> list[Block]:
         """Settings for wanted errors."""
+        sources = {name: child.attrs["reference"] for name, child in node.children.items()}
         rows = [
             {
                 "contact": each.title,
                 "quantity": each.label,
-                "against": against(each),
+                "against": against(sources[each.contact], each.reference_error),
                 "ladder": each.ladder,
                 **{f"within {share(level)}": each.cell(level) for level in LEVELS},
             }
-            for dataset in _datasets(node)
-            for each in answers(dataset)
+            for each in answers(ladders(_steps(node)))
         ]
         caption = "The cheapest setting for each wanted error, from which on all finer ones keep it too."
         return [Table(f"workprecision-settings-{self.name}", DataFrame(rows), caption)] if rows else []
 
 
-def order_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
-    """Order at which the error of a ladder falls, against the one expected where there is one."""
-    expected = each.dataset["expected_order"].item() if each.setting == "points" else nan
-    judged = isfinite(expected)
+def _steps(node):
+    return steps_table(each.to_dataset(inherit=False) for each in node.children.values())
+
+
+def order_finding(diagram: str, each: MeasuredLadder, expected: float = nan, plot: str = "") -> Finding:
+    """Order at which the error of a ladder falls, against the one expected of points where there is one."""
+    judged = isfinite(expected) and each.setting == "points"
+    expected = expected if judged else nan
     claim = Claim(
         f"workprecision.{diagram}.order" + (f"-{short(expected)}" if judged else ""),
         f"The error falls with the power {short(expected)} of the points"
@@ -172,9 +185,8 @@ def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Findin
     return Finding(claim, nan if k is None else float(each.values[k]), where=where_of(each), reason=why, plot=plot)
 
 
-def against(each: MeasuredLadder) -> str:
+def against(source: str, own: float) -> str:
     """Reference of a ladder, and how well it is known."""
-    own, source = each.reference_error, each.dataset.attrs["reference"]
     return f"{source}, known to {share(own)}" if own > 0 else source if isfinite(own) else f"{source}, not solved"
 
 
@@ -238,7 +250,3 @@ def _amount(value, unit):
 
 def _place(each):
     return " ".join(part for part in (each.dimension or each.claim.dimension, each.where) if part)
-
-
-def _datasets(node):
-    return [each.to_dataset(inherit=False) for each in node.children.values()]

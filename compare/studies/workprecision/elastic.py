@@ -13,7 +13,7 @@ from scene.scales import elastic_contact
 
 from .convergence import Convergence, Ladder
 from .diagram import ConvergenceDiagram
-from .reference import DEPTH, FORCE, ClosedForm, Finer, Known, Quantity
+from .reference import DEPTH, FORCE, Known, Quantity, closed_form, finer
 from .scenes import CONE, KELVIN, QUICK, SPHERE, at, powers, pressed, rough
 
 # So that what is seen of a ladder of points is discretisation alone.
@@ -65,18 +65,18 @@ def _sphere(size):
     ladders = _ladders(scene, size, keeps=("x", "y", "pressure"))
     # An edge of infinite slope in whole pixels leaves the pressure the first order.
     orders = {FORCE.name: 2.0, pressure.name: 1.0}
-    return Convergence("sphere", "sphere", ClosedForm("Hertz", values), (FORCE, pressure), ladders, orders)
+    return Convergence("sphere", "sphere", closed_form("Hertz", values), (FORCE, pressure), ladders, orders)
 
 
 def _cone(size):
     scene = pressed(CONE)
-    truth = ClosedForm("Sneddon", {FORCE.name: Known(elastic_contact(scene).load)})
+    truth = closed_form("Sneddon", {FORCE.name: Known(elastic_contact(scene).load)})
     return Convergence("cone", "cone", truth, (FORCE,), _ladders(scene, size))
 
 
 def _refined(name, title, scene, quantities, size):
     solver = replace(TIGHT, points=REFERENCE, tolerance=1e-8)
-    truth = Finer.of(scene, solver, f"{solver.points} points on the same surface")
+    truth = finer(scene, solver, f"{solver.points} points on the same surface")
     return Convergence(name, title, truth, quantities, _ladders(scene, size, REFINED_POINTS))
 
 

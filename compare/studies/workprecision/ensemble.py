@@ -13,7 +13,7 @@ from mdr1d import MDR
 from scene import Scene
 
 from ...rectangle import FAILED, NOT_ASKED, SOLVED
-from ...statistics.sampling import Bias, Level, SamplingPlan, Scatter, half_width
+from ...statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, half_width
 from ...task import SceneTask, Task, draws_of
 from ...vocabulary import attributes
 from .reference import Known, Outcomes, Quantity
@@ -151,53 +151,28 @@ class Sample:
 
 
 @dataclass(frozen=True)
-class Mean:
-    """Mean over surfaces of one quantity, and where both models stand with it.
+class MeasuredMean(Mean):
+    """A mean with its truth, and the samples that tell both.
 
-    contact, title : of the regime; quantity, label : see Quantity
-    truth : mean with its whole error: half of the interval of 95 % and that of the grid
-    statistical, discretisation : the two parts of that error, relative: the standard error, and what the finest
-        grid leaves if the error falls with the first power of its points: as much as halving them changes; NaN,
-        and with it the error of the truth, where more than MOST_FAILED of the surfaces have no answer
-    freedom : degrees of freedom of the first
-    plans : to it; relative to the scale of the truth
+    truth : mean with its whole error: half of the interval of 95 % and that of the grid; NaN where more than
+        MOST_FAILED of the surfaces have no answer
+    standard_error : statistical part of that error, relative; freedom : its degrees of freedom
     samples : of all grids of both solvers
     """
 
-    contact: str
-    title: str
-    quantity: str
-    label: str
     truth: Known
-    statistical: float
-    discretisation: float
+    standard_error: float
     freedom: float
-    plans: tuple[SamplingPlan, ...]
     samples: tuple[Sample, ...]
 
-    def of(self, solver: str) -> list[SamplingPlan]:
-        """Plans of one solver."""
-        return [plan for plan in self.plans if plan.solver == solver]
 
-    @property
-    def plain(self) -> list[SamplingPlan]:
-        """Plans of the 3D solver on one grid each."""
-        return [plan for plan in self.of("BEM") if not plan.corrected]
-
-    @property
-    def floor(self) -> Bias:
-        """Error of the 1D model on its finest grid: no number of profiles passes it."""
-        own = self.of("MDR")
-        return own[-1].bias if own else Bias(nan, nan)
-
-
-def means(bem: xarray.Dataset, mdr: xarray.Dataset) -> list[Mean]:
+def means(bem: xarray.Dataset, mdr: xarray.Dataset) -> list[MeasuredMean]:
     """Means of every quantity of a regime."""
     grids, lines = ([Sample.of(each, int(points)) for points in each["points"].values] for each in (bem, mdr))
     return [_mean_of(each, bem.attrs, grids, lines) for each in bem.values() if "quantity" in each.attrs]
 
 
-def plans_table(found: Sequence[Mean]) -> list[dict[str, Any]]:
+def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
     """A row for each level of each plan, relative to the scale of the truth, with the failures and costs."""
     return [row for each in found for row in _plan_rows(each)]
 
@@ -215,9 +190,9 @@ def _plan_rows(mean):
                 "label": mean.label,
                 "truth": mean.truth.value,
                 "scale": mean.truth.scale,
-                "truth_standard_error": mean.statistical,
+                "truth_standard_error": mean.standard_error,
                 "truth_freedom": mean.freedom,
-                "truth_grid_error": mean.discretisation,
+                "truth_grid_error": mean.grid_error,
                 "solver": plan.solver,
                 "plan": plan.label,
                 "points": level.points[0],
@@ -261,7 +236,10 @@ def _mean_of(variable, about, grids, lines):
     )
     truth = Known(value, unit * (reach + discretisation), unit)
     told = about["contact"], about["title"], name, variable.attrs["label"]
-    return Mean(*told, truth, statistical, discretisation, freedom, plans, (*grids, *lines))
+    failed = sum(len(sample.reasons) for sample in (*grids, *lines))
+    return MeasuredMean(
+        *told, plans, discretisation, failed, truth, statistical, freedom, samples=(*grids, *lines)
+    )
 
 
 def _combined(first, corrections, many, few):

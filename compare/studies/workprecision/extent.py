@@ -20,9 +20,10 @@ from bem3d import BEM
 from scene import CrossedWaves, Indent, Plane, Scene, Slide
 from scene.scales import elastic_contact
 
-from .convergence import Convergence, Ladder, MeasuredLadder
+from ...statistics.convergence import MeasuredLadder
+from .convergence import Convergence, Ladder
 from .diagram import ConvergenceDiagram, reported
-from .reference import FRICTION, ClosedForm, Finer, Known, Quantity
+from .reference import FRICTION, Known, Quantity, closed_form, finer
 from .scenes import CONTACT, KELVIN, SPHERE, TIME, at, pressed, some
 from .timed_solve import TimedSolve
 
@@ -115,7 +116,7 @@ def _wrapped(offset, period):
 
 def _at_rest(size):
     known = Known(CONTACT)
-    truth = ClosedForm("Hertz", {RADIUS.name: known, SHAPED_RADIUS.name: known})
+    truth = closed_form("Hertz", {RADIUS.name: known, SHAPED_RADIUS.name: known})
     ladders = _ladders(Indent(load=LOAD), size, ("x", "y", "pressure"))
     return Convergence("rest", "tip at rest", truth, (RADIUS, SHAPED_RADIUS), ladders)
 
@@ -123,7 +124,7 @@ def _at_rest(size):
 def _sliding(flow, size):
     motion = Slide(speed=flow * CONTACT / TIME, load=LOAD)
     reference = BEM(points=at(REFERENCE, size), tolerance=1e-7)
-    truth = Finer.of(Scene(SPHERE, KELVIN, motion), reference, f"the free sphere, {reference.points} points")
+    truth = finer(Scene(SPHERE, KELVIN, motion), reference, f"the free sphere, {reference.points} points")
     quantities = (SLOW, SHAPED_SLOW) if flow <= FLOWS["quick"][0] else (FRICTION,)
     return Convergence(
         f"sliding-{flow:g}", f"tip, Kelvin, v τ = {flow:g} a", truth, quantities, _ladders(motion, size, ())

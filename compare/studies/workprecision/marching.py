@@ -11,9 +11,10 @@ from bem3d import BEM
 from scene import Program, Scene, Stage
 
 from ...exact import indentation
-from .convergence import Convergence, Ladder, MeasuredLadder
+from ...statistics.convergence import MeasuredLadder
+from .convergence import Convergence, Ladder
 from .diagram import ConvergenceDiagram, reported
-from .reference import FORCE, FRICTION, ClosedForm, Finer, Known, Quantity
+from .reference import FORCE, FRICTION, Known, Quantity, closed_form, finer
 from .scenes import CONTACT, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, slid
 from .timed_solve import TimedSolve
 
@@ -56,14 +57,14 @@ def _withdrawal(size):
         made(f"BEM, by steps at {points[-1]}²", solver=BEM(points=points[-1]), setting="steps", values=steps),
         Ladder.through("BEM, points and steps together", scene, both, "points", points, keeps=keeps),
     )
-    truth = ClosedForm("Lee and Radok, Ting", {HISTORY.name: Known(0.0, scale=1.0)})
+    truth = closed_form("Lee and Radok, Ting", {HISTORY.name: Known(0.0, scale=1.0)})
     return Convergence("withdrawal", "sphere pressed in and drawn back", truth, (HISTORY,), ladders)
 
 
 def _started(size):
     steady = slid(SPHERE, STANDARD_LINEAR, FLOW)
     reference = BEM(points=at(REFERENCE, size), tolerance=1e-7)
-    truth = Finer.of(steady, reference, f"the steady solver, {reference.points} points")
+    truth = finer(steady, reference, f"the steady solver, {reference.points} points")
     paths, slides = at(PATHS, size), at(SLID, size)
     few, longest = BEM(points=slides[0], steps=20), paths[-1]
     ladders = (

@@ -9,7 +9,7 @@ from scene.scales import elastic_contact
 from ...exact import foundation, indentation
 from .convergence import Convergence, Ladder
 from .diagram import ConvergenceDiagram
-from .reference import FORCE, FRICTION, ClosedForm, Finer, Known
+from .reference import FORCE, FRICTION, Known, closed_form, finer
 from .scenes import CONE, KELVIN, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, pressed, rough, slid, some
 
 POINTS = {"quick": (32, 512, 8192), "full": powers(16, 65536, 4)}
@@ -42,7 +42,7 @@ def _points(scene, values):
 
 def _at_rest(size):
     scene = pressed(SPHERE)
-    truth = ClosedForm("Hertz", {FORCE.name: Known(elastic_contact(scene).load)})
+    truth = closed_form("Hertz", {FORCE.name: Known(elastic_contact(scene).load)})
     ladders = (_points(scene, at(POINTS, size)),)
     return Convergence("rest-sphere", "sphere at rest", truth, (FORCE,), ladders, {FORCE.name: 2.0})
 
@@ -52,7 +52,7 @@ def _sliding(contact, size):
     scene = slid(shape, solid, 1.0)
     normal, friction = foundation.sliding_forces(shape, solid, scene.motion.speed, scene.motion.depth)
     values = {FORCE.name: Known(normal), FRICTION.name: Known(friction / normal)}
-    truth = ClosedForm("the closed form of the foundation", values)
+    truth = closed_form("the closed form of the foundation", values)
     ladders = (_points(scene, at(POINTS, size)),)
     title = f"{name}, {solid_name}, v τ = a"
     return Convergence(f"{name}-{solid_name.split()[0].lower()}", title, truth, (FORCE, FRICTION), ladders)
@@ -60,7 +60,7 @@ def _sliding(contact, size):
 
 def _rough(size):
     scene = rough(0.1)
-    truth = Finer.of(scene, REFERENCE, f"{REFERENCE.points} points on the same profile")
+    truth = finer(scene, REFERENCE, f"{REFERENCE.points} points on the same profile")
     ladders = (_points(scene, at(ROUGH_POINTS, size)),)
     return Convergence("rough-sphere", "rough sphere, 0.1 m/s", truth, (FRICTION,), ladders)
 
@@ -72,7 +72,7 @@ def _withdrawal(size):
     scene = Scene(SPHERE, STANDARD_LINEAR, Program(stages=stages))
     times, depths = (0.0, IN, IN + BACK), (0.0, top, end)
     (force,), _ = indentation.force_of_depth(SPHERE, STANDARD_LINEAR, times, depths, IN + BACK)
-    truth = ClosedForm("Ting", {FORCE.name: Known(float(force))})
+    truth = closed_form("Ting", {FORCE.name: Known(float(force))})
     by_points = Ladder.of("MDR, by points", scene, MDR(steps=50), "points", at(HISTORY_POINTS, size))
     by_steps = Ladder.of("MDR, by steps", scene, MDR(points=512), "steps", at(STEPS, size))
     title = "sphere pressed in and drawn back"

@@ -1,6 +1,6 @@
 """Both models against the true answer of three dimensions: which model, which settings, how many surfaces."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import isfinite, nan
 from typing import Any
@@ -13,13 +13,11 @@ from ...amounts import share
 from ...finding import HALVED, Claim, Finding
 from ...page import Block, Plot, Table
 from ...plots import workprecision_models, workprecision_surfaces
-from ...task import Task
 from . import regimes
-from .answers import LEVELS, Regime, RoughRegime, SmoothRegime, answers_table, cells, regimes_of
-from .convergence import DIMENSIONS, Convergence, steps_table
-from .diagram import reported
-from .ensemble import Ensemble, plans_table
-from .reference import Outcomes
+from .answers import LEVELS, Regime, RoughRegime, answers_table, cells, rough_regimes, smooth_regimes
+from .convergence import DIMENSIONS, steps_table
+from .diagram import Diagram, reported
+from .ensemble import plans_table
 
 # Wanted errors of which findings say what they take.
 WANTED = (0.1, 0.01)
@@ -28,76 +26,68 @@ ASKED = {"friction": ("friction",), "depth or force": ("depth", "force")}
 
 
 @dataclass(frozen=True)
-class ModelDiagram:
-    """Regimes that both models answer.
-
-    contacts : at a size
-    of_models : whether models are compared, or numbers of surfaces with points in 3D alone
-    """
-
-    name: str
-    title: str
-    about: str
-    contacts: Callable[[str], Sequence[Convergence | Ensemble]]
-    of_models: bool = True
-
-    def untimed(self, size: str) -> list[Task]:
-        """References, and every surface and profile."""
-        return list(dict.fromkeys(task for each in self.contacts(size) for task in each.untimed))
-
-    def timed(self, size: str) -> list[Task]:
-        """Solves that are measured alone, each once."""
-        return list(dict.fromkeys(task for each in self.contacts(size) for task in each.timed))
-
-    def datasets(self, size: str, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
-        """A Dataset a smooth contact, and one for each solver of a rough one."""
-        return {name: dataset for each in self.contacts(size) for name, dataset in each.datasets(outcomes).items()}
+class ModelDiagram(Diagram):
+    """Both models in regimes of smooth and of rough bodies."""
 
     def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """Errors that 1D keeps and times to wanted errors; of surfaces, what scatters and what a grid leaves."""
-        found = regimes_of(node)
-        return list(_model_findings(found) if self.of_models else _surface_findings(_rough(found)))
+        """Errors that 1D keeps, and times to wanted errors."""
+        return list(_model_findings(_regimes(node)))
 
     def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """A figure for each thing asked for; of surfaces, one."""
-        found = regimes_of(node)
-        if not self.of_models:
-            name, rough = "workprecision-surfaces", _rough(found)
-            rows = {name: plans_table([each.mean for each in rough]), f"{name}-recipes": list(_recipes(rough))}
-            tables = {key: DataFrame(each) for key, each in rows.items()}
-            return [workprecision_surfaces.plot(name, tables, LEVELS)] if rough else []
-        return [
-            workprecision_models.plot(f"workprecision-models-{what.split()[0]}", tables)
-            for what, names in ASKED.items()
-            if (tables := self._tables(what.split()[0], [each for each in found if each.quantity in names]))
-        ]
+        """A figure for each thing asked for."""
+        found = []
+        smooth = steps_table(each.to_dataset(inherit=False) for each in node.children.values() if each.data_vars)
+        for what, names in ASKED.items():
+            own = [each for each in _regimes(node) if each.quantity in names]
+            rows = {
+                "steps": smooth[smooth["quantity"].isin(names)],
+                "plans": DataFrame(plans_table([each.mean for each in own if isinstance(each, RoughRegime)])),
+                "answers": DataFrame(answers_table(own)),
+            }
+            name = f"workprecision-models-{what.split()[0]}"
+            tables = {name.replace("models", f"models-{kind}"): each for kind, each in rows.items() if len(each)}
+            found += [workprecision_models.plot(name, tables)] if own else []
+        return found
 
     def tables(self, node: xarray.DataTree) -> list[Block]:
         """What wanted errors take, in words."""
-        found = regimes_of(node) if self.of_models else []
+        found = {
+            what: cells([each for each in _regimes(node) if each.quantity in names])
+            for what, names in ASKED.items()
+        }
         return [
             Table(
                 f"workprecision-cells-{what.split()[0]}",
                 DataFrame(rows),
                 f"To know {what}: model, settings, time.",
             )
-            for what, names in ASKED.items()
-            if (rows := cells([each for each in found if each.quantity in names]))
+            for what, rows in found.items()
+            if rows
         ]
 
-    def _tables(self, suffix, found):
-        rows = {
-            "steps": steps_table(
-                [each for regime in found if isinstance(regime, SmoothRegime) for each in regime.ladders]
-            ),
-            "plans": plans_table([regime.mean for regime in _rough(found)]),
-            "answers": answers_table(found),
-        }
-        return {f"workprecision-models-{name}-{suffix}": DataFrame(each) for name, each in rows.items() if each}
+
+@dataclass(frozen=True)
+class SurfaceDiagram(Diagram):
+    """Numbers of surfaces with points in 3D."""
+
+    def findings(self, node: xarray.DataTree) -> list[Finding]:
+        """What scatters between surfaces, what a grid leaves, and times to wanted errors."""
+        return list(_surface_findings(rough_regimes(node)))
+
+    def plots(self, node: xarray.DataTree) -> list[Plot]:
+        """One figure, from plans to the mean and what they take."""
+        found, name = rough_regimes(node), f"workprecision-{self.name}"
+        rows = {name: plans_table([each.mean for each in found]), f"{name}-recipes": list(_recipes(found))}
+        tables = {key: DataFrame(each) for key, each in rows.items()}
+        return [workprecision_surfaces.plot(name, tables, LEVELS)] if found else []
+
+    def tables(self, node: xarray.DataTree) -> list[Block]:
+        """Nothing that the figure does not say."""
+        return []
 
 
-def _rough(found: Sequence[Regime]) -> list[RoughRegime]:
-    return [each for each in found if isinstance(each, RoughRegime)]
+def _regimes(node) -> list[Regime]:
+    return [*smooth_regimes(node), *rough_regimes(node)]
 
 
 def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
@@ -116,8 +106,7 @@ def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
             f"Processor time to {share(level)} of the true answer",
         )
         for each in found:
-            taken, known = each.answer(level), each.best()
-            where = f"{each.title}: {each.label}"
+            taken, known, where = each.answer(level), each.best(), each.where
             if taken is None:
                 why = f"best known {share(known)}" if isfinite(known) else "not solved"
                 yield reported(id, sentence, nan, where, "s", "1D/3D", reason=why)
@@ -127,8 +116,8 @@ def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
 
 def _surface_findings(found: Sequence[RoughRegime]) -> Iterator[Finding]:
     for each in found:
-        first, where = each.mean.plain[0], f"{each.title}: {each.label}"
-        scatter, bias, grid = first.levels[0].scatter, first.bias, each.mean.discretisation
+        first, where = each.mean.plain[0], each.where
+        scatter, bias, grid = first.levels[0].scatter, first.bias, each.mean.grid_error
         why = "" if isfinite(scatter.value) else "too few surfaces were solved"
         yield reported(
             "surfaces.scatter", "Scatter of one surface", scatter.value, where,
@@ -181,11 +170,10 @@ MODELS = ModelDiagram(
     "surfaces, so that the scatter between surfaces counts beside the grid.",
     lambda size: [*regimes.smooth(size), *regimes.rough(size)],
 )
-SURFACES = ModelDiagram(
+SURFACES = SurfaceDiagram(
     "surfaces",
     "How many surfaces, on how many points",
     "A rough contact has the mean over surfaces as its answer. The error of a mean is what the grid leaves, "
     "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
     lambda size: [each for each in regimes.rough(size) if each.name.endswith(("rest", "middle"))],
-    of_models=False,
 )

@@ -7,9 +7,10 @@ import numpy as np
 
 from bem3d import BEM
 
-from .convergence import Convergence, Ladder, MeasuredLadder
+from ...statistics.convergence import MeasuredLadder
+from .convergence import Convergence, Ladder
 from .diagram import ConvergenceDiagram, reported, where_of
-from .reference import DEPTH, FORCE, FRICTION, Finer
+from .reference import DEPTH, FORCE, FRICTION, finer
 from .scenes import KELVIN, QUICK, SPHERE, at, pressed, rough, slid
 
 DOUBLE = {"quick": (1e-3, 1e-5, 1e-7), "full": (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)}
@@ -30,7 +31,7 @@ def contacts(size: str) -> Sequence[Convergence]:
 
 def _contact(name, title, scene, quantities, size):
     points, (tightest, less) = at(POINTS, size), TIGHTEST
-    truth = Finer.of(
+    truth = finer(
         scene,
         BEM(points=points, tolerance=tightest),
         f"the same {points}² points at a tolerance of {tightest:.0e} in double precision",
@@ -58,7 +59,7 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         why = "" if np.isfinite(ratio) else "not every step was solved"
         sentence = "Time in double precision over that in single at equal tolerance, geometric mean"
         yield reported("precision.time-ratio", sentence, ratio, double.title, reason=why)
-        held, less = (np.fmax.reduce(each.dataset["memory"].values) for each in (double, single))
+        held, less = (np.fmax.reduce(each.memory) for each in (double, single))
         ratio = float(less / held) if held > 0 else nan
         why = "" if np.isfinite(ratio) else "not measured"
         sentence = "Memory in single precision over that in double"

@@ -1,9 +1,8 @@
 """References: what errors are measured against, and how well it is known itself."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import nan
-from typing import Protocol
 
 import numpy as np
 
@@ -65,116 +64,71 @@ class Known:
         return float(np.abs(self.value)) if self.scale is None else self.scale
 
 
-class Reference(Protocol):
+@dataclass(frozen=True)
+class Reference:
     """What a ladder is measured against.
 
     source : where it is from, for people
     method : how its error is known, see `finding.Finding.grid_method`
+    values : values by the quantity's name, from the quantities asked for and the outcomes of the tasks; quantities
+        that it does not know are absent, NaN where a solve failed
+    tasks : that have to be solved for it
     """
 
-    @property
-    def source(self) -> str: ...
-
-    @property
-    def method(self) -> str: ...
-
-    @property
-    def tasks(self) -> Sequence[Task]:
-        """Tasks that have to be solved for it."""
-
-    def known(self, quantities: Sequence[Quantity], outcomes: Outcomes) -> Mapping[str, Known]:
-        """Values by the quantity's name; quantities that it does not know are absent, NaN where a solve failed."""
-
-
-@dataclass(frozen=True)
-class ClosedForm:
-    """Values known without solving. values : by the quantity's name"""
-
     source: str
-    values: Mapping[str, Known]
-    method: str = EXACT
-    tasks: tuple[()] = ()
-
-    def known(self, quantities: Sequence[Quantity], outcomes: Outcomes) -> Mapping[str, Known]:
-        """Values by the quantity's name."""
-        return {each.name: self.values[each.name] for each in quantities if each.name in self.values}
+    method: str
+    values: Callable[[Sequence[Quantity], Outcomes], Mapping[str, Known]]
+    tasks: tuple[Task, ...] = ()
 
 
-@dataclass(frozen=True)
-class Finer:
+def closed_form(source: str, values: Mapping[str, Known]) -> Reference:
+    """Values known without solving. values : by the quantity's name"""
+    return Reference(
+        source, EXACT, lambda asked, _: {each.name: values[each.name] for each in asked if each.name in values}
+    )
+
+
+def finer(
+    scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None, **coarser
+) -> Reference:
     """The same scene solved far finer; its error is what the next coarser grid, or looser setting, differs by.
 
     scale : by the quantity's name, see Known
+    coarser : settings of the next, if it is not on half the points
     """
+    next_to_it = replace(solver, **coarser or {"points": solver.points // 2})
+    tasks = tuple(SceneTask(each, (scene,), work=work(each)) for each in (solver, next_to_it))
 
-    source: str
-    finest: Task
-    next: Task
-    scale: Mapping[str, float] = field(default_factory=dict)
-    method: str = HALVED
-
-    @classmethod
-    def of(cls, scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None, **coarser):
-        """A scene on the finest grid. coarser : settings of the next, if it is not on half the points"""
-        coarser = coarser or {"points": solver.points // 2}
-        finest, next = (
-            SceneTask(each, (scene,), work=work(each)) for each in (solver, replace(solver, **coarser))
-        )
-        return cls(source, finest, next, scale or {})
-
-    @property
-    def tasks(self) -> tuple[Task, ...]:
-        """Both grids."""
-        return self.finest, self.next
-
-    def known(self, quantities: Sequence[Quantity], outcomes: Outcomes) -> Mapping[str, Known]:
-        """Values by the quantity's name, NaN where one of the two solves failed."""
-        finest, less = (outcomes[task] for task in self.tasks)
+    def known(quantities, outcomes):
         found = {}
         for each in quantities:
-            value, other = (each.of(answer.rows[0], answer.fields) for answer in (finest, less))
-            found[each.name] = Known(value, abs(value - other), self.scale.get(each.name))
+            value, other = (each.of(outcomes[task].rows[0], outcomes[task].fields) for task in tasks)
+            found[each.name] = Known(value, abs(value - other), (scale or {}).get(each.name))
         return found
 
+    return Reference(source, HALVED, known, tasks)
 
-@dataclass(frozen=True)
-class SlowLimit:
+
+def slow_limit(scene: Scene, solver: BEM) -> Reference:
     """Friction from the curvature of the surface, weighted with the pressure at rest; to first order in the speed.
 
-    scene : that slides slowly; its roughness is the same on every grid
-    finest : at rest; next : on half the points, by which the limit is uncertain
-    faster : on those too, at ten times the speed, whose departure from the limit is ten times that of the scene
+    Half the points tell how uncertain the limit is. Ten times the speed, on those too, departs from it by ten
+    times as much as the scene, whose roughness is the same on every grid.
     """
+    coarser = replace(solver, points=solver.points // 2)
+    tasks = tuple(_moved(scene, *each) for each in ((0.0, solver), (0.0, coarser), (10.0, coarser)))
 
-    scene: Scene
-    finest: Task
-    next: Task
-    faster: Task
-    source: str = "the limit of low speed by the curvature under the pressure at rest"
-    method: str = EXTRAPOLATED
-
-    @classmethod
-    def of(cls, scene: Scene, solver: BEM) -> "SlowLimit":
-        """Limit of a scene, with a solver for the finest grid."""
-        coarser = replace(solver, points=solver.points // 2)
-        finest, next_to_it = (_moved(scene, 0.0, each) for each in (solver, coarser))
-        return cls(scene, finest, next_to_it, _moved(scene, 10.0, coarser))
-
-    @property
-    def tasks(self) -> tuple[Task, ...]:
-        """At rest on both grids, and faster."""
-        return self.finest, self.next, self.faster
-
-    def known(self, quantities: Sequence[Quantity], outcomes: Outcomes) -> Mapping[str, Known]:
-        """Friction alone; NaN where a solve failed."""
-        finest, coarser, faster = (outcomes[task].rows[0] for task in self.tasks)
-        limit, other = (self._limit(row) for row in (finest, coarser))
-        departure = abs(faster.friction_coefficient / 10 - other) / 10
-        return {FRICTION.name: Known(limit, abs(limit - other) + departure)}
-
-    def _limit(self, row):
+    def limit(row):
         curvature = row.measures.get("curvature_by_pressure", nan)
-        return slow_friction_by_curvature(self.scene.motion.speed, mean_lag(self.scene.solid), 1.0, curvature)
+        return slow_friction_by_curvature(scene.motion.speed, mean_lag(scene.solid), 1.0, curvature)
+
+    def known(_, outcomes):
+        finest, less, faster = (outcomes[task].rows[0] for task in tasks)
+        departure = abs(faster.friction_coefficient / 10 - limit(less)) / 10
+        return {FRICTION.name: Known(limit(finest), abs(limit(finest) - limit(less)) + departure)}
+
+    source = "the limit of low speed by the curvature under the pressure at rest"
+    return Reference(source, EXTRAPOLATED, known, tasks)
 
 
 def _moved(scene, factor, solver):

@@ -11,7 +11,7 @@ from scene.scales import elastic_contact
 from .. import contacts
 from .convergence import Convergence, Ladder
 from .ensemble import Ensemble
-from .reference import DEPTH, FORCE, FRICTION, ClosedForm, Finer, Known
+from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
 from .scenes import FULL, QUICK, at
 
 LOAD = 1.0
@@ -87,7 +87,7 @@ def _body(shape) -> Scene:
 def _at_rest(name, title, body, size):
     scene = replace(body, motion=Indent(load=LOAD))
     depth = elastic_contact(scene).depth
-    truth = ClosedForm("Galin and Sneddon", {"depth": Known(depth)})
+    truth = closed_form("Galin and Sneddon", {"depth": Known(depth)})
     return Convergence(name, title, truth, (DEPTH,), _ladders(scene, size))
 
 
@@ -96,7 +96,7 @@ def _sliding(name, title, body, speed, size):
     velocity = SMOOTH_SPEEDS[speed] * contact.radius / contacts.kelvin("sphere").elastomer.relaxation_time
     scene = replace(body, motion=Slide(speed=velocity, load=LOAD))
     truth = BEM(points=at(SMOOTH, size)["truth"])
-    known = Finer.of(scene, truth, f"3D, {truth.points} points", {"depth": contact.depth})
+    known = finer(scene, truth, f"3D, {truth.points} points", {"depth": contact.depth})
     return Convergence(name, title, known, (FRICTION, DEPTH), _ladders(scene, size))
 
 

@@ -1,7 +1,7 @@
 """BEM in steady sliding: points, tolerance, the estimates of friction, and the solver's own word on its error."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import nan
 
@@ -10,10 +10,10 @@ import numpy as np
 from bem3d import BEM
 from scene import Scene, Slide, Sphere, StandardLinearSolid
 
-from ...task import Task
-from .convergence import Convergence, Ladder, MeasuredLadder
+from ...statistics.convergence import MeasuredLadder
+from .convergence import Convergence, Ladder
 from .diagram import ConvergenceDiagram, reported
-from .reference import DEPTH, FORCE, FRICTION, ClosedForm, Finer, Known, Outcomes, Quantity, Reference, SlowLimit
+from .reference import DEPTH, FORCE, FRICTION, Known, Quantity, Reference, closed_form, finer, slow_limit
 from .scenes import FULL, KELVIN, QUICK, SPHERE, at, powers, rough, slid, some
 
 TIGHT = BEM(tolerance=1e-7)
@@ -50,34 +50,17 @@ INDICATOR = Quantity("friction_disagreement", FRICTION.label, _indicated, "indic
 ESTIMATES = (JOINED, *BESIDE, INDICATOR)
 
 
-@dataclass(frozen=True)
-class EstimatesOf:
+def estimates_of(reference: Reference) -> Reference:
     """Reference of friction, said of all of its estimates; the indicator counts from zero."""
 
-    reference: Reference
-
-    @property
-    def source(self) -> str:
-        """Where it is from."""
-        return self.reference.source
-
-    @property
-    def method(self) -> str:
-        """How its error is known."""
-        return self.reference.method
-
-    @property
-    def tasks(self) -> Sequence[Task]:
-        """Tasks that have to be solved for it."""
-        return self.reference.tasks
-
-    def known(self, quantities: Sequence[Quantity], outcomes: Outcomes) -> Mapping[str, Known]:
-        """Values by the quantity's name."""
-        asked = [each for each in quantities if each not in (*BESIDE, INDICATOR)]
-        found = dict(self.reference.known(asked, outcomes))
+    def known(asked, outcomes):
+        own = [each for each in asked if each not in (*BESIDE, INDICATOR)]
+        found = dict(reference.values(own, outcomes))
         if JOINED.name in found:
             found |= {each.name: found[JOINED.name] for each in BESIDE}
         return found | {INDICATOR.name: Known(0.0, scale=1.0)}
+
+    return replace(reference, values=known)
 
 
 def contacts(size: str) -> Sequence[Convergence]:
@@ -90,7 +73,7 @@ def contacts(size: str) -> Sequence[Convergence]:
 def _smooth(flow, size):
     scene = slid(SPHERE, KELVIN, flow)
     reference = replace(TIGHT, points=at(REFERENCE, size))
-    truth = EstimatesOf(Finer.of(scene, reference, f"{reference.points} points"))
+    truth = estimates_of(finer(scene, reference, f"{reference.points} points"))
     title = f"sphere, Kelvin, v τ = {_times(flow)}a"
     return Convergence(f"kelvin-{flow:g}", title, truth, (FORCE, *ESTIMATES), _ladders(scene, POINTS, size))
 
@@ -101,7 +84,7 @@ def _tabulated(memory, size):
     scene = Scene(Sphere(radius=10e-3), solid, Slide(speed=memory, load=0.533333))
     (depth, arm), (depth_error, error) = TABLE[memory], TABLE_ERRORS
     values = {DEPTH.name: Known(1e-3 * depth, depth_error), JOINED.name: Known(arm / 10, error * arm / 10)}
-    truth = EstimatesOf(ClosedForm("two independent codes", values))
+    truth = estimates_of(closed_form("two independent codes", values))
     title = f"sphere, standard linear, v τ = {_times(memory)}a"
     return Convergence(f"standard-{memory:g}", title, truth, (DEPTH, *ESTIMATES), _ladders(scene, POINTS, size))
 
@@ -112,7 +95,7 @@ def _times(factor):
 
 def _slow(size):
     scene = rough(SLOW)
-    truth = EstimatesOf(SlowLimit.of(scene, replace(TIGHT, points=ROUGH_REFERENCE)))
+    truth = estimates_of(slow_limit(scene, replace(TIGHT, points=ROUGH_REFERENCE)))
     title = f"rough sphere, {1e3 * SLOW:g} mm/s"
     return Convergence("rough-slow", title, truth, ESTIMATES, _by_points(scene, ROUGH_POINTS, size))
 
@@ -120,7 +103,7 @@ def _slow(size):
 def _rough(speed, size):
     scene = rough(speed)
     reference = replace(TIGHT, points=ROUGH_REFERENCE)
-    truth = EstimatesOf(Finer.of(scene, reference, f"{reference.points} points on the same surface"))
+    truth = estimates_of(finer(scene, reference, f"{reference.points} points on the same surface"))
     ladders = (_ladders if size == FULL else _by_points)(scene, ROUGH_POINTS, size)
     return Convergence(f"rough-{speed:g}", f"rough sphere, {speed:g} m/s", truth, ESTIMATES, ladders)
 
