@@ -259,6 +259,8 @@ def run(
         with watch.writing(len(list(page.every(Plot)))) as told:
             path = pages.write(page, findings, below, format, forms, told)
     else:
+        for name in pages.FILES:  # of an earlier run, whose findings these are no longer
+            (below / name).unlink(missing_ok=True)
         pages.write_tables(page, findings, below)
     manifest.stamp(below, study, page, swept, os.path.relpath(output / SOLVED, below))
     return Report(study, answers, findings, page, swept, output, path)

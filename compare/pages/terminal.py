@@ -25,7 +25,9 @@ def _blocks(blocks, rule) -> Iterator[str]:
     for block in blocks:
         match block:
             case Text(markdown):
-                yield "\n\n".join(_filled(part) for part in prose.converted(markdown, {}).split("\n\n"))
+                yield "\n".join(
+                    _filled(line, 2 * line.startswith("- ")) for line in prose.converted(markdown, {}).split("\n")
+                )
             case Table() if not block.long and len(block.frame) <= MOST_ROWS:
                 shown = _table(block.frame)
                 if max(map(len, shown.splitlines()), default=0) <= WIDEST:
