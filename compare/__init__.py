@@ -1,4 +1,4 @@
-"""The judge: one scene answered in one and in three dimensions. `crosscheck X` on a command line is `compare.X` here.
+"""The judge: one scene answered in one and in three dimensions. The command `crosscheck X` is `compare.X` here.
 
 run : solve scenes in both, compare, and write a report
 sweep : solve a scene at every speed and load in both, as a Dataset; friction_plot draws it

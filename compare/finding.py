@@ -37,8 +37,8 @@ class Claim:
 
     id : name of the claim, such as "rest.depth"; it never changes, and no other claim has it
     sentence : the statement in words, without a full stop
-    expected, tolerance : the number claimed, and how far from it still counts as it, both in `unit`; a tolerance of
-        NaN marks a number that is reported without a claim
+    expected, tolerance : the number claimed, and how far from it still counts as it, both in `unit`; with a
+        tolerance of NaN the number is reported without a claim
     meaning : how the number is measured, and what a deviation from it says
     dimension : "1D", "3D", or "1D/3D" of a comparison
     curves : names of the rectangles that it is measured on
@@ -63,7 +63,7 @@ class Finding:
 
     claim : the statement
     value : number measured, in the unit of the claim
-    scatter : (low, high), the interval of 95 % over rough surfaces alone; both ends are the value where there are none
+    scatter : (low, high), the interval of 95 % over rough surfaces alone; both ends are the value without any
     grid : error of discretisation, absolute, which widens the interval at both ends; NaN if unknown
     grid_method : how `grid` is known: "change on halving", "extrapolated", "exact" or "unknown"
     where : case, series or diagram in which it was measured
@@ -153,7 +153,7 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
 
 
 def sentences(findings: Sequence[Finding]) -> list[str]:
-    """A statement for each claim, from all of its findings: where in 1D and in 3D it holds, fails, is undecided."""
+    """A statement for each claim, from all of its findings: where it holds, fails, is undecided."""
     found = []
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
@@ -171,7 +171,7 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
 
 
 def _said(verdict, findings, of):
-    """What becomes of a claim where it has one verdict: each place with its number, or how many and their range."""
+    """Places of one verdict on a claim: each with its number, or how many and their range."""
     verb = {UNDECIDED: "is undecided", REPORTED: "is"}.get(verdict, verdict)
     if len(findings) > SHOWN:
         known = [each.value for each in findings if isfinite(each.value)]

@@ -39,8 +39,8 @@ SCREEN = 110  # dots per inch of what a notebook shows
 class Study:
     """A question, declared: what is solved for it, what is claimed, and what its page shows.
 
-    A study overrides what differs: `rectangles` and `claims` are enough. One whose tasks are no rectangles overrides
-    `batches` and `answers`; one that measures claims in its own way, `findings`.
+    A study overrides what differs: `rectangles` and `claims` are enough. One whose tasks are no rectangles
+    overrides `batches` and `answers`; one that measures claims in its own way, `findings`.
 
     command : name of the command, and of the Python function
     title, about : for people
@@ -229,8 +229,8 @@ def run(
     report : whether the page and its figures are written; findings and results always are
     watch : told how far it is
 
-    Raises Unwritable, before anything is solved, where the folder cannot be written; Broken where so many tasks broke
-    that nothing can be judged.
+    Raises Unwritable, before anything is solved, where the folder cannot be written; Broken where so many tasks
+    broke that nothing can be judged.
     """
     output, watch = Path(output), watch or Watch()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figures.split(",") if form.strip())]))
@@ -300,8 +300,8 @@ def _group(node: xarray.DataTree) -> Group:
 def load(folder: str | Path) -> xarray.DataTree:
     """Everything that a command solved, as it left it in a folder: a Dataset for each rectangle and solver.
 
-    Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of several
-    studies has each below its name.
+    Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of
+    several studies has each below its name.
 
     Raises InvalidInput where there are no results or they are damaged, OSError for what cannot be read.
     """

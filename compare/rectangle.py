@@ -74,7 +74,7 @@ class Rectangle:
         return replace(self.scene, motion=motion)
 
     def refuse(self) -> None:
-        """Raise Refused if a solver lacks what any of the scenes asks for; SolveError if numbers are too far apart."""
+        """Raise Refused if a solver lacks what a scene asks for, SolveError if numbers are too far apart."""
         for grids in self.grids.values():
             for solver in grids.values():
                 for speed in self.speeds:

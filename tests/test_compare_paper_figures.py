@@ -27,10 +27,7 @@ SLOPE = 0.97
 
 def drawn(plot):
     """The figure of a plot, drawn from its tables as their CSV files have them."""
-    tables = {
-        name: pandas.read_csv(io.StringIO(table.to_csv(index=False)))
-        for name, table in plot.tables.items()
-    }
+    tables = {name: pandas.read_csv(io.StringIO(table.to_csv(index=False))) for name, table in plot.tables.items()}
     with style.applied():
         drawing = plot.draw(tables, **plot.options)
         drawing.draw_without_rendering()

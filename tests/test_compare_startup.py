@@ -43,7 +43,7 @@ def imported(folder, *arguments, code=REPORT):
 
 @pytest.mark.parametrize(
     ("arguments", "needed"),
-    [(["--help"], set()), (["--version"], set()), (["run", "--help"], set()), (["list"], set())],
+    [(["--help"], set()), (["--version"], set()), (["run", "--help"], {"pydantic"}), (["list"], {"pydantic"})],
 )
 def test_help_and_version_import_nothing_heavy(tmp_path, arguments, needed):
     packages, _, status = imported(tmp_path, *arguments)

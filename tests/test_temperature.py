@@ -304,5 +304,3 @@ def test_tasks_at_two_temperatures_are_two():
     other = Task(SOLVERS[0], (replace(WARM, temperature=replace(LAW, temperature=311.0)),))
     assert task.question != other.question
     assert task.question == Task(SOLVERS[0], (replace(WARM),)).question
-
-

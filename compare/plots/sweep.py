@@ -1,4 +1,4 @@
-"""Friction of a sweep against speed, or against load at one speed, in one and in three dimensions with error bars."""
+"""Friction of a sweep against speed, or against load at one speed, in both dimensionalities."""
 
 from matplotlib.figure import Figure
 from pandas import DataFrame
@@ -16,8 +16,8 @@ def plot(means: DataFrame) -> Plot:
         "friction",
         figure,
         {"friction": means},
-        "Coefficient of friction in one and in three dimensions. Bars are intervals of 95 %: scatter of the draws, "
-        "widened by the change on halving the grid.",
+        "Coefficient of friction in one and in three dimensions. Bars are intervals of 95 %: scatter of the "
+        "draws, widened by the change on halving the grid.",
         "Friction of both models as two curves with error bars.",
     )
 
