@@ -175,12 +175,14 @@ def fits(**how):
 
 def test_a_ladder_is_fitted_with_all_its_costs():
     found = fits()["slide"]
-    assert found.x.tolist() == [128, 192, 256, 384, 512]
-    assert found.limit == pytest.approx(30 * 3e-8 * found.x**2 + 20 * 1e-8 * found.x**2)
+    x = found.known("x")
+    assert x.tolist() == [128, 192, 256, 384, 512]
+    limit = 30 * 3e-8 * x**2 + 20 * 1e-8 * x**2
+    assert found.known("over_limit") == pytest.approx(found.known("processor") / limit)
     assert found.laws["memory"].lowest == 256
     assert found.laws["memory"].exponent == pytest.approx(2, rel=ROUNDING)
     assert found.laws["processor"].exponent == pytest.approx(2, rel=1e-5)
-    assert (found.stored_bytes > 300).all()
+    assert (found.known("stored_bytes") > 300).all()
 
 
 @pytest.mark.parametrize("size", ["quick", "standard", "full"])
@@ -192,8 +194,9 @@ def test_each_size_measures_every_axis_and_nothing_that_a_solver_lacks(size):
 
 def test_a_failed_solve_costs_nan_and_says_why():
     found = fits(failing={0})["plane"]
-    assert isnan(found.processor[0])
-    assert (found.reason[0], found.status[0]) == ("no converged contact", "failed")
+    first = found.steps.iloc[0]
+    assert isnan(first["processor"])
+    assert (first["reason"], first["status"]) == ("no converged contact", "failed")
     assert found.laws["processor"].count == 4
 
 

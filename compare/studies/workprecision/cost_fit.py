@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 import xarray
+from pandas import DataFrame
 
 from ...statistics.costs import Law, NoLaw, fit, fit_whole
 from .convergence import DIMENSIONS
@@ -23,76 +25,83 @@ LABELS = {
 }
 
 
+# Columns of the table of steps.
+STEPS = (
+    *(
+        "ladder",
+        "label",
+        "title",
+        "solver",
+        "dimension",
+        "along",
+        "x",
+        "points",
+        "steps",
+        "tolerance",
+        "precision",
+    ),
+    *("processor", "wall", "repeats", "memory", "bytes_a_point", "applications", "transform_pairs"),
+    *("seconds_an_application", "over_limit", "stored_bytes", "status", "reason"),
+)
+
+
 @dataclass(frozen=True)
 class CostFit:
-    """Costs of the steps of a ladder, arrays (steps,) with NaN where a solve failed, and the powers they follow.
+    """Costs of the steps of a ladder, and the powers that they follow.
 
-    name : of the ladder
-    dataset : of its steps, see CostDiagram.datasets
+    name : of the ladder; title : dimensionality and label, for people
+    setting : what costs are asked against
+    steps : a row a step with the columns STEPS and its nodes, the points of its grid in all; NaN where a solve
+        failed; over_limit is the processor time over that of the products by transforms alone
     """
 
     name: str
-    dataset: xarray.Dataset
+    title: str
+    dimension: str
+    setting: str
+    steps: DataFrame
 
-    def __getattr__(self, name: str) -> np.ndarray:
-        """A variable of the dataset by its name."""
-        if name.startswith("_") or name not in self.dataset:
-            raise AttributeError(name)
-        return self.dataset[name].values
+    @classmethod
+    def of(cls, name: str, dataset: xarray.Dataset) -> Self:
+        """Costs of the Dataset of a ladder."""
+        about, rows = dataset.attrs, dataset.to_dataframe()
+        dimension, label = DIMENSIONS[about["solver"]], about["title"]
+        title = label if dimension in label else f"{dimension} {label}"
+        nodes = rows["points"].astype(float) if dimension == "1D" else rows["points"].astype(float) ** 2
+        plain = (rows["transform_pairs"] - rows["applications"]) * rows["plain_product"]
+        steps = rows.assign(
+            ladder=name,
+            label=label,
+            title=title,
+            solver=about["solver"],
+            dimension=dimension,
+            along=about["setting"],
+            nodes=nodes,
+            bytes_a_point=rows["memory"] / nodes,
+            seconds_an_application=rows["processor"] / rows["applications"],
+            over_limit=rows["processor"] / (rows["applications"] * rows["padded_product"] + plain),
+        )
+        return cls(name, title, dimension, about["setting"], steps)
 
-    @property
-    def solver(self) -> str:
-        """Name of the solver."""
-        return self.dataset.attrs["solver"]
-
-    @property
-    def dimension(self) -> str:
-        """Dimensionality of the solver."""
-        return DIMENSIONS[self.solver]
-
-    @property
-    def setting(self) -> str:
-        """What costs are asked against."""
-        return self.dataset.attrs["setting"]
-
-    @property
-    def title(self) -> str:
-        """Dimensionality and label, for people."""
-        label = self.dataset.attrs["title"]
-        return label if self.dimension in label else f"{self.dimension} {label}"
-
-    @property
-    def nodes(self) -> np.ndarray:
-        """Points of each step in all (steps,)."""
-        points = self.points.astype(float)
-        return points if self.solver == "MDR" else points**2
-
-    @property
-    def per_application(self) -> np.ndarray:
-        """Processor time over operator applications [s]."""
-        return self.processor / self.applications
-
-    @property
-    def limit(self) -> np.ndarray:
-        """Processor time of the products by transforms alone [s], NaN where it was not measured."""
-        plain = (self.transform_pairs - self.applications) * self.plain_product
-        return self.applications * self.padded_product + plain
-
-    @property
-    def over_limit(self) -> np.ndarray:
-        """Processor time over that of the products alone."""
-        return self.processor / self.limit
+    def known(self, column: str, least: float = 0.0) -> np.ndarray:
+        """Numbers of a column (steps,) of the steps that have as many nodes."""
+        return self.steps.loc[self.steps["nodes"] >= least, column].to_numpy()
 
     @cached_property
     def laws(self) -> Mapping[str, Law | NoLaw]:
         """Laws by the names of LABELS, against x: memory from MEMORY_FROM on, per_transform against n^2 log n."""
-        enough, follows = self.nodes >= MEMORY_FROM, fit if self.setting in GROWING else fit_whole
-        found = {name: follows(self.x, getattr(self, name)) for name in tuple(LABELS)[:3]}
+        x, each = self.known("x"), self.known("seconds_an_application")
+        follows = fit if self.setting in GROWING else fit_whole
+        found = {
+            "processor": follows(x, self.known("processor")),
+            "applications": follows(x, self.known("applications")),
+            "per_application": follows(x, each),
+        }
         if self.dimension == "3D" and self.setting == "points":
-            found["per_transform"] = follows(self.x**2 * np.log(self.x), self.per_application)
-        return found | {"memory": follows(self.x[enough], self.memory[enough])}
+            found["per_transform"] = follows(x**2 * np.log(x), each)
+        return found | {"memory": follows(self.known("x", MEMORY_FROM), self.known("memory", MEMORY_FROM))}
 
 
 def fits_of(node: xarray.DataTree) -> list[CostFit]:
     """Every ladder with its laws."""
-    return [CostFit(name, child.to_dataset(inherit=False)) for name, child in node.children.items()]
+    return [CostFit.of(name, child.to_dataset(inherit=False)) for name, child in node.children.items()]

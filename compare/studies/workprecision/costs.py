@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 import xarray
-from pandas import DataFrame
+from pandas import DataFrame, concat
 
 from ...amounts import short
 from ...finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
@@ -18,7 +18,7 @@ from ...statistics.costs import Law, NoLaw
 from ...store import stored_size
 from ...task import Task
 from .convergence import Ladder, costs_of, described, settings_of
-from .cost_fit import GROWING, LABELS, MEMORY_FROM, CostFit, fits_of
+from .cost_fit import GROWING, LABELS, MEMORY_FROM, STEPS, CostFit, fits_of
 from .cost_ladders import AXES, ladders
 from .diagram import Diagram
 from .forecasts import LARGEST, MEMORIES, Forecast, forecasts
@@ -74,7 +74,7 @@ class CostDiagram(Diagram):
         fits = fits_of(node)
         return [
             *(_exponent(each, cost) for each in fits for cost in _exponents_of(each)),
-            *(_over_limit(each) for each in fits if np.isfinite(each.limit).any()),
+            *(_over_limit(each) for each in fits if np.isfinite(each.known("over_limit")).any()),
             *(_forecast(each) for each in forecasts(fits) if each.kind != "stored"),
         ]
 
@@ -84,41 +84,35 @@ class CostDiagram(Diagram):
         if not any(each.setting == "points" for each in fits):
             return []
         tables = {
-            name: [row for each in fits for row in _steps(each)],
-            f"{name}-laws": [row for each in fits for row in _laws(each)],
-            f"{name}-forecasts": [{**asdict(each), "held": each.held} for each in forecasts(fits)],
+            name: concat([each.steps[list(STEPS)] for each in fits], ignore_index=True),
+            f"{name}-laws": DataFrame([row for each in fits for row in _laws(each)]),
+            f"{name}-forecasts": DataFrame([{**asdict(each), "held": each.held} for each in forecasts(fits)]),
         }
         options = {"largest": LARGEST, "memories": list(MEMORIES), "memory_from": MEMORY_FROM}
         axes = {name: axis.label for name, axis in AXES.items()}
-        return [
-            workprecision_costs.plot(name, {key: DataFrame(rows) for key, rows in tables.items()}, axes, options)
-        ]
+        return [workprecision_costs.plot(name, tables, axes, options)]
 
     def tables(self, node: xarray.DataTree) -> list[Block]:
         """Times along all that is no number of points."""
         rows = []
         for each in fits_of(node):
-            known = np.isfinite(each.processor)
-            if known.any():
-                least, most = np.nanargmin(each.processor), np.nanargmax(each.processor)
+            known = each.steps[np.isfinite(each.steps["processor"])].sort_values("processor", kind="stable")
+            if len(known):
                 law = each.laws["processor"]
                 rows.append(
                     {
                         "ladder": each.title,
                         "against": AXES[each.setting].label,
-                        "from": short(np.nanmin(each.x)),
-                        "to": short(np.nanmax(each.x)),
-                        "least time [s]": short(each.processor[least]),
-                        "longest time [s]": short(each.processor[most]),
-                        "longest at": short(each.x[most]),
+                        "from": short(each.steps["x"].min()),
+                        "to": short(each.steps["x"].max()),
+                        "least time [s]": short(known["processor"].iloc[0]),
+                        "longest time [s]": short(known["processor"].iloc[-1]),
+                        "longest at": short(known["x"].iloc[-1]),
                         "power": short(law.exponent) if isinstance(law, Law) else f"none: {law.reason}",
                     }
                 )
-        return (
-            [Table("workprecision-cost-ranges", DataFrame(rows), "Processor time along each ladder.")]
-            if rows
-            else []
-        )
+        caption = "Processor time along each ladder."
+        return [Table("workprecision-cost-ranges", DataFrame(rows), caption)] if rows else []
 
 
 def _exponents_of(each):
@@ -144,7 +138,8 @@ def _over_limit(each):
         "Time of a 3D solve from 256² points on over that of its products by transforms alone, largest",
         dimension=each.dimension,
     )
-    ratios = each.over_limit[(each.nodes >= MEMORY_FROM) & np.isfinite(each.over_limit)]
+    ratios = each.known("over_limit", MEMORY_FROM)
+    ratios = ratios[np.isfinite(ratios)]
     value, why = (float(ratios.max()), "") if len(ratios) else (nan, "not measured")
     return Finding(claim, value, where=each.title, reason=why, plot="workprecision-costs")
 
@@ -167,28 +162,6 @@ def _forecast(each: Forecast):
         f"workprecision.costs.{each.kind}", each.what.capitalize(), unit=each.unit, dimension=each.title[:2]
     )
     return Finding(claim, each.value, (each.low, each.high), 0.0, **told)
-
-
-def _steps(each: CostFit) -> Iterator[dict[str, Any]]:
-    for k in range(len(each.x)):
-        yield {
-            "ladder": each.name,
-            "label": each.dataset.attrs["title"],
-            "title": each.title,
-            "solver": each.solver,
-            "dimension": each.dimension,
-            "along": each.setting,
-            **{name: getattr(each, name)[k] for name in ("x", "points", "steps", "tolerance", "precision")},
-            **{name: getattr(each, name)[k] for name in ("processor", "wall", "repeats", "memory")},
-            "bytes_a_point": each.memory[k] / each.nodes[k],
-            "applications": each.applications[k],
-            "transform_pairs": each.transform_pairs[k],
-            "seconds_an_application": each.per_application[k],
-            "over_limit": each.over_limit[k],
-            "stored_bytes": each.stored_bytes[k],
-            "status": each.status[k],
-            "reason": each.reason[k],
-        }
 
 
 def _laws(each: CostFit) -> Iterator[dict[str, Any]]:

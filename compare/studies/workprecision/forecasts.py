@@ -69,12 +69,12 @@ def forecasts(fits: Sequence[CostFit]) -> list[Forecast]:
 
 def _checks(each) -> dict[str, Forecast]:
     """The largest grid from those below it: its time, and its memory."""
-    enough, found = each.nodes >= MEMORY_FROM, {}
-    for what, unit, part, cost in (
-        ("time", "s", slice(None), each.processor),
-        ("memory", "GiB", enough, each.memory / GIBIBYTE),
+    found = {}
+    for what, unit, cost, size, least in (
+        ("time", "s", "processor", 1.0, 0),
+        ("memory", "GiB", "memory", GIBIBYTE, MEMORY_FROM),
     ):
-        x, law, seen = held_out(each.x[part], cost[part])
+        x, law, seen = held_out(each.known("x", least), each.known(cost, least) / size)
         found[what] = _of(
             law, x, each, f"held-out-{what}", f"{what} with {x:g} points, from fewer", unit, found=seen
         )
@@ -108,12 +108,12 @@ def _ensembles(each, points) -> Iterator[Forecast]:
     for n in points:
         grid = f"{n} points" if each.dimension == "1D" else f"{n}² points"
         told = each.name, each.title, f"surfaces-{n}", f"{SURFACES} surfaces with {grid}", "core hours"
-        measured = each.processor[each.x == n]
+        measured = each.known("processor")[each.known("x") == n]
         if np.isfinite(measured).any():
             yield Forecast(*told, float(measured[0]) * SURFACES / HOUR)
         else:
             yield Forecast(*told, reason="not measured")
-    rows = each.stored_bytes[each.status == SOLVED]
+    rows = each.known("stored_bytes")[each.known("status") == SOLVED]
     if len(rows):
         low, middle, high = (float(SURFACES * f(rows) / GIBIBYTE) for f in (np.min, np.median, np.max))
         what = f"rows of {SURFACES} surfaces on disk"
