@@ -179,7 +179,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
         if power.power == FITTED:
             colour, line = style.grey(0.6), "-"
             if np.isfinite(power.exponent_low):
-                label += f" ({power.exponent_low:.3g} to {power.exponent_high:.3g})"
+                label += f"\n({power.exponent_low:.3g} to {power.exponent_high:.3g})"
         elif power.power == EXPECTED:
             colour, line = style.ink(), "--"
         else:
