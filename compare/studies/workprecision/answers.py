@@ -1,10 +1,9 @@
 """The shortest way to a wanted error of the true answer of three dimensions, in either model."""
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, nan
-from typing import Any
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 import xarray
@@ -40,34 +39,12 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Regime(ABC):
-    """One quantity of one contact in both models. title : of the contact; quantity, label : name, for people"""
+class OneQuantity:
+    """One quantity of one contact. title : of the contact; quantity, label : name, for people"""
 
     title: str
     quantity: str
     label: str
-
-    @abstractmethod
-    def answer(self, level: float, solver: str | None = None) -> Answer | None:
-        """The shortest way to a level; None where there is none."""
-
-    @abstractmethod
-    def best(self, solver: str | None = None) -> float:
-        """Least error that is known to be reached."""
-
-    @property
-    @abstractmethod
-    def floor(self) -> Bias:
-        """Error of the 1D model on its finest grid."""
-
-    @property
-    @abstractmethod
-    def converges(self) -> bool:
-        """Whether the 1D model comes ever closer with its points."""
-
-    @abstractmethod
-    def error_1d(self, claim: Claim) -> Finding:
-        """Error of the 1D model."""
 
     @property
     def where(self) -> str:
@@ -76,7 +53,7 @@ class Regime(ABC):
 
 
 @dataclass(frozen=True)
-class SmoothRegime(Regime):
+class SmoothRegime(OneQuantity):
     """A regime of a smooth body: ladders of both solvers by one quantity.
 
     method : how the error of the reference is known
@@ -129,13 +106,15 @@ class SmoothRegime(Regime):
 
 
 @dataclass(frozen=True)
-class RoughRegime(Regime):
+class RoughRegime(OneQuantity):
     """A regime of a rough body, of which the answer is the mean over surfaces.
 
-    The time of a mean grows with the number of surfaces, however large.
+    The time of a mean grows with the number of surfaces, however large. The scatter of profiles would hide whether
+    the 1D model comes ever closer with its points.
     """
 
     mean: MeasuredMean
+    converges: ClassVar[bool] = False
 
     def effort(self, level: float, solver: str | None = None) -> Effort | None:
         """Plan and numbers of surfaces for a level."""
@@ -155,11 +134,6 @@ class RoughRegime(Regime):
         """Error of the mean of the 1D model on its finest grid."""
         return self.mean.floor
 
-    @property
-    def converges(self) -> bool:
-        """Never: the scatter of profiles would hide it."""
-        return False
-
     def error_1d(self, claim: Claim) -> Finding:
         """Error of the mean of the 1D model, with scatter and grid apart."""
         floor, grid = self.floor, self.mean.grid_error
@@ -172,6 +146,9 @@ class RoughRegime(Regime):
 
     def _of(self, solver):
         return [plan for plan in self.mean.plans if solver in (None, plan.solver)]
+
+
+Regime: TypeAlias = SmoothRegime | RoughRegime
 
 
 def smooth_regimes(node: xarray.DataTree) -> list[SmoothRegime]:

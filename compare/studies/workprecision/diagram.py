@@ -196,12 +196,18 @@ def where_of(each: MeasuredLadder) -> str:
 
 
 def reported(
-    id: str, sentence: str, value: float, where: str = "", unit: str = "1", dimension: str = "3D", **more: Any
+    id: str,
+    sentence: str,
+    value: float,
+    where: str = "",
+    unit: str = "1",
+    dimension: str = "3D",
+    missing: str = "",
+    **more: Any,
 ) -> Finding:
-    """Finding of a number that is reported without a claim."""
-    return Finding(
-        Claim(f"workprecision.{id}", sentence, unit=unit, dimension=dimension), value, where=where, **more
-    )
+    """Finding of a number that is reported without a claim. missing : why, where it is not known"""
+    claim = Claim(f"workprecision.{id}", sentence, unit=unit, dimension=dimension)
+    return Finding(claim, value, where=where, reason="" if isfinite(value) else missing, **more)
 
 
 def advice(findings: Sequence[Finding]) -> list[str]:

@@ -153,14 +153,13 @@ def shape(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
             if each.ladder.startswith("free, by extent") and each.quantity == first:
                 spread = float(np.nanmax(each.errors)) if np.isfinite(each.errors).any() else nan
                 sentence = "Largest error of a free window of any extent that holds the contact"
-                yield reported("extent.free", sentence, spread, each.title, reason=each.unsolved)
+                yield reported("extent.free", sentence, spread, each.title, missing=each.unsolved)
         cells = [each for each in own if each.ladder.startswith("cell")]
         for less in cells[1:]:
             left = less.errors / cells[0].errors
-            known = bool(np.isfinite(left).any())
-            value, why = (float(np.nanmax(left)), "") if known else (nan, cells[0].unsolved)
+            value = float(np.nanmax(left)) if np.isfinite(left).any() else nan
             sentence = "Share of the error of a cell that is left without the wave's shape, largest"
-            yield reported("extent.shape", sentence, value, less.title, reason=why)
+            yield reported("extent.shape", sentence, value, less.title, missing=cells[0].unsolved)
 
 
 DIAGRAM = ConvergenceDiagram(

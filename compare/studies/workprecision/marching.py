@@ -95,9 +95,9 @@ def price(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
     times = dict(zip(steady.values, steady.processor, strict=True))
     for value, spent in zip(marched.values, marched.processor, strict=True):
         ratio = float(spent / times[value])
-        why = "" if np.isfinite(ratio) else "one of both was not solved"
         sentence = "Time of marching to the steady state over that of the steady solver"
-        yield reported("marching.price", sentence, ratio, f"{value:g} points", reason=why)
+        why = "one of both was not solved"
+        yield reported("marching.price", sentence, ratio, f"{value:g} points", missing=why)
 
 
 DIAGRAM = ConvergenceDiagram(

@@ -106,39 +106,41 @@ def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
             f"Processor time to {share(level)} of the true answer",
         )
         for each in found:
-            taken, known, where = each.answer(level), each.best(), each.where
+            taken = each.answer(level)
             if taken is None:
-                why = f"best known {share(known)}" if isfinite(known) else "not solved"
-                yield reported(id, sentence, nan, where, "s", "1D/3D", reason=why)
+                yield reported(id, sentence, nan, each.where, "s", "1D/3D", missing=_missed(each.best()))
             else:
-                yield reported(id, sentence, taken.seconds, where, "s", DIMENSIONS[taken.solver])
+                yield reported(id, sentence, taken.seconds, each.where, "s", DIMENSIONS[taken.solver])
 
 
 def _surface_findings(found: Sequence[RoughRegime]) -> Iterator[Finding]:
     for each in found:
         first, where = each.mean.plain[0], each.where
         scatter, bias, grid = first.levels[0].scatter, first.bias, each.mean.grid_error
-        why = "" if isfinite(scatter.value) else "too few surfaces were solved"
+        why = "too few surfaces were solved"
         yield reported(
             "surfaces.scatter", "Scatter of one surface", scatter.value, where,
-            scatter=scatter.interval(), grid=0.0, draws=scatter.freedom + 1, reason=why,
+            scatter=scatter.interval(), grid=0.0, draws=scatter.freedom + 1, missing=why,
         )  # fmt: skip
         half = bias.reach - grid
         yield reported(
             "surfaces.coarsest-grid", f"Error that the coarsest grid leaves ({first.label} points)", bias.value,
-            where, scatter=(bias.value - half, bias.value + half), grid=grid, grid_method=HALVED, reason=why,
+            where, scatter=(bias.value - half, bias.value + half), grid=grid, grid_method=HALVED, missing=why,
         )  # fmt: skip
         worth = (scatter.value / bias.size) ** 2 if bias.size > 0 else nan
         yield reported(
             "surfaces.fewest", "Surfaces from which on more points gain something", float(np.ceil(worth)), where,
-            reason=why,
+            missing=why,
         )  # fmt: skip
         for level in WANTED:
-            effort, known = each.effort(level, "BEM"), each.best("BEM")
-            missed = f"best known {share(known)}" if isfinite(known) else "not solved"
+            effort = each.effort(level, "BEM")
             id, sentence = f"surfaces.time-{100 * level:g}-percent", f"Processor time to {share(level)} in 3D"
             value = nan if effort is None else effort.seconds
-            yield reported(id, sentence, value, where, "s", reason="" if effort else missed)
+            yield reported(id, sentence, value, where, "s", missing=_missed(each.best("BEM")))
+
+
+def _missed(known):
+    return f"best known {share(known)}" if isfinite(known) else "not solved"
 
 
 def _recipes(found: Sequence[RoughRegime]) -> Iterator[dict[str, Any]]:

@@ -51,19 +51,18 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         for each in own:
             sentence = f"Least error in {each.ladder.split(', ')[1]} precision"
             id = f"precision.least-{each.ladder.split(', ')[1]}"
-            yield reported(id, sentence, each.best, where_of(each), reason=each.unsolved)
+            yield reported(id, sentence, each.best, where_of(each), missing=each.unsolved)
         double, single = own[0], next(each for each in own if "single" in each.ladder)
         times = dict(zip(double.values, double.processor, strict=True))
         ratios = np.array([times.get(value, nan) for value in single.values]) / single.processor
         ratio = float(np.exp(np.log(ratios).mean())) if np.isfinite(ratios).all() else nan
-        why = "" if np.isfinite(ratio) else "not every step was solved"
         sentence = "Time in double precision over that in single at equal tolerance, geometric mean"
-        yield reported("precision.time-ratio", sentence, ratio, double.title, reason=why)
+        why = "not every step was solved"
+        yield reported("precision.time-ratio", sentence, ratio, double.title, missing=why)
         held, less = (np.fmax.reduce(each.memory) for each in (double, single))
         ratio = float(less / held) if held > 0 else nan
-        why = "" if np.isfinite(ratio) else "not measured"
         sentence = "Memory in single precision over that in double"
-        yield reported("precision.memory-ratio", sentence, ratio, double.title, reason=why)
+        yield reported("precision.memory-ratio", sentence, ratio, double.title, missing="not measured")
 
 
 DIAGRAM = ConvergenceDiagram(
