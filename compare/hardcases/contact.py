@@ -1,29 +1,30 @@
 """Contacts of one point and of all points, nearly closed and hardly touching."""
 
-from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from bem3d import BEM
 from compare.exact import waves
-from scene import CrossedWaves, Indent, Plane, Scene, Slide, SolveError, Wave
+from scene import CrossedWaves, Indent, Plane, Scene, Slide, Wave
 
-from .conditions import conditions as conditions_of
-from .hardcase import Check, Group, deviation, refusal
+from .conditions import conditions
+from .hardcase import Check, Group, deviation
+from .laws import BOTH, asked, refused
 from .matrix import Matrix, solved
-from .ordinary import DEPTH, ELASTIC, LOAD, PACE, RADIUS, ROUGH, SOLID, TOLERANCE, dense, line, resting, space
+from .ordinary import DEPTH, ELASTIC, LOAD, PACE, RADIUS, ROUGH, SOLID, resting
+from .solvers import TOLERANCE, dense, line, row, space, square
 
-FINE = 1e-9  # tolerance of problems given as a matrix
 AMPLITUDE, WAVELENGTH = 1e-5, 1e-3
 WAVE, CROSSED = (kind(amplitude=AMPLITUDE, wavelength=WAVELENGTH) for kind in (Wave, CrossedWaves))
-WAVE_CLOSURE = waves.wave_closure(ELASTIC.indentation_modulus, AMPLITUDE, WAVELENGTH)
-CROSSED_CLOSURE = waves.crossed_closure(ELASTIC.indentation_modulus, AMPLITUDE, WAVELENGTH)
+CLOSURE = {
+    WAVE: waves.wave_closure(ELASTIC.indentation_modulus, AMPLITUDE, WAVELENGTH),
+    CROSSED: waves.crossed_closure(ELASTIC.indentation_modulus, AMPLITUDE, WAVELENGTH),
+}
 CASES = case = Group("contact")
 
 
-def _plane(rough, elastomer=ELASTIC, **pressed):
-    motion = pressed.pop("speed", 0.0)
-    return Scene(Plane(), elastomer, Slide(speed=motion, **pressed), rough)
+def _plane(rough, **pressed):
+    return Scene(Plane(), ELASTIC, Slide(speed=0.0, **pressed), rough)
 
 
 @case(
@@ -33,10 +34,9 @@ def _plane(rough, elastomer=ELASTIC, **pressed):
 def one_point(size):
     matrix, heights = Matrix(12, 12), np.ones((12, 12))
     heights[5, 7] = 0.0
-    itself = float(matrix.values[0, 0])
     for load in (1e-12, 1e-3, 0.1):
-        found = solved(matrix, heights, FINE, load=load)
-        yield deviation(f"depth under {load:g}", found.depth, load * itself, 1e-12)
+        found = solved(matrix, heights, load=load)
+        yield deviation(f"depth under {load:g}", found.depth, load * float(matrix.values[0, 0]), 1e-12)
         yield Check(f"points under {load:g}, less one", abs(np.count_nonzero(found.pressure) - 1.0), 0.0)
 
 
@@ -45,11 +45,9 @@ def one_point(size):
     "Refused: the error says how many there are, how many are needed, and to take more points.",
 )
 def few_pixels(size):
-    for solver in (line(size), space(size)):
-        asked, pixel = f"{solver.name}: a contact of three pixels across", 4 * RADIUS / solver.points
-        scene = resting(motion=Indent(depth=DEPTH * (1.2 * pixel / RADIUS) ** 2))
-        wide = replace(solver, extent=4 * RADIUS)
-        yield refusal(asked, SolveError, "needed | take more points", wide.solve, scene)
+    for build, points in ((line, size.line), (space, size.square)):
+        shallow = resting(motion=Indent(depth=DEPTH * (1.2 * (4 * RADIUS / points) / RADIUS) ** 2))
+        yield from refused("needed | take more points", shallow, partial(build, extent=4 * RADIUS))(size)
 
 
 @case(
@@ -58,10 +56,9 @@ def few_pixels(size):
     "1e-7, and what that leaves of the gap is felt as pressure by the wave number.",
 )
 def whole_domain(size):
-    for rough, closure in ((WAVE, WAVE_CLOSURE), (CROSSED, CROSSED_CLOSURE)):
+    for rough, closure in CLOSURE.items():
         for fraction in (1.001, 2.0, 1e3):
-            scene = _plane(rough, pressure=fraction * closure)
-            answer = BEM(points=size.square, tolerance=TOLERANCE).solve(scene)
+            answer = square(size, tolerance=TOLERANCE).solve(_plane(rough, pressure=fraction * closure))
             x, y = (2 * np.pi / WAVELENGTH * answer.fields[name] for name in ("x", "y"))
             across = np.cos(y)[:, None] if rough is CROSSED else 1.0
             known = closure * (fraction - across * np.cos(x))
@@ -77,11 +74,10 @@ def whole_domain(size):
 )
 def nearly_full_contact(size):
     for fraction in (0.99, 0.9999):
-        scene = _plane(WAVE, pressure=fraction * WAVE_CLOSURE)
-        answer = BEM(points=size.row, tolerance=1e-9).solve(scene)
-        apart = answer.measures["contact_fraction"] - waves.wave_contact_fraction(fraction)
+        found = row(size, tolerance=1e-9).solve(_plane(WAVE, pressure=fraction * CLOSURE[WAVE])).measures
+        apart = found["contact_fraction"] - waves.wave_contact_fraction(fraction)
         yield Check(f"p/p* = {fraction:g}: contact fraction, in pixels", abs(apart) * size.row, 2.0)
-        gap = answer.measures["mean_gap"] / AMPLITUDE - waves.wave_mean_gap(fraction)
+        gap = found["mean_gap"] / AMPLITUDE - waves.wave_mean_gap(fraction)
         yield Check(f"p/p* = {fraction:g}: mean gap over h0", abs(gap), 2 / size.row**2)
 
 
@@ -90,12 +86,11 @@ def nearly_full_contact(size):
     "The mean gap is zero to 1e-3 h0, that of the last pixels; conditions of contact, computed anew.",
 )
 def just_closed(size):
-    for rough, closure in ((WAVE, WAVE_CLOSURE), (CROSSED, CROSSED_CLOSURE)):
-        answer = BEM(points=size.square, tolerance=TOLERANCE).solve(_plane(rough, pressure=closure))
-        yield Check(
-            f"{type(rough).__name__}: mean gap over h0", abs(answer.measures["mean_gap"] / AMPLITUDE), 1e-3
-        )
-        yield from conditions_of(answer, 2 * TOLERANCE, type(rough).__name__)
+    for rough, closure in CLOSURE.items():
+        what, scene = type(rough).__name__, _plane(rough, pressure=closure)
+        answer = square(size, tolerance=TOLERANCE).solve(scene)
+        yield Check(f"{what}: mean gap over h0", abs(answer.measures["mean_gap"] / AMPLITUDE), 1e-3)
+        yield from conditions(answer, 2 * TOLERANCE, what)
 
 
 @case(
@@ -103,20 +98,18 @@ def just_closed(size):
     "Refused: the error names motion.gap and its value, and says to prescribe the pressure.",
 )
 def gap_to_nothing(size):
-    for gap in (1e-9, 1e-300):
-        scene, solver = _plane(CROSSED, gap=gap * AMPLITUDE), BEM(points=size.square)
-        words = f"motion.gap | {gap * AMPLITUDE:g} | prescribe the pressure"
-        yield refusal(f"a mean gap of {gap:g} h0", SolveError, words, solver.solve, scene)
+    for gap in (1e-9 * AMPLITUDE, 1e-300 * AMPLITUDE):
+        words = f"motion.gap | {gap:g} | prescribe the pressure"
+        yield from refused(words, _plane(CROSSED, gap=gap), square)(size)
 
 
-@case(
+FAINT = {f"p/p* = {part:g}": _plane(CROSSED, pressure=part * CLOSURE[CROSSED]) for part in (1e-9, 1e-300)}
+case.add(
+    "load-to-nothing",
     "Two crests of a crossed wave carry 1e-9 and 1e-300 of the pressure of closure: less than a pixel each.",
     "Refused: the error says how many points the contact covers, and to take more.",
+    refused("covers | take more points", FAINT, square),
 )
-def load_to_nothing(size):
-    for fraction in (1e-9, 1e-300):
-        scene, solver = _plane(CROSSED, pressure=fraction * CROSSED_CLOSURE), BEM(points=size.square)
-        yield refusal(f"p/p* = {fraction:g}", SolveError, "covers | take more points", solver.solve, scene)
 
 
 @case(
@@ -124,24 +117,24 @@ def load_to_nothing(size):
     "Pressure of the mirrored problem is the mirrored one, to 1e-6 of its peak: contact is solved to 1e-9.",
 )
 def mirrored_plateaus(size):
-    heights = np.round(np.random.default_rng(5).standard_normal((15, 15)))
-    matrix = Matrix(15, 15)
-    found = solved(matrix, heights, FINE, load=20.0)
+    matrix, heights = Matrix(15, 15), np.round(np.random.default_rng(5).standard_normal((15, 15)))
+    pressure = solved(matrix, heights, load=20.0).pressure
     for name, turned in (("left and right", np.fliplr), ("rows and columns", np.transpose)):
-        other = solved(matrix, turned(heights).copy(), FINE, load=20.0)
-        apart = np.abs(turned(found.pressure) - other.pressure).max() / found.pressure.max()
-        yield Check(f"{name}: pressure", apart, 1e-6)
+        other = solved(matrix, turned(heights).copy(), load=20.0).pressure
+        yield Check(f"{name}: pressure", np.abs(turned(pressure) - other).max() / pressure.max(), 1e-6)
 
 
-@case(
+MOTIONS = Indent(depth=DEPTH), Indent(load=LOAD), Slide(speed=PACE, depth=DEPTH)
+case.add(
+    "beyond-the-window",
     "The contact is twice as wide as the stated extent.",
     "Refused by both solvers: the error names the contact, the extent and its value.",
+    refused(
+        f"contact | {RADIUS:g} | extent",
+        {f"{motion}": resting(elastomer=SOLID, motion=motion) for motion in MOTIONS},
+        *(partial(build, extent=RADIUS) for build in BOTH),
+    ),
 )
-def beyond_the_window(size):
-    for solver in (line(size, extent=RADIUS), space(size, extent=RADIUS)):
-        for motion in (Indent(depth=DEPTH), Indent(load=LOAD), Slide(speed=PACE, depth=DEPTH)):
-            what, words = f"{solver.name}: {motion}", f"contact | {RADIUS:g} | extent"
-            yield refusal(what, SolveError, words, solver.solve, resting(elastomer=SOLID, motion=motion))
 
 
 @case(
@@ -151,16 +144,10 @@ def beyond_the_window(size):
 )
 def force_rises_with_depth(size):
     depths = DEPTH * (1 + 1e-3 * np.arange(12))
-    for solver in (line(size), dense(size, tolerance=1e-9)):
-        for rough in (None, ROUGH):
-            scenes = [resting(motion=Indent(depth=depth), roughness=rough) for depth in depths]
-            forces = np.array([solver.solve(scene).normal_force for scene in scenes])
-            stiffness = np.diff(forces)
-            body = "smooth" if rough is None else "rough"
-            yield Check(
-                f"{solver.name}, {body}: least gain over the greatest, negative",
-                -stiffness.min() / stiffness.max(),
-                -0.5,
-            )
-            bend = -np.diff(stiffness).min() / stiffness.max()
-            yield Check(f"{solver.name}, {body}: greatest loss of stiffness", bend, 1e-5)
+    bodies = {"smooth": None, "rough": ROUGH}
+    for what, solver, rough in asked(size, bodies, (line, partial(dense, tolerance=1e-9))):
+        scenes = (resting(motion=Indent(depth=depth), roughness=rough) for depth in depths)
+        stiffness = np.diff([solver.solve(scene).normal_force for scene in scenes])
+        least, most = stiffness.min(), stiffness.max()
+        yield Check(f"{what}: least gain over the greatest, negative", -least / most, -0.5)
+        yield Check(f"{what}: greatest loss of stiffness", -np.diff(stiffness).min() / most, 1e-5)

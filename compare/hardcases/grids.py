@@ -1,6 +1,7 @@
 """Odd and prime grids, the smallest ones, single rows, and grids that do not exist."""
 
 from dataclasses import replace
+from functools import partial
 from math import sqrt
 
 import numpy as np
@@ -8,32 +9,32 @@ import numpy as np
 from bem3d import BEM
 from compare.exact import full_contact, line_contact, waves
 from mdr1d import MDR
-from scene import CrossedWaves, Cylinder, Indent, Plane, Scene, SelfAffine, Slide, SolveError, Wave
+from scene import CrossedWaves, Cylinder, Indent, Plane, Scene, SelfAffine, Slide, Wave
 from scene.scales import elastic_contact
 
-from .conditions import conditions as conditions_of
-from .hardcase import Check, Group, deviation, energy_is_lost, invalid, refusal
+from .hardcase import Check, Group, deviation, invalid
+from .laws import asked, energy_is_lost, equal, in_contact, refused
 from .matrix import Matrix, conditions, solved
-from .ordinary import (
-    CONE,
-    DEPTH,
-    ELASTIC,
-    KELVIN,
-    LOAD,
-    PACE,
-    RADIUS,
-    ROUGH,
-    SOLID,
-    SPHERE,
-    TOLERANCE,
-    resting,
-    sliding,
-    space,
-)
+from .ordinary import CONE, DEPTH, ELASTIC, KELVIN, LOAD, PACE, RADIUS, ROUGH, SOLID, SPHERE, resting, sliding
+from .solvers import TOLERANCE, line, row, space, square
 
-PRIMES = (17, 31, 47)
 PERIOD = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=2.5e-4, seed=2)
 CASES = case = Group("grids")
+
+
+def _cone(depth):
+    """A cone at rest at a depth, and its force, exact in 1D."""
+    force = 2 / np.pi * ELASTIC.indentation_modulus * depth**2 / CONE.coefficient
+    return resting(indenter=CONE, motion=Indent(depth=depth)), {"normal_force": force}
+
+
+def _grids(build, *points, **settings):
+    """A solver on several grids."""
+    return [partial(build, points=each, **settings) for each in points]
+
+
+def _wavy(pressure, rough):
+    return Scene(Plane(), SOLID, Slide(speed=PACE, pressure=pressure), rough)
 
 
 class _WithRow(Matrix):
@@ -43,15 +44,12 @@ class _WithRow(Matrix):
         self.values, self.shape, self.symmetric = matrix.values, matrix.shape, matrix.symmetric
 
 
-@case(
+case.add(
+    "prime-squares",
     "Squares of 17, 31 and 47 points, which no transform divides.",
     "Conditions of contact, computed anew, within twice the tolerance.",
+    in_contact({"": resting(), "rough": sliding(1.0, KELVIN, roughness=ROUGH)}, *_grids(space, 17, 31, 47)),
 )
-def prime_squares(size):
-    for points in PRIMES:
-        for scene in (resting(), sliding(1.0, KELVIN, roughness=ROUGH)):
-            answer = space(size, points=points).solve(scene)
-            yield from conditions_of(answer, 2 * TOLERANCE, f"{points} points")
 
 
 @case(
@@ -64,29 +62,26 @@ def odd_next_to_even(size):
     yield Check("force of three successive grids: spread", np.ptp(forces) / forces[1], 8 / even**1.5)
 
 
-@case(
+case.add(
+    "prime-periods",
     "A surface that repeats on 17, 31 and 47 points, where no wave stands at the Nyquist wave number.",
     "Conditions of contact, computed anew wave by wave, within twice the tolerance.",
+    in_contact(
+        {f"p/E* = {part:g}": _wavy(part * SOLID.indentation_modulus, PERIOD) for part in (1e-3, 1.0)},
+        *_grids(square, 17, 18, 31, 47, tolerance=TOLERANCE),
+    ),
 )
-def prime_periods(size):
-    modulus = SOLID.indentation_modulus
-    for points in (17, 18, 31, 47):
-        for pressure in (1e-3 * modulus, modulus):
-            scene = Scene(Plane(), SOLID, Slide(speed=PACE, pressure=pressure), PERIOD)
-            answer = BEM(points=points, tolerance=TOLERANCE).solve(scene)
-            yield from conditions_of(answer, 2 * TOLERANCE, f"{points} points, {pressure:.0e} Pa")
 
 
 @case("Full contact on 17 and 31 points.", "Friction of the closed form within 10/N^2.")
 def prime_periods_in_full_contact(size):
-    for points in (17, 31, 32):
-        wave = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
-        closure = full_contact.crossed_closure(1e-6, 1e-3, SOLID, PACE)
-        scene = Scene(Plane(), SOLID, Slide(speed=PACE, pressure=3 * closure), wave)
-        answer = BEM(points=points, tolerance=TOLERANCE).solve(scene)
-        known = full_contact.crossed_friction(1e-6, 1e-3, SOLID, PACE) * 1e-6
+    pressure = 3 * full_contact.crossed_closure(1e-6, 1e-3, SOLID, PACE)
+    scene = _wavy(pressure, CrossedWaves(amplitude=1e-6, wavelength=1e-3))
+    friction = full_contact.crossed_friction(1e-6, 1e-3, SOLID, PACE) * 1e-6
+    for build in _grids(square, 17, 31, 32, tolerance=TOLERANCE):
         # Heights are seen behind the pixels' centres, where pressure lags by as much.
-        yield deviation(f"{points} points: friction of a cell", answer.friction_force, known, 10 / points**2)
+        allowed = 10 / build(size).points ** 2
+        yield from equal((scene, {"friction_force": friction}), allowed, build)(size)
 
 
 @case(
@@ -95,9 +90,9 @@ def prime_periods_in_full_contact(size):
 )
 def prime_rows(size):
     half_width, _ = line_contact.hertz(SPHERE.radius, ELASTIC.indentation_modulus, LOAD / RADIUS)
+    scene = Scene(Cylinder(SPHERE.radius), ELASTIC, Indent(line_load=LOAD / RADIUS))
     for points in (17, 31, size.row - 1, size.row):
-        scene = Scene(Cylinder(SPHERE.radius), ELASTIC, Indent(line_load=LOAD / RADIUS))
-        answer = BEM(points=points).solve(scene)
+        answer = row(size, points=points).solve(scene)
         found = answer.measures["contact_area"] / 2 - half_width
         yield Check(f"{points} points: half-width, in pixels", abs(found) / answer.measures["pixel"], 1.0)
         depth = answer.depth - elastic_contact(scene).depth
@@ -113,7 +108,7 @@ def one_wave_on_a_row(size):
     wave = Wave(amplitude=1e-5, wavelength=1e-3)
     closure = waves.wave_closure(ELASTIC.indentation_modulus, 1e-5, 1e-3)
     for points in (63, 64, 61):
-        answer = BEM(points=points).solve(Scene(Plane(), ELASTIC, Indent(pressure=0.5 * closure), wave))
+        answer = row(size, points=points).solve(Scene(Plane(), ELASTIC, Indent(pressure=0.5 * closure), wave))
         apart = answer.measures["contact_fraction"] - waves.wave_contact_fraction(0.5)
         yield Check(f"{points} points: contact fraction, in pixels", abs(apart) * points, 2.0)
 
@@ -124,12 +119,11 @@ def one_wave_on_a_row(size):
 )
 def oblong_problems(size):
     for ny, nx in ((3, 40), (40, 3), (7, 13), (1, 60)):
+        heights = np.random.default_rng(ny).standard_normal((ny, nx))
         for memory in (0.0, 4.0):
             matrix = Matrix(ny, nx, memory)
-            heights = np.random.default_rng(ny).standard_normal((ny, nx))
-            operator = _WithRow(matrix) if ny == 1 and memory else matrix
-            found = solved(operator, heights, 1e-9, load=3.0)
-            yield from conditions(matrix, heights, found, 1e-9, f"{ny} x {nx}, memory {memory:g}")
+            found = solved(_WithRow(matrix) if ny == 1 and memory else matrix, heights, load=3.0)
+            yield from conditions(matrix, heights, found, f"{ny} x {nx}, memory {memory:g}")
 
 
 @case(
@@ -137,14 +131,10 @@ def oblong_problems(size):
     "Conditions of contact, computed anew; a cone exact to 1e-12; one point less is refused by name and number.",
 )
 def smallest_grids(size):
-    answer = BEM(points=16, extent=2.4 * RADIUS, tolerance=TOLERANCE).solve(sliding(1.0))
-    yield from conditions_of(answer, 2 * TOLERANCE, "16 points")
-    answer = MDR(points=8, extent=2.4 * RADIUS).solve(resting(indenter=CONE, motion=Indent(depth=RADIUS / 4)))
-    known = 2 / np.pi * ELASTIC.indentation_modulus * (RADIUS / 4) ** 2 / CONE.coefficient
-    yield deviation("MDR, 8 points: force on a cone", answer.normal_force, known, 1e-12)
-    for solver, least in ((BEM, 16), (MDR, 8)):
-        what, words = f"{solver.__name__}: {least - 1} points", f"points | {least - 1} | {least}"
-        yield invalid(what, words, solver, points=least - 1)
+    yield from in_contact(sliding(1.0), *_grids(space, 16, extent=2.4 * RADIUS))(size)
+    yield from equal(_cone(RADIUS / 4), 1e-12, *_grids(line, 8, extent=2.4 * RADIUS))(size)
+    yield invalid("BEM: 15 points", "points | 15 | 16", BEM, points=15)
+    yield invalid("MDR: 7 points", "points | 7 | 8", MDR, points=7)
 
 
 @case(
@@ -170,11 +160,10 @@ def settings_that_do_not_exist(size):
     "Force on a cone exact to 1e-12: it is linear between nodes.",
 )
 def odd_lines(size):
-    known = 2 / np.pi * ELASTIC.indentation_modulus * DEPTH**2 / CONE.coefficient
-    for points in (9, 31, 101, 997):
-        answer = MDR(points=points).solve(resting(indenter=CONE))
-        yield deviation(f"{points} points: force on a cone", answer.normal_force, known, 1e-12)
-        yield Check(f"{points} points: oddness of what is solved on", answer.settings["points"] % 2, 0.0)
+    grids = _grids(line, 9, 31, 101, 997)
+    yield from equal(_cone(DEPTH), 1e-12, *grids)(size)
+    for what, solver, scene in asked(size, resting(indenter=CONE), grids):
+        yield Check(f"{what}: oddness of what is solved on", solver.solve(scene).settings["points"] % 2, 0.0)
 
 
 @case(
@@ -200,10 +189,9 @@ def turned_grids(size):
     scene = resting(roughness=CrossedWaves(amplitude=DEPTH / 10, wavelength=RADIUS / 2))
     for points in (31, 32):
         pressure = space(size, points=points).solve(scene).fields["pressure"]
-        apart = np.abs(pressure - pressure.T).max() / pressure.max()
-        yield Check(f"{points} points: pressure less its transpose", apart, 1e-4)
-        apart = np.abs(pressure - pressure[:, ::-1]).max() / pressure.max()
-        yield Check(f"{points} points: pressure less its mirror image", apart, 1e-4)
+        for name, turned in (("transpose", pressure.T), ("mirror image", pressure[:, ::-1])):
+            apart = np.abs(pressure - turned).max() / pressure.max()
+            yield Check(f"{points} points: pressure less its {name}", apart, 1e-4)
 
 
 @case(
@@ -211,20 +199,19 @@ def turned_grids(size):
 )
 def windows_of_odd_grids(size):
     for points in (size.square - 1, 65, 130):
-        answer = replace(space(size, points=points), extent=None).solve(sliding(3.0, roughness=ROUGH))
+        answer = space(size, points=points, extent=None).solve(sliding(3.0, roughness=ROUGH))
         touched = answer.fields["pressure"] > 0
         rim = touched[[0, -1]].any() or touched[:, [0, -1]].any()
         yield Check(f"{points} points: contact at the rim", float(rim), 0.0)
         yield Check(f"{points} points: residual", answer.residual, TOLERANCE)
 
 
-@case(
+WAVES = Scene(Plane(), ELASTIC, Indent(pressure=1e5), PERIOD)
+HUNDRED_WAVES = replace(WAVES, roughness=replace(PERIOD, shortest=1e-5))
+case.add(
+    "waves-beyond-a-coarse-grid",
     "A hundred waves on 17 points.",
     "Refused: the error names shortest and the points that carry it; with longer waves it is solved.",
+    refused("points = 200 | shortest", HUNDRED_WAVES, *_grids(square, 17), error=ValueError),
+    in_contact(WAVES, *_grids(square, 17, tolerance=TOLERANCE)),
 )
-def waves_beyond_a_coarse_grid(size):
-    scene = Scene(Plane(), ELASTIC, Indent(pressure=1e5), replace(PERIOD, shortest=1e-5))
-    solver, words = BEM(points=17), "points = 200 | shortest"
-    yield refusal("100 waves on 17 points", (SolveError, ValueError), words, solver.solve, scene)
-    wide = BEM(points=17, tolerance=TOLERANCE).solve(replace(scene, roughness=PERIOD))
-    yield from conditions_of(wide, 2 * TOLERANCE)

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from bem3d import BEM
 from compare.exact import indentation
 from scene import Indent
 
@@ -21,16 +20,20 @@ from .ordinary import (
     SOLID,
     SPHERE,
     TIME,
-    dense,
-    line,
     program,
     resting,
     sliding,
-    space,
     stage,
 )
+from .solvers import dense, line, space, square
 
+PRESSED, LOADED = stage(TIME, depth=DEPTH), stage(TIME, load=LOAD)
 CASES = case = Group("histories")
+
+
+def _coarse(size, steps_1d, steps_3d):
+    """Both solvers on grids on which long histories end."""
+    return line(size, points=400, steps=steps_1d), space(size, points=24, steps=steps_3d)
 
 
 def _balanced(what, answer):
@@ -38,6 +41,11 @@ def _balanced(what, answer):
     work, lost, stored = (answer.fields[name] for name in ("work", "dissipated", "stored"))
     off = np.abs(work - lost - stored).max() / np.abs(work).max()
     return Check(f"{what}: balance of energy", off, 1e-10)
+
+
+def _pull(what, answer):
+    """No force is below zero, without any allowance."""
+    return Check(f"{what}: pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
 
 
 @case(
@@ -48,8 +56,7 @@ def _balanced(what, answer):
 def many_steps_1d(size):
     solver = line(size, points=400, extent=2.4 * RADIUS, steps=size.steps)
     path = size.steps / 400 * 2.4 * RADIUS
-    scene = program(stage(TIME, depth=DEPTH), stage(path / PACE, speed=PACE), elastomer=SOLID)
-    answer = solver.solve(scene)
+    answer = solver.solve(program(PRESSED, stage(path / PACE, speed=PACE)))
     yield Check("steps less those wanted, negative", size.steps - answer.measures["time_steps"], 0.0)
     half = len(answer.fields["time"]) // 2
     for name in ("normal_force", "friction_force"):
@@ -68,14 +75,13 @@ def many_steps_1d(size):
 )
 def many_steps_3d(size):
     points, pace = 24, 0.1
-    solver = BEM(points=points, extent=3.2 * RADIUS, steps=size.march)
+    solver = square(size, points=points, extent=3.2 * RADIUS, steps=size.march)
     path = size.march / points * 3.2 * RADIUS
-    scene = program(stage(TIME, depth=DEPTH), stage(path / (pace * PACE), speed=pace * PACE))
-    answer = solver.solve(scene)
-    steady = solver.solve(sliding(pace))
+    answer = solver.solve(program(PRESSED, stage(path / (pace * PACE), speed=pace * PACE)))
     friction = answer.fields["friction_force"][-(len(answer.fields["time"]) // 3) :]
     yield Check("friction in the last third: spread", np.ptp(friction) / friction.mean(), 0.02)
-    yield deviation("friction against steady sliding", friction[-1], steady.friction_force, 0.05)
+    steady = solver.solve(sliding(pace)).friction_force
+    yield deviation("friction against steady sliding", friction[-1], steady, 0.05)
     yield Check("worst residual of all steps", answer.residual, solver.tolerance)
 
 
@@ -84,12 +90,8 @@ def many_steps_3d(size):
     "The indenter never rises, and ends at the relaxed depth: within 1e-4 in 1D and 0.02 in 3D, of the grids.",
 )
 def held_for_ages(size):
-    for solver, allowed in (
-        (line(size, points=400, steps=size.steps // 4), 1e-4),
-        (space(size, points=24, steps=40), 0.02),
-    ):
-        scene = program(stage(1e-3 * TIME, load=LOAD), stage(1e9 * TIME))
-        answer = solver.solve(scene)
+    for solver, allowed in zip(_coarse(size, size.steps // 4, 40), (1e-4, 0.02), strict=True):
+        answer = solver.solve(program(stage(1e-3 * TIME, load=LOAD), stage(1e9 * TIME)))
         yield deviation(f"{solver.name}: depth at the end", answer.depth, DEPTH, allowed)
         sunk = -np.diff(answer.fields["depth"]).min() / DEPTH
         yield Check(f"{solver.name}: greatest rise of the indenter", sunk, 1e-6)
@@ -101,12 +103,10 @@ def held_for_ages(size):
 )
 def load_up_hold_up(size):
     times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
-    scene = program(stage(TIME, load=LOAD), stage(2 * TIME), stage(TIME, load=2 * LOAD))
-    answer = line(size, points=1000, steps=200).solve(scene)
-    at = answer.fields["time"][20::20]
-    known = indentation.loading_depth(SPHERE, SOLID, times, loads, at)
-    apart = np.abs(answer.fields["depth"][20::20] / known - 1).max()
-    yield Check("1D: depth against Lee and Radok", apart, 1e-3)
+    scene = program(LOADED, stage(2 * TIME), stage(TIME, load=2 * LOAD))
+    fields = line(size, points=1000, steps=200).solve(scene).fields
+    known = indentation.loading_depth(SPHERE, SOLID, times, loads, fields["time"][20::20])
+    yield Check("1D: depth against Lee and Radok", np.abs(fields["depth"][20::20] / known - 1).max(), 1e-3)
 
 
 @case(
@@ -115,23 +115,18 @@ def load_up_hold_up(size):
     "points and 60 steps; no pull; zero at the end.",
 )
 def drawn_out(size):
-    times, depths = (0.0, 2 * TIME, 4 * TIME), (0.0, DEPTH, 0.0)
-    for name, shape in (("sphere", SPHERE), ("cone", CONE)):
-        for solver, allowed in (
-            (line(size, points=500, steps=100), 1e-3),
-            (space(size, points=32, steps=60), 0.1),
-        ):
-            scene = program(stage(2 * TIME, depth=DEPTH), stage(2 * TIME, depth=0.0), indenter=shape)
-            solver = replace(solver, extent=4 * RADIUS)
-            answer = solver.solve(scene)
-            yield Check(
-                f"{solver.name}, {name}: force at the end over the greatest", answer.normal_force / LOAD, 0.0
-            )
-            at = answer.fields["time"]
-            known, _ = indentation.force_of_depth(shape, SOLID, times, depths, at)
+    times, depths, wide = (0.0, 2 * TIME, 4 * TIME), (0.0, DEPTH, 0.0), 4 * RADIUS
+    in_1d = line(size, points=500, steps=100, extent=wide)
+    in_3d = space(size, points=32, steps=60, extent=wide)
+    for shape in (SPHERE, CONE):
+        scene = program(stage(2 * TIME, depth=DEPTH), stage(2 * TIME, depth=0.0), indenter=shape)
+        for solver, allowed in ((in_1d, 1e-3), (in_3d, 0.1)):
+            answer, what = solver.solve(scene), f"{solver.name}, {type(shape).__name__}"
+            yield Check(f"{what}: force at the end over the greatest", answer.normal_force / LOAD, 0.0)
+            known, _ = indentation.force_of_depth(shape, SOLID, times, depths, answer.fields["time"])
             off = np.abs(answer.fields["normal_force"] - known).max() / known.max()
-            yield Check(f"{solver.name}, {name}: force against Lee, Radok and Ting", off, allowed)
-            yield Check(f"{solver.name}, {name}: pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
+            yield Check(f"{what}: force against Lee, Radok and Ting", off, allowed)
+            yield _pull(what, answer)
 
 
 @case(
@@ -140,16 +135,12 @@ def drawn_out(size):
     "one it is less.",
 )
 def separation_and_return(size):
-    for solver in (line(size, points=400, steps=20), space(size, points=24, steps=20)):
-        forces = []
-        for rest in (1e3 * TIME, TIME):
-            scene = program(
-                stage(TIME, depth=DEPTH), stage(TIME, depth=0.0), stage(rest, depth=0.0), stage(TIME, depth=DEPTH)
-            )
-            forces.append(solver.solve(scene).normal_force)
-        once = solver.solve(program(stage(TIME, depth=DEPTH))).normal_force
-        yield deviation(f"{solver.name}: after a long rest", forces[0], once, 1e-3)
-        yield Check(f"{solver.name}: after a short one, over the first", forces[1] / once, 1.0)
+    rests = ((PRESSED, stage(TIME, depth=0.0), stage(rest, depth=0.0)) for rest in (1e3 * TIME, TIME))
+    scenes = [program(*before, PRESSED) for before in ((), *rests)]
+    for solver in _coarse(size, 20, 20):
+        once, late, soon = (solver.solve(scene).normal_force for scene in scenes)
+        yield deviation(f"{solver.name}: after a long rest", late, once, 1e-3)
+        yield Check(f"{solver.name}: after a short one, over the first", soon / once, 1.0)
 
 
 @case(
@@ -158,10 +149,9 @@ def separation_and_return(size):
     "last step in 3D.",
 )
 def load_to_zero_and_back(size):
-    for solver in (line(size, points=400, steps=100), space(size, points=24, steps=60)):
-        scene = program(stage(TIME, load=LOAD), stage(TIME, load=0.0), stage(TIME), stage(TIME, load=LOAD))
-        answer = solver.solve(scene)
-        force, time = answer.fields["normal_force"], answer.fields["time"]
+    for solver in _coarse(size, 100, 60):
+        fields = solver.solve(program(LOADED, stage(TIME, load=0.0), stage(TIME), LOADED)).fields
+        force, time = fields["normal_force"], fields["time"]
         away = (time > 2.05 * TIME) & (time < 2.95 * TIME)
         yield Check(f"{solver.name}: greatest force without load", np.abs(force[away]).max(), 1e-9 * LOAD)
         yield deviation(f"{solver.name}: force at the end", force[-1], LOAD, 0.03)
@@ -172,14 +162,13 @@ def load_to_zero_and_back(size):
     "Work is energy lost and stored to 1e-10; lost energy never comes back; no pull.",
 )
 def forty_cycles(size):
-    stages = [stage(TIME, depth=DEPTH)]
-    for _ in range(40):
-        stages += [stage(TIME / 5, depth=DEPTH / 5, speed=PACE / 10), stage(TIME / 5, depth=DEPTH)]
-    answer = line(size, points=500, extent=4 * RADIUS, steps=40).solve(program(*stages, roughness=ROUGH))
+    cycle = stage(TIME / 5, depth=DEPTH / 5, speed=PACE / 10), stage(TIME / 5, depth=DEPTH)
+    scene = program(PRESSED, *cycle * 40, roughness=ROUGH)
+    answer = line(size, points=500, extent=4 * RADIUS, steps=40).solve(scene)
     yield _balanced("80 stages", answer)
-    gained = -np.diff(answer.fields["dissipated"]).min() / answer.fields["dissipated"][-1]
-    yield Check("greatest gain of lost energy", gained, 1e-12)
-    yield Check("pull", max(-answer.fields["normal_force"].min(), 0.0), 0.0)
+    lost = answer.fields["dissipated"]
+    yield Check("greatest gain of lost energy", -np.diff(lost).min() / lost[-1], 1e-12)
+    yield _pull("80 stages", answer)
 
 
 @case(
@@ -187,9 +176,8 @@ def forty_cycles(size):
     "Friction falls to a hundredth of its greatest at least.",
 )
 def stop(size):
-    for solver in (line(size, points=400, steps=200), space(size, points=24, steps=60)):
-        scene = program(stage(TIME, depth=DEPTH), stage(2 * TIME, speed=PACE), stage(1e3 * TIME))
-        answer = solver.solve(scene)
+    for solver in _coarse(size, 200, 60):
+        answer = solver.solve(program(PRESSED, stage(2 * TIME, speed=PACE), stage(1e3 * TIME)))
         friction = answer.fields["friction_force"]
         yield Check(f"{solver.name}: friction left, over the greatest", abs(friction[-1]) / friction.max(), 0.01)
 
@@ -200,23 +188,14 @@ def stop(size):
     "in 3D, of the sums over pixels.",
 )
 def elastic_march(size):
-    scene = program(
-        stage(TIME, depth=DEPTH),
-        stage(TIME, speed=PACE),
-        stage(TIME, depth=DEPTH / 2),
-        elastomer=ELASTIC,
-        roughness=ROUGH,
-    )
-    answer = line(size, points=500, extent=4 * RADIUS).solve(scene)
-    yield Check(
-        "1D: energy lost over work", abs(answer.fields["dissipated"]).max() / answer.fields["work"].max(), 1e-12
-    )
-    for solver, allowed in ((line(size, points=500, extent=4 * RADIUS), 1e-4), (dense(size, steps=20), 1e-2)):
-        last = solver.solve(replace(scene, roughness=None))
-        still = solver.solve(resting(motion=Indent(depth=last.depth)))
-        yield deviation(
-            f"{solver.name}: force after all, against rest", last.normal_force, still.normal_force, allowed
-        )
+    smooth = program(PRESSED, stage(TIME, speed=PACE), stage(TIME, depth=DEPTH / 2), elastomer=ELASTIC)
+    in_1d, in_3d = line(size, points=500, extent=4 * RADIUS), dense(size, steps=20)
+    rough = in_1d.solve(replace(smooth, roughness=ROUGH)).fields
+    yield Check("1D: energy lost over work", abs(rough["dissipated"]).max() / rough["work"].max(), 1e-12)
+    for solver, allowed in ((in_1d, 1e-4), (in_3d, 1e-2)):
+        last = solver.solve(smooth)
+        still = solver.solve(resting(motion=Indent(depth=last.depth))).normal_force
+        yield deviation(f"{solver.name}: force after all, against rest", last.normal_force, still, allowed)
 
 
 @case(
@@ -224,7 +203,7 @@ def elastic_march(size):
     "Force at rest in the end, within 1e-4; work is energy lost and stored to 1e-10.",
 )
 def dashpot_march(size):
-    scene = program(stage(TIME, depth=DEPTH), stage(1e-6 * TIME), stage(50 * TIME), elastomer=KELVIN)
+    scene = program(PRESSED, stage(1e-6 * TIME), stage(50 * TIME), elastomer=KELVIN)
     answer = line(size, points=1000, steps=200).solve(scene)
     still = line(size).solve(resting()).normal_force
     yield deviation("1D: force at the end", answer.normal_force, still, 1e-4)

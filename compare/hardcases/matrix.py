@@ -7,6 +7,8 @@ from bem3d import contact
 from .conditions import collocation, influence, retarded
 from .hardcase import Check
 
+FINE = 1e-9  # tolerance of problems given as a matrix
+
 
 class Matrix:
     """The influence of ny x nx square pixels on one another as a matrix; an operator on planes.
@@ -22,7 +24,7 @@ class Matrix:
         kernel = instantaneous * influence(x, ny) + retarded(x, ny, share, lengths)
         row, column = (index.ravel() for index in np.indices((ny, nx)))
         self.values = kernel[nx - 1 + column[:, None] - column, np.abs(row[:, None] - row)]
-        self.shape, self.symmetric = (ny, nx), memory == 0
+        self.shape, self.memory, self.symmetric = (ny, nx), memory, memory == 0
 
     def __call__(self, plane, out=None):
         image = (self.values @ plane.ravel()).reshape(self.shape)
@@ -32,22 +34,22 @@ class Matrix:
         return out
 
 
-def solved(matrix: Matrix, heights, tolerance: float, start=None, **given) -> contact.Contact:
-    """The contact at a depth or a load [pixel]; start by default where the surfaces overlap."""
+def solved(matrix: Matrix, heights, start=None, **given) -> contact.Contact:
+    """The contact at a depth or a load [pixel], to FINE; start by default where the surfaces overlap."""
     if start is None:
         start = contact.first_guess(heights, heights.size // 4)
-    return contact.solve(matrix, heights, start, tolerance, symmetric=matrix.symmetric, **given)
+    return contact.solve(matrix, heights, start, FINE, symmetric=matrix.symmetric, **given)
 
 
-def conditions(matrix: Matrix, heights, found: contact.Contact, tolerance: float, where: str) -> tuple[Check, ...]:
-    """Of a solved problem, by a plain product: p >= 0, gap >= 0, p gap = 0."""
+def conditions(matrix: Matrix, heights, found: contact.Contact, where: str) -> tuple[Check, ...]:
+    """Of a solved problem, by a plain product, to FINE: p >= 0, gap >= 0, p gap = 0."""
     gap = matrix(found.pressure) + heights - found.depth
     touched = found.pressure > 0
     scale = max(found.depth, heights[touched].max()) - heights.min() or np.ptp(heights) or 1.0
     return (
         Check(f"{where}: suction", max(-found.pressure.min(), 0.0), 0.0),
-        Check(f"{where}: penetration", max(-gap.min() / scale, 0.0), tolerance),
-        Check(f"{where}: gap under pressure", np.abs(gap[touched]).max() / scale, tolerance),
+        Check(f"{where}: penetration", max(-gap.min() / scale, 0.0), FINE),
+        Check(f"{where}: gap under pressure", np.abs(gap[touched]).max() / scale, FINE),
     )
 
 

@@ -24,7 +24,8 @@ from scene import (
 from scene.reading import InvalidInput, read
 
 from .hardcase import Check, Group, invalid, refusal
-from .ordinary import CONE, ELASTIC, KELVIN, ROUGH, SOLID, SPHERE, line, resting, space
+from .ordinary import CONE, ELASTIC, KELVIN, ROUGH, SOLID, SPHERE, resting
+from .solvers import line, space
 
 FRACTIONAL = Fractional(
     modulus=1e6, relaxation_time=1e-3, exponent=0.5, lowest_frequency=1e-2, highest_frequency=1e4
@@ -44,46 +45,45 @@ speed = "fast"
 load = 1.0
 depht = 2.0
 """
+FINITE = "Refused: the error names the field, the value and that it must be finite."
 CASES = case = Group("mistakes")
 
 
-def _in_every_field(value, said, but=()):
+def in_every_field(value, said, but=()):
     """Every field of every part that holds a real number, but for some, with this value instead."""
-    for part in PARTS:
-        for name in (field.name for field in fields(part) if isinstance(getattr(part, field.name), float)):
-            if name not in but:
-                what = f"{type(part).__name__}.{name} = {value:g}"
-                yield invalid(what, f"{name}{said}", replace, part, **{name: value})
+    places = [(part, field.name) for part in PARTS for field in fields(part)]
+    real = [(part, name) for part, name in places if isinstance(getattr(part, name), float) and name not in but]
+    return lambda size: [
+        invalid(f"{type(part).__name__}.{name} = {value:g}", f"{name}{said}", replace, part, **{name: value})
+        for part, name in real
+    ]
 
 
-@case(
+case.add(
+    "nan",
     "NaN in every real field of every part of a scene.",
-    "Refused: the error names the field, the value and that it must be finite.",
+    FINITE,
+    in_every_field(float("nan"), " | finite number | nan"),
 )
-def nan(size):
-    return _in_every_field(float("nan"), " | finite number | nan")
-
-
-@case(
+case.add(
+    "infinite",
     "Plus and minus infinity in every real field.",
-    "Refused: the error names the field, the value and that it must be finite.",
+    FINITE,
+    in_every_field(float("inf"), " | finite number | inf"),
+    in_every_field(-float("inf"), " | finite number | -inf"),
 )
-def infinite(size):
-    yield from _in_every_field(float("inf"), " | finite number | inf")
-    yield from _in_every_field(-float("inf"), " | finite number | -inf")
-
-
-@case("-1 in every real field but Poisson's ratio.", "Refused: the error names the field.")
-def negative(size):
-    return _in_every_field(-1.0, "", but={"poisson_ratio"})
-
-
-@case(
+case.add(
+    "negative",
+    "-1 in every real field but Poisson's ratio.",
+    "Refused: the error names the field.",
+    in_every_field(-1.0, "", but={"poisson_ratio"}),
+)
+case.add(
+    "zero",
     "0 in every real field that must not be zero.",
     "Refused: the error names the field and that it must be greater.",
+    in_every_field(0.0, " | greater than", but={"hurst", "rms_height", "speed", "poisson_ratio"}),
 )
-def zero(size):
-    return _in_every_field(0.0, " | greater than", but={"hurst", "rms_height", "speed", "poisson_ratio"})
 
 
 @case(
@@ -145,22 +145,18 @@ def not_for_this_solver(size):
 )
 def files_with_mistakes(size):
     five = "indenter.radius = -1.0 | elastomer.modulus = nan | relaxation_time: missing | motion.speed | depht"
-    scenes = {
-        "a scene with five mistakes": (FILE, five),
-        "a scene cut off": ("[indenter\n", "scene.toml | not valid TOML"),
-    }
-    tables = {
-        "a table of words": ("frequency storage loss\n1 2 none\n", "line 2 | loss = 'none' | not a number"),
-        "a table with decimal commas": ("1,5;2,5;3,5\n", "line 1 | 6 columns | decimal points"),
-        "a table with zero": ("1 1 1\n2 0 1\n", "line 2 | storage = 0 | greater than 0"),
-        "a table with nan": ("1 1 1\n2 nan 1\n", "line 2 | storage = nan | finite"),
-        "an empty table": ("# nothing\n", "0 frequencies | at least 4"),
+    scene, table = lambda path: read(path, Scene), read_table
+    files = {
+        "a scene with five mistakes": (scene, FILE, five),
+        "a scene cut off": (scene, "[indenter\n", "scene.toml | not valid TOML"),
+        "a table of words": (table, "frequency storage loss\n1 2 none\n", "line 2 | loss = 'none' | not a number"),
+        "a table with decimal commas": (table, "1,5;2,5;3,5\n", "line 1 | 6 columns | decimal points"),
+        "a table with zero": (table, "1 1 1\n2 0 1\n", "line 2 | storage = 0 | greater than 0"),
+        "a table with nan": (table, "1 1 1\n2 nan 1\n", "line 2 | storage = nan | finite"),
+        "an empty table": (table, "# nothing\n", "0 frequencies | at least 4"),
     }
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"
-        for what, (content, words) in scenes.items():
+        for what, (ask, content, words) in files.items():
             path.write_text(content, encoding="utf-8")
-            yield refusal(what, InvalidInput, words, read, path, Scene)
-        for what, (content, words) in tables.items():
-            path.write_text(content, encoding="utf-8")
-            yield refusal(what, ValueError, words, read_table, path)
+            yield refusal(what, InvalidInput if ask is scene else ValueError, words, ask, path)

@@ -1,46 +1,45 @@
 """Programs whose stages do not fit together, ask for too much or for nothing."""
 
+from functools import partial
+
 from scene import EmptyContact, Plane, Program, Refused, Scene, SolveError, Stage
 
-from .hardcase import Group, deviation, invalid, refusal
-from .ordinary import DEPTH, PACE, RADIUS, ROUGH, SOLID, TIME, line, program, resting, space
+from .hardcase import Group, invalid
+from .laws import equal, refused
+from .ordinary import DEPTH, PACE, RADIUS, ROUGH, SOLID, TIME, program, resting, stage
+from .solvers import line, space
 
+SOLVERS = line, partial(space, points=24, steps=20)
+BRIEF_FIRST = program(stage(1e-15, depth=DEPTH), stage(1e15))
+BRIEF_LAST = program(stage(1e15, depth=DEPTH), stage(1e-15, depth=2 * DEPTH))
+LONG_PATH = program(stage(TIME, depth=DEPTH), stage(1.0, speed=1e6 * PACE))
+SHALLOW = program(stage(TIME, depth=1e-9 * DEPTH))
 CASES = case = Group("programs")
 
-
-@case(
+case.add(
+    "stages-apart",
     "Stages of 1e-15 and 1e15 s: after the long one steps of the short one are lost to rounding.",
     "The short one first, force at rest within 1e-4, of the sums over pixels; last, refused by the durations.",
+    equal((BRIEF_FIRST, resting()), 1e-4, *SOLVERS),
+    refused("durations | 1e-15 | rounding", BRIEF_LAST, *SOLVERS),
 )
-def stages_apart(size):
-    solvers = line(size), space(size, points=24, steps=20)
-    for solver in solvers:
-        answer = solver.solve(program({"duration": 1e-15, "depth": DEPTH}, {"duration": 1e15}))
-        still = solver.solve(resting()).normal_force
-        yield deviation(f"{solver.name}: force after 1e15 s", answer.normal_force, still, 1e-4)
-    lost = program({"duration": 1e15, "depth": DEPTH}, {"duration": 1e-15, "depth": 2 * DEPTH})
-    for solver in solvers:
-        what = f"{solver.name}: 1e15 s and then 1e-15 s"
-        yield refusal(what, SolveError, "durations | 1e-15 | rounding", solver.solve, lost)
-
-
-@case(
+case.add(
+    "too-many-steps",
     "A path of a thousand kilometres over pixels of micrometres.",
     "Refused at once: the error says how many steps, the most allowed and what to change.",
+    refused("steps on pixels | 1000000 | shorter path", LONG_PATH, error=(Refused, SolveError)),
 )
-def too_many_steps(size):
-    scene = program({"duration": TIME, "depth": DEPTH}, {"duration": 1.0, "speed": 1e6 * PACE})
-    for solver in (line(size), space(size)):
-        words = "steps on pixels | 1000000 | shorter path"
-        yield refusal(f"{solver.name}: a path of 1000 km", (Refused, SolveError), words, solver.solve, scene)
+case.add(
+    "never-touching",
+    "A program that presses in by less than a pixel can see.",
+    "Refused: the error says so and what to do.",
+    refused("nothing touches in the whole program | press", SHALLOW, space, error=EmptyContact),
+    refused("pixels | take more points", SHALLOW, partial(line, extent=4 * RADIUS)),
+)
 
 
-@case("A program that presses in by less than a pixel can see.", "Refused: the error says so and what to do.")
-def never_touching(size):
-    scene = program({"duration": TIME, "depth": 1e-9 * DEPTH})
-    in_3d, in_1d = space(size), line(size, extent=4 * RADIUS)
-    yield refusal("BEM", EmptyContact, "nothing touches in the whole program | press", in_3d.solve, scene)
-    yield refusal("MDR", SolveError, "pixels | take more points", in_1d.solve, scene)
+def _through(*stages):
+    return program(*(Stage(**each) for each in stages))
 
 
 @case(
@@ -51,12 +50,12 @@ def no_programs(size):
     one, swing = {"duration": 1.0}, {"amplitude": 2.0, "frequency": 3.0}
     loaded, pressed = one | {"load": 1.0}, one | {"depth": 1.0}
     negative = "load | -1 | greater than or equal to 0"
-    yield invalid("no stage", "stages | at least 1", program)
-    yield invalid("pressed nowhere", "press nowhere", program, one)
-    yield invalid("pressed by nothing", "press nowhere | above zero", program, one | {"load": 0.0})
-    yield invalid("load, then depth", "load and depth | one and the same", program, loaded, pressed)
-    yield invalid("a duration of 0", "duration | greater than 0", program, loaded | {"duration": 0.0})
-    yield invalid("an oscillation into the air", "amplitude | 2 N | give less of it", program, loaded | swing)
-    yield invalid("a pull", negative, program, loaded | {"load": -1.0})
+    yield invalid("no stage", "stages | at least 1", _through)
+    yield invalid("pressed nowhere", "press nowhere", _through, one)
+    yield invalid("pressed by nothing", "press nowhere | above zero", _through, one | {"load": 0.0})
+    yield invalid("load, then depth", "load and depth | one and the same", _through, loaded, pressed)
+    yield invalid("a duration of 0", "duration | greater than 0", _through, loaded | {"duration": 0.0})
+    yield invalid("an oscillation into the air", "amplitude | 2 N | give less of it", _through, loaded | swing)
+    yield invalid("a pull", negative, _through, loaded | {"load": -1.0})
     motion = Program(stages=(Stage(**loaded),))
     yield invalid("a plane under a load in time", "load | Plane | pressure", Scene, Plane(), SOLID, motion, ROUGH)

@@ -1,19 +1,16 @@
 """Solids with far too much stiffness, too many modes, modes that coincide, and tables that are not clean."""
 
-from dataclasses import replace
-from itertools import product
+from functools import partial
 
 import numpy as np
 
-from compare.exact import foundation, mean_lag, slow_friction_1d
+from compare.exact import mean_lag, slow_friction_1d
 from scene import (
     Elastic,
     Fractional,
-    Kelvin,
     KelvinChain,
     Prony,
     Slide,
-    SolveError,
     StandardLinearSolid,
     Table,
     Tabulated,
@@ -21,8 +18,10 @@ from scene import (
 from scene.scales import elastic_contact
 
 from .conditions import conditions
-from .hardcase import Check, Group, alike, deviation, energy_is_lost, invalid, refusal
-from .ordinary import CONE, DEPTH, MODULUS, PACE, RADIUS, SPHERE, TIME, TOLERANCE, dense, line, resting, sliding
+from .hardcase import Check, Group, deviation, invalid
+from .laws import FORCES, asked, energy_is_lost, equal, in_contact, on_a_foundation, refused
+from .ordinary import DEPTH, KELVIN, MODULUS, PACE, SPHERE, TIME, at_paces, resting, sliding
+from .solvers import TOLERANCE, dense, line
 
 MANY = Prony(
     equilibrium_modulus=MODULUS,
@@ -32,10 +31,18 @@ MANY = Prony(
 CASES = case = Group("rheology")
 
 
-def _same(size, name, one, other, allowed):
-    for pace, solver in product((0.1, 10.0), (line(size), dense(size))):
-        found, known = (solver.solve(sliding(pace, solid)) for solid in (one, other))
-        yield from alike(f"{solver.name}, {name}", found, known, allowed)
+FIVE = (1e6, 2e6, 3e6, 2e6, 1e6)  # moduli [Pa] of modes
+ONE_MODE = StandardLinearSolid(MODULUS, MODULUS + sum(FIVE), TIME)
+
+
+def _same(solids, allowed, in_3d=dense):
+    """Pairs of solids, by name, have the same forces in a flow."""
+    rows = {
+        f"{name}, v tau/a = {pace:g}": (sliding(pace, one), sliding(pace, other))
+        for name, (one, other) in solids.items()
+        for pace in (0.1, 10.0)
+    }
+    return equal(rows, allowed, line, in_3d, of=FORCES)
 
 
 def _measured():
@@ -56,31 +63,21 @@ def _apart(one, other):
     return np.max(np.abs(one.complex_modulus(omega) - known) / np.abs(known))
 
 
-@case(
+case.add(
+    "glass-over-rubber-1e6-1d",
     "Glassy over rubbery modulus 1e6 and 1e12: a wake of up to 1e12 relaxation times, a force of as much.",
     "Closed forms of the foundation for sphere and cone, within 20/N of the grid.",
+    on_a_foundation(
+        {f"{ratio:g}": StandardLinearSolid(MODULUS, ratio * MODULUS, TIME) for ratio in (1e6, 1e12)},
+        (1e-6, 1e-3, 1.0, 100.0),
+    ),
 )
-def glass_over_rubber_1e6_1d(size):
-    for ratio in (1e6, 1e12):
-        solid = StandardLinearSolid(MODULUS, ratio * MODULUS, TIME)
-        for shape, pace in product((SPHERE, CONE), (1e-6, 1e-3, 1.0, 100.0)):
-            depth = shape.mdr_coefficient * RADIUS**shape.exponent
-            motion = Slide(speed=pace * PACE, depth=depth)
-            found = line(size).solve(resting(indenter=shape, elastomer=solid, motion=motion))
-            known = foundation.sliding_forces(shape, solid, motion.speed, depth)
-            what = f"{type(shape).__name__}, {ratio:g}, v tau/a = {pace:g}"
-            yield deviation(f"{what}: force", found.normal_force, known[0], 20 / size.line)
-            yield deviation(f"{what}: friction", found.friction_force, known[1], 20 / size.line)
-
-
-@case(
+case.add(
+    "glass-over-rubber-1e6-3d",
     "The same in three dimensions: a memory of 1e6 contacts for a share of compliance of all but 1e-6.",
     "Conditions of contact, computed anew, within twice the tolerance.",
+    in_contact(at_paces(1e-9, 1e-3, 1.0, 1e9, elastomer=StandardLinearSolid(MODULUS, 1e6 * MODULUS, TIME))),
 )
-def glass_over_rubber_1e6_3d(size):
-    solid = StandardLinearSolid(MODULUS, 1e6 * MODULUS, TIME)
-    for pace in (1e-9, 1e-3, 1.0, 1e9):
-        yield from conditions(dense(size).solve(sliding(pace, solid)), 2 * TOLERANCE, f"v tau/a = {pace:g}")
 
 
 @case(
@@ -96,9 +93,8 @@ def barely_relaxing(size):
     known = slow_friction_1d(1e-4 * PACE, static.radius, lag, solid.indentation_modulus, *shape)
     # Of the difference of two moduli six digits are left.
     yield deviation("1D: friction at low speed", found.friction_force, known, 1e-3)
-    still = dense(size).solve(resting(elastomer=Elastic(MODULUS)))
+    yield from equal((sliding(1.0, solid), resting()), 3 * TOLERANCE, dense)(size)
     moving = dense(size).solve(sliding(1.0, solid))
-    yield deviation("3D: force against elastic", moving.normal_force, still.normal_force, 3 * TOLERANCE)
     yield Check("3D: friction coefficient", abs(moving.friction_coefficient), 1e-9)
 
 
@@ -114,20 +110,17 @@ def thirty_modes_over_fifteen_decades(size):
     creep = instantaneous + (1 / (1 + 1j * omega[:, None] * times)) @ compliances
     yield Check("modulus times compliance, less 1", np.abs(storage * creep - 1).max(), 1e-12)
     for speed in (1e-9, 1.0, 1e9):
-        answer = line(size).solve(resting(elastomer=MANY, motion=Slide(speed=speed, depth=DEPTH)))
-        yield energy_is_lost(f"1D, {speed:g} m/s: ", answer, 1e-8)
-        small = Slide(speed=speed, depth=DEPTH)
-        space = dense(size, points=16).solve(resting(elastomer=MANY, motion=small))
-        yield from conditions(space, 2 * TOLERANCE, f"3D, {speed:g} m/s")
+        scene = resting(elastomer=MANY, motion=Slide(speed=speed, depth=DEPTH))
+        yield energy_is_lost(f"1D, {speed:g} m/s: ", line(size).solve(scene), 1e-8)
+        yield from conditions(dense(size, points=16).solve(scene), 2 * TOLERANCE, f"3D, {speed:g} m/s")
 
 
-@case(
+case.add(
+    "equal-times",
     "Five modes of one and the same relaxation time.",
     "Forces and friction of the solid with their sum, to 1e-12, rounding.",
+    _same({"equal": (Prony(MODULUS, FIVE, (TIME,) * 5), ONE_MODE)}, 1e-12),
 )
-def equal_times(size):
-    split = Prony(MODULUS, (1e6, 2e6, 3e6, 2e6, 1e6), (TIME,) * 5)
-    return _same(size, "five equal", split, StandardLinearSolid(MODULUS, MODULUS + 9e6, TIME), 1e-12)
 
 
 @case(
@@ -137,43 +130,33 @@ def equal_times(size):
 def nearly_equal_times(size):
     for apart in (1e-15, 1e-12, 1e-8):
         times = tuple(TIME * (1 + k * apart) for k in range(5))
-        split = Prony(MODULUS, (1e6, 2e6, 3e6, 2e6, 1e6), times)
-        merged = StandardLinearSolid(MODULUS, MODULUS + 9e6, times[2])
-        yield from _same(size, f"{apart:g} apart", split, merged, 10 * apart + 1e-9)
-        chain = KelvinChain(1e-7, (1e-7, 2e-7, 1e-7), times[:3])
-        one = KelvinChain(1e-7, (4e-7,), times[1:2])
-        yield from _same(size, f"chain, {apart:g} apart", chain, one, 10 * apart + 1e-9)
+        merged = StandardLinearSolid(MODULUS, MODULUS + sum(FIVE), times[2])
+        chain, one = KelvinChain(1e-7, (1e-7, 2e-7, 1e-7), times[:3]), KelvinChain(1e-7, (4e-7,), times[1:2])
+        solids = {"Prony": (Prony(MODULUS, FIVE, times), merged), "chain": (chain, one)}
+        yield from _same(solids, 10 * apart + 1e-9)(size)
 
 
-@case("Thirty modes, shuffled.", "Forces and friction are the same to the last bit.")
-def modes_in_any_order(size):
-    shuffled = np.random.default_rng(1).permutation(30)
-    other = replace(
-        MANY,
-        moduli=tuple(MANY.moduli[k] for k in shuffled),
-        relaxation_times=tuple(MANY.relaxation_times[k] for k in shuffled),
-    )
-    return _same(replace(size, dense=16), "shuffled", MANY, other, 0.0)
-
-
-@case(
+MODES = np.array((MANY.moduli, MANY.relaxation_times))[:, np.random.default_rng(1).permutation(30)]
+SHUFFLED = Prony(MODULUS, *(tuple(each.tolist()) for each in MODES))
+case.add(
+    "modes-in-any-order",
+    "Thirty modes, shuffled.",
+    "Forces and friction are the same to the last bit.",
+    _same({"shuffled": (MANY, SHUFFLED)}, 0.0, partial(dense, points=16)),
+)
+HAUNTED = {f"{faint:g} Pa": Prony(MODULUS, (9e6, faint, faint), (TIME, 1e-9, 1e9)) for faint in (1e-30, 1e-150)}
+case.add(
+    "all-but-absent-modes",
     "Modes of 1e-30 and of 1e-150 Pa beside one of 1e7 Pa.",
     "Forces and friction as without them, to 1e-6: contact is solved to 1e-7.",
+    _same({what: (solid, ONE_MODE) for what, solid in HAUNTED.items()}, 1e-6),
 )
-def all_but_absent_modes(size):
-    one = StandardLinearSolid(MODULUS, MODULUS + 9e6, TIME)
-    for modulus in (1e-30, 1e-150):
-        haunted = Prony(MODULUS, (9e6, modulus, modulus), (TIME, 1e-9, 1e9))
-        yield from _same(size, f"modes of {modulus:g} Pa", haunted, one, 1e-6)
-
-
-@case(
+case.add(
+    "chain-without-glass",
     "A chain of Kelvin elements without instantaneous compliance, one of them all but rigid.",
     "Forces and friction of the Kelvin body, to 1e-6: contact is solved to 1e-7.",
+    _same({"chain": (KelvinChain(0.0, (1 / MODULUS, 1e-300), (TIME, TIME / 3)), KELVIN)}, 1e-6),
 )
-def chain_without_glass(size):
-    chain = KelvinChain(0.0, (1 / MODULUS, 1e-300), (TIME, TIME / 3))
-    return _same(size, "no instantaneous compliance", chain, Kelvin(MODULUS, TIME), 1e-6)
 
 
 @case(
@@ -199,12 +182,11 @@ def fractional_at_its_ends(size):
     "Force in proportion to 1/(1 - nu) within the tolerance of contact; -1 and more than 1/2 are refused by name.",
 )
 def poissons_ratio_at_its_ends(size):
-    for ratio in (-0.999999, 0.0, 0.5):
-        solid = Elastic(MODULUS, poisson_ratio=ratio)
-        for solver in (line(size), dense(size)):
-            force = solver.solve(resting(elastomer=solid)).normal_force
-            known = solver.solve(resting()).normal_force * 0.5 / (1 - ratio)
-            yield deviation(f"{solver.name}, Poisson's ratio {ratio:g}: force", force, known, 3 * TOLERANCE)
+    solids = {f"Poisson's ratio {ratio:g}": Elastic(MODULUS, ratio) for ratio in (-0.999999, 0.0, 0.5)}
+    for what, solver, solid in asked(size, solids, (line, dense)):
+        force = solver.solve(resting(elastomer=solid)).normal_force
+        known = solver.solve(resting()).normal_force * 0.5 / (1 - solid.poisson_ratio)
+        yield deviation(f"{what}: force", force, known, 3 * TOLERANCE)
     for ratio in (-1.0, 0.5000001):
         words = f"poisson_ratio | {ratio:g}"
         yield invalid(f"Poisson's ratio {ratio:g}", words, Elastic, MODULUS, poisson_ratio=ratio)
@@ -221,7 +203,7 @@ def table_unsorted_and_doubled(size):
     yield Check("modulus of the shuffled table", _apart(shuffled, clean), 0.0)
     twice = _tabulated(*np.concatenate([rows, rows], axis=1))
     yield Check("modulus with every row twice", _apart(twice, clean), 1e-6)
-    yield from _same(size, "shuffled table", shuffled, clean, 0.0)
+    yield from _same({"shuffled table": (shuffled, clean)}, 0.0)(size)
 
 
 @case(
@@ -269,10 +251,10 @@ def table_of_a_fluid(size):
     yield invalid("a Maxwell fluid", words, _tabulated, omega, maxwell.real, maxwell.imag)
 
 
-@case("Moduli whose quotients leave the range of numbers.", "Refused: the error asks for the units.")
-def moduli_300_decades_apart(size):
-    for solid in (StandardLinearSolid(1e-300, 1e300, TIME), Prony(1e-200, (1e200,), (TIME,))):
-        for solver in (line(size), dense(size)):
-            yield refusal(
-                f"{solver.name}: {solid}", SolveError, "units | moduli", solver.solve, sliding(1.0, solid)
-            )
+DECADES_APART = StandardLinearSolid(1e-300, 1e300, TIME), Prony(1e-200, (1e200,), (TIME,))
+case.add(
+    "moduli-300-decades-apart",
+    "Moduli whose quotients leave the range of numbers.",
+    "Refused: the error asks for the units.",
+    refused("units | moduli", {f"{solid}": sliding(1.0, solid) for solid in DECADES_APART}, line, dense),
+)

@@ -1,44 +1,21 @@
 """Roughness of no height and of too much, at both ends of the Hurst exponent, and cut off where grids end."""
 
 from dataclasses import replace
+from functools import partial
 from math import radians
 
 import numpy as np
 
-from bem3d import BEM
-from mdr1d import MDR, draw
-from scene import (
-    Cone,
-    CrossedWaves,
-    EmptyContact,
-    Indent,
-    Plane,
-    PowerLaw,
-    Refused,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-)
+from mdr1d import draw
+from scene import Cone, CrossedWaves, EmptyContact, Indent, Plane, PowerLaw, Refused, Scene, SelfAffine, Slide
 
 from .conditions import conditions, kelvin_surface
-from .hardcase import Check, Group, deviation, energy_is_lost, refusal
-from .ordinary import (
-    DEPTH,
-    KELVIN,
-    LOAD,
-    PACE,
-    RADIUS,
-    ROUGH,
-    SOLID,
-    TOLERANCE,
-    dense,
-    line,
-    resting,
-    sliding,
-    space,
-)
+from .hardcase import Check, Group, deviation
+from .laws import energy_is_lost, equal, in_contact, refused
+from .ordinary import DEPTH, KELVIN, LOAD, PACE, RADIUS, ROUGH, SOLID, resting, sliding
+from .solvers import TOLERANCE, dense, line, space, square
 
+WIDE_LINE = partial(line, extent=4 * RADIUS)
 CASES = case = Group("roughness")
 
 
@@ -54,12 +31,11 @@ def _as_on_springs(what, answer):
     "Force of the smooth body: to the last bit at 0 and 1e-300 m, to 1e-12 at 1e-20 m.",
 )
 def height_zero(size):
-    for height, allowed in ((0.0, 0.0), (1e-300, 0.0), (1e-20, 1e-12)):
-        flat = replace(ROUGH, rms_height=height)
-        for solver in (line(size, extent=4 * RADIUS), space(size)):
-            smooth, rough = (solver.solve(sliding(1.0, roughness=each)) for each in (None, flat))
-            apart = abs(rough.normal_force / smooth.normal_force - 1)
-            yield Check(f"{solver.name}: force, h0 = {height:g} m", apart, allowed)
+    for solver in (WIDE_LINE(size), space(size)):
+        smooth = solver.solve(sliding(1.0)).normal_force
+        for height, allowed in ((0.0, 0.0), (1e-300, 0.0), (1e-20, 1e-12)):
+            rough = solver.solve(sliding(1.0, roughness=replace(ROUGH, rms_height=height))).normal_force
+            yield Check(f"{solver.name}: force, h0 = {height:g} m", abs(rough / smooth - 1), allowed)
 
 
 @case(
@@ -91,7 +67,7 @@ def rougher_than_deep(size):
         answer = line(size).solve(scene)
         yield deviation(f"1D: force under {load:g} of the load", answer.normal_force, load * LOAD, 1e-10)
         yield Check("1D: depth over h0", answer.depth / DEPTH, 1.0)
-    found = BEM(points=4 * size.dense, tolerance=TOLERANCE).solve(scene)
+    found = square(size, points=4 * size.dense, tolerance=TOLERANCE).solve(scene)
     yield Check("3D: depth over h0", found.depth / DEPTH, 1.0)
     yield deviation("3D: force", found.normal_force, 1e-3 * LOAD, 1e-9)
     yield from conditions(found, 2 * TOLERANCE)
@@ -115,12 +91,12 @@ def ends_of_hurst_in_a_flow(size):
     "Refused as an empty contact: the error names motion.depth and its value.",
 )
 def above_the_peaks(size):
-    steep, crest = Cone(radians(88)), CrossedWaves(amplitude=DEPTH / 10, wavelength=RADIUS)
-    for solver, rough in ((line(size, extent=4 * RADIUS), replace(ROUGH, seed=4)), (space(size), crest)):
+    crest = CrossedWaves(amplitude=DEPTH / 10, wavelength=RADIUS)
+    for build, rough in ((WIDE_LINE, replace(ROUGH, seed=4)), (space, crest)):
         for depth in (DEPTH / 100, 1e-300):
-            scene = Scene(steep, SOLID, Slide(speed=PACE, depth=depth), rough)
+            scene = Scene(Cone(radians(88)), SOLID, Slide(speed=PACE, depth=depth), rough)
             words = f"motion.depth | {depth:g} | lowest point"
-            yield refusal(f"{solver.name}: {depth:g} m", EmptyContact, words, solver.solve, scene)
+            yield from refused(words, scene, build, error=EmptyContact)(size)
 
 
 @case(
@@ -128,37 +104,29 @@ def above_the_peaks(size):
     "Conditions of contact, computed anew; rms height of the line to 1e-12.",
 )
 def two_pixels_a_wave(size):
-    period = 2 * RADIUS
-    scene = Scene(
-        Plane(), SOLID, Slide(speed=PACE, pressure=3e5), replace(ROUGH, shortest=2 * period / size.dense)
-    )
-    yield from conditions(BEM(points=size.dense, tolerance=TOLERANCE).solve(scene), 2 * TOLERANCE)
-    line_of = draw(scene.roughness, size.dense)
-    yield deviation("rms height of the line on two nodes a wave", line_of.rms_height, ROUGH.rms_height, 1e-12)
+    rough = replace(ROUGH, shortest=2 * (2 * RADIUS) / size.dense)
+    scene = Scene(Plane(), SOLID, Slide(speed=PACE, pressure=3e5), rough)
+    yield from in_contact(scene, partial(square, points=size.dense, tolerance=TOLERANCE))(size)
+    drawn = draw(rough, size.dense)
+    yield deviation("rms height of the line on two nodes a wave", drawn.rms_height, ROUGH.rms_height, 1e-12)
 
 
-@case(
+TINY = replace(ROUGH, shortest=1e-6 * RADIUS)
+BROAD = Scene(Plane(), SOLID, Indent(pressure=1e4), replace(ROUGH, shortest=2 * RADIUS / 4000))
+NINE_DECADES = resting(roughness=replace(ROUGH, shortest=1e-12))
+case.add(
+    "unresolved-waves",
     "The shortest wave is far less than a pixel.",
     "Refused: the error names shortest, its value and the points that carry it.",
+    refused(f"shortest | {TINY.shortest:g} | points = ", resting(roughness=TINY), WIDE_LINE, space, error=Refused),
 )
-def unresolved_waves(size):
-    rough = replace(ROUGH, shortest=1e-6 * RADIUS)
-    words = f"shortest | {rough.shortest:g} | points = "
-    for solver in (line(size, extent=4 * RADIUS), space(size)):
-        what = f"{solver.name}: a wave of {rough.shortest:g} m"
-        yield refusal(what, Refused, words, solver.solve, resting(roughness=rough))
-
-
-@case(
-    "Roughness from millimetres to picometres fits no memory.", "Refused at once: the error names what to change."
+case.add(
+    "nine-decades-of-waves",
+    "Roughness from millimetres to picometres fits no memory.",
+    "Refused at once: the error names what to change.",
+    refused("longest | shortest | raise shortest", NINE_DECADES, line, error=Refused),
+    refused("4000 waves | fit in memory | take", BROAD, partial(square, points=16384)),
 )
-def nine_decades_of_waves(size):
-    rough = replace(ROUGH, shortest=1e-12)
-    solver, words = MDR(points=size.line), "longest | shortest | raise shortest"
-    yield refusal("MDR: nine decades of waves", Refused, words, solver.solve, resting(roughness=rough))
-    broad = Scene(Plane(), SOLID, Indent(pressure=1e4), replace(ROUGH, shortest=2 * RADIUS / 4000))
-    solver, words = BEM(points=16384), "4000 waves | fit in memory | take"
-    yield refusal("BEM: 4000 waves each way", SolveError, words, solver.solve, broad)
 
 
 @case(
@@ -180,23 +148,22 @@ def steep_beyond_sense(size):
     factor = 2.0**40
     stretched = replace(ROUGH, rms_height=factor * ROUGH.rms_height)
     body, steep = (PowerLaw(coefficient=scale * 50.0, exponent=2.0) for scale in (1.0, factor))
+    flat = Scene(body, SOLID, Slide(speed=PACE, depth=DEPTH), ROUGH)
+    tall = Scene(steep, SOLID, Slide(speed=PACE, depth=factor * DEPTH), stretched)
     for solver in (line(size), dense(size)):
-        flat = solver.solve(Scene(body, SOLID, Slide(speed=PACE, depth=DEPTH), ROUGH))
-        tall = solver.solve(Scene(steep, SOLID, Slide(speed=PACE, depth=factor * DEPTH), stretched))
-        for name in ("normal_force", "depth"):
-            ratio = getattr(tall, name) / factor
-            yield deviation(f"{solver.name}: {name} over the stretch", ratio, getattr(flat, name), 1e-12)
-        ratio = tall.friction_force / factor**2
-        yield deviation(f"{solver.name}: friction over its square", ratio, flat.friction_force, 1e-12)
+        one, other = solver.solve(flat), solver.solve(tall)
+        for name, over in (("normal_force", factor), ("depth", factor), ("friction_force", factor**2)):
+            ratio = getattr(other, name) / over
+            yield deviation(f"{solver.name}: {name} over the stretch", ratio, getattr(one, name), 1e-12)
 
 
-@case("Seeds beyond 64 bits.", "The same seed gives the same force, to the last bit.")
-def huge_seeds(size):
-    for seed in (2**63, 10**60):
-        rough = replace(ROUGH, seed=seed)
-        for solver in (line(size), space(size)):
-            one, two = (solver.solve(resting(roughness=rough)).normal_force for _ in range(2))
-            yield Check(f"{solver.name}, seed {float(seed):g}: force of a second solve", abs(one - two), 0.0)
+SEEDED = {f"seed {float(seed):g}": resting(roughness=replace(ROUGH, seed=seed)) for seed in (2**63, 10**60)}
+case.add(
+    "huge-seeds",
+    "Seeds beyond 64 bits.",
+    "The same seed gives the same force, to the last bit.",
+    equal({what: (scene, scene) for what, scene in SEEDED.items()}, 0.0),
+)
 
 
 @case(
@@ -205,5 +172,5 @@ def huge_seeds(size):
 )
 def as_rough_as_the_grid(size):
     rough = SelfAffine(hurst=0.0, rms_height=DEPTH, longest=2 * RADIUS)
-    answer = MDR(points=size.line, extent=4.5 * RADIUS).solve(sliding(1.0, KELVIN, roughness=rough))
+    answer = line(size, extent=4.5 * RADIUS).solve(sliding(1.0, KELVIN, roughness=rough))
     yield from _as_on_springs("", answer)

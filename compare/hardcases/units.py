@@ -1,140 +1,145 @@
 """One and the same contact from nanometres to kilometres, from pascals to terapascals, in any unit of time."""
 
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from scene import Cylinder, Program, Prony, Scene, Slide, Stage
+from scene import Cylinder, Prony, Scene, Slide
 
 from .hardcase import Group, deviation
-from .ordinary import DEPTH, LOAD, MODULUS, PACE, RADIUS, ROUGH, SPHERE, TIME, dense, line
+from .laws import Law
+from .ordinary import DEPTH, LOAD, MODULUS, PACE, RADIUS, ROUGH, SPHERE, TIME, program, stage
+from .solvers import TOLERANCE, dense, line, row
 
-MODES = (1e6, 3e6), (TIME, TIME / 50)
-CASES = case = Group("units")
 BITS = "Depth, force and friction scale by powers of two to the last bit."
+CASES = case = Group("units")
 
 
-def _scaled(length, modulus, time, motion, rough=ROUGH):
-    """The rough sphere on two modes, in other units of length, modulus and time."""
-    moduli, times = MODES
-    solid = Prony(
-        equilibrium_modulus=modulus * MODULUS,
-        moduli=tuple(modulus * each for each in moduli),
-        relaxation_times=tuple(time * each for each in times),
-    )
-    waves = {name: length * getattr(rough, name) for name in ("rms_height", "longest", "shortest")}
-    return Scene(
-        replace(SPHERE, radius=length * SPHERE.radius),
-        solid,
-        motion(length, modulus, time),
-        replace(rough, **waves),
-    )
+class Units(NamedTuple):
+    """Units of length, modulus and time over those of the ordinary contact."""
+
+    length: float = 1.0
+    modulus: float = 1.0
+    time: float = 1.0
+
+    @property
+    def load(self) -> float:
+        """LOAD in these units."""
+        return self.length**2 * self.modulus * LOAD
 
 
-def _slide(length, modulus, time):
-    return Slide(speed=length / time * PACE, depth=length * DEPTH)
+def powers(name: str, *exponents: int) -> list[Units]:
+    """One of the units by powers of two."""
+    return [Units(**{name: 2.0**exponent}) for exponent in exponents]
 
 
-def _loaded(length, modulus, time):
-    return Slide(speed=length / time * PACE, load=length**2 * modulus * LOAD)
+BOTH = line, dense
+SMALL_AND_LARGE = Units(2.0**-30, 2.0**20, 2.0**-40), Units(2.0**10, 2.0**-20, 2.0**40)
+FORCES = {
+    "depth": lambda units: units.length,
+    "normal_force": lambda units: units.length**2 * units.modulus,
+    "friction_force": lambda units: units.length**2 * units.modulus,
+}
 
 
-def _program(length, modulus, time):
-    return Program(
-        stages=(
-            Stage(duration=time * TIME, load=length**2 * modulus * LOAD),
-            Stage(duration=2 * time * TIME, speed=length / time * PACE / 8),
-            Stage(duration=time * TIME, load=0.1 * length**2 * modulus * LOAD),
-        )
-    )
+def _solid(units):
+    moduli, times = (units.modulus * 1e6, units.modulus * 3e6), (units.time * TIME, units.time * (TIME / 50))
+    return Prony(units.modulus * MODULUS, moduli, times)
 
 
-def _compared(size, motion, factors, allowed):
-    """Both solvers in each unit against the ordinary one."""
-    for build in (line, dense):
-        one = build(size, extent=4 * RADIUS, **_steps(motion))
-        known = one.solve(_scaled(1.0, 1.0, 1.0, motion))
-        for length, modulus, time in factors:
-            found = replace(one, extent=length * 4 * RADIUS).solve(_scaled(length, modulus, time, motion))
-            what = f"{one.name}, {length:.3g} m, {modulus:.3g} Pa, {time:.3g} s"
-            force = length**2 * modulus
-            yield deviation(f"{what}: depth", found.depth / length, known.depth, allowed)
-            yield deviation(f"{what}: force", found.normal_force / force, known.normal_force, allowed)
-            yield deviation(f"{what}: friction", found.friction_force / force, known.friction_force, allowed)
+def _sphere(motion, units):
+    waves = {name: units.length * getattr(ROUGH, name) for name in ("rms_height", "longest", "shortest")}
+    indenter = replace(SPHERE, radius=units.length * SPHERE.radius)
+    return Scene(indenter, _solid(units), motion(units), replace(ROUGH, **waves))
 
 
-def _steps(motion):
-    return {"steps": 20} if motion is _program else {}
+def _line(units):
+    motion = Slide(speed=units.length * PACE, line_load=units.length * units.modulus * LOAD / RADIUS)
+    return Scene(Cylinder(units.length * SPHERE.radius), _solid(units), motion)
 
 
-@case("Lengths from micrometres to a thousandth of a nanometre.", BITS)
-def nanometres(size):
-    return _compared(size, _slide, [(2.0**-k, 1.0, 1.0) for k in (10, 20, 30)], 0.0)
+def _slide(units, **pressed):
+    return Slide(speed=units.length / units.time * PACE, **pressed)
 
 
-@case("Lengths from a metre to a million kilometres.", BITS)
-def kilometres(size):
-    return _compared(size, _slide, [(2.0**k, 1.0, 1.0) for k in (10, 20, 40)], 0.0)
+def _program(units):
+    first, last = (stage(units.time * TIME, load=part * units.load) for part in (1.0, 0.1))
+    away = stage(2 * units.time * TIME, speed=units.length / units.time * PACE / 8)
+    return program(first, away, last).motion
 
 
-@case("Moduli from 1e-12 to 1e24 Pa.", BITS)
-def pascals_to_exapascals(size):
-    return _compared(size, _slide, [(1.0, 2.0**k, 1.0) for k in (-20, -60, 20, 60)], 0.0)
+SLIDING = partial(_sphere, lambda units: _slide(units, depth=units.length * DEPTH))
+LOADED = partial(_sphere, lambda units: _slide(units, load=units.load))
+MARCHING = partial(_sphere, _program)
 
 
-@case("Relaxation times from 1e-18 to 1e12 s.", BITS)
-def femtoseconds_to_ages(size):
-    return _compared(size, _slide, [(1.0, 1.0, 2.0**k) for k in (-50, -20, 20, 50)], 0.0)
+def scaled(
+    scene: Callable, every: Iterable[Units], allowed=0.0, of=FORCES, solvers=(line, dense), **settings
+) -> Law:
+    """Answers in some units over their own unit are those of the ordinary contact."""
+
+    def examine(size):
+        for build in solvers:
+            solver = build(size, **{"extent": 4 * RADIUS} | settings)
+            known = solver.solve(scene(Units()))
+            for units in every:
+                extent = solver.extent and units.length * 4 * RADIUS
+                found = replace(solver, extent=extent).solve(scene(units))
+                what = f"{solver.name}, {units.length:.3g} m, {units.modulus:.3g} Pa, {units.time:.3g} s"
+                for name, unit in of.items():
+                    value = getattr(found, name) / unit(units)
+                    yield deviation(f"{what}: {name}", value, getattr(known, name), allowed)
+
+    return examine
 
 
-@case("Nanometres, terapascals and picoseconds; kilometres, pascals and ages.", BITS)
-def all_units_at_once(size):
-    return _compared(size, _slide, [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)], 0.0)
-
-
-@case(
+for name, about, every in (
+    ("nanometres", "Lengths from micrometres to a thousandth of a nanometre.", powers("length", -10, -20, -30)),
+    ("kilometres", "Lengths from a metre to a million kilometres.", powers("length", 10, 20, 40)),
+    ("pascals-to-exapascals", "Moduli from 1e-12 to 1e24 Pa.", powers("modulus", -20, -60, 20, 60)),
+    ("femtoseconds-to-ages", "Relaxation times from 1e-18 to 1e12 s.", powers("time", -50, -20, 20, 50)),
+    (
+        "all-units-at-once",
+        "Nanometres, terapascals and picoseconds; kilometres, pascals and ages.",
+        SMALL_AND_LARGE,
+    ),
+):
+    case.add(name, about, BITS, scaled(SLIDING, every))
+case.add(
+    "loads-in-all-units",
     "A load is a product of all units, and the depth is sought.",
     "Depth, force and friction scale to 1e-12: powers other than squares round.",
+    scaled(LOADED, SMALL_AND_LARGE, 1e-12),
 )
-def loads_in_all_units(size):
-    return _compared(size, _loaded, [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)], 1e-12)
-
-
-@case(
+case.add(
+    "decimal-units",
     "Factors that are no powers of two: nanometres, kilometres, inches and psi; every number rounds anew.",
     "Depth, force and friction scale to 1e-9: the set of contact is the same, and rounding is carried through.",
+    scaled(SLIDING, [Units(1e-9, 1.0, 1e-6), Units(1e3, 1e6, 1e3), Units(25.4e-3, 6894.757, 3600.0)], 1e-9),
 )
-def decimal_units(size):
-    factors = [(1e-9, 1.0, 1e-6), (1e3, 1e6, 1e3), (25.4e-3, 6894.757, 3600.0)]
-    return _compared(size, _slide, factors, 1e-9)
-
-
-@case(
+case.add(
+    "marches-in-all-units",
     "A program in time, cut into steps by pixels and durations in other units.",
     "Depth, force and friction scale to 1e-9: steps round.",
+    scaled(MARCHING, SMALL_AND_LARGE, 1e-9, steps=20),
 )
-def marches_in_all_units(size):
-    factors = [(2.0**-30, 2.0**20, 2.0**-40), (2.0**10, 2.0**-20, 2.0**40)]
-    return _compared(size, _program, factors, 1e-9)
-
-
-@case(
+case.add(
+    "lines-in-all-units",
     "Forces of a line are per length, and depths count from a logarithm.",
     "Depth and mu scale to 1e-9: the logarithm rounds.",
+    scaled(
+        _line,
+        (Units(2.0**-30, 2.0**20), Units(2.0**10, 2.0**-20)),
+        1e-9,
+        {"depth": FORCES["depth"], "friction_coefficient": lambda units: 1.0},
+        (row,),
+        extent=None,
+        tolerance=TOLERANCE,
+    ),
 )
-def lines_in_all_units(size):
-    one = dense(size, points=size.row, extent=None)
-
-    def scene(length, modulus):
-        solid = Prony(modulus * MODULUS, tuple(modulus * each for each in MODES[0]), MODES[1])
-        motion = Slide(speed=length * PACE, line_load=length * modulus * LOAD / RADIUS)
-        return Scene(Cylinder(length * SPHERE.radius), solid, motion)
-
-    known = one.solve(scene(1.0, 1.0))
-    for length, modulus in ((2.0**-30, 2.0**20), (2.0**10, 2.0**-20)):
-        found, what = one.solve(scene(length, modulus)), f"{length:.3g} m, {modulus:.3g} Pa"
-        yield deviation(f"{what}: depth", found.depth / length, known.depth, 1e-9)
-        yield deviation(f"{what}: mu", found.friction_coefficient, known.friction_coefficient, 1e-9)
 
 
 @case(
@@ -142,11 +147,11 @@ def lines_in_all_units(size):
     "Displacement in 1D and pressure in 3D scale at every point, to the last bit.",
 )
 def fields_in_all_units(size):
-    for build in (line, dense):
-        one = build(size, extent=4 * RADIUS)
-        small = replace(one, extent=2.0**-20 * 4 * RADIUS)
-        known, found = one.solve(_scaled(1.0, 1.0, 1.0, _slide)), small.solve(_scaled(2.0**-20, 1.0, 1.0, _slide))
-        names = {"MDR": ("displacement", 2.0**-20), "BEM": ("pressure", 1.0)}
-        name, unit = names[one.name]
-        apart = np.abs(found.fields[name] / unit - known.fields[name]).max()
-        yield deviation(f"{one.name}: {name}", 1 + apart / known.fields[name].max(), 1.0, 0.0)
+    small = Units(length=2.0**-20)
+    for build, name, unit in ((line, "displacement", small.length), (dense, "pressure", 1.0)):
+        known, found = (
+            build(size, extent=each.length * 4 * RADIUS).solve(SLIDING(each)).fields[name]
+            for each in (Units(), small)
+        )
+        apart = np.abs(found / unit - known).max()
+        yield deviation(name, 1 + apart / known.max(), 1.0, 0.0)
