@@ -103,9 +103,7 @@ def figure(tables: Tables, steps: str) -> Figure:
         axes = drawing.add_subplot(rows, columns, k + 1)
         style.head(axes, f"({letter(k)}) {panel.first.title}\n{panel.first.label}", columns)
         _panel(axes, panel, looks)
-        axes.set_xlabel("processor time [s]")
-        if k % columns == 0:
-            axes.set_ylabel("relative error [1]")
+        axes.set(xlabel="processor time [s]", ylabel="relative error [1]")
         all_axes.append(axes)
     _legend(drawing, drawn, looks)
     style.lay_out(drawing)

@@ -1,7 +1,6 @@
 """Error against the true answer of three dimensions over time: both models in one picture, in several regimes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import ceil, isfinite
 from typing import Any
 
@@ -12,11 +11,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..page import Plot, Tables
-from ..statistics.convergence import MeasuredLadder
 from ..statistics.sampling import Mean, SamplingPlan, envelope
 from . import style
 from .lettering import Letter, letter, write
-from .workprecision import corner, dots, guide, marks, panels
+from .workprecision import Panel, corner, dots, guide, marks, panels
 from .workprecision_surfaces import means, plan_look
 
 # Size of a panel [inch], and of what surrounds them all.
@@ -46,132 +44,115 @@ def plot(name: str, tables: Tables) -> Plot:
     )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Smooth:
-    """One quantity of a smooth contact: a curve a solver."""
-
-    title: str
-    quantity: str
-    curves: tuple[MeasuredLadder, ...]
-    rough = False
-
-    def draw(self, axes: Axes) -> None:
-        """Errors of both ladders, and the powers they follow."""
-        own = self.curves[0].reference_error
-        for curve in self.curves:
-            colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
-            line: dict[str, Any] = {
-                "color": colour,
-                "linestyle": style.LINE[curve.solver],
-                "linewidth": style.width(0.8),
-            }
-            axes.plot(curve.processor, errors, **line)
-            dots(axes, curve.processor, errors, errors <= own, style.MARKER[curve.solver], colour, 0.8)
-            if curve.order.order > FALLS:
-                solved = np.isfinite(curve.processor)
-                guide(axes, curve.processor[solved], np.maximum(curve.order.at(curve.values)[solved], LEAST))
-        if own > 0:
-            axes.axhspan(LEAST / 10, own, color=style.grey(0.9), zorder=0, linewidth=0)
-        if failed := sum(len(curve.failures) for curve in self.curves):
-            corner(axes, f"not solved: {failed}")
-
-    def letters(self) -> list[Letter]:
-        """Points of the grids, the first and the last of each ladder first."""
-        return [Letter(*each) for curve in self.curves for each in _settings(curve)]
-
-
-@dataclass(frozen=True)
-class Rough:
-    """One quantity of a rough contact: plans to its mean."""
-
-    title: str
-    quantity: str
-    mean: Mean
-    rough = True
-
-    def draw(self, axes: Axes) -> None:
-        """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
-        for own in (self.mean.plain, self.mean.of("MDR")[-1:]):
-            for plan in own:
-                _mean_curve(axes, plan, plan_look(plan, own))
-        every = self.mean.of("BEM")
-        known = [plan.least_seconds for plan in every if isfinite(plan.least_seconds)]
-        if known:
-            seconds = np.geomspace(min(known), LONGEST * min(known), 200)
-            axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
-        for plan in self.mean.of("MDR")[-1:]:
-            if isfinite(plan.bias.most):
-                band: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
-                axes.axhspan(max(plan.bias.least, LEAST), plan.bias.most, **band)
-        if self.mean.grid_error > 0:
-            axes.axhspan(LEAST / 10, self.mean.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
-        if self.mean.failed:
-            corner(axes, f"not solved: {self.mean.failed}")
-
-    def letters(self) -> list[Letter]:
-        """Points at the first marks of the coarsest and of the finest grid."""
-        ends = [
-            plan for own in (self.mean.plain, self.mean.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])
-        ]
-        found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
-        return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
-
-
 def figure(tables: Tables, steps: str, plans: str) -> Figure:
     """All regimes, smooth ones above rough ones, and one legend below.
 
     steps, plans : names of the tables, empty where there is none
     """
-    drawn = sorted(_panels(tables, steps, plans), key=lambda panel: (panel.rough, panel.quantity != "friction"))
+    found: list[Panel | Mean] = [
+        *(panels(tables[steps]) if steps else []),
+        *(means(tables[plans]) if plans else []),
+    ]
+    drawn = sorted(found, key=lambda panel: (_rough(panel), _first(panel).quantity != "friction"))
     rows, columns, places = _places(drawn)
     drawing = style.canvas("double" if columns > 1 else "single", rows * HEIGHT + AROUND)
     first: dict[bool, Axes] = {}
     for k, (panel, place) in enumerate(zip(drawn, places, strict=True)):
-        beside = first.get(panel.rough)
+        beside = first.get(_rough(panel))
         axes = drawing.add_subplot(rows, columns, place + 1, sharex=beside, sharey=beside)
-        first.setdefault(panel.rough, axes)
-        style.head(axes, f"({letter(k)}) {_headed(panel)}", columns)
+        first.setdefault(_rough(panel), axes)
+        style.head(axes, f"({letter(k)}) {_headed(_first(panel))}", columns)
         axes.set(xscale="log", yscale="log")
-        panel.draw(axes)
+        if isinstance(panel, Mean):
+            _draw_mean(axes, panel)
+        else:
+            _draw_ladders(axes, panel)
         if place % columns == 0 or beside is None:
             axes.set_ylabel("relative error [1]")
-        if place + columns not in places or (not panel.rough and drawn[places.index(place + columns)].rough):
+        if place + columns not in places or (not _rough(panel) and _rough(drawn[places.index(place + columns)])):
             axes.set_xlabel("processor time [s]")
     for rough in (False, True):
-        _share([axes for axes, panel in zip(drawing.axes, drawn, strict=True) if panel.rough == rough], rough)
+        _share([axes for axes, panel in zip(drawing.axes, drawn, strict=True) if _rough(panel) == rough], rough)
     _legend(drawing, drawn)
     style.lay_out(drawing)
     for axes, panel in zip(drawing.axes, drawn, strict=True):
-        write(axes, panel.letters(), style.tiny())
+        write(axes, _ends(panel) if isinstance(panel, Mean) else _settings(panel), style.tiny())
     return drawing
 
 
-def _panels(tables, steps, plans) -> list[Smooth | Rough]:
-    found: list[Smooth | Rough] = []
-    if steps:
-        found += [Smooth(each.first.title, each.first.quantity, each.curves) for each in panels(tables[steps])]
-    if plans:
-        found += [Rough(each.title, each.quantity, each) for each in means(tables[plans])]
-    return found
+def _rough(panel):
+    return isinstance(panel, Mean)
 
 
-def _headed(panel) -> str:
+def _first(panel):
+    """What tells contact and quantity."""
+    return panel if isinstance(panel, Mean) else panel.first
+
+
+def _headed(told) -> str:
     """The body, and below it the motion and the quantity."""
-    body, _, motion = panel.title.rpartition(", ")
-    return f"{body}\n{motion}: {panel.quantity}" if body else f"{motion}\n{panel.quantity}"
+    body, _, motion = told.title.rpartition(", ")
+    return f"{body}\n{motion}: {told.quantity}" if body else f"{motion}\n{told.quantity}"
 
 
-def _settings(curve: MeasuredLadder):
-    """First and last first, all in one where the error stays the same."""
-    solved = [(point, f"{value:g}") for point, value in marks(curve, LEAST)]
-    if not solved:
-        return []
-    x, y = np.array([point for point, _ in solved]).T
-    values = [value for _, value in solved]
-    if len(values) > 1 and np.ptp(np.log(y)) < np.log(CLOSE):
-        return [(f"{values[0]} to {values[-1]}", (x[np.argsort(x)[len(x) // 2]], y.max()))]
-    order = sorted(range(len(values)), key=lambda k: min(k, len(values) - 1 - k))
-    return [(values[k], (x[k], y[k])) for k in order]
+def _draw_ladders(axes: Axes, panel: Panel):
+    """Errors of both ladders of a smooth contact, and the powers they follow."""
+    own = panel.first.reference_error
+    for curve in panel.curves:
+        colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
+        line: dict[str, Any] = {"linestyle": style.LINE[curve.solver], "linewidth": style.width(0.8)}
+        axes.plot(curve.processor, errors, color=colour, **line)
+        dots(axes, curve.processor, errors, errors <= own, style.MARKER[curve.solver], colour, 0.8)
+        if curve.order.order > FALLS:
+            solved = np.isfinite(curve.processor)
+            guide(axes, curve.processor[solved], np.maximum(curve.order.at(curve.values)[solved], LEAST))
+    if own > 0:
+        axes.axhspan(LEAST / 10, own, color=style.grey(0.9), zorder=0, linewidth=0)
+    if failed := sum(len(curve.failures) for curve in panel.curves):
+        corner(axes, f"not solved: {failed}")
+
+
+def _draw_mean(axes: Axes, mean: Mean):
+    """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
+    for own in (mean.plain, mean.of("MDR")[-1:]):
+        for plan in own:
+            _mean_curve(axes, plan, plan_look(plan, own))
+    every = mean.of("BEM")
+    known = [plan.least_seconds for plan in every if isfinite(plan.least_seconds)]
+    if known:
+        seconds = np.geomspace(min(known), LONGEST * min(known), 200)
+        axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
+    if isfinite(mean.floor.most):
+        band: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
+        axes.axhspan(max(mean.floor.least, LEAST), mean.floor.most, **band)
+    if mean.grid_error > 0:
+        axes.axhspan(LEAST / 10, mean.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
+    if mean.failed:
+        corner(axes, f"not solved: {mean.failed}")
+
+
+def _ends(mean: Mean) -> list[Letter]:
+    """Points at the first marks of the coarsest and of the finest grid."""
+    ends = [plan for own in (mean.plain, mean.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])]
+    found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
+    return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
+
+
+def _settings(panel: Panel) -> list[Letter]:
+    """Points of the grids: first and last of each ladder first, all in one where the error stays the same."""
+    found = []
+    for curve in panel.curves:
+        solved = marks(curve, LEAST)
+        if not solved:
+            continue
+        x, y = np.array([point for point, _ in solved]).T
+        values = [f"{value:g}" for _, value in solved]
+        if len(values) > 1 and np.ptp(np.log(y)) < np.log(CLOSE):
+            found.append(Letter(f"{values[0]} to {values[-1]}", (x[np.argsort(x)[len(x) // 2]], y.max())))
+        else:
+            order = sorted(range(len(values)), key=lambda k: min(k, len(values) - 1 - k))
+            found += [Letter(values[k], (x[k], y[k])) for k in order]
+    return found
 
 
 def _mean_curve(axes, plan: SamplingPlan, look):
@@ -217,7 +198,7 @@ def _legend(drawing, drawn):
         )
         for solver in ("MDR", "BEM")
     ]
-    if any(panel.rough for panel in drawn):
+    if any(map(_rough, drawn)):
         entries.append(Line2D([], [], **_cheapest(), label="cheapest plan in 3D"))
         entries.append(Patch(color=style.COLOUR["MDR"], alpha=0.2, linewidth=0, label="error that 1D keeps, 95 %"))
     entries.append(Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"))
@@ -226,7 +207,7 @@ def _legend(drawing, drawn):
 
 def _places(drawn):
     """Rows, columns, and the place of each panel: kinds begin a row of their own, unless all fit into one."""
-    counts = [count for rough in (False, True) if (count := sum(panel.rough == rough for panel in drawn))]
+    counts = [count for rough in (False, True) if (count := sum(_rough(panel) == rough for panel in drawn))]
     if len(drawn) <= 4:
         return 1, len(drawn), list(range(len(drawn)))
 
