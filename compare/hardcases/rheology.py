@@ -137,7 +137,7 @@ def nearly_equal_times(size):
 
 
 MODES = np.array((MANY.moduli, MANY.relaxation_times))[:, np.random.default_rng(1).permutation(30)]
-SHUFFLED = Prony(MODULUS, *(tuple(each.tolist()) for each in MODES))
+SHUFFLED = Prony(MODULUS, tuple(MODES[0].tolist()), tuple(MODES[1].tolist()))
 case.add(
     "modes-in-any-order",
     "Thirty modes, shuffled.",
