@@ -15,7 +15,7 @@ from scene import Scene
 from ...rectangle import FAILED, NOT_ASKED, SOLVED
 from ...statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, half_width
 from ...task import SceneTask, Task, draws_of
-from ...vocabulary import attributes
+from .convergence import described
 from .reference import Known, Outcomes, Quantity
 from .timed_solve import COSTS, TimedSolve, work
 
@@ -108,9 +108,7 @@ class Ensemble:
             "draw": list(range(first, first + draws)),
         }
         about = {"contact": self.name, "title": self.title, "solver": name}
-        dataset = xarray.Dataset(found, coordinates, about)
-        for label in dataset.variables:
-            dataset[label].attrs = attributes(str(label), self.scene)
+        dataset = described(xarray.Dataset(found, coordinates, about), self.scene)
         for each in self.quantities:
             dataset[VARIABLES[each.name]].attrs |= {"quantity": each.name, "label": each.label}
             if each.name in self.scales:
