@@ -18,12 +18,12 @@ from .commands import study as study
 from .commands import sweep as sweep
 from .commands import topography as topography
 from .commands import workprecision as workprecision
+from .declaration import Study as Study
 from .finding import Claim as Claim
 from .finding import Finding as Finding
-from .pipeline import Report as Report
-from .pipeline import Study as Study
 from .quantity import Quantity as Quantity
 from .rectangle import Rectangle as Rectangle
+from .report import Report as Report
 from .studies.regress import check as check
 from .studies.regress import update as update
 from .task import SceneTask as SceneTask

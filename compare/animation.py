@@ -14,9 +14,9 @@ from scene import Refused, Scene, SolveError, Solver
 
 from .film import Film, started
 from .inputs import Asked, case_of
-from .pipeline import SOLVED
 from .plots import style
 from .plots.marching import MarchFigure
+from .report import SOLVED
 from .runner import Progress, sweep
 from .store import Store, write
 from .task import SceneTask

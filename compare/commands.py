@@ -1,6 +1,6 @@
 """What every command does, as functions of the same names, arguments and defaults: `crosscheck X` is `compare.X`.
 
-A function that solves returns a `pipeline.Report` and prints nothing: printed, the report is what the command
+A function that solves returns a `report.Report` and prints nothing: printed, the report is what the command
 prints; in a notebook it shows tables, and its `figures`. Interrupted or killed, the same call resumes. As worker
 processes are started, a script calls these under `if __name__ == "__main__":`.
 
@@ -29,11 +29,12 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from .declaration import Study
     from .inputs import Asked
     from .library import Listing
-    from .pipeline import Report, Study
     from .planning import Plans
     from .quantity import Quantity
+    from .report import Report
 
 
 class Options(TypedDict, total=False):
@@ -237,9 +238,9 @@ def load(folder: str | Path) -> xarray.DataTree:
 
     folder : that a command left, or one file of results
     """
-    from . import pipeline
+    from . import results
 
-    return pipeline.load(folder)
+    return results.load(folder)
 
 
 def ready() -> Listing:

@@ -19,7 +19,7 @@ from .page import Page, Plot, Table
 from .store import PACKAGES, finite
 
 if TYPE_CHECKING:
-    from .pipeline import Study
+    from .declaration import Study
     from .runner import SweepResult
 
 NAME = "manifest.json"

@@ -8,7 +8,7 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput
 
-from . import csvfiles, manifest, pipeline, rectangle
+from . import csvfiles, manifest, rectangle, results
 from .pages import latex
 from .suggest import known
 from .vocabulary import entry
@@ -54,9 +54,9 @@ def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
             place = each.path.relative_to(folder)
             for name in each.manifest.tables:
                 yield (place / name).as_posix(), csvfiles.read(each.path / f"{name}.csv")
-        if not any(folder.rglob(pipeline.RESULTS)):
+        if not any(folder.rglob(results.NAME)):
             return
-    for node in pipeline.load(folder).subtree:
+    for node in results.load(folder).subtree:
         yield from _flat(node.path.strip("/") or Path(folder).stem, node.to_dataset(inherit=False))
 
 

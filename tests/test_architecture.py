@@ -32,7 +32,7 @@ FLOORS = (
     {"task", "taskfile", "finding", "exact", "page", "describe"},
     {"store", "sharing", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
     {"plots", "pools", "runner", "timeleft", "progress", "pages", "manifest", "redraw", "views", "film"},
-    {"pipeline", "planning", "animation", "tables"},
+    {"declaration", "results", "report", "pipeline", "planning", "animation", "tables"},
     {"studies", "json_schema"},
     {"commands", "console", "cli", "__init__", "__main__"},
 )

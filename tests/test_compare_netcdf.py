@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from compare import netcdf, pipeline
+from compare import netcdf, results
 
 
 def test_lengths_that_disagree_along_a_dimension_are_refused():
@@ -19,5 +19,5 @@ def test_many_attributes_in_any_letters_come_back(tmp_path):
     path.write_bytes(
         netcdf.encoded(netcdf.Group({"x": netcdf.Variable((), np.array(1.0), attributes)}, attributes))
     )
-    found = pipeline.load(path)
+    found = results.load(path)
     assert found.attrs == found.x.attrs == attributes

@@ -18,7 +18,7 @@ from page_samples import FINDINGS, MEANS, ROWS, page
 from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 
-from compare import csvfiles, digits, manifest, pages, pipeline, tables, vocabulary
+from compare import csvfiles, digits, manifest, pages, results, tables, vocabulary
 from compare.finding import COLUMNS
 from compare.page import Page, Plot, Table
 from compare.pages import latex, markdown, notebook, prose, terminal
@@ -39,7 +39,7 @@ def folder(tmp_path_factory):
     assert drawn == ["sphere/friction"]
     values = {"friction_force": ("draw", [0.1, 1 / 3]), "status": ("draw", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"draw": [0, 1]})
-    pipeline.store_results(path / pipeline.RESULTS, xarray.DataTree.from_dict({"/sphere/MDR": dataset}))
+    results.write(path / results.NAME, xarray.DataTree.from_dict({"/sphere/MDR": dataset}))
     manifest.stamp(path, STUDY, page(), SWEPT, "solved")
     return path
 

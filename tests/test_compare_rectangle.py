@@ -8,7 +8,7 @@ import pytest
 import xarray
 
 from bem3d import BEM
-from compare import pipeline
+from compare import results
 from compare.finding import Claim
 from compare.outcome import Outcome, Row
 from compare.rectangle import Rectangle, on_two_grids, tree, unique
@@ -94,8 +94,8 @@ def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
 
 
 def test_results_are_the_same_after_they_were_stored(answers, tmp_path):
-    pipeline.store_results(tmp_path / "results.nc", answers)
-    again = pipeline.load(tmp_path)
+    results.write(tmp_path / "results.nc", answers)
+    again = results.load(tmp_path)
     assert {node.path for node in again.subtree} == {node.path for node in answers.subtree}
     for node in answers.subtree:
         xarray.testing.assert_equal(again[node.path].to_dataset(), node.to_dataset())
@@ -106,12 +106,12 @@ def test_results_are_the_same_after_they_were_stored(answers, tmp_path):
 @pytest.mark.parametrize("damage", [b"", b"x" * 100])
 def test_damaged_results_and_folders_without_any_are_said(tmp_path, damage):
     with pytest.raises(InvalidInput, match="no command has left results"):
-        pipeline.load(tmp_path)
+        results.load(tmp_path)
     (tmp_path / "results.nc").write_bytes(damage)
     with pytest.raises(InvalidInput, match=r"results\.nc"):
-        pipeline.load(tmp_path)
+        results.load(tmp_path)
     with pytest.raises(InvalidInput, match="no such file"):
-        pipeline.load(tmp_path / "nowhere")
+        results.load(tmp_path / "nowhere")
 
 
 def test_rectangles_that_cross_share_their_contacts():

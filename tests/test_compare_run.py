@@ -9,7 +9,7 @@ import pytest
 from pandas import DataFrame
 
 from bem3d import BEM
-from compare import pipeline
+from compare import finding, results
 from compare.cases import Case, Study
 from compare.describe import described, slug
 from compare.outcome import Outcome, Row
@@ -142,7 +142,7 @@ def invented(task, halved=0.0, scatter=0.0, broken=()):
 def judged(case=CASE, **how):
     run = Run({"a case": case})
     answers = run.answers({task: invented(task, **how) for task in run.batches()[0].tasks})
-    return run, answers, pipeline.finding.table(run.findings(answers)).set_index(["claim", "where"])
+    return run, answers, finding.table(run.findings(answers)).set_index(["claim", "where"])
 
 
 def test_known_answers_are_found():
@@ -303,8 +303,8 @@ def test_one_value_of_everything_is_drawn_without_a_warning(motion):
 
 def test_results_are_stored_and_read_with_the_fields_of_the_contact(report, tmp_path):
     _, answers, _ = report
-    pipeline.store_results(tmp_path / "results.nc", answers)
-    again = pipeline.load(tmp_path)
+    results.write(tmp_path / "results.nc", answers)
+    again = results.load(tmp_path)
     assert set(again["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
     assert [node.path for node in again.subtree] == [node.path for node in answers.subtree]
 

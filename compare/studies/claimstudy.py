@@ -12,13 +12,13 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput, text_of
 
+from ..declaration import Study
 from ..describe import described, slug
 from ..finding import REPORTED, VERDICTS, Finding, sentences
 from ..inputs import located
 from ..library import Listing, ready
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
-from ..pipeline import Study
 from ..rectangle import Rectangle
 from ..suggest import known
 from ..task import Task

@@ -12,10 +12,10 @@ import xarray
 from scene.reading import InvalidInput
 from scene.table import read_rows
 
+from ..declaration import Study
 from ..finding import EXACT, FAILS, REPORTED, Claim, Finding, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Table
-from ..pipeline import Study
 from ..plots import shifted_curves
 from ..statistics import eq23
 from ..statistics.collapse import Collapse, collapse

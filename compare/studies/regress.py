@@ -20,10 +20,10 @@ from pydantic.dataclasses import dataclass as validated
 from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
+from ..declaration import Study
 from ..finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
-from ..pipeline import Study
 from ..quantity import Quantity, Unmeasured
 from ..runner import sweep
 from ..store import Store, write

@@ -17,12 +17,12 @@ from scene.scales import elastic_contact
 
 from .. import finding, rectangle
 from ..cases import Case
+from ..declaration import Study
 from ..describe import described, slug
 from ..finding import Finding
 from ..inputs import Asked, named_cases
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
-from ..pipeline import Study
 from ..plots import contact, contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
 from ..rectangle import Rectangle
 from ..task import SceneTask, Task

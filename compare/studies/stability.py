@@ -8,13 +8,13 @@ from typing import Any
 import xarray
 from pandas import DataFrame
 
+from ..declaration import Study
 from ..finding import FAILS, HOLDS, Claim, Finding
 from ..hardcases.collection import CASES
 from ..hardcases.examination import Examination
 from ..hardcases.hardcase import SIZES, Check
 from ..outcome import Outcome
 from ..page import Block, Page, Section, Table, Text
-from ..pipeline import Study
 from ..suggest import known
 from ..task import Batch, Task
 from ..vocabulary import attributes

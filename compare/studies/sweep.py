@@ -14,10 +14,10 @@ from scene.motion import UNITS
 from scene.reading import InvalidInput
 
 from ..cases import Case
+from ..declaration import Study
 from ..finding import Claim, Finding
 from ..inputs import Asked, case_of
 from ..page import Block, Plot, Table
-from ..pipeline import Study
 from ..plots import sweep as plots
 from ..rectangle import COARSE, FINE, Rectangle, on_two_grids
 from ..statistics.jackknife import Estimated, judge, mean, mean_ratio

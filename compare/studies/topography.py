@@ -13,10 +13,10 @@ from pydantic import TypeAdapter, ValidationError
 from scene import Topography
 from scene.reading import InvalidInput, mistakes
 
+from ..declaration import Study
 from ..finding import EXACT, UNKNOWN, Claim, Finding, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Text
-from ..pipeline import Study
 from ..plots import topography as plots
 from ..statistics.spectra import Description, describe
 from ..task import Batch, Task

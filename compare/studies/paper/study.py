@@ -12,10 +12,10 @@ from pandas import DataFrame
 from scene.reading import InvalidInput
 
 from ... import rectangle
+from ...declaration import Study
 from ...finding import FAILS, Finding
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Table, Text
-from ...pipeline import Study
 from ...plots import paper_contacts, paper_law, paper_losses, paper_sketch, paper_studies, shifted_curves
 from ...rectangle import FAILED, Rectangle
 from ...statistics import eq23

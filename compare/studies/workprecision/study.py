@@ -8,11 +8,11 @@ import xarray
 
 from scene.reading import InvalidInput
 
+from ...declaration import Study
 from ...finding import Finding
 from ...library import Listing
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Text
-from ...pipeline import Study
 from ...task import Batch, Task
 from . import elastic, extent, marching, mdr, precision, sliding
 from .costs import COSTS_DIAGRAM

@@ -1,0 +1,79 @@
+"""Study: the declaration behind a command: what is solved, what is claimed, what its page shows."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import xarray
+
+from . import finding, rectangle
+from .finding import FAILS, Claim, Finding
+from .outcome import Outcome
+from .page import Block, Findings, Page, Plot
+from .rectangle import Rectangle
+from .statistics.jackknife import judge
+from .task import Batch, Task
+
+
+class Study:
+    """A question, declared: what is solved for it, what is claimed, and what its page shows.
+
+    A study overrides what differs: `rectangles` and `claims` are enough. One whose tasks are no rectangles
+    overrides `batches` and `answers`; one that measures claims in its own way, `findings`.
+
+    command : name of the command, and of the Python function
+    title, about : for people
+    place : folder of the page below that of the command; empty if that folder itself
+    """
+
+    command: ClassVar[str] = "study"
+    title: str = ""
+    about: str = ""
+    place: str = ""
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """What was asked, as JSON can hold it."""
+        return {}
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Rectangles of contacts by name. Raises InvalidInput, Refused."""
+        return {}
+
+    def claims(self) -> Sequence[Claim]:
+        """Claims that are measured on the rectangles."""
+        return ()
+
+    def batches(self) -> Sequence[Batch]:
+        """Everything that is solved."""
+        return (Batch(rectangle.unique(self.rectangles())),)
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Everything that was solved, labelled."""
+        return rectangle.tree(self.rectangles(), outcomes)
+
+    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
+        """What becomes of each claim."""
+        return [judge(claim, answers) for claim in self.claims()]
+
+    def failed(self, findings: Sequence[Finding]) -> bool:
+        """Whether the command ends with status 1: a law or a stored value does not hold."""
+        return any(each.stated == FAILS for each in findings)
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
+        """Figures of the page."""
+        return ()
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """The answer: a sentence for each claim, those that contradict included."""
+        return finding.sentences(findings)
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """Blocks of the page below the answer."""
+        return [*plots, Findings(findings)]
+
+    def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
+        """The page."""
+        blocks = self.blocks(answers, findings, self.plots(answers, findings))
+        return Page(self.title, self.answer(findings), blocks)
