@@ -53,6 +53,7 @@ def plus_minus(value: float, error: float, digits: int = DIGITS) -> str:
     """value ± error, to two digits of the error; the number alone without one."""
     if not (isfinite(value) and ROUNDING * abs(value) < error < inf):
         return number(value, digits)
+    error = float(f"{error:.1e}")  # 9.96 is 10
     power = _power(max(abs(value), error))
     decimals = _decimals(error / 10.0**power)
     both = f"{_signed(f'{value / 10.0**power:.{decimals}f}')} ± {error / 10.0**power:.{decimals}f}"

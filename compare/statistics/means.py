@@ -119,6 +119,11 @@ def touches(dataset: xarray.Dataset) -> np.ndarray:
     return _over_draws(dataset["status"].sel(grid=FINE) != EMPTY, "any")
 
 
+def interval(dataset: xarray.Dataset, above: str, below: str | None = None) -> Interval:
+    """Mean over draws of a variable, or ratio of two means, on the fine grid at every speed, and load or depth."""
+    return _interval({str(name): dataset.sel(grid=name) for name in dataset["grid"].values}, above, below)
+
+
 def _interval(grids, above, below) -> Interval:
     found = {name: _estimated(each, above, below) for name, each in grids.items()}
     fine = found[FINE]

@@ -19,10 +19,12 @@ from ..finding import Claim, Finding
 from ..inputs import Asked, case_of
 from ..page import Block, Plot, Table
 from ..plots import sweep as plots
-from ..rectangle import COARSE, FINE, Rectangle, on_two_grids
-from ..statistics.jackknife import Estimated, judge, mean, mean_ratio
+from ..rectangle import Rectangle, on_two_grids
+from ..statistics.jackknife import judge, mean
+from ..statistics.means import interval
 from ..vocabulary import attributes
 
+SOLVERS = ("MDR", "BEM")
 # Means over draws, by the names of a sweep: of a variable, or of one over another.
 MEANS = {
     "friction": ("friction_force", "normal_force"),
@@ -102,7 +104,7 @@ class Sweep(Study):
             for j, value in enumerate(self.values):
 
                 def ratio(sample, i=i, j=j):
-                    one, three = (mean(sample[f"contacts/{solver}"], above, below) for solver in ("MDR", "BEM"))
+                    one, three = (mean(sample[f"contacts/{solver}"], above, below) for solver in SOLVERS)
                     return float(one[i, j] / three[i, j])
 
                 claim = Claim(
@@ -117,18 +119,21 @@ class Sweep(Study):
 
     def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
         """Everything solved as one Dataset with the dimension solver, and means with intervals of 95 %."""
-        parts = [answers.children["contacts"].children[solver].to_dataset() for solver in ("MDR", "BEM")]
-        # Points of a grid differ between the solvers.
-        parts = [part.reset_coords("points") for part in parts]
+        parts = [
+            self._with_means(answers.children["contacts"].children[solver].to_dataset()) for solver in SOLVERS
+        ]
         joined = xarray.concat(
-            parts, xarray.Variable("solver", ["MDR", "BEM"], attributes("solver")), data_vars="all", join="outer"
+            parts, xarray.Variable("solver", list(SOLVERS), attributes("solver")), data_vars="all", join="outer"
         )
-        joined.attrs = {"prescribed": self.case.motion.pressed_by}
+        return joined.assign_attrs(prescribed=self.case.motion.pressed_by)
+
+    def _with_means(self, dataset):
+        """One solver with its means; the points of a grid, which differ between solvers, as a variable."""
         for name, (above, below) in MEANS.items():
-            value, low, high = _interval(joined, above, below)
-            for label, found in ((name, value), (f"{name}_low", low), (f"{name}_high", high)):
-                joined[label] = found.assign_attrs(attributes(label))
-        return joined
+            for end, values in interval(dataset, above, below)._asdict().items():
+                label = name if end == "value" else f"{name}_{end}"
+                dataset[label] = ("speed", self.case.motion.pressed_by), values, attributes(label)
+        return dataset.reset_coords("points").drop_attrs(deep=False)
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         """Friction against speed or load, both models with error bars."""
@@ -153,26 +158,6 @@ def means(dataset: xarray.Dataset) -> DataFrame:
 def figure_of(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load if there is one speed: a matplotlib Figure."""
     return plots.plot(means(dataset)).figure()
-
-
-def _interval(dataset, above, below):
-    """Mean over draws on the fine grid, and both ends with scatter and the change on halving."""
-    values = []
-    for grid in (FINE, COARSE):
-        at = dataset.sel(grid=grid)
-        over = at[above]
-        under = xarray.ones_like(over) if below is None else at[below]
-        if "draw" not in over.dims:
-            value = (over / under).transpose("solver", ...)
-            values.append((value, Estimated.exact(value.values)))
-            continue
-        order = [name for name in over.dims if name != "draw"]
-        found = mean_ratio(over.transpose(*order, "draw").values, under.transpose(*order, "draw").values)
-        values.append((over.isel(draw=0, drop=True).transpose(*order).copy(data=found.value), found))
-    (value, found), (coarse, _) = values
-    low, high = found.interval()
-    grid = np.abs(value.values - coarse.values)
-    return value, value.copy(data=low - grid), value.copy(data=high + grid)
 
 
 def _numbers(name, values, least=None):
