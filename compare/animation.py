@@ -67,7 +67,7 @@ def filmed(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Film:
-    """What is shown of a scene, solved or found in the store. Raises Refused, SolveError."""
+    """Film of a scene, solved or found in the store. Raises Refused, SolveError."""
     scene = started(scene)
     mdr, bem = replace(mdr, frames=frames), replace(bem, frames=frames)
     solvers: tuple[Solver, Solver] = mdr, bem

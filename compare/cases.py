@@ -43,7 +43,7 @@ def _rough(roughness):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Study:
-    """What is varied around the scene. Whatever is absent follows from the scene; see `Case.plan`.
+    """Variations around the scene. Whatever is absent follows from the scene; see `Case.plan`.
 
     speeds : of the curve of friction against speed [m/s]
     pressing : factors on the scene's load (or depth) for the curves of friction against load
@@ -128,7 +128,7 @@ class Case:
         refuse(self.bem, self.scene)
 
     def plan(self) -> Plan:
-        """What is given in [study], the rest derived from the scene.
+        """Plan of what is given in [study], the rest derived from the scene.
 
         Speeds are multiples of the scene's own (at rest: of a tenth of a/tau); the curves of friction against load
         span two decades of load; only what slides has speeds. Raises Refused.

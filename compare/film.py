@@ -44,12 +44,12 @@ class Film:
 
     @cached_property
     def times(self) -> np.ndarray:
-        """Of the instants [s] (F,)."""
+        """Times of the instants [s] (F,)."""
         return self.fields["BEM" if "BEM" in self.fields else "MDR"]["frame_time"]
 
     @cached_property
     def radius(self) -> float | None:
-        """Of the smooth relaxed contact under the greatest load or depth [m]; None where there is none."""
+        """Radius of the smooth relaxed contact under the greatest load or depth [m]; None where there is none."""
         return smooth_radius(self.scene)
 
     @cached_property

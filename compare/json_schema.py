@@ -60,7 +60,7 @@ class _Documented(GenerateJsonSchema):
 
 
 def _documented(docstring: str) -> tuple[str, dict[str, str]]:
-    """Of a docstring its first paragraph, and what it says of each field in lines of the form "name : text"."""
+    """First paragraph of a docstring, and what it says of each field in lines of the form "name : text"."""
     paragraphs = re.split(r"\n\s*\n", cleandoc(docstring))
     return " ".join(paragraphs[0].split()), dict(_fields(cleandoc(docstring).splitlines()))
 

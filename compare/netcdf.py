@@ -85,7 +85,7 @@ class Reader:
         return Reader(h5o.open(self.group, name.encode()))
 
     def values(self, name: str) -> np.ndarray:
-        """Of a variable, bit for bit as they were stored. Raises KeyError."""
+        """Values of a variable, bit for bit as they were stored. Raises KeyError."""
         found = h5d.open(self.group, name.encode())
         if found.get_type().get_class() == h5t.STRING:
             return np.array(h5py.Dataset(found).asstr()[()], object)
@@ -95,7 +95,7 @@ class Reader:
         return values.astype(bool) if h5a.exists(found, b"dtype") else values
 
     def floats(self, name: str, count: int) -> list[float]:
-        """Of a variable with so many numbers. Raises KeyError."""
+        """Numbers of a variable that has so many. Raises KeyError."""
         values = np.empty(count)
         if count:
             h5d.open(self.group, name.encode()).read(h5s.ALL, h5s.ALL, values)

@@ -39,7 +39,7 @@ def duration(seconds: float | None) -> str:
 
 
 class _Counts:
-    """How far a sweep is: tasks by what became of them, work, and the time left."""
+    """Progress of a sweep: tasks by what became of them, work, and the time left."""
 
     def __init__(self, tasks: Sequence[Task], reused: int, clock: Callable[[], float]):
         self.total, self.all_work = len(tasks), sum(task.work for task in tasks)
@@ -64,7 +64,7 @@ class _Counts:
 
     @property
     def whole(self) -> str:
-        """The same in a sentence, at the end."""
+        """Tasks solved, reused and failed in a sentence, at the end."""
         all_of = f"{self.done}" if self.done == self.total else f"{self.done} of {self.total}"
         parts = [f"{all_of} tasks solved", f"{self.reused} reused"]
         parts += [f"{self.failed} failed"] if self.failed else []

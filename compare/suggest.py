@@ -4,7 +4,7 @@ from collections.abc import Collection
 
 
 def suggestion(given: str, names: Collection[str]) -> str:
-    """What is known and looks much like what is given, as the end of a sentence; empty if nothing does."""
+    """Known name that looks much like the given one, as the end of a sentence; empty if nothing does."""
     from difflib import get_close_matches
 
     close = get_close_matches(given, names, n=1)

@@ -119,7 +119,7 @@ def _numbers(rows, indenter) -> dict[str, Variable]:
 
 
 def _seeds(question, count):
-    """Of the roughness of each scene, where the question states them."""
+    """Seeds of the roughness of each scene, where the question states them."""
     scenes = question.get("scenes", ())
     seeds = [(scene.get("roughness") or {}).get("seed") for scene in scenes]
     if len(seeds) != count or not all(isinstance(seed, int) and seed < 2**63 for seed in seeds):

@@ -1,4 +1,4 @@
-"""How long a sweep still takes: tasks of unequal work, several at a time."""
+"""Time that a sweep still takes: tasks of unequal work, several at a time."""
 
 import time
 from collections import defaultdict

@@ -1,4 +1,4 @@
-"""What is seen of one contact: the surfaces of indenter and elastomer in both dimensionalities, the wake included.
+"""View of one contact: the surfaces of indenter and elastomer in both dimensionalities, the wake included.
 
 Made of the fields that are kept of an answer; nothing is solved.
 """
@@ -80,7 +80,7 @@ class View:
 
 
 def view(scene: Scene, bem: BEM, fields: Mapping[str, Fields]) -> View | None:
-    """Of the fields of answers by the name of their solver, of a program at its end; None without any.
+    """View made of the fields of answers by the name of their solver, of a program at its end; None without any.
 
     bem : the settings that the three-dimensional answer was solved with
     Also None where friction has heated the contact: the fields do not say how warm it is.
@@ -100,7 +100,7 @@ def view(scene: Scene, bem: BEM, fields: Mapping[str, Fields]) -> View | None:
 
 
 def smooth_radius(scene: Scene, pressed: float | None = None) -> float | None:
-    """Of the smooth relaxed contact on a half-space [m], half the width of a line; None where there is none.
+    """Radius of the smooth relaxed contact on a half-space [m], half the width of a line; None without one.
 
     pressed : load or depth, by default that of the scene
     """
@@ -127,7 +127,7 @@ def _line(fields):
 
 
 def _prolonged(scene, line, span):
-    """The same beyond its grid, as far as that is known: the surface arrives undisturbed, and behind the contact
+    """Section beyond its grid, as far as that is known: the surface arrives undisturbed, and behind the contact
     each mode recovers on its own, so that of one alone the end of the grid tells all. A smooth body is c |x|^n.
     """
     times, motion = scene.solid.retardation()[2], scene.motion

@@ -1,4 +1,4 @@
-"""What is asked as JSON, and back: a map of heights that was measured is held whole."""
+"""Inputs as JSON, and back: a map of heights that was measured is held whole."""
 
 from typing import Any, TypeVar
 
@@ -18,5 +18,5 @@ def as_json(kind: type[T], asked: T) -> Any:
 
 
 def from_json(kind: type[T], content: Any) -> T:
-    """The same again. Raises pydantic.ValidationError of what an earlier version wrote otherwise."""
+    """Inputs from their JSON. Raises pydantic.ValidationError of what an earlier version wrote otherwise."""
     return TypeAdapter(kind).validate_python(content)

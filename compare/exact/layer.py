@@ -120,7 +120,7 @@ def on_film(shape: Axisymmetric, layer: Layer, modulus, depth) -> Contact:
 
 
 def _where(shape, layer, modulus, poisson_ratio, **wanted):
-    """Of all radii that which has a depth or a load: both grow with it."""
+    """Radius that has a depth or a load: both grow with it."""
     ((name, value),) = wanted.items()
     if not value > 0:
         raise ValueError(f"{name} = {value:g}: above zero")

@@ -19,7 +19,7 @@ NODES = np.polynomial.legendre.leggauss(20)
 
 
 def conditions(answer: Result, allowed: float, where: str = "3D") -> tuple[Check, ...]:
-    """Of an answer in three dimensions: p >= 0, gap >= 0, p gap = 0, each over its scale.
+    """Conditions of contact of an answer in three dimensions: p >= 0, gap >= 0, p gap = 0, each over its scale.
 
     allowed : over the depth of the lowest height, or what the heights in contact span where that is more
     """
@@ -35,7 +35,7 @@ def conditions(answer: Result, allowed: float, where: str = "3D") -> tuple[Check
 
 
 def flow(answer: Result) -> tuple[float, np.ndarray, np.ndarray]:
-    """Of the elastomer: share of compliance that follows at once, shares (K,) and memories (K,) [pixel]."""
+    """Modes of the elastomer: share of compliance that follows at once, shares (K,) and memories (K,) [pixel]."""
     scene, pixel = answer.scene, answer.measures["pixel"]
     instantaneous, compliances, times = scene.solid.retardation()
     relaxed = instantaneous + compliances.sum()
@@ -46,7 +46,7 @@ def flow(answer: Result) -> tuple[float, np.ndarray, np.ndarray]:
 
 
 def collocation(instantaneous, shares, lengths) -> float:
-    """How far behind a pixel's centre the gap is seen [pixel]."""
+    """Distance behind a pixel's centre at which the gap is seen [pixel]."""
     compliance = instantaneous + np.sum(shares / (1 + 1j * np.pi * lengths))
     return float(-np.angle(compliance) / np.pi)
 
@@ -107,7 +107,7 @@ def _corner(x, y):
 
 
 def retarded(x, ny, shares, lengths):
-    """The same convolved downstream with sum_k shares exp(-s/l)/l.
+    """Kernel convolved downstream with sum_k shares exp(-s/l)/l.
 
     The kernel has kinks at the pixels' edges, which lie alike in every pixel for all x; panels end there.
     """

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 @dataclass(frozen=True)
 class Size:
-    """How large the grids and histories of the collection are.
+    """Size of the grids and histories of the collection.
 
     line, square, row : points of a 1D grid, a side of a 3D one, and along a single row of pixels
     dense : points a side of grids on which the conditions of contact are computed anew, point by point

@@ -42,7 +42,7 @@ def solved(matrix: Matrix, heights, start=None, **given) -> contact.Contact:
 
 
 def conditions(matrix: Matrix, heights, found: contact.Contact, where: str) -> tuple[Check, ...]:
-    """Of a solved problem, by a plain product, to FINE: p >= 0, gap >= 0, p gap = 0."""
+    """Conditions of a solved problem, by a plain product, to FINE: p >= 0, gap >= 0, p gap = 0."""
     gap = matrix(found.pressure) + heights - found.depth
     touched = found.pressure > 0
     scale = max(found.depth, heights[touched].max()) - heights.min() or np.ptp(heights) or 1.0

@@ -104,7 +104,7 @@ def _content(definitions, pictures, tables, figures) -> dict[str, Any]:
 
 
 def _counts(block: Findings) -> str:
-    """How often each verdict stands in a block."""
+    """Number of findings of each verdict in a block."""
     verdicts = [finding.verdict for finding in block.findings]
     return ", ".join(f"{verdict} {verdicts.count(verdict)}" for verdict in VERDICTS if verdict in verdicts)
 

@@ -47,7 +47,7 @@ class Letter:
 
 
 def letter(k: int) -> str:
-    """Of a panel: a to z, then aa to zz."""
+    """Letter of a panel: a to z, then aa to zz."""
     last = ascii_lowercase[k % 26]
     return last if k < 26 else ascii_lowercase[k // 26 - 1] + last
 
@@ -119,7 +119,7 @@ def _scale(axes):
 
 
 def covered(axes: Axes, room: float = 0.0) -> int:
-    """How many places of curves, of which one is looked at every few points, the legend of the axes lies over.
+    """Number of places of curves, of which one is looked at every few points, the legend of the axes lies over.
 
     room : around the legend [points]; the figure has to be laid out
     """

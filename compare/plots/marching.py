@@ -113,7 +113,7 @@ class MarchFigure:
             axes.plot(scale * time[past], up * values[past], **_look(solver))
 
     def _units(self, name):
-        """Of time and of a history, and its limits [SI]."""
+        """Labels of the axes of time and of a history, and its limits [SI]."""
         limits = self.film.limits(name)
         unit = "N/m" if isinstance(self.film.scene.indenter, Cylinder) else "N"
         return prefixed(self.film.times[-1], "s"), prefixed(limits, unit), limits
@@ -130,7 +130,7 @@ def _clear(axes):
 
 
 def _section(film, solver, k):
-    """Of a solver that the film has."""
+    """Panel of a solver that the film has."""
     if solver == "MDR":
         return film.line(k)
     seen = film.space(k)

@@ -96,7 +96,7 @@ FILES = {
 
 @dataclass(frozen=True)
 class Look:
-    """How figures look.
+    """Look of figures.
 
     journal : whose columns and least sizes
     sheet : a style of one's own on top: a .mplstyle file, the name of one of matplotlib's styles, or settings;
@@ -120,7 +120,7 @@ class Look:
         return {**COLOURS, **self.colours}
 
     def settings(self) -> dict[str, Any]:
-        """Of matplotlib, whole: ours, then the sheet's; sizes that the sheet leaves open follow its text.
+        """Settings of matplotlib, whole: ours, then the sheet's; sizes that the sheet leaves open follow its text.
 
         ValueError where the sheet is no style.
         """
@@ -214,27 +214,27 @@ def grey(level: float) -> tuple[float, float, float]:
 
 
 def size(times: float = 1.0) -> float:
-    """Of a text [point], in multiples of that of axis labels; never below the least of the journal."""
+    """Size of a text [point], in multiples of that of axis labels; never below the least of the journal."""
     return max(times * rcParams["font.size"], current().journal.least)
 
 
 def small() -> float:
-    """Of the text in legends and beside curves [point]."""
+    """Size of the text in legends and beside curves [point]."""
     return size(SMALL)
 
 
 def tiny() -> float:
-    """Of numbers at points [point]."""
+    """Size of numbers at points [point]."""
     return size(TINY)
 
 
 def width(times: float = 1.0) -> float:
-    """Of a line [point], in multiples of that of curves; never below the least of the journal."""
+    """Width of a line [point], in multiples of that of curves; never below the least of the journal."""
     return max(times * rcParams["lines.linewidth"], current().journal.line)
 
 
 def mark(times: float = 1.0) -> float:
-    """Of a marker [point], in multiples of that of curves."""
+    """Size of a marker [point], in multiples of that of curves."""
     return times * rcParams["lines.markersize"]
 
 
@@ -262,7 +262,7 @@ def lay_out(drawing: Figure, passes: int = 1) -> None:
 
 
 def text_width(text: str, points: float, weight: str = "normal") -> float:
-    """Of one line of text at a size [inch]."""
+    """Width of one line of text at a size [inch]."""
     font = FontProperties(size=points, weight=weight)
     return TextToPath().get_text_width_height_descent(text, font, ismath="$" in text)[0] / 72
 
@@ -290,7 +290,7 @@ def head(axes: Axes, text: str, count: int) -> None:
 
 
 def columns(labels: Iterable[str], inches: float, most: int) -> int:
-    """Of a legend of these labels, so that it is no wider; at most so many."""
+    """Number of columns of a legend of these labels, so that it is no wider; at most so many."""
     # Of matplotlib: the handle, its gap to the label, and that between columns, in multiples of the text.
     around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
     points = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()

@@ -158,7 +158,7 @@ def _elements(span, passed):
 
 
 def _draw_elements(axes, places, x, surface, touching, bottom, colour):
-    """Those that touch in the colour of the solver."""
+    """Elements that touch, in the colour of the solver."""
     places = places[(x[0] <= places) & (places <= x[-1])]
     nearest = np.unique(np.clip(np.searchsorted(x, places), 0, len(x) - 1))
     for chosen, shade, times in ((~touching, materials.surface(), 0.5), (touching, colour, 0.8)):

@@ -171,7 +171,7 @@ def _cheapest():
 
 
 def _share(group: Sequence[Axes], rough):
-    """The same limits for all panels of a kind: errors and times are compared across regimes."""
+    """Limits that all panels of a kind share: errors and times are compared across regimes."""
     lines = [line for axes in group for line in axes.lines]
     if not lines:
         return

@@ -23,7 +23,7 @@ class Fault:
 
     @classmethod
     def of(cls, error: BaseException) -> Self:
-        """Of what was raised."""
+        """Fault made of what was raised."""
         message = " ".join(str(error).split())
         reason = f"{type(error).__name__}: {message}" if message else type(error).__name__
         return cls(reason, "".join(traceback.format_exception(error)))
@@ -46,7 +46,7 @@ class Pool(Protocol):
     """
 
     def room(self) -> int:
-        """How many more tasks can be handed out now. Raises OSError where no worker can be had any more."""
+        """Number of tasks that can be handed out now. Raises OSError where no worker can be had any more."""
 
     def hand_out(self, task: Task) -> None:
         """Let a worker solve a task."""

@@ -40,7 +40,7 @@ class Stranger:
 
 
 class Deadly(Fault):
-    """Of a task that was with several workers as they died."""
+    """Loss of a task that was with several workers as they died."""
 
 
 @dataclass(eq=False)
@@ -98,7 +98,7 @@ class Cluster:
         self.stack.close()
 
     def _let_go(self):
-        """Of all that is on its way. The client may be lost already, and complain of anything."""
+        """Cancel all that is on its way. The client may be lost already, and complain of anything."""
         if self.client is None:
             return
         with suppress(Exception):
@@ -107,7 +107,7 @@ class Cluster:
             self.client.close(timeout=LETS_GO)
 
     def room(self) -> int:
-        """As of Pool; none without workers, which is said."""
+        """Number of tasks that can be handed out now, see Pool; none without workers, which is said."""
         if time.monotonic() - self.looked >= LOOKS:
             self._look()
         if not self.threads:
@@ -119,7 +119,7 @@ class Cluster:
         return sum(self.threads.values()) + SPARE - len(self.flights)
 
     def hand_out(self, task: Task) -> None:
-        """As of Pool, to whichever worker is free."""
+        """Hand a task to whichever worker is free, see Pool."""
         try:
             packed = pickle.dumps(task)
         except Exception as error:
@@ -128,7 +128,7 @@ class Cluster:
         self._submit(_Flight(task, packed))
 
     def answers(self, patience: float) -> list[tuple[Task, Answer]]:
-        """As of Pool."""
+        """Answers that have come, see Pool."""
         self._check()
         found, self.unsent = self.unsent, []
         if found:
@@ -142,7 +142,7 @@ class Cluster:
         return found
 
     def call_back(self) -> list[Task]:
-        """As of Pool. Where nobody says what is being solved, everything is."""
+        """Call back what has not started, see Pool. Where nobody says what is being solved, everything is."""
         keys: set[str] = set()
         try:
             for each in self.client.run(_executing).values():
@@ -246,7 +246,7 @@ class Cluster:
 
 
 def differences(here: Mapping[str, Mapping[str, str]], there: Any) -> str:
-    """How what a worker solves with differs from what is used here, in words; empty where it does not.
+    """Differences of what a worker solves with from what is used here, in words; empty where it does not.
 
     there : as code_of gives it, or the exception that came in its place
     """

@@ -67,11 +67,11 @@ class Local:
                 worker.process.join()
 
     def room(self) -> int:
-        """As of Pool."""
+        """Number of tasks that can be handed out now, see Pool."""
         return self.limit - sum(worker.task is not None for worker in self.workers)
 
     def hand_out(self, task: Task) -> None:
-        """As of Pool, to a worker that is idle, or to a fresh one."""
+        """Hand a task to a worker that is idle, or to a fresh one, see Pool."""
         try:
             packed = pickle.dumps(task)
         except Exception as error:
@@ -84,7 +84,7 @@ class Local:
             worker.pipe.send_bytes(packed)
 
     def answers(self, patience: float) -> list[tuple[Task, Answer]]:
-        """As of Pool. Raises ChildProcessError where workers end as they start."""
+        """Answers that have come, see Pool. Raises ChildProcessError where workers end as they start."""
         if self.unsent:
             unsent, self.unsent = self.unsent, []
             return unsent
@@ -92,7 +92,7 @@ class Local:
         return [answer for worker in list(self.workers) if worker.pipe in heard for answer in self._hear(worker)]
 
     def call_back(self) -> list[Task]:
-        """As of Pool: all that is handed out is being solved."""
+        """Call back nothing, as all that is handed out is being solved, see Pool."""
         return []
 
     def _hear(self, worker) -> Iterator[tuple[Task, Answer]]:
@@ -135,7 +135,7 @@ class Local:
 
 
 def _end(code):
-    """How a process ended, in words."""
+    """Words on the way a process ended."""
     if code >= 0:
         return f"status {code}"
     name = next((each.name for each in signal.Signals if each == -code), f"signal {-code}")

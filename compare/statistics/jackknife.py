@@ -30,7 +30,7 @@ class Grouped(Protocol):
         """Indices of the surfaces that are left out together; none of a body that has no random surface."""
 
     def without(self, group: np.ndarray) -> "Grouped":
-        """The same without some surfaces."""
+        """Sample without some surfaces."""
 
 
 class Drawn(Grouped, Protocol):
@@ -57,7 +57,7 @@ class Estimated(Generic[Value]):
 
     @classmethod
     def exact(cls, value: Value) -> Self:
-        """Of a body without random surfaces."""
+        """Number of a body without random surfaces, whose error is zero."""
         return cls(value, value * 0.0, inf)
 
     def interval(self, level: float = 0.95) -> tuple:
@@ -66,7 +66,7 @@ class Estimated(Generic[Value]):
         return self.value - half, self.value + half
 
     def apart(self, other: Self) -> float:
-        """How far from another."""
+        """Distance from another number."""
         return abs(float(self.value) - float(other.value))
 
 
@@ -128,7 +128,7 @@ class RmsMisfit:
         return sqrt(low), sqrt(high)
 
     def apart(self, other: Self) -> float:
-        """How far from another, by roots with the sign of the square: two sizes of nil need not be the same."""
+        """Distance from another misfit, by roots with the sign of the square: two of nil need not be equal."""
         one, two = (np.copysign(sqrt(abs(each.square)), each.square) for each in (self, other))
         return float(abs(one - two))
 
@@ -212,7 +212,7 @@ def _unseen(count, value):
 
 
 def _deviations(without, sizes):
-    """Of a statistic, from its values without groups of so many surfaces."""
+    """Deviations of a statistic, from its values without groups of so many surfaces."""
     share = sizes / sizes.sum()
     middle = np.tensordot(1 - share, without, axes=1) / (sizes.size - 1)
     weight = np.sqrt(1 / share - 1)
@@ -243,12 +243,12 @@ def left_out(samples: np.ndarray) -> np.ndarray:
 
 
 def standard_error(without: np.ndarray) -> np.ndarray:
-    """Of a number, from its values (surfaces, ...) each found without one surface."""
+    """Standard error of a number, from its values (surfaces, ...) each found without one surface."""
     return np.std(without, axis=0) * np.sqrt(len(without) - 1)
 
 
 def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
-    """Of 95 %, from a standard error known with so many degrees of freedom."""
+    """Interval of 95 %, from a standard error known with so many degrees of freedom."""
     low, high = Estimated(value, error, freedom).interval()
     return float(low), float(high)
 

@@ -28,7 +28,7 @@ class Interval(NamedTuple):
 
 
 def pressed(dataset: xarray.Dataset) -> str:
-    """What is prescribed: the name of the dimension."""
+    """Name of the dimension that is prescribed: load or depth."""
     return next(name for name in map(str, dataset.dims) if name not in ("grid", "speed", "draw"))
 
 

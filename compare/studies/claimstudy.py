@@ -105,7 +105,7 @@ class ClaimStudy(Study):
 
     @property
     def about(self) -> str:  # type: ignore[override]
-        """What is asked."""
+        """Inputs of the study, as JSON can hold them."""
         return self.study.about
 
     @property
@@ -121,7 +121,7 @@ class ClaimStudy(Study):
 
     @cached_property
     def series(self) -> tuple[Series, ...]:
-        """What is solved at this size."""
+        """Series that are solved at this size."""
         return tuple(self.study.series(SIZES[self.size]))
 
     def rectangles(self) -> Mapping[str, Rectangle]:
@@ -226,7 +226,7 @@ class AllStudies(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """What is asked, then a section for each study."""
+        """Inputs, then a section for each study."""
         blocks: list[Block] = [Text(self.about), Text(UNMATCHED)]
         for each in self.studies:
             own = [plot for plot in plots if plot.folder == f"{each.name}/"]
@@ -257,7 +257,7 @@ def _located(name: str | Path) -> Path:
 
 
 def _overview(findings: Sequence[Finding]) -> Iterator[dict]:
-    """How many findings of each verdict, for each claim and dimensionality."""
+    """Number of findings of each verdict, for each claim and dimensionality."""
     claimed = [each for each in findings if each.verdict != REPORTED]
     for key in dict.fromkeys((each.claim.id, each.row["dimension"]) for each in claimed):
         own = [each for each in claimed if (each.claim.id, each.row["dimension"]) == key]

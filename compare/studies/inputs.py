@@ -179,14 +179,14 @@ class _Stated:
         return getattr(self.shared, name) if own is None else own
 
     def of(self, *names: str) -> dict[str, Any]:
-        """Of names of which one excludes the others those that are stated, by the series if it states any."""
+        """Values that are stated of names of which one excludes the others, by the series if it states any."""
         for part in (self.own, self.shared):
             if given := {name: value for name in names if (value := getattr(part, name)) is not None}:
                 return given
         return {}
 
     def series(self, size: Size) -> Series:
-        """What is asked at a size."""
+        """Series at a size."""
         made = TypeAdapter(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
         prescribed, given = next(iter(self.of("loads", "depths").items()))
         values = _numbers(given, size.values)

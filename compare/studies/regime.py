@@ -39,7 +39,7 @@ class PointRegime:
 
     @classmethod
     def of(cls, scene: Scene, measures: Mapping[str, float]) -> "PointRegime":
-        """Of a rough body of revolution that is pressed in or slides steadily.
+        """Regime of a rough body of revolution that is pressed in or slides steadily.
 
         measures : of its answer, or their means over surfaces: rms_slope, pixel [m], and contact_area [m^2] in
             three dimensions or contact_length [m] in one

@@ -143,7 +143,7 @@ class Regress(Study):
             write_baseline(self.path, values)
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """How many lie within their tolerances, and a sentence for each that does not."""
+        """Number of quantities within their tolerances, and a sentence for each that does not."""
         held = [each for each in findings if each.stated == HOLDS]
         told = f"{len(held)} of {len(findings)} quantities lie within their tolerances"
         if held:
@@ -175,7 +175,7 @@ class Regress(Study):
 
 
 def tolerances_moved(found: Finding) -> float:
-    """How far a quantity has moved from what is stored, in tolerances."""
+    """Distance of a quantity from what is stored, in tolerances."""
     claim = found.claim
     if found.value == claim.expected:
         return 0.0

@@ -1,4 +1,4 @@
-"""How much is solved of a study."""
+"""Sizes of a study: number of contacts that are solved."""
 
 from dataclasses import dataclass, replace
 from typing import Self
@@ -11,7 +11,7 @@ LEAST_POINTS = 128
 
 @dataclass(frozen=True)
 class Size:
-    """How much is solved.
+    """Size of a study.
 
     range : of speeds [m/s]
     speeds, values : how many speeds, and loads or depths

@@ -117,7 +117,7 @@ class Stability(Study):
             )
 
     def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
-        """How many keep their law, then a table a group."""
+        """Number of cases that keep their law, then a table for each group."""
         judged = list(self._judged(answers))
         groups = list(dict.fromkeys(finding.where for finding, _ in judged))
         frames = {group: DataFrame([row for found, row in judged if found.where == group]) for group in groups}
@@ -131,7 +131,7 @@ class Stability(Study):
         return Page(self.title, self.answer(findings), blocks)
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """How many cases keep their law, and a sentence for each that does not."""
+        """Number of cases that keep their law, and a sentence for each that does not."""
         broken = [each for each in findings if each.stated == FAILS]
         told = f"{len(findings) - len(broken)} of {len(findings)} hard cases keep their law"
         told += ", solved or refused as they should." if broken else ": all of them."

@@ -53,7 +53,7 @@ def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], 
 
 
 def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
-    """How far each claim is from what was measured; friction, or depth and force."""
+    """Distance of each claim from what was measured; friction, or depth and force."""
     series = judged.series
     claims = [each for each in judged.findings if each.verdict != REPORTED]
     if claims:

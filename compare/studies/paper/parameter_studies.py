@@ -44,7 +44,7 @@ DIMS = ("hurst", "study", "step", "draw")
 
 @dataclass(frozen=True)
 class ParameterStudies:
-    """How much of Fig. 3: values of each study, Hurst exponents, profiles. As published: all 20, all 11, 200."""
+    """Extent of Fig. 3: values of each study, Hurst exponents, profiles. As published: all 20, all 11, 200."""
 
     values: int = 20
     hurst: tuple[float, ...] = parameters.HURST

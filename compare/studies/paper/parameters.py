@@ -51,7 +51,7 @@ class Loss:
 
     @property
     def suffix(self) -> str:
-        """Of the names of files."""
+        """Ending of the names of files."""
         return f"-{self.exponent:g}-{self.relaxation_time:g}"
 
 

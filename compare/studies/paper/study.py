@@ -218,7 +218,7 @@ def _shifts(rubbers, findings):
 
 
 def _solved(answers, slow):
-    """How much was solved, and what failed."""
+    """Number of contacts that were solved, and what failed."""
     failed = sum(int((node["status"] == FAILED).sum()) for node in answers.subtree if "status" in node)
     left = f"{failed} solves failed and are left out of the averages." if failed else "No solve failed."
     return (

@@ -31,7 +31,7 @@ DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 
 @dataclass(frozen=True)
 class Ladder:
-    """The same scene with one setting after another.
+    """Scene that is solved with one setting after another.
 
     label : as in a legend
     setting : what changes from step to step, for people

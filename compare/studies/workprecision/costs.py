@@ -145,7 +145,7 @@ def _over_limit(each):
 
 
 def _forecast(each: Forecast):
-    """What is forecast is reported; what was left out and measured is a law that holds or not."""
+    """Findings of forecasts: a cost left out and then measured decides, a cost beyond all measured is reported."""
     told: dict[str, Any] = {"where": each.title, "reason": each.reason, "plot": "workprecision-costs"}
     if each.kind.startswith("held-out"):
         claim = Claim(

@@ -91,7 +91,7 @@ def closed_form(source: str, values: Mapping[str, Known]) -> Reference:
 def finer(
     scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None, **coarser
 ) -> Reference:
-    """The same scene solved far finer; its error is what the next coarser grid, or looser setting, differs by.
+    """Reference by the scene solved far finer; its error is the change from the next coarser grid or setting.
 
     scale : by the quantity's name, see Known
     coarser : settings of the next, if it is not on half the points
