@@ -69,7 +69,7 @@ class Finding:
     where : case, series or diagram in which it was measured
     draws : number of rough surfaces behind it; 0 of smooth bodies
     regime : range of the dimensionless groups in which it was measured, in words
-    reason : why there is no verdict, or what else has to be said; empty if nothing
+    reason : why there is no verdict; beside a stated verdict, what else has to be said; else empty
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
     plot : name of the plot that shows it
     dimension : "1D", "3D", "1D/3D"; that of the claim if empty

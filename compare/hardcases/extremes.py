@@ -51,7 +51,7 @@ def everywhere(*values, faster=()):
 ANSWERED = "A force that is finite and positive, or a refusal in words that says what to change."
 case.add(
     "huge",
-    "1e150 to 1.7e308 as radius, depth, load, modulus, relaxation time and speed.",
+    "1e150 to 1.7e308 as radius, depth, load, modulus and relaxation time, 1e100 as speed.",
     ANSWERED,
     everywhere(1e150, 1e300, 1.7e308, faster=(1e100,)),
 )

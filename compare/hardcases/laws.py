@@ -21,7 +21,7 @@ Bound = float | Callable[[Size], float]
 
 
 def asked(size: Size, rows, solvers: Iterable[Callable]) -> Iterator[tuple]:
-    """What is asked, solver and value, of each row, or of a single value, and each solver."""
+    """Words on a check, solver and value, for each solver and each row, or for a single value."""
     named = rows if isinstance(rows, Mapping) else {"": rows}
     for (name, value), build in product(named.items(), solvers):
         solver = build(size)

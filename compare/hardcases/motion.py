@@ -175,7 +175,7 @@ def friction_never_drives(size):
 case.add(
     "line-at-all-speeds",
     "Below a sliding line contact kernels are logarithms that all but cancel.",
-    "mu as of Hunter's closed form from v tau/a = 1e-6 to 1e3, within 3/N of the grid.",
+    "mu of Hunter's closed form from v tau/a = 1e-6 to 1e3, within 3/N of the grid.",
     equal(
         {f"v tau/a = {pace:g}": (_on_a_line(SOLID, pace), _hunter(pace)) for pace in (1e-6, 1.0, 1e3)},
         lambda size: 3 / size.row,

@@ -50,7 +50,7 @@ class Cost:
 
     @property
     def seconds(self) -> float:
-        """Of processor."""
+        """Processor time [s]."""
         return self.row.measures.get("processor", nan)
 
     @property
@@ -77,7 +77,7 @@ def tasks() -> list[TimedSolve]:
 
 
 def costs(outcomes: Mapping[Task, Outcome]) -> dict[str, list[Cost]]:
-    """Of all effects, by the keys of SOLVERS."""
+    """Costs of all effects, by the keys of SOLVERS."""
     return {name: _of(solver, outcomes) for name, solver in SOLVERS.items()}
 
 

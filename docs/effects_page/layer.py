@@ -71,7 +71,7 @@ felt through the pressure alone.
 
 @dataclass(frozen=True)
 class Rubber:
-    """What is pressed: base of the layer, None of a half-space, and Poisson ratio."""
+    """Body that is pressed: base of the layer, None of a half-space, and Poisson ratio."""
 
     base: Literal["bonded", "frictionless"] | None
     poisson_ratio: float

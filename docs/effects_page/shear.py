@@ -60,7 +60,7 @@ F_x = μ (F_a − F_c) at u = 3/2 μ (d_a − d_c), with the forces at both dept
 
 @dataclass(frozen=True)
 class Curve:
-    """How one kind of body is drawn.
+    """Look of one kind of body.
 
     force : over mu F_N, (shares, bodies); NaN where a solve failed
     sticks : whether anything still sticks, (shares, bodies)
