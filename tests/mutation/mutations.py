@@ -1,0 +1,169 @@
+"""Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
+
+`python tests/mutation/mutations.py draw` lists the sixty of the seed, `... run [--slow] [NUMBER ...]` applies one after
+the other to a copy of the tree and runs the tests: those of the package that is changed first, then all.
+"""
+
+import argparse
+import ast
+import copy
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PLACES = ("scene", "mdr1d", "bem3d", "compare/statistics")
+KINDS = ("sign", "factor", "index", "boundary", "off by one", "dropped term")
+SEED, EACH = 20261123, 10
+SIGNS = {ast.Add: ast.Sub, ast.Sub: ast.Add}
+FACTORS = {ast.Mult: ast.Div, ast.Div: ast.Mult}
+BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """One wrong change. span : first and last place in the text of the file, in bytes; text : what stands there then"""
+
+    kind: str
+    path: str
+    line: int
+    span: tuple[int, int]
+    before: str
+    text: str
+
+    def applied(self, source: bytes) -> bytes:
+        """The file with the change."""
+        start, end = self.span
+        return source[:start] + self.text.encode() + source[end:]
+
+
+def changed(node):
+    """Kinds of changes of an expression, and the expression after each."""
+    if isinstance(node, ast.BinOp):
+        if type(node.op) in SIGNS:
+            yield "sign", ast.BinOp(node.left, SIGNS[type(node.op)](), node.right)
+            if isinstance(node.right, ast.Constant) and node.right.value == 1:
+                yield "off by one", node.left
+            else:
+                yield "dropped term", node.left
+                yield "dropped term", node.right
+        if type(node.op) in FACTORS:
+            yield "factor", ast.BinOp(node.left, FACTORS[type(node.op)](), node.right)
+    elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        yield "sign", node.operand
+    elif isinstance(node, ast.Constant) and isinstance(node.value, float) and node.value:
+        yield "factor", ast.Constant(2 * node.value)
+    elif isinstance(node, ast.Compare) and len(node.ops) == 1 and type(node.ops[0]) in BOUNDS:
+        yield "boundary", ast.Compare(node.left, [BOUNDS[type(node.ops[0])]()], node.comparators)
+    elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "range":
+        shorter = copy.deepcopy(node)
+        place = 0 if len(node.args) == 1 else 1
+        shorter.args[place] = ast.BinOp(shorter.args[place], ast.Sub(), ast.Constant(1))
+        yield "off by one", shorter
+    elif isinstance(node, ast.Subscript):
+        other = copy.deepcopy(node)
+        for part in ast.walk(other.slice):
+            if isinstance(part, ast.Constant) and type(part.value) is int:
+                part.value += 1
+                yield "index", other
+                return
+
+
+def mutations(path):
+    """Every change of a file, but for annotations, texts and messages."""
+    source = path.read_bytes()
+    starts = [0]
+    for line in source.split(b"\n"):
+        starts.append(starts[-1] + len(line) + 1)
+    tree = ast.parse(source)
+    skipped = set()
+    for node in ast.walk(tree):
+        dead = []
+        if isinstance(node, ast.AnnAssign | ast.arg):
+            dead = [node.annotation] if node.annotation else []
+        elif isinstance(node, ast.FunctionDef):
+            dead = [node.returns] if node.returns else []
+        elif isinstance(node, ast.Raise | ast.JoinedStr | ast.Global):
+            dead = [node]
+        skipped |= {id(below) for each in dead for below in ast.walk(each)}
+    for node in ast.walk(tree):
+        if id(node) in skipped:
+            continue
+        if any(isinstance(below, ast.JoinedStr) for below in ast.walk(node)):
+            continue
+        for kind, after in changed(node):
+            span = starts[node.lineno - 1] + node.col_offset, starts[node.end_lineno - 1] + node.end_col_offset
+            before = source[slice(*span)].decode()
+            text = f"({ast.unparse(ast.fix_missing_locations(after))})"
+            yield Mutation(kind, path.relative_to(ROOT).as_posix(), node.lineno, span, before, text)
+
+
+def draw(seed=SEED, each=EACH):
+    """So many changes of each kind, the places in turn, no two of them on one line."""
+    chance = random.Random(seed)
+    every = [each for place in PLACES for path in sorted((ROOT / place).rglob("*.py")) for each in mutations(path)]
+    chosen = []
+    for kind in KINDS:
+        for number in range(each):
+            place = PLACES[number % len(PLACES)]
+            lines = {(one.path, one.line) for one in chosen}
+            fit = [
+                one
+                for one in every
+                if one.kind == kind and one.path.startswith(f"{place}/") and (one.path, one.line) not in lines
+            ]
+            chosen.append(chance.choice(fit))
+    return chosen
+
+
+def near(mutation):
+    """Test files about the place of a change."""
+    package = mutation.path.partition("/")[0]
+    word = Path(mutation.path).stem if package == "compare" else package
+    files = sorted((ROOT / "tests").glob("test_*.py"))
+    if package == "compare":
+        return [str(path) for path in files if f"statistics.{word}" in path.read_text() or word in path.name]
+    return [str(path) for path in files if word in path.name]
+
+
+def caught(mutation, slow):
+    """Name of the first test that fails under a change; None if all pass."""
+    with tempfile.TemporaryDirectory() as name:
+        copied = Path(name) / "tree"
+        left_out = shutil.ignore_patterns(".git", ".venv", "__pycache__", ".pytest_cache", "*.egg-info")
+        shutil.copytree(ROOT, copied, ignore=left_out)
+        place = copied / mutation.path
+        place.write_bytes(mutation.applied(place.read_bytes()))
+        environment = {**os.environ, "PYTHONPATH": str(copied), "NUMBA_CACHE_DIR": name}
+        marks = ["-m", "slow or not slow"] if slow else []
+        chosen = [each.replace(str(ROOT), str(copied)) for each in near(mutation)]
+        for files in ([chosen] if chosen else []) + [[]]:
+            command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *marks, *files]
+            done = subprocess.run(command, cwd=copied, env=environment, capture_output=True, text=True)
+            if done.returncode:
+                lines = [line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
+                return lines[0] if lines else f"status {done.returncode}: {done.stdout[-300:]}{done.stderr[-300:]}"
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", choices=("draw", "run"))
+    parser.add_argument("numbers", type=int, nargs="*")
+    parser.add_argument("--slow", action="store_true", help="with the tests that are marked slow")
+    given = parser.parse_args()
+    chosen = draw()
+    for number in given.numbers or range(len(chosen)):
+        one = chosen[number]
+        print(f"{number:2d} {one.kind:12s} {one.path}:{one.line}: {one.before!r} -> {one.text!r}", flush=True)
+        if given.what == "run":
+            print(f"   {caught(one, given.slow) or 'SURVIVES'}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
