@@ -1,7 +1,7 @@
 """Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
 
-`python tests/mutation/mutations.py draw` lists the sixty of the seed, `... run [--slow] [NUMBER ...]` applies one after
-the other to a copy of the tree and runs the tests: those of the package that is changed first, then all.
+`python tests/mutation/mutations.py draw` lists the sixty of the seed, `... run [--slow] [NUMBER ...]` applies each to a copy
+of the tree and runs the tests: those of the package that is changed first, then all.
 """
 
 import argparse
@@ -27,7 +27,7 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 
 @dataclass(frozen=True)
 class Mutation:
-    """One wrong change. span : first and last place in the text of the file, in bytes; text : what stands there then"""
+    """One wrong change. span : places in the file, in bytes; before, text : what stands there, and what then stands"""
 
     kind: str
     path: str
