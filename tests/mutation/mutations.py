@@ -1,25 +1,27 @@
 """Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
 
-`python tests/mutation/mutations.py draw` lists the sixty of the seed, `... run [--slow] [NUMBER ...]` applies each to a copy
-of the tree and runs the tests: those of the package that is changed first, then all.
+`python tests/mutation/mutations.py draw` writes the sixty of the seed to sixty.json. `... run [--slow] [NUMBER ...]`
+applies each to a copy of the tree and runs the tests there: those about what is changed first, then all.
 """
 
 import argparse
 import ast
 import copy
+import json
 import os
 import random
 import shutil
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PLACES = ("scene", "mdr1d", "bem3d", "compare/statistics")
 KINDS = ("sign", "factor", "index", "boundary", "off by one", "dropped term")
 SEED, EACH = 20261123, 10
+DRAWN = Path(__file__).with_name("sixty.json")
 SIGNS = {ast.Add: ast.Sub, ast.Sub: ast.Add}
 FACTORS = {ast.Mult: ast.Div, ast.Div: ast.Mult}
 BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
@@ -27,19 +29,21 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 
 @dataclass(frozen=True)
 class Mutation:
-    """One wrong change. span : places in the file, in bytes; before, text : what stands there, and what then stands"""
+    """One wrong change: before, text : what stands at a line of a file, and what then stands there."""
 
     kind: str
     path: str
     line: int
-    span: tuple[int, int]
     before: str
     text: str
 
-    def applied(self, source: bytes) -> bytes:
-        """The file with the change."""
-        start, end = self.span
-        return source[:start] + self.text.encode() + source[end:]
+    def applied(self, source: str) -> str:
+        """The file with the change, where `before` stands nearest to the line. Raises ValueError where it is gone."""
+        places = [place for place in range(len(source)) if source.startswith(self.before, place)]
+        if not places:
+            raise ValueError(f"{self.path} has no {self.before!r} any more")
+        start = min(places, key=lambda place: abs(source.count("\n", 0, place) + 1 - self.line))
+        return source[:start] + self.text + source[start + len(self.before) :]
 
 
 def changed(node):
@@ -76,10 +80,7 @@ def changed(node):
 
 def mutations(path):
     """Every change of a file, but for annotations, texts and messages."""
-    source = path.read_bytes()
-    starts = [0]
-    for line in source.split(b"\n"):
-        starts.append(starts[-1] + len(line) + 1)
+    source = path.read_text(encoding="utf-8")
     tree = ast.parse(source)
     skipped = set()
     for node in ast.walk(tree):
@@ -97,10 +98,9 @@ def mutations(path):
         if any(isinstance(below, ast.JoinedStr) for below in ast.walk(node)):
             continue
         for kind, after in changed(node):
-            span = starts[node.lineno - 1] + node.col_offset, starts[node.end_lineno - 1] + node.end_col_offset
-            before = source[slice(*span)].decode()
+            before = ast.get_source_segment(source, node)
             text = f"({ast.unparse(ast.fix_missing_locations(after))})"
-            yield Mutation(kind, path.relative_to(ROOT).as_posix(), node.lineno, span, before, text)
+            yield Mutation(kind, path.relative_to(ROOT).as_posix(), node.lineno, before, text)
 
 
 def draw(seed=SEED, each=EACH):
@@ -138,7 +138,7 @@ def caught(mutation, slow):
         left_out = shutil.ignore_patterns(".git", ".venv", "__pycache__", ".pytest_cache", "*.egg-info")
         shutil.copytree(ROOT, copied, ignore=left_out)
         place = copied / mutation.path
-        place.write_bytes(mutation.applied(place.read_bytes()))
+        place.write_text(mutation.applied(place.read_text(encoding="utf-8")), encoding="utf-8")
         environment = {**os.environ, "PYTHONPATH": str(copied), "NUMBA_CACHE_DIR": name}
         marks = ["-m", "slow or not slow"] if slow else []
         chosen = [each.replace(str(ROOT), str(copied)) for each in near(mutation)]
@@ -157,12 +157,14 @@ def main():
     parser.add_argument("numbers", type=int, nargs="*")
     parser.add_argument("--slow", action="store_true", help="with the tests that are marked slow")
     given = parser.parse_args()
-    chosen = draw()
+    if given.what == "draw":
+        DRAWN.write_text(json.dumps([asdict(each) for each in draw()], indent=1) + "\n", encoding="utf-8")
+        return
+    chosen = [Mutation(**each) for each in json.loads(DRAWN.read_text(encoding="utf-8"))]
     for number in given.numbers or range(len(chosen)):
         one = chosen[number]
         print(f"{number:2d} {one.kind:12s} {one.path}:{one.line}: {one.before!r} -> {one.text!r}", flush=True)
-        if given.what == "run":
-            print(f"   {caught(one, given.slow) or 'SURVIVES'}", flush=True)
+        print(f"   {caught(one, given.slow) or 'SURVIVES'}", flush=True)
 
 
 if __name__ == "__main__":
