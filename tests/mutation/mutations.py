@@ -1,6 +1,6 @@
 """Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
 
-`python tests/mutation/mutations.py draw` writes the sixty of the seed to sixty.json. `... run [--slow] [NUMBER ...]`
+`python tests/mutation/mutations.py draw` writes the sixty of the seed to sixty.json. `run [--slow] [NUMBER ...]`
 applies each to a copy of the tree and runs the tests there: those about what is changed first, then all.
 """
 
@@ -38,7 +38,7 @@ class Mutation:
     text: str
 
     def applied(self, source: str) -> str:
-        """The file with the change, where `before` stands nearest to the line. Raises ValueError where it is gone."""
+        """The file with the change, at the place nearest to the line. Raises ValueError where `before` is gone."""
         places = [place for place in range(len(source)) if source.startswith(self.before, place)]
         if not places:
             raise ValueError(f"{self.path} has no {self.before!r} any more")
