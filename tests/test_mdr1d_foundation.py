@@ -1,4 +1,4 @@
-"""The sweep along a rough profile against a plain fine march, and the identities of the steady state."""
+"""The sweep along a rough profile against a plain fine march, its limits, and contact within one interval."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from mdr1d import MDR, lay_out, map_profile, sweep
-from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 MODULUS = 1e6
 TIME = 1e-3
@@ -18,8 +18,6 @@ SCENE = Scene(
     Slide(speed=0.1, load=1.0),
     ROUGH,
 )
-# Memory over the smooth contact radius of 0.3 mm: far below a pixel to far above the contact.
-MEMORIES = [0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-1, 1e3]
 # The march finds the edges of contact to a part in 200 of a pixel.
 MARCH = 2e-4
 ROUNDING = 1e-11
@@ -48,8 +46,8 @@ def march(heights, pixel, memory, depth, parts=200):
     return f.sum() * step, -(f * np.diff(fine)).sum(), pair.sum() * step
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
-@pytest.mark.parametrize("approach", [3e-5, 6e-5])
+# Beside the smooth contact radius of 0.3 mm: from none over a pixel to far above the contact.
+@pytest.mark.parametrize(("memory", "approach"), [(0.0, 6e-5), (1e-5, 3e-5), (1e-4, 6e-5), (1e3, 3e-5)])
 def test_the_sweep_agrees_with_a_fine_march(memory, approach):
     heights, pixel = rough_profile()
     depth = approach + heights.min()
@@ -65,27 +63,7 @@ def test_the_sweep_agrees_with_a_fine_march(memory, approach):
     assert contact.length == pytest.approx(length, abs=20 * pixel / 200)
 
 
-@pytest.mark.parametrize("memory", MEMORIES)
-def test_the_march_converges_to_the_sweep(memory):
-    heights, pixel = rough_profile(points=80)
-    depth = heights.min() + 2e-5
-    contact = sweep(heights, pixel, memory, depth)
-    coarse, fine = (march(heights, pixel, memory, depth, parts)[0] for parts in (20, 2000))
-    assert abs(fine - contact.force) <= 0.1 * abs(coarse - contact.force) + ROUNDING * contact.force
-
-
-@pytest.mark.parametrize("memory", MEMORIES)
-def test_friction_by_traction_is_the_energy_lost_per_length(memory):
-    heights, pixel = rough_profile()
-    contact = sweep(heights, pixel, memory, heights.min() + 2e-5)
-    steepest = np.abs(np.diff(heights)).max() / pixel
-    assert contact.dissipation >= 0
-    assert contact.traction == pytest.approx(
-        contact.dissipation, rel=ROUNDING, abs=ROUNDING * steepest * contact.force
-    )
-
-
-@pytest.mark.parametrize("memory", [1e-6, 1e-5, 1e-4, 1e-3])
+@pytest.mark.parametrize("memory", [1e-5, 1e-3])
 def test_the_force_is_the_stiffness_times_the_displaced_area(memory):
     # int f = K int u, since u vanishes on both sides; the wake behind the grid adds l times the last u.
     heights, pixel = rough_profile(points=20000)
@@ -93,32 +71,6 @@ def test_the_force_is_the_stiffness_times_the_displaced_area(memory):
     area = np.trapezoid(contact.displacement, dx=pixel) + memory * contact.displacement[-1]
     # The trapezoid rule of the exponential wake, (pixel / memory)^2 / 12, and of a kink at each edge.
     assert contact.force == pytest.approx(area, rel=max((pixel / memory) ** 2, 1e-6))
-
-
-@pytest.mark.parametrize("memory", MEMORIES)
-def test_the_force_is_convex_and_increasing_in_the_depth_with_the_stated_stiffness(memory):
-    heights, pixel = rough_profile(seed=11)
-    depths = heights.min() + np.linspace(0, 3e-5, 200)
-    contacts = [sweep(heights, pixel, memory, d) for d in depths]
-    force = np.array([c.force for c in contacts])
-    stiffness = np.array([c.stiffness for c in contacts])
-    scale = ROUNDING * force[-1]
-    assert np.all(np.diff(force) > 0)
-    # A convex function lies between its tangents: rise / run is between the slopes at both ends.
-    rise, run = np.diff(force), np.diff(depths)
-    assert np.all(stiffness[:-1] * run <= rise + scale)
-    assert np.all(rise <= stiffness[1:] * run + scale)
-
-
-@pytest.mark.parametrize("memory", MEMORIES)
-def test_contact_conditions_hold_at_every_node(memory):
-    heights, pixel = rough_profile()
-    depth = heights.min() + 2e-5
-    contact = sweep(heights, pixel, memory, depth)
-    clearance = contact.displacement - (depth - heights)
-    assert np.all(contact.displacement >= 0)
-    assert np.all(clearance >= -ROUNDING * depth)
-    assert np.all(clearance[contact.touching] == 0)
 
 
 def test_extreme_memories_join_the_elastic_and_the_viscous_limit():
@@ -156,13 +108,12 @@ def test_contact_that_begins_and_ends_within_one_interval_is_found(lift, lands):
     assert (sweep(heights, 1.0, 1.0, 1.0).last > 2) is lands
 
 
-def test_the_depth_found_for_a_load_carries_that_load():
-    fixed = MDR(extent=4e-3)
-    for speed in (0.0, 1e-3, 0.1, 10.0):
-        by_load = fixed.solve(replace(SCENE, motion=Slide(speed=speed, load=1.0)))
-        by_depth = fixed.solve(replace(SCENE, motion=Slide(speed=speed, depth=by_load.depth)))
-        again = fixed.solve(replace(SCENE, motion=Slide(speed=speed, load=by_depth.normal_force)))
-        assert by_load.residual <= 1e-10
+@pytest.mark.parametrize("roughness", [None, ROUGH])
+@pytest.mark.parametrize("elastomer", [SCENE.elastomer, StandardLinearSolid(MODULUS, 10 * MODULUS, TIME)])
+def test_the_depth_found_for_a_load_carries_that_load(elastomer, roughness):
+    fixed, scene = MDR(extent=4e-3), replace(SCENE, elastomer=elastomer, roughness=roughness)
+    for speed in (0.0, 0.1, 10.0):
+        by_load = fixed.solve(replace(scene, motion=Slide(speed=speed, load=1.0)))
+        by_depth = fixed.solve(replace(scene, motion=Slide(speed=speed, depth=by_load.depth)))
         assert by_depth.normal_force == pytest.approx(1.0, rel=ROUNDING)
         assert by_depth.friction_force == pytest.approx(by_load.friction_force, rel=ROUNDING)
-        assert again.depth == pytest.approx(by_load.depth, rel=ROUNDING)

@@ -16,14 +16,7 @@ ORDER, ORDER_SPREAD = 1.0, 0.03
 SOLID = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxation_time=1.0)
 SERIES = Prony(equilibrium_modulus=1.0, moduli=(3.0, 0.5, 20.0), relaxation_times=(1.0, 30.0, 0.02))
 CHAIN = KelvinChain(instantaneous_compliance=0.0, compliances=(0.6, 0.4), retardation_times=(1.0, 0.03))
-BROAD = Prony(
-    equilibrium_modulus=1.0,
-    moduli=tuple(np.geomspace(0.1, 1e5, 30)[::-1]),
-    relaxation_times=tuple(np.geomspace(1e-8, 1e7, 30)),
-)
-SOLIDS = {"standard": SOLID, "series": SERIES, "chain with a dashpot": CHAIN, "30 modes": BROAD}
-# Distance that the elastomer flows in a unit of time: far below a pixel to far above the contact [m].
-SPEEDS = [1e-17, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1.0, 1e7]
+SOLIDS = {"standard": SOLID, "series": SERIES, "chain with a dashpot": CHAIN}
 
 
 def line(points=160, seed=4):
@@ -56,8 +49,9 @@ def march(heights, pixel, elastomer, speed, depth, parts):
     return f.sum() * step, -(f[1:] * np.diff(fine)).sum()
 
 
-@pytest.mark.parametrize("speed", [1e-6, 1e-5, 1e-4, 1e-3, 1e-1])
-@pytest.mark.parametrize("solid", ["standard", "series", "chain with a dashpot"])
+@pytest.mark.parametrize(
+    ("solid", "speed"), [("standard", 1e-4), ("series", 1e-5), ("series", 1e-3), ("chain with a dashpot", 1e-4)]
+)
 def test_a_plain_march_converges_to_the_sweep_at_its_order(solid, speed):
     heights, pixel = line(points=80)
     contact = sweep_modes(heights, pixel, modes_of(SOLIDS[solid]), speed, 2e-5)
@@ -72,9 +66,13 @@ def test_a_plain_march_converges_to_the_sweep_at_its_order(solid, speed):
     assert -np.polyfit(np.log(parts), np.log(errors), 1)[0] == pytest.approx(ORDER, abs=ORDER_SPREAD)
 
 
-@pytest.mark.parametrize("memory", [0.0, 1e-30, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-1, 1e3])
-def test_a_lone_dashpot_is_the_kelvin_foundation(memory):
-    heights, pixel = line()
+# At a memory of a pixel contact lands and is released again within the third interval, see the test of `sweep`.
+SPOT = np.array([2.0, 0.0, 0.7, 0.8548, 5.0]) * 2e-5
+
+
+@pytest.mark.parametrize("memory", [0.0, 1e-6, 1e-4, 1e3])
+@pytest.mark.parametrize(("heights", "pixel"), [line(), (SPOT, 1e-4)], ids=["rough", "spot"])
+def test_a_lone_dashpot_is_the_kelvin_foundation(heights, pixel, memory):
     modes = modes_of(Kelvin(modulus=3.0, relaxation_time=1.0))
     general, kelvin = sweep_modes(heights, pixel, modes, memory, 2e-5), sweep(heights, pixel, memory, 2e-5)
     for name in ("force", "dissipation", "stiffness", "length", "slope_square", "first", "last"):
@@ -83,47 +81,7 @@ def test_a_lone_dashpot_is_the_kelvin_foundation(memory):
     np.testing.assert_array_equal(general.touching, kelvin.touching)
 
 
-@pytest.mark.parametrize("speed", SPEEDS)
-@pytest.mark.parametrize("solid", SOLIDS)
-def test_work_of_friction_is_the_energy_lost(solid, speed):
-    heights, pixel = line()
-    contact = sweep_modes(heights, pixel, modes_of(SOLIDS[solid]), speed, 2e-5)
-    assert contact.dissipation > 0
-    assert contact.traction == pytest.approx(
-        contact.dissipation, rel=1e-10, abs=ROUNDING * slope(heights, pixel) * contact.force
-    )
-
-
-@pytest.mark.parametrize("speed", SPEEDS)
-@pytest.mark.parametrize("solid", SOLIDS)
-def test_the_force_is_convex_and_increasing_in_the_depth_with_the_stated_stiffness(solid, speed):
-    heights, pixel = line(seed=11)
-    modes = modes_of(SOLIDS[solid])
-    depths = np.linspace(0, 3e-5, 100)
-    contacts = [sweep_modes(heights, pixel, modes, speed, d) for d in depths]
-    force = np.array([c.force for c in contacts])
-    stiffness = np.array([c.stiffness for c in contacts])
-    scale = ROUNDING * force[-1]
-    assert np.all(np.diff(force) > 0)
-    # A convex function lies between its tangents: rise / run is between the slopes at both ends.
-    rise, run = np.diff(force), np.diff(depths)
-    assert np.all(stiffness[:-1] * run <= rise + scale)
-    assert np.all(rise <= stiffness[1:] * run + scale)
-
-
-@pytest.mark.parametrize("speed", SPEEDS)
-@pytest.mark.parametrize("solid", SOLIDS)
-def test_contact_conditions_hold_at_every_node(solid, speed):
-    heights, pixel = line()
-    contact = sweep_modes(heights, pixel, modes_of(SOLIDS[solid]), speed, 2e-5)
-    clearance = contact.displacement - (2e-5 - heights)
-    assert np.all(contact.displacement >= 0)
-    assert np.all(clearance >= -ROUNDING * 2e-5)
-    assert np.all(clearance[contact.touching] == 0)
-
-
-@pytest.mark.parametrize("speed", [1e-6, 1e-5, 3e-5])
-@pytest.mark.parametrize("solid", ["standard", "chain with a dashpot"])
+@pytest.mark.parametrize(("solid", "speed"), [("standard", 1e-5), ("chain with a dashpot", 3e-5)])
 def test_the_force_is_the_stiffness_times_the_displaced_area(solid, speed):
     # int f = int u over everything, since each mode starts and ends at rest.
     heights, pixel = line(points=20000)
@@ -133,33 +91,6 @@ def test_the_force_is_the_stiffness_times_the_displaced_area(solid, speed):
     shortest = speed * SOLIDS[solid].retardation()[2].min()
     tolerance = max((pixel / shortest) ** 2, 1e-6)
     assert contact.force == pytest.approx(np.trapezoid(contact.displacement, dx=pixel), rel=tolerance)
-
-
-@pytest.mark.parametrize("memory", [1e-6, 1e-4, 1e-2, 1.0])
-def test_a_million_times_stiffer_glass_tends_to_the_kelvin_foundation(memory):
-    heights, pixel = line()
-    kelvin = sweep(heights, pixel, memory, 2e-5)
-    deviations = []
-    for ratio in (1e4, 1e6, 1e8):
-        solid = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=ratio, relaxation_time=1 / ratio)
-        contact = sweep_modes(heights, pixel, modes_of(solid), memory, 2e-5)
-        deviations.append([contact.force / kelvin.force - 1, contact.dissipation / kelvin.dissipation - 1])
-    deviations = np.abs(deviations)
-    # The glass shows over the relaxation length m = memory / ratio; at a landing it costs m log m.
-    assert np.all(deviations[2] <= 100 / 1e8 * (1 + memory / pixel))
-    assert np.all(deviations[2] <= 0.05 * deviations[1] + 1e-8)
-    assert np.all(deviations[1] <= 0.05 * deviations[0] + 1e-8)
-
-
-@pytest.mark.parametrize("speed", SPEEDS)
-def test_equal_moduli_join_the_elastic_foundation(speed):
-    heights, pixel = line()
-    elastic = sweep(heights, pixel, 0.0, 2e-5)
-    solid = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=1 + 1e-9, relaxation_time=1.0)
-    contact = sweep_modes(heights, pixel, modes_of(solid), speed, 2e-5)
-    assert contact.force == pytest.approx(elastic.force, rel=2e-9)
-    assert contact.length == pytest.approx(elastic.length, rel=2e-9)
-    assert contact.dissipation <= 1e-9 * slope(heights, pixel) * contact.force
 
 
 def test_extreme_speeds_join_the_rubber_and_the_glass():
@@ -180,29 +111,7 @@ def test_extreme_speeds_join_the_rubber_and_the_glass():
         assert fast.dissipation == pytest.approx(100 * faster.dissipation, rel=1e-6)
 
 
-@pytest.mark.parametrize("speed", SPEEDS)
-def test_an_empty_change_of_the_modes_changes_nothing(speed):
-    heights, pixel = line()
-
-    def found(moduli, times):
-        solid = Prony(equilibrium_modulus=1.0, moduli=moduli, relaxation_times=times)
-        return sweep_modes(heights, pixel, modes_of(solid), speed, 2e-5)
-
-    plain = found((3.0, 0.5), (1.0, 30.0))
-    standard = modes_of(StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=4.0, relaxation_time=1.0))
-    for other, reference in (
-        (found((0.5, 3.0), (30.0, 1.0)), plain),
-        (found((1.0, 0.5, 2.0), (1.0, 30.0, 1.0)), plain),
-        (found((1.0, 0.5, 2.0), (1.0, 30.0, np.nextafter(1.0, 2))), plain),
-        (found((3.0, 0.5, 1e-30), (1.0, 30.0, 7.0)), plain),
-        (found((3.0,), (1.0,)), sweep_modes(heights, pixel, standard, speed, 2e-5)),
-    ):
-        assert other.force == pytest.approx(reference.force, rel=ROUNDING)
-        assert other.dissipation == pytest.approx(reference.dissipation, rel=ROUNDING)
-        assert other.last == pytest.approx(reference.last, rel=ROUNDING)
-
-
-@pytest.mark.parametrize("speed", SPEEDS)
+@pytest.mark.parametrize("speed", [1e-17, 1e-5, 1e7])
 def test_two_times_that_approach_each_other_become_one(speed):
     heights, pixel = line()
 
@@ -211,7 +120,7 @@ def test_two_times_that_approach_each_other_become_one(speed):
         contact = sweep_modes(heights, pixel, modes_of(solid), speed, 2e-5)
         return np.array([contact.force, contact.dissipation, contact.stiffness])
 
-    for distance in (1e-3, 1e-6, 1e-9, 1e-12, 1e-15):
+    for distance in (1e-3, 1e-9, 1e-15):
         np.testing.assert_allclose(force(distance), force(0.0), rtol=distance + ROUNDING)
 
 
@@ -240,7 +149,7 @@ def test_crowded_times_of_unlike_moduli_keep_the_balance_of_energy():
     # Zeros between times that agree in up to 15 digits are uncertain one by one, but not together.
     generator = np.random.default_rng(5)
     heights, pixel = line()
-    for _ in range(150):
+    for _ in range(40):
         count = generator.integers(2, 31)
         times = 10.0 ** generator.integers(-9, 0, count) * (1 + 10 ** generator.uniform(-16, 0, count))
         moduli = 10 ** generator.uniform(-12, 6, count)
@@ -255,42 +164,7 @@ def test_crowded_times_of_unlike_moduli_keep_the_balance_of_energy():
             assert contact.traction == pytest.approx(contact.dissipation, rel=1e-10, abs=1e-13 * loss)
 
 
-def held_down(rates, moduli, lengths):
-    """Force on flanks of unit width with given rates of u, a row each, and whether it has pulled before that."""
-    t, y, u = np.linspace(0, 1, 201)[1:], np.zeros(lengths.size), 0.0
-    rows, pulled = [], [False]
-    for rate in rates:
-        stretched = y + (lengths * rate - y) * -np.expm1(-t[:, None] / lengths)
-        rows.append(u + rate * t + stretched @ moduli)
-        pulled.append(pulled[-1] or rows[-1].min() < 0)
-        y, u = stretched[-1], u + rate
-    return np.array(rows), np.array(pulled[:-1])
-
-
-def returns(rows):
-    """Whether the force falls below zero and rises above it again within a row."""
-    below = np.logical_or.accumulate(rows < 0, axis=1)
-    return np.any(below & (rows > 1e-12 * np.abs(rows).max()), axis=1)
-
-
-def test_on_a_straight_flank_a_force_that_has_fallen_to_zero_stays_below():
-    # That is why the sign at the end of an interval tells whether there is a release.
-    generator = np.random.default_rng(2)
-    released = recovered = 0
-    for _ in range(2000):
-        count = generator.integers(1, 6)
-        lengths, moduli = 10 ** generator.uniform(-2, 2, count), 10 ** generator.uniform(-1, 2, count)
-        rows, pulled = held_down(generator.normal(size=6), moduli, lengths)
-        pressed_so_far = ~pulled & (rows[:, 0] > 0)
-        assert not returns(rows)[pressed_so_far].any()
-        released += np.count_nonzero(pressed_so_far & (rows[:, -1] < 0))
-        recovered += np.count_nonzero(returns(rows) & pulled)
-    assert released > 500
-    # It takes a foundation that has been pulled to see the contrary.
-    assert recovered > 100
-
-
-@pytest.mark.parametrize("memory", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("memory", [1e-3, 1.0])
 def test_a_flat_that_starts_pressed_in_relaxes_as_the_modulus_does(memory):
     # Lengths in those of the flat, u = 1: f = 1 + 9 exp(-x/m), without slope nor friction.
     contact = sweep_modes(np.zeros(101), 0.01, modes_of(SOLID), memory, 1.0)
@@ -302,8 +176,7 @@ def test_a_flat_that_starts_pressed_in_relaxes_as_the_modulus_does(memory):
     assert contact.dissipation == pytest.approx(0.0, abs=ROUNDING * contact.force)
 
 
-@pytest.mark.parametrize("short", [1e-12, 1e-6, 1.0, 1e6, 1e12])
-@pytest.mark.parametrize("ratio", [1 + 1e-6, 2.0, 1e6])
+@pytest.mark.parametrize(("short", "ratio"), [(1e-12, 1 + 1e-6), (1.0, 1e6), (1e12, 2.0)])
 def test_modes_far_below_a_pixel_and_far_above_everything_are_carried(short, ratio):
     heights, pixel = line()
     solid = Prony(

@@ -106,38 +106,6 @@ def test_a_line_scan_is_lower_and_half_as_steep_and_says_so():
     assert slopes == pytest.approx(1 / sqrt(2), rel=0.02)
 
 
-@pytest.mark.parametrize("elastomer", [KELVIN, SOLID, SERIES])
-@pytest.mark.parametrize("speed", [0.0, 1e-6, 1e-2, 1.0, 1e4])
-@pytest.mark.parametrize("scene", [SCENE, PAPER, replace(SCENE, roughness=None)])
-def test_the_line_force_carries_the_load_and_makes_the_friction(scene, speed, elastomer):
-    result = MDR().solve(replace(scene, elastomer=elastomer, motion=Slide(speed=speed, load=1.0)))
-    pixel, force = result.settings["pixel"], result.fields["line_force"]
-    assert np.all(force >= 0)
-    assert force.sum() * pixel == pytest.approx(result.normal_force, rel=ROUNDING)
-    slopes = np.diff(result.fields["profile"]) / pixel
-    friction = -(slopes @ force[:-1]) * pixel
-    assert friction == pytest.approx(result.friction_force, rel=1e-10, abs=ROUNDING * np.abs(slopes).max())
-    assert force[:-1][slopes < 0].sum() * pixel == pytest.approx(
-        result.measures["load_on_leading_flanks"] * result.normal_force, rel=ROUNDING
-    )
-
-
-@pytest.mark.parametrize("memory", [0.0, 1e-6, 1e-4, 1e-2, 1e2])
-def test_what_the_intervals_hold_adds_up_to_the_contact(memory):
-    body = map_profile(SCENE, lay_out(SCENE, 2000, None))
-    heights = body.heights - body.lowest
-    contacts = [sweep(heights, body.pixel, memory, 3e-5)]
-    if memory:
-        contacts += [sweep_modes(heights, body.pixel, modes_of(s), memory / 1e-3, 3e-5) for s in (KELVIN, SERIES)]
-    for contact in contacts:
-        assert contact.pushed.shape == (heights.size - 1, 2)
-        assert contact.pushed.sum(axis=0) == pytest.approx([contact.length, contact.force], rel=ROUNDING)
-        assert np.all((contact.pushed >= 0) & (contact.pushed[:, :1] <= body.pixel * (1 + ROUNDING)))
-        # Between two nodes that touch there is contact throughout.
-        whole = contact.touching[:-1] & contact.touching[1:]
-        np.testing.assert_allclose(contact.pushed[whole, 0], body.pixel, rtol=ROUNDING)
-
-
 def shares(elastomer, speed):
     """Of the contact and of the load on leading flanks, mean over profiles."""
     scene = replace(SCENE, elastomer=elastomer, motion=Slide(speed=speed, load=1.0))
@@ -234,28 +202,3 @@ def test_an_asperity_that_follows_its_equal_is_not_counted_again(elastomer, appr
         contact = sweep(heights, body.pixel, 1e9 * KELVIN.relaxation_time, approach)
     # The force is a convex function of the approach, from zero on: no less than in proportion to it.
     assert contact.stiffness * approach >= contact.force * (1 - ROUNDING)
-
-
-@pytest.mark.parametrize("elastomer", ["kelvin", "series"])
-@pytest.mark.parametrize("scale", [1e-10, 1e10])
-@pytest.mark.parametrize("what", ["length", "modulus", "time"])
-def test_answers_scale_with_the_units_over_twenty_decades(what, scale, elastomer):
-    lengths, moduli, times = (scale if what == unit else 1.0 for unit in ("length", "modulus", "time"))
-
-    def solved(length, modulus, time):
-        solid = {
-            "kelvin": Kelvin(modulus=1e6 * modulus, relaxation_time=1e-3 * time),
-            "series": Prony(
-                equilibrium_modulus=1e6 * modulus,
-                moduli=tuple(np.array([3e6, 5e5, 2e7]) * modulus),
-                relaxation_times=tuple(np.array([1e-3, 3e-2, 2e-5]) * time),
-            ),
-        }[elastomer]
-        rough = replace(ROUGH, rms_height=5e-6 * length, longest=4e-3 * length, shortest=1e-4 * length)
-        motion = Slide(speed=0.3 * length / time, load=modulus * length**2)
-        result = MDR(points=1000).solve(Scene(Sphere(radius=1e-2 * length), solid, motion, rough))
-        force = modulus * length**2
-        return np.array([result.depth / length, result.friction_force / force, result.normal_force / force])
-
-    # The least digit of a height is 1e-16 of the roughness, of a force some hundred of those.
-    np.testing.assert_allclose(solved(lengths, moduli, times), solved(1.0, 1.0, 1.0), rtol=1e-12)

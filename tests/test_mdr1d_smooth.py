@@ -1,10 +1,9 @@
 """Smooth indenters against closed forms, derived here and nowhere imported from the solver."""
 
-from math import asin, pi, sin, sqrt, tan
+from math import pi, sqrt, tan
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from mdr1d import MDR
 from scene import (
@@ -13,12 +12,10 @@ from scene import (
     Indent,
     Kelvin,
     PowerLaw,
-    Prony,
     Scene,
     Slide,
     SolveError,
     Sphere,
-    StandardLinearSolid,
 )
 
 MODULUS = 1e6
@@ -70,16 +67,6 @@ def orders(solve, exact):
     return -np.polyfit(np.log(points), np.log(errors), 1)[0]
 
 
-@pytest.mark.parametrize("exponent", [1.0, 2.0, 3.5])
-def test_the_profile_is_the_integral_of_the_transform(exponent):
-    shape = PowerLaw(coefficient=0.7, exponent=exponent)
-    for x in (0.3, 2.0):
-        # r = x sin(t) takes the root out of the integrand.
-        integral = quad(lambda t, x=x: 0.7 * exponent * (x * sin(t)) ** (exponent - 1), 0, asin(1.0))[0]
-        # Quadrature asks for 1.5e-8 and gets far below.
-        assert shape.mdr_coefficient * x**exponent == pytest.approx(x * integral, rel=1e-10)
-
-
 def test_a_sphere_follows_hertz_by_load_and_by_depth():
     depth = 1e-4
     force = 4 / 3 * STIFFNESS * sqrt(RADIUS) * depth**1.5
@@ -110,24 +97,14 @@ def test_a_compressible_solid_is_stiffer_by_its_poisson_ratio():
     assert soft.normal_force / full.normal_force == pytest.approx(0.5 / 0.75, rel=ROUNDING)
 
 
-def test_the_error_on_a_sphere_is_of_second_order():
-    depth = HALF**2 / RADIUS
-    exact = 4 / 3 * STIFFNESS * sqrt(RADIUS) * depth**1.5
-    scene = Scene(Sphere(radius=RADIUS), Elastic(modulus=MODULUS), Indent(depth=depth))
-    points = 2 ** np.arange(5, 13)
-    errors = [abs(MDR(points=int(n)).solve(scene).normal_force / exact - 1) for n in points]
-    order = -np.polyfit(np.log(points), np.log(errors), 1)[0]
-    assert order == pytest.approx(ORDER, abs=ORDER_SPREAD)
-
-
-@pytest.mark.parametrize("ratio", [0.01, 0.3, 1.0, 10.0])
+@pytest.mark.parametrize("ratio", [0.01, 1.0])
 def test_the_error_on_a_sliding_sphere_is_of_second_order(ratio):
     scene = sliding(Sphere(radius=RADIUS), ratio * HALF, HALF**2 / RADIUS)
     found = orders(lambda n: MDR(points=n).solve(scene), sphere_forces(ratio * HALF))
     assert found == pytest.approx(ORDER, abs=ORDER_SPREAD)
 
 
-@pytest.mark.parametrize("ratio", [1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3, 1e6])
+@pytest.mark.parametrize("ratio", [1e-6, 0.1, 1.0, 1e6])
 def test_a_sphere_slides_on_a_kelvin_solid_as_in_closed_form(ratio):
     result = MDR().solve(sliding(Sphere(radius=RADIUS), ratio * HALF, HALF**2 / RADIUS))
     force, friction = sphere_forces(ratio * HALF)
@@ -135,50 +112,13 @@ def test_a_sphere_slides_on_a_kelvin_solid_as_in_closed_form(ratio):
     assert result.friction_force == pytest.approx(friction, rel=SECOND_ORDER_AT_5000)
 
 
-@pytest.mark.parametrize("ratio", [1e-6, 1e-3, 0.3, 1.0, 2.0, 1e6])
+@pytest.mark.parametrize("ratio", [1e-6, 0.3, 1.0, 1e6])
 def test_a_cone_slides_on_a_kelvin_solid_as_in_closed_form(ratio):
     result = MDR(points=1000).solve(sliding(Cone(angle=ANGLE), ratio * HALF, pi / 2 * tan(ANGLE) * HALF))
     force, friction = cone_forces(ratio * HALF)
     assert result.normal_force == pytest.approx(force, rel=ROUNDING)
     # The closed form is the difference of two equal flanks at low speed.
     assert result.friction_force == pytest.approx(friction, rel=1e-15 / min(ratio, 1) + ROUNDING)
-
-
-def test_friction_starts_as_twice_the_relaxation_length_over_the_radius():
-    memory = 1e-7 * HALF
-    result = MDR().solve(sliding(Sphere(radius=RADIUS), memory, HALF**2 / RADIUS))
-    # The next term of the series is 3/4 l/a.
-    assert result.friction_coefficient == pytest.approx(2 * memory / RADIUS, rel=SECOND_ORDER_AT_5000)
-
-
-def test_friction_of_a_cone_starts_linear_and_ends_at_its_slope():
-    slope, depth = tan(ANGLE), pi / 2 * tan(ANGLE) * HALF
-    slow = MDR().solve(sliding(Cone(angle=ANGLE), 1e-7 * HALF, depth))
-    assert slow.friction_coefficient == pytest.approx(pi * slope * 1e-7, rel=1e-6)
-    for ratio in (1.0, 1.5, 1e9):
-        fast = MDR().solve(sliding(Cone(angle=ANGLE), ratio * HALF, depth))
-        assert fast.friction_coefficient == pytest.approx(pi * slope / 2, rel=ROUNDING)
-
-
-def test_elastic_sliding_has_no_friction():
-    for shape in (Sphere(radius=RADIUS), Cone(angle=ANGLE), PowerLaw(coefficient=1e3, exponent=3.5)):
-        result = MDR().solve(Scene(shape, Elastic(modulus=MODULUS), Slide(speed=3.0, load=1.0)))
-        assert abs(result.friction_coefficient) <= ROUNDING
-        assert abs(result.measures["friction_by_traction"]) <= ROUNDING
-
-
-def test_at_rest_every_elastomer_is_its_relaxed_elastic_solid():
-    kinds = (
-        Kelvin(modulus=MODULUS, relaxation_time=TIME),
-        StandardLinearSolid(rubbery_modulus=MODULUS, glassy_modulus=9e6, relaxation_time=TIME),
-        Prony(equilibrium_modulus=MODULUS, moduli=(1e6, 3e7), relaxation_times=(1e-4, 1e-2)),
-    )
-    elastic = MDR().solve(Scene(Sphere(radius=RADIUS), Elastic(modulus=MODULUS), Indent(load=1.0)))
-    for elastomer in kinds:
-        for motion in (Indent(load=1.0), Slide(speed=0.0, load=1.0)):
-            result = MDR().solve(Scene(Sphere(radius=RADIUS), elastomer, motion))
-            assert result.depth == pytest.approx(elastic.depth, rel=ROUNDING)
-            assert result.friction_force == pytest.approx(0.0, abs=ROUNDING)
 
 
 def test_a_steep_power_law_approaches_the_flat_punch():
@@ -189,7 +129,7 @@ def test_a_steep_power_law_approaches_the_flat_punch():
     assert result.normal_force == pytest.approx(200 / 101 * STIFFNESS * radius * 1e-4, rel=1e-3)
 
 
-@pytest.mark.parametrize("ratio", [1e3, 1e6, 1e9, 1e12])
+@pytest.mark.parametrize("ratio", [1e3, 1e12])
 def test_a_fast_contact_far_smaller_than_the_one_at_rest_has_its_own_grid(ratio):
     # a fluid: d = F/(K l), a = sqrt(R d), mu = int g'^2 / int |g'| = 4a/(3R) over the front half
     radius, memory = 1e-2, ratio * 1e-3

@@ -72,7 +72,7 @@ def swept(memory, points):
     return x, sweep_modes(x**2, x[1] - x[0], modes_of(solid), memory, 1.0)
 
 
-@pytest.mark.parametrize("memory", [1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e3, 1e4])
+@pytest.mark.parametrize("memory", [1e-4, 0.1, 10.0, 1e4])
 def test_a_sphere_slides_on_a_standard_solid_as_the_differential_equation_says(memory):
     force, friction, edge = parabola(memory)
     x, contact = swept(memory, 5000)
@@ -83,7 +83,7 @@ def test_a_sphere_slides_on_a_standard_solid_as_the_differential_equation_says(m
     assert x[0] + contact.last == pytest.approx(edge, abs=SECOND_ORDER_AT_5000)
 
 
-@pytest.mark.parametrize("memory", [1e-4, 1e-2, 0.3, 10.0, 1e4])
+@pytest.mark.parametrize("memory", [1e-2, 10.0])
 def test_the_error_on_a_sphere_is_of_second_order(memory):
     force, friction, _ = parabola(memory)
     points = 2 ** np.arange(5, 13)
@@ -129,7 +129,7 @@ def test_friction_of_the_sphere_has_its_peak_between_the_rubber_and_the_glass():
     assert mu[-1] / mu[-2] == pytest.approx(10**-0.25, rel=0.01)
 
 
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
+@pytest.mark.parametrize("scene", [SMOOTH, ROUGH])
 def test_a_stiff_glass_slides_as_kelvin_and_a_soft_one_as_an_elastic_solid(scene):
     stiff = StandardLinearSolid(rubbery_modulus=RUBBERY, glassy_modulus=1e9 * RUBBERY, relaxation_time=1e-9 * TIME)
     kelvin = MDR().solve(replace(scene, elastomer=Kelvin(modulus=RUBBERY, relaxation_time=TIME)))
@@ -157,75 +157,20 @@ def test_a_cone_slides_on_a_chain_of_two_elements_with_an_infinite_glassy_modulu
     assert result.friction_coefficient == pytest.approx(pi / 2 * tan(0.2), rel=1e-4)
 
 
-@pytest.mark.parametrize("speed", [1e-9, 1e-3, 0.3, 1e3, 1e9])
-@pytest.mark.parametrize("solid", [SOLID, SERIES, BROAD, CHAIN])
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
-def test_tiny_and_huge_loads_are_met(scene, solid, speed):
-    for load in (1e-12, 1e-6, 1e2):
-        solver = MDR() if scene is not PAPER else MDR(points=20000, extent=0.02)
-        result = solver.solve(replace(scene, elastomer=solid, motion=Slide(speed=speed, load=load)))
+def test_at_rest_the_relaxed_solid_alone_counts():
+    elastic = MDR().solve(replace(ROUGH, elastomer=Elastic(modulus=RUBBERY)))
+    for solid in (Kelvin(modulus=RUBBERY, relaxation_time=TIME), SOLID, BROAD, CHAIN):
+        for motion in (Indent(load=1.0), Slide(speed=0.0, load=1.0), Slide(speed=1e-30, load=1.0)):
+            found = MDR().solve(replace(ROUGH, elastomer=solid, motion=motion))
+            assert found.depth == pytest.approx(elastic.depth, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("speed", [1e-9, 0.3, 1e9])
+def test_thirty_modes_meet_tiny_and_huge_loads(speed):
+    for load in (1e-12, 1e2):
+        result = MDR().solve(replace(ROUGH, elastomer=BROAD, motion=Slide(speed=speed, load=load)))
         assert result.residual <= 1e-10
-        assert result.friction_force > 0
         flank = np.abs(np.gradient(result.fields["profile"], result.measures["pixel"])).max()
         assert result.measures["friction_by_traction"] == pytest.approx(
             result.friction_force, rel=ROUNDING, abs=1e-11 * flank * load
         )
-
-
-def test_every_one_of_fifty_rough_profiles_is_solved_at_every_speed():
-    for seed in range(50):
-        for rough in (ROUGH.roughness, PAPER.roughness):
-            for solid, speed in ((SOLID, 0.3), (SERIES, 0.01 * 10 ** (seed % 5))):
-                scene = Scene(SMOOTH.indenter, solid, Slide(speed=speed, load=1.0), replace(rough, seed=seed))
-                result = MDR(points=1000).solve(scene)
-                assert result.residual <= 1e-10
-                assert result.applications <= 20
-                assert result.friction_force > 0
-
-
-@pytest.mark.parametrize("solid", [SOLID, SERIES])
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH])
-def test_the_depth_found_for_a_load_carries_that_load(scene, solid):
-    fixed = MDR(extent=4e-3)
-    for speed in (0.0, 1e-3, 0.3, 100.0):
-        by_load = fixed.solve(replace(scene, elastomer=solid, motion=Slide(speed=speed, load=1.0)))
-        by_depth = fixed.solve(replace(scene, elastomer=solid, motion=Slide(speed=speed, depth=by_load.depth)))
-        assert by_depth.normal_force == pytest.approx(1.0, rel=ROUNDING)
-        assert by_depth.friction_force == pytest.approx(by_load.friction_force, rel=ROUNDING)
-
-
-@pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e9])
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
-def test_results_do_not_depend_on_the_units(scene, scale):
-    # Lengths scale; forces scale with their square.
-    rough = scene.roughness and replace(
-        scene.roughness,
-        rms_height=scene.roughness.rms_height * scale,
-        longest=scene.roughness.longest * scale,
-        shortest=scene.roughness.shortest and scene.roughness.shortest * scale,
-    )
-    scaled = MDR().solve(
-        Scene(Sphere(radius=RADIUS * scale), SERIES, Slide(speed=0.3 * scale, load=scale**2), rough)
-    )
-    plain = MDR().solve(replace(scene, elastomer=SERIES))
-    assert scaled.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=ROUNDING)
-    assert scaled.depth / scale == pytest.approx(plain.depth, rel=ROUNDING)
-    # Times count over the speed, moduli over the load.
-    stiff = replace(
-        SERIES,
-        equilibrium_modulus=SERIES.equilibrium_modulus * scale,
-        moduli=tuple(modulus * scale for modulus in SERIES.moduli),
-        relaxation_times=tuple(time / scale for time in SERIES.relaxation_times),
-    )
-    other = MDR().solve(replace(scene, elastomer=stiff, motion=Slide(speed=0.3 * scale, load=scale)))
-    assert other.friction_coefficient == pytest.approx(plain.friction_coefficient, rel=ROUNDING)
-    assert other.depth == pytest.approx(plain.depth, rel=ROUNDING)
-
-
-def test_at_rest_the_relaxed_solid_alone_counts():
-    elastic = MDR().solve(replace(ROUGH, elastomer=Elastic(modulus=RUBBERY)))
-    for solid in (SOLID, SERIES, BROAD, CHAIN):
-        for motion in (Indent(load=1.0), Slide(speed=0.0, load=1.0), Slide(speed=1e-30, load=1.0)):
-            assert MDR().solve(replace(ROUGH, elastomer=solid, motion=motion)).depth == pytest.approx(
-                elastic.depth, rel=ROUNDING
-            )

@@ -78,7 +78,10 @@ def broken(line: Line, contact: Contact) -> list[str]:
     """Which conditions of contact do not hold, of: no penetration, no pull, no force at a distance."""
     clearance = contact.displacement - (line.depth - line.heights)
     length, push = contact.pushed.T
-    most = push.max()
+    most, held = push.max(), np.flatnonzero(length)
+    # Intervals between two nodes that touch are touched throughout.
+    whole = contact.touching[:-1] & contact.touching[1:]
+    ends = np.array([contact.first, contact.last]) / line.pixel - held[[0, -1]]
     return [
         name
         for name, holds in {
@@ -88,7 +91,12 @@ def broken(line: Line, contact: Contact) -> list[str]:
             "p >= 0": np.all(push >= -ROUNDING * most),
             "p = 0 off contact": np.all(push[length == 0] == 0),
             "the sum of p is the force": abs(push.sum() - contact.force) <= ROUNDING * push.sum(),
-            "contact is within the line": 0 <= contact.length <= line.pixel * (len(length) + ROUNDING),
+            "lengths add up": abs(length.sum() - contact.length) <= ROUNDING * contact.length,
+            "contact is within its intervals": np.all(length <= line.pixel * (1 + ROUNDING)),
+            "contact between nodes that touch": np.allclose(length[whole], line.pixel, rtol=ROUNDING),
+            "contact starts and ends where it is held": np.all(np.abs(ends - 0.5) <= 0.5 + 1e-9),
+            "contact is no longer than its span": contact.length
+            <= (contact.last - contact.first) * (1 + ROUNDING) + ROUNDING * line.pixel,
         }.items()
         if not holds
     ]
@@ -121,13 +129,14 @@ def test_the_conditions_of_contact_can_be_broken():
 @examples(150)
 @given(lines(), solids, SPEEDS, decades(-9, 0.2))
 def test_a_deeper_contact_carries_more(line, solid, speed, more):
-    """The force rises with the depth, at least as its stiffness says: it is convex. To rounding of the sums."""
+    """The force is convex in the depth and lies between its tangents at both, to rounding of the sums."""
     deeper = line._replace(depth=line.depth * (1 + more))
     shallow, deep = flowed(line, solid, speed), flowed(deeper, solid, speed)
     rounding = ROUNDING * deep.force
     assert deep.force >= shallow.force - rounding
-    run = deeper.depth - line.depth
-    assert shallow.stiffness * run <= (deep.force - shallow.force) * (1 + ROUNDING) + rounding
+    run, rise = deeper.depth - line.depth, deep.force - shallow.force
+    assert shallow.stiffness * run <= rise * (1 + ROUNDING) + rounding
+    assert rise <= deep.stiffness * run * (1 + ROUNDING) + rounding
     assert np.all(deep.displacement >= shallow.displacement - ROUNDING * deeper.depth)
 
 
@@ -271,13 +280,21 @@ def solved(scene):
 @examples(150)
 @given(bodies(), units())
 def test_every_answer_has_forces_of_the_right_sign_and_the_load_asked_for(scene, unit):
-    """F_N > 0, F_x >= 0, zero for an elastic solid or at rest, a line force >= 0, the load met to 1e-10."""
+    """F_N > 0, F_x >= 0, zero for an elastic solid or at rest, by a line force >= 0; the load met to 1e-10."""
     result = solved(rescaled(scene, **unit))
     assert np.isfinite([result.normal_force, result.friction_force, result.depth]).all()
     assert not np.isnan(list(result.measures.values())).any()
     assert result.normal_force > 0
     assert result.friction_force >= 0
-    assert np.all(result.fields["line_force"] >= -ROUNDING * result.fields["line_force"].max())
+    force, pixel = result.fields["line_force"], result.measures["pixel"]
+    slopes = np.diff(result.fields["profile"]) / pixel
+    assert np.all(force >= -ROUNDING * force.max())
+    assert force.sum() * pixel == pytest.approx(result.normal_force, rel=ROUNDING)
+    steep = np.abs(slopes).max() * result.normal_force
+    for friction in (result.measures["friction_by_traction"], result.friction_force):
+        assert -(slopes @ force[:-1]) * pixel == pytest.approx(friction, rel=1e-9, abs=ROUNDING * steep)
+    leading = force[:-1][slopes < 0].sum() * pixel / result.normal_force
+    assert result.measures["load_on_leading_flanks"] == pytest.approx(leading, rel=ROUNDING)
     if isinstance(scene.elastomer, Elastic) or scene.motion.speed == 0:
         assert result.friction_force == 0
     assert result.residual <= MET
