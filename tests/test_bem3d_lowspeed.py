@@ -1,6 +1,7 @@
 """Friction at low speed: in three dimensions the curvature under the static pressure, in one the squared slope."""
 
 from dataclasses import replace
+from functools import cache
 from math import nan, pi, sqrt, tan
 
 import numpy as np
@@ -45,6 +46,7 @@ TIP = 4e-3
 GRID = 0.01
 
 
+@cache
 def curvature(scene, points=128):
     return BEM(points=points).solve(scene).measures["curvature_by_pressure"]
 
@@ -55,7 +57,7 @@ def slow(scene, loss):
     return replace(scene, motion=Slide(speed=loss / q_s / mean_lag(scene.elastomer), load=scene.motion.load))
 
 
-@pytest.mark.parametrize("speed", [0.0, 1e-2, 10.0])
+@pytest.mark.parametrize("speed", [0.0, 10.0])
 @pytest.mark.parametrize(
     ("indenter", "pressed"), [(Sphere(radius=R), {"load": 1.0}), (Cylinder(radius=R), {"line_load": 100.0})]
 )
@@ -80,7 +82,7 @@ def test_a_cone_is_curved_by_half_pi_tan_theta_over_a_to_first_order_in_the_pixe
     np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), 1.0, atol=0.05)
 
 
-@pytest.mark.parametrize("exponent", [1.5, 3.0, 4.0])
+@pytest.mark.parametrize("exponent", [1.5, 4.0])
 def test_smooth_bodies_are_curved_as_their_slow_friction_says(exponent):
     scene = Scene(
         PowerLaw(coefficient=1.0 * 1e-3 ** (1.5 - exponent), exponent=exponent), KELVIN, Indent(load=1.0)
@@ -98,19 +100,18 @@ def test_rough_bodies_are_curved_alike_on_any_grid_that_resolves_them(scene):
     assert fine > 2 * smooth  # the roughness decides
 
 
-@pytest.mark.parametrize("elastomer", [KELVIN, SOLID])
-@pytest.mark.parametrize("scene", ROUGH_SCENES)
+@pytest.mark.parametrize(("scene", "elastomer"), [(ROUGH_SCENES[0], KELVIN), (ROUGH_SCENES[1], SOLID)])
 def test_slow_friction_in_three_dimensions_is_the_curvature_under_the_pressure_at_rest(scene, elastomer):
-    scene = replace(scene, elastomer=elastomer)
     ratios = []
     for loss in (0.01, 1.0):
-        slid = slow(scene, loss)
+        slid = slow(replace(scene, elastomer=elastomer), loss)
         law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
         ratios.append(BEM(points=256).solve(slid).friction_force / law)
     assert ratios[0] == pytest.approx(1.0, abs=GRID)
     assert ratios[1] < 1 - 2 * GRID  # a law for low speeds alone
 
 
+@pytest.mark.slow
 def test_slow_friction_misses_the_law_by_less_on_a_finer_grid():
     scene = ROUGH_SCENES[0]
     slid = slow(scene, 0.01)
@@ -119,8 +120,7 @@ def test_slow_friction_misses_the_law_by_less_on_a_finer_grid():
     assert fine < 0.6 * coarse
 
 
-@pytest.mark.parametrize("elastomer", [KELVIN, SOLID])
-@pytest.mark.parametrize("scene", ROUGH_SCENES)
+@pytest.mark.parametrize(("scene", "elastomer"), [(ROUGH_SCENES[0], KELVIN), (ROUGH_SCENES[1], SOLID)])
 def test_on_a_coarse_grid_slow_friction_is_known_by_curvature_and_not_by_the_energy_lost(scene, elastomer):
     slid = slow(replace(scene, elastomer=elastomer), 1e-3)
     law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
@@ -183,14 +183,10 @@ def test_without_an_edge_slow_friction_is_the_energy_lost():
     slid = Scene(Plane(), KELVIN, Slide(speed=1e-6, pressure=1e6), CrossedWaves(amplitude=1e-6, wavelength=1e-3))
     answer = BEM(points=32).solve(slid)
     assert answer.measures["contact_fraction"] == 1
-    force, loss, curvature = (
-        answer.friction_force,
-        answer.measures["friction_by_loss"],
-        answer.measures["friction_by_curvature"],
-    )
+    loss = answer.measures["friction_by_loss"]
     # Differences of slopes on 32 points leave more than this between the two.
-    assert abs(curvature / loss - 1) > 1e-5
-    assert abs(force / loss - 1) < ROUNDING
+    assert abs(answer.measures["friction_by_curvature"] / loss - 1) > 1e-5
+    assert abs(answer.friction_force / loss - 1) < ROUNDING
 
 
 @pytest.mark.parametrize(
@@ -204,16 +200,17 @@ def test_estimates_disagree_as_far_as_they_count(lag, slowness, most):
 
 def test_a_plane_in_partial_contact_follows_the_law_too():
     scene = Scene(Plane(), KELVIN, Indent(pressure=2e4), replace(ROUGH, shortest=5e-4))
-    at_rest = BEM(points=256).solve(scene)
+    at_rest = BEM(points=128).solve(scene)
     assert 0.1 < at_rest.measures["contact_fraction"] < 0.9
     slid = replace(scene, motion=Slide(speed=0.02 * 5e-4 / (2 * pi) / TAU, pressure=2e4))
     law = slid.motion.speed * TAU * at_rest.measures["curvature_by_pressure"]
-    assert BEM(points=256).solve(slid).friction_coefficient == pytest.approx(law, rel=GRID)
+    assert BEM(points=128).solve(slid).friction_coefficient == pytest.approx(law, rel=GRID)
 
 
-@pytest.mark.parametrize("elastomer", [KELVIN, SOLID])
-@pytest.mark.parametrize("roughness", [None, ROUGH])
-@pytest.mark.parametrize("indenter", [Sphere(radius=R), Cone(angle=THETA)])
+@pytest.mark.parametrize(
+    ("indenter", "roughness", "elastomer"),
+    [(Sphere(radius=R), None, KELVIN), (Sphere(radius=R), ROUGH, SOLID), (Cone(angle=THETA), None, SOLID)],
+)
 def test_slow_friction_in_one_dimension_is_the_squared_slope_in_the_contact_at_rest(
     indenter, roughness, elastomer
 ):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.surface import RoughSurface
 from scene import Cone, Elastic, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 G, R, TAU = 1e6, 10e-3, 1e-3
@@ -31,60 +30,24 @@ def sphere_at(ratio, **other):
 
 
 @pytest.mark.parametrize(("ratio", "force", "friction"), [(0.1, 1.0036, 0.0936), (10.0, 4.522, 0.652)])
-@pytest.mark.parametrize("points", [36, 72])
-def test_kelvin_sphere_reaches_the_reference_values(ratio, force, friction, points):
-    result = across(points).solve(sphere_at(ratio))
+def test_kelvin_sphere_reaches_the_reference_values(ratio, force, friction):
+    result = across(36).solve(sphere_at(ratio))
     assert result.normal_force / HERTZ == pytest.approx(force, rel=PUBLISHED)
     assert result.friction_coefficient * R / A == pytest.approx(friction, rel=PUBLISHED)
 
 
-@pytest.mark.parametrize("ratio", [1e-5, 1e-3, 0.01, 1.0, 100.0, 1000.0])
-def test_every_speed_converges_to_the_stated_residual(ratio):
-    result = BEM(points=96).solve(sphere_at(ratio))
-    assert result.residual <= 1e-5
-    assert result.normal_force > HERTZ * 0.999
-    assert result.friction_force > 0
-
-
-def test_slow_sphere_has_friction_v_tau_over_R():
+@pytest.mark.parametrize(("ratio", "accuracy"), [(1e-300, SLOW), (1e-7, SLOW), (1e-3, 1e-3)])
+def test_slow_sphere_has_friction_v_tau_over_R(ratio, accuracy):
     # F_x -> v tau E* int_0^a g'^2 dx with g = x^2/R, so mu = v tau / R; half of what one dimension gives
-    # on pixels of 25 and 6 times the memory length: the next order of the speed is of 1e-3
-    for points in (96, 384):
-        found = BEM(points=points).solve(sphere_at(1e-3)).friction_coefficient
-        assert found == pytest.approx(1e-3 * A / R, rel=1e-3)
-
-
-def test_slow_cone_has_friction_half_pi_tan_theta_v_tau_over_a():
-    theta, a = np.radians(10), 1e-3
-    depth = np.pi / 2 * np.tan(theta) * a
-    scene = Scene(Cone(theta), Kelvin(G, TAU), Slide(speed=1e-3 * a / TAU, depth=depth))
-    expected = np.pi / 2 * np.tan(theta) * 1e-3
-    assert BEM(points=192).solve(scene).friction_coefficient == pytest.approx(expected, rel=SLOW)
-
-
-def test_slow_rough_sphere_has_friction_v_tau_times_the_curvature_under_the_static_pressure():
-    # first order in the speed: F_x = v tau int p d2z/dx2 dA, with the pressure of the contact at rest
-    surface = RoughSurface.draw(ROUGH, ROUGH.q_max(0.0))
-    speed, load, step = 0.01, 1.0, 1e-7
-    at_rest = BEM(points=128).solve(Scene(Sphere(R), Elastic(G), Slide(speed=speed, load=load), ROUGH))
-    x, y, p = (at_rest.fields[name] for name in ("x", "y", "pressure"))
-    curvature = 1 / R + (surface.slopes(x + step, y) - surface.slopes(x - step, y)) / (2 * step)
-    expected = speed * TAU * np.sum(p * curvature) / p.sum()
-    assert expected > 3 * speed * TAU / R  # the roughness decides
-    result = BEM(points=256).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=load), ROUGH))
-    assert result.friction_coefficient == pytest.approx(expected, rel=SLOW)
-
-
-def test_elastic_sphere_slides_without_friction_at_any_speed():
-    scene = Scene(Sphere(R), Elastic(G), Slide(speed=1.0, depth=D))
-    result = BEM(points=64).solve(scene)
-    assert abs(result.friction_coefficient) < 1e-12
+    # on pixels of 25 times the memory length: the next order of the speed is of 1e-3
+    found = BEM(points=96).solve(sphere_at(ratio)).friction_coefficient
+    assert found / ratio == pytest.approx(A / R, rel=accuracy)
 
 
 def test_rough_elastic_contact_slides_without_friction_which_by_traction_it_has_on_a_coarse_grid():
     scene = Scene(Sphere(R), Elastic(G), Slide(speed=1.0, depth=D), ROUGH)
     coarse, fine = (BEM(points=n, extent=6e-3).solve(scene) for n in (48, 192))
-    assert coarse.friction_force == fine.friction_force == 0
+    assert coarse.friction_force == fine.friction_force == coarse.measures["friction_by_loss"] == 0
     spurious = [abs(r.measures["friction_by_traction"] / r.normal_force) for r in (coarse, fine)]
     assert 0 < spurious[1] < spurious[0] / 4
 
@@ -98,31 +61,17 @@ def test_slow_friction_of_a_rough_contact_is_in_proportion_to_the_speed_over_ten
     assert mu[-1] / speeds[-1] == pytest.approx(mu[0] / speeds[0], rel=0.03)
 
 
-def test_smooth_slow_friction_is_in_proportion_to_the_speed_down_to_nothing():
-    mu = [BEM(points=64).solve(sphere_at(ratio)).friction_coefficient / ratio for ratio in (1e-300, 1e-100, 1e-7)]
-    np.testing.assert_allclose(mu, A / R, rtol=SLOW)
-
-
 @pytest.mark.parametrize(
     ("memory", "depth", "moment"),
     [(1e-4, 0.099824e-3, 0.045249e-3), (1e-3, 0.091508e-3, 0.157664e-3), (1e-2, 0.070553e-3, 0.041906e-3)],
 )
 def test_sphere_on_a_standard_linear_solid_agrees_with_two_other_codes(memory, depth, moment):
-    # memory = v tau_c, tau_c = 2 tau_e; force control at 0.533333 N, 192 points: 0.3 % in depth, 1 % in friction
+    # memory = v tau_c, tau_c = 2 tau_e; force control at 0.533333 N; a coarse grid is enough for the glass
     solid = StandardLinearSolid(G, 2 * G, TAU)
     scene = Scene(Sphere(R), solid, Slide(speed=memory / (2 * TAU), load=0.533333))
-    result = BEM(points=192).solve(scene)
+    result = BEM(points=48).solve(scene)
     assert result.depth == pytest.approx(depth, rel=3e-3)
-    assert result.friction_coefficient * R == pytest.approx(moment, rel=1e-2)
-
-
-def test_standard_linear_solid_equals_its_prony_form():
-    slide = Slide(speed=0.5, load=1.0)
-    one = BEM(points=64).solve(Scene(Sphere(R), StandardLinearSolid(G, 5 * G, TAU), slide, ROUGH))
-    other = BEM(points=64).solve(Scene(Sphere(R), Prony(G, (4 * G,), (TAU,)), slide, ROUGH))
-    split = BEM(points=64).solve(Scene(Sphere(R), Prony(G, (3 * G, G), (TAU, TAU)), slide, ROUGH))
-    assert other.friction_force == pytest.approx(one.friction_force, rel=1e-9)
-    assert split.friction_force == pytest.approx(one.friction_force, rel=1e-6)
+    assert result.friction_coefficient * R == pytest.approx(moment, rel=5e-3)
 
 
 def test_very_stiff_glass_behaves_as_kelvin():
@@ -134,6 +83,7 @@ def test_very_stiff_glass_behaves_as_kelvin():
     assert stiff.depth == pytest.approx(kelvin.depth, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [0.05, 0.5, 3.0])
 def test_rough_sphere_settles_as_the_pixel_shrinks(speed):
     scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=2.0), ROUGH)
@@ -142,8 +92,8 @@ def test_rough_sphere_settles_as_the_pixel_shrinks(speed):
     assert mu[1] == pytest.approx(mu[2], rel=0.02)
 
 
-@pytest.mark.parametrize(("length", "force"), [(1e-6, 1e9), (1e6, 1e-3), (3.7, 1.0)])
-def test_answers_scale_exactly_with_the_units(length, force):
+def test_answers_scale_exactly_with_the_units():
+    length, force = 1e-6, 1e9
     scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=1.0, load=1.0), ROUGH)
     other = Scene(
         Sphere(R * length),
@@ -151,7 +101,7 @@ def test_answers_scale_exactly_with_the_units(length, force):
         Slide(speed=length, load=force),
         replace(ROUGH, rms_height=5e-5 * length, longest=1e-2 * length, shortest=1e-3 * length),
     )
-    a, b = BEM(points=64).solve(scene), BEM(points=64).solve(other)
+    a, b = BEM(points=48).solve(scene), BEM(points=48).solve(other)
     assert b.friction_coefficient == pytest.approx(a.friction_coefficient, rel=1e-6)
     assert b.depth / length == pytest.approx(a.depth, rel=1e-6)
 
@@ -162,11 +112,10 @@ def test_roughness_of_no_height_is_no_roughness():
     assert flat.friction_force == smooth.friction_force
 
 
-@pytest.mark.parametrize("points", [97, 101])
-def test_odd_and_prime_grids_agree_with_even_ones(points):
+def test_a_prime_grid_agrees_with_an_even_one():
     scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=1.0, load=1.0), ROUGH)
     even = BEM(points=96, extent=5e-3).solve(scene)
-    odd = BEM(points=points, extent=5e-3).solve(scene)
+    odd = BEM(points=97, extent=5e-3).solve(scene)
     assert odd.friction_coefficient == pytest.approx(even.friction_coefficient, rel=0.02)
 
 
@@ -179,13 +128,17 @@ def test_a_finer_tolerance_changes_the_answer_by_no_more_than_the_looser_one_sta
     assert loose.depth == pytest.approx(tight.depth, rel=1e-4)
 
 
-@pytest.mark.parametrize("roughness", [None, ROUGH], ids=["smooth", "rough"])
 @pytest.mark.parametrize(
-    "solid",
-    [Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU / 10), Prony(G, (G, 9 * G), (TAU, TAU / 100))],
-    ids=["Kelvin", "standard linear", "two modes"],
+    ("solid", "roughness", "speed"),
+    [
+        (Kelvin(G, TAU), ROUGH, 1.0),
+        (Kelvin(G, TAU), None, 30.0),
+        (StandardLinearSolid(G, 10 * G, TAU / 10), None, 0.03),
+        (StandardLinearSolid(G, 10 * G, TAU / 10), ROUGH, 30.0),
+        (Prony(G, (G, 9 * G), (TAU, TAU / 100)), ROUGH, 0.03),
+    ],
+    ids=str,
 )
-@pytest.mark.parametrize("speed", [0.03, 1.0, 30.0])
 def test_friction_from_the_slope_and_from_the_energy_lost_agree(solid, speed, roughness):
     # two estimates from one pressure: on a Kelvin solid the second feels the singular edge of the contact
     tolerance = 0.05 if isinstance(solid, Kelvin) else 0.03
@@ -195,27 +148,13 @@ def test_friction_from_the_slope_and_from_the_energy_lost_agree(solid, speed, ro
     assert min(traction, loss) <= result.friction_force <= max(traction, loss)
 
 
-def test_nothing_is_lost_at_rest_or_in_an_elastic_solid():
-    for scene in (
-        Scene(Sphere(R), Elastic(G), Slide(speed=1.0, load=1.0), ROUGH),
-        sphere_at(0.0, roughness=ROUGH),
-    ):
-        assert BEM(points=48).solve(scene).measures["friction_by_loss"] == 0.0
-
-
-@pytest.mark.parametrize("memory", [1e-4, 1e-3, 1e-2])
-def test_a_coarse_grid_is_enough_where_the_glass_is_resolved(memory):
-    published = {1e-4: 0.045249e-3, 1e-3: 0.157664e-3, 1e-2: 0.041906e-3}[memory]
-    scene = Scene(Sphere(R), StandardLinearSolid(G, 2 * G, TAU), Slide(speed=memory / (2 * TAU), load=0.533333))
-    result = BEM(points=48).solve(scene)
-    assert result.friction_coefficient * R == pytest.approx(published, rel=5e-3)
-
-
-@pytest.mark.parametrize("speed", [1e-3, 0.1, 1.0, 10.0, 1e3])
+@pytest.mark.parametrize("speed", [1e-5, 1e-3, 0.1, 1.0, 10.0, 1e3])
 @pytest.mark.parametrize("roughness", [None, replace(ROUGH, shortest=4e-4)], ids=["smooth", "rough"])
-def test_the_work_of_a_solve_is_bounded_at_every_speed(speed, roughness):
+def test_every_speed_converges_by_a_bounded_work(speed, roughness):
     # operator applications in equivalents of the finest grid, those spent on finding the window included
-    result = BEM(points=256).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=10.0), roughness))
+    result = BEM(points=96).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=10.0), roughness))
+    assert result.residual <= 1e-5
+    assert result.friction_force > 0
     assert result.applications <= WORK
 
 

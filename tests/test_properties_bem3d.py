@@ -28,7 +28,7 @@ from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
 from bem3d.sliding import Flow
-from scene import CrossedWaves, Plane, Program, Prony, Scene, Slide, SolveError, Stage, StandardLinearSolid
+from scene import Prony, SolveError
 
 POINTS = 32
 # Of the depth of the lowest point: to what the conditions of contact are solved here.
@@ -48,26 +48,17 @@ class Pressed(NamedTuple):
     def grid(self):
         return Grid(len(self.heights), float(len(self.heights)))
 
-    def solved(self, depth=None):
-        load = self.load if depth is None else None
-        medium, grid = self.medium, self.grid
-        return solved(self.heights, medium.operator(grid), medium.preconditioners(grid), medium.flow, load, depth)
-
-
-def solved(heights, operator, preconditioners, flow, load, depth=None):
-    if depth is not None and depth <= heights.min():
-        reject()
-    start = contact.first_guess(heights, heights.size // 4)
-    return contact.solve(
-        operator,
-        heights,
-        start / np.sqrt(np.count_nonzero(start)),
-        TOLERANCE,
-        depth=depth,
-        load=load,
-        precondition=preconditioners,
-        symmetric=flow.at_rest,
-    )
+    def solved(self):
+        start = contact.first_guess(self.heights, self.heights.size // 4)
+        return contact.solve(
+            self.medium.operator(self.grid),
+            self.heights,
+            start / np.sqrt(np.count_nonzero(start)),
+            TOLERANCE,
+            load=self.load,
+            precondition=self.medium.preconditioners(self.grid),
+            symmetric=self.medium.flow.at_rest,
+        )
 
 
 def waves(seed, count=POINTS):
@@ -111,7 +102,7 @@ def broken(pressed: Pressed, found: contact.Contact, load=None) -> list[str]:
     ]
 
 
-@examples(120)
+@examples(36)
 @given(presses())
 def test_contact_neither_penetrates_nor_pulls_and_pushes_only_where_it_touches(pressed):
     """p >= 0, gap >= 0, p * gap = 0 and the load, with the gap computed again from the pressure: to the tolerance
@@ -140,25 +131,15 @@ def alike(pressure, other):
     return np.abs(pressure - other).max() <= ALIKE * max(pressure.max(), other.max())
 
 
-@examples(50)
-@given(presses(media=(HalfSpace,)), decades(-4, 0))
-def test_a_deeper_contact_carries_more(pressed, more):
-    """sum p rises with d: of two answers (p2 - p1) (w2 - w1) <= 0 on every point, and the operator is definite."""
-    shallow = pressed.solved()
-    deep = pressed.solved(depth=shallow.depth + more * np.ptp(pressed.heights))
-    assert broken(pressed, deep) == []
-    assert deep.pressure.sum() >= shallow.pressure.sum() * (1 - ALIKE)
-
-
-@examples(50)
+@examples(12)
 @given(presses(), decades(-4, 0))
 def test_a_heavier_contact_is_deeper(pressed, more):
-    """The same the other way round, of cells too, where full contact has no depth of its own."""
+    """d rises with sum p: of two answers (p2 - p1) (w2 - w1) <= 0 on every point, and the operator is definite."""
     light, heavy = pressed.solved(), pressed._replace(load=pressed.load * (1 + more)).solved()
     assert heavy.depth >= light.depth - ALIKE * np.ptp(pressed.heights)
 
 
-@examples(60)
+@examples(12)
 @given(presses(media=(Cell,)), st.tuples(st.integers(0, POINTS), st.integers(0, POINTS)))
 def test_a_repeated_surface_moved_by_whole_pixels_has_the_pressure_moved_as_far(pressed, by):
     """At rest and in any flow: a cell has no origin."""
@@ -168,7 +149,7 @@ def test_a_repeated_surface_moved_by_whole_pixels_has_the_pressure_moved_as_far(
     assert alike(np.roll(here.pressure, by, (0, 1)), there.pressure)
 
 
-@examples(60)
+@examples(12)
 @given(presses(elastomers=elastic()))
 def test_at_rest_no_direction_is_special(pressed):
     """Turned by 90 degrees and mirrored, the surface has its pressure turned and mirrored."""
@@ -179,50 +160,21 @@ def test_at_rest_no_direction_is_special(pressed):
         assert alike(turned(here.pressure), there.pressure)
 
 
-@examples(60)
-@given(presses(elastomers=viscoelastic()))
-def test_across_the_flow_a_surface_may_be_mirrored(pressed):
-    """The flow is along x alone: mirrored in y, the pressure is mirrored in y."""
-    here = pressed.solved()
-    there = pressed._replace(heights=np.ascontiguousarray(pressed.heights[::-1])).solved()
-    assert alike(here.pressure[::-1], there.pressure)
-
-
-@examples(60)
+@examples(12)
 @given(presses(elastomers=viscoelastic(), media=(Cell,)))
 def test_the_mirrored_surface_slid_the_other_way_has_the_mirrored_answer(pressed):
-    """Memories of negative length are those of a flow along -x."""
+    """Memories of negative length are those of a flow along -x; mirrored in y the answer is mirrored in y."""
     flow = pressed.medium.flow
     other_way = replace(pressed.medium, flow=replace(flow, lengths=-flow.lengths))
     here = pressed.solved()
+    across = pressed._replace(heights=np.ascontiguousarray(pressed.heights[::-1])).solved()
+    assert alike(here.pressure[::-1], across.pressure)
     there = Pressed(np.ascontiguousarray(pressed.heights[:, ::-1]), other_way, pressed.load).solved()
     assert there.depth == pytest.approx(here.depth, abs=ALIKE * np.ptp(pressed.heights))
     assert alike(here.pressure[:, ::-1], there.pressure)
 
 
-@examples(60)
-@given(presses(elastomers=viscoelastic()))
-def test_sliding_along_y_is_sliding_along_x_of_the_surface_on_its_side(pressed):
-    """With the operator on its side too, contact is the same: it knows of no direction."""
-
-    def on_its_side(product):
-        def turned(values, out=None):
-            image = product(np.ascontiguousarray(values.T)).T
-            if out is None:
-                return image
-            out[:] = image
-            return out
-
-        return turned
-
-    medium, grid = pressed.medium, pressed.grid
-    factors = [on_its_side(factor) for factor in medium.preconditioners(grid)]
-    heights = np.ascontiguousarray(pressed.heights.T)
-    there = solved(heights, on_its_side(medium.operator(grid)), factors, medium.flow, pressed.load)
-    assert alike(pressed.solved().pressure, there.pressure.T)
-
-
-@examples(60)
+@examples(12)
 @given(presses(elastomers=viscoelastic()))
 def test_a_pressure_never_gains_energy_from_the_flow(pressed):
     """sum p dw/dx, the energy lost per length slid, of the pressure of a contact and of any other.
@@ -236,7 +188,7 @@ def test_a_pressure_never_gains_energy_from_the_flow(pressed):
         assert np.sum(p * image) >= -ROUNDING * np.sum(np.abs(p)) * np.abs(image).max()
 
 
-@examples(60)
+@examples(12)
 @given(viscoelastic(), decades(-6, 6), st.integers(0, 100))
 def test_work_from_pixel_to_pixel_is_the_energy_lost_to_second_order_in_the_pixel(solid, speed, seed):
     """Of a pressure with waves of 2 pi / q pixels and more, (1 - q^2/6) loss <= work <= loss: sin(q) for q."""
@@ -247,7 +199,7 @@ def test_work_from_pixel_to_pixel_is_the_energy_lost_to_second_order_in_the_pixe
     assert (1 - longest_step) * loss * (1 - ROUNDING) <= work <= loss * (1 + ROUNDING)
 
 
-@examples(40)
+@examples(12)
 @given(presses(elastomers=viscoelastic()))
 def test_of_a_flow_and_its_reverse_each_is_the_adjoint_of_the_other(pressed):
     """Reciprocity: what p does to the work of q in a flow, q does to that of p in the reverse one; to rounding."""
@@ -267,7 +219,7 @@ def answer(scene, solver=SOLVER):
         reject()
 
 
-@examples(40)
+@examples(12)
 @given(planes(), units())
 def test_every_plane_has_forces_of_the_right_sign_and_the_pressure_asked_for(scene, unit):
     """F_N as asked, p >= 0, F_x >= 0 but for the disagreement of its estimates, and zero of an elastic solid."""
@@ -277,7 +229,7 @@ def test_every_plane_has_forces_of_the_right_sign_and_the_pressure_asked_for(sce
     assert result.measures["mean_pressure"] == pytest.approx(scene.motion.pressure, rel=1e-9)
 
 
-@examples(12)
+@examples(4)
 @given(bodies(ratio=4), units())
 def test_every_body_has_forces_of_the_right_sign_and_the_load_asked_for(scene, unit):
     """The same of bodies of revolution, on windows that are found."""
@@ -324,7 +276,7 @@ def same(one, other, length=1.0, modulus=1.0):
     )
 
 
-@examples(20)
+@examples(6)
 @given(planes(), powers_of_two())
 def test_units_change_no_bit_of_a_plane(scene, by):
     """Lengths times L, moduli times M: pressures times M, forces times M L^2, depths times L. Powers of two are
@@ -335,14 +287,7 @@ def test_units_change_no_bit_of_a_plane(scene, by):
     assert there.friction_coefficient == here.friction_coefficient
 
 
-@examples(20)
-@given(planes(), units())
-def test_forces_scale_with_modulus_and_length_squared(scene, unit):
-    """In any units, to what the tolerance leaves open."""
-    assert same(answer(scene), answer(rescaled(scene, **unit)), unit["length"], unit["modulus"])
-
-
-@examples(20)
+@examples(6)
 @given(planes(), decades(-6, 6), decades(-6, 6), evenly(-0.9, 0.5))
 def test_only_v_tau_and_pressure_over_modulus_count(scene, faster, stiffer, nu):
     """Speed times c and times over c, another Poisson ratio at the same E*: the same contact."""
@@ -352,7 +297,7 @@ def test_only_v_tau_and_pressure_over_modulus_count(scene, faster, stiffer, nu):
     assert same(answer(scene), answer(other), modulus=stiffer)
 
 
-@examples(15)
+@examples(5)
 @given(
     planes(),
     st.lists(st.tuples(decades(-2, 4), decades(-3, 3)), min_size=2, max_size=4),
@@ -366,24 +311,3 @@ def test_modes_may_stand_in_any_order_and_be_split(scene, branches, share):
     in_order, backwards, in_parts = (answer(replace(scene, elastomer=solid)) for solid in solids)
     assert same(in_order, backwards)
     assert same(in_order, in_parts)
-
-
-# Of rms slope and rms height: a march on 16 points keeps a pressure for a pixel. Measured over 8 starts: 1.0e-2 in
-# friction, which is a tenth of the rms slope there, and 1.8e-2 in depth.
-MARCHED = 2.5e-2
-
-
-@examples(4)
-@given(decades(-0.5, 0.5), decades(0, 0.5), decades(-0.5, 0.5))
-def test_a_march_at_constant_speed_ends_in_the_steady_contact(speed, ratio, load):
-    """Galilean invariance: an indenter moved over material that stays is a flow past an indenter that stays, once
-    the start is forgotten."""
-    solid, waved = StandardLinearSolid(0.25, 0.25 * (1 + ratio), 1.0), CrossedWaves(amplitude=0.02, wavelength=1.0)
-    steady = Scene(Plane(), solid, Slide(speed=speed, pressure=0.05 * load), waved)
-    start = Stage(duration=0.5, pressure=0.05 * load)
-    program = Program(stages=(start, Stage(duration=4 * (1 + ratio), speed=speed)))
-    solver = BEM(points=16, steps=20)
-    flowing, marched = solver.solve(steady), solver.solve(replace(steady, motion=program))
-    steep, high = flowing.measures["rms_slope"], flowing.measures["rms_height"]
-    assert marched.friction_coefficient == pytest.approx(flowing.friction_coefficient, abs=MARCHED * steep)
-    assert marched.depth == pytest.approx(flowing.depth, abs=MARCHED * high)
