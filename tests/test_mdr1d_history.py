@@ -5,42 +5,14 @@ from math import atan
 
 import numpy as np
 import pytest
+from unit_solids import BALL, CYCLES, ELASTIC, KELVIN, ROUGH, ROUNDING, SERIES, SOLID, SOLIDS
 
 from compare.exact import indentation
 from mdr1d import MDR
 from mdr1d.timeline import timeline
-from scene import (
-    Cone,
-    Elastic,
-    Fractional,
-    Indent,
-    Kelvin,
-    KelvinChain,
-    PowerLaw,
-    Program,
-    Prony,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
-)
+from scene import Cone, Elastic, Indent, PowerLaw, Program, Prony, Scene, Slide, SolveError, Sphere, Stage
 
-# E* = 4G: moduli of indentation of 1 at rest and 5 at first.
-SOLID = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=1.25, relaxation_time=1.0)
-ELASTIC = Elastic(0.25)
-KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
-SERIES = Prony(equilibrium_modulus=0.25, moduli=(1.0, 0.5, 20.0), relaxation_times=(1.0, 10.0, 0.02))
-CHAIN = KelvinChain(instantaneous_compliance=0.0, compliances=(3.0, 1.0), retardation_times=(1.0, 0.03))
-GLASSY = {"standard": SOLID, "series": SERIES}
-SOLIDS = {"elastic": ELASTIC, "kelvin": KELVIN, **GLASSY, "chain with a dashpot": CHAIN}
-BALL, CONE = Sphere(1.0), Cone(atan(1.0))
-ROUGH = SelfAffine(hurst=0.7, rms_height=1e-3, longest=1.0, shortest=0.02, seed=3)
-
-# Sums of some thousand terms over some hundred steps.
-ROUNDING = 1e-11
+CONE = Cone(atan(1.0))
 # Between two times at which it just touches, the chord of a convex recovery presses in. Measured: 1.3e-4.
 CHORD = 1e-3
 # Orders fitted over two octaves, of errors that jump with the place of the contact's edge in its pixel.
@@ -61,15 +33,7 @@ def order(sizes, errors):
 
 
 INDENTED = ((2.0, {"depth": 0.2}), (0.2, {"depth": 0.18}), (0.3, {"depth": 0.15}))
-# Loading, lift-off to separation, recovery, touch again, lift-off within one step, full depth at once.
-CYCLES = {
-    "depth": ((1.0, 0.2), (0.2, 0.02), (0.5, 0.02), (0.3, 0.1), (0.1, 0.0), (1.0, 0.15), (1e-6, 0.16)),
-    "load": ((1.0, 0.1), (0.2, 0.0), (0.5, 0.0), (0.3, 0.05), (0.1, 0.01), (1.0, 0.12)),
-}
-
-
-def cycle(by):
-    return program(*((duration, {by: value}) for duration, value in CYCLES[by]))
+CYCLE = program(*((duration, {"depth": depth}) for duration, depth in CYCLES["depth"]))
 
 
 @pytest.mark.parametrize(
@@ -92,23 +56,13 @@ def test_the_error_of_unloading_is_of_second_order_in_the_pixel():
     assert order(1 / points, errors) == pytest.approx(ORDER, abs=SPREAD)
 
 
-@pytest.mark.parametrize("solid", GLASSY)
-@pytest.mark.parametrize("shape", [BALL, CONE, PowerLaw(coefficient=1.0, exponent=4.0)])
+@pytest.mark.parametrize(("solid", "shape"), [(SOLID, CONE), (SERIES, PowerLaw(coefficient=1.0, exponent=4.0))])
 def test_a_depth_that_rises_and_is_held_gives_the_force_of_lee_and_radok(solid, shape):
-    result = solved(program((1.0, {"depth": 0.1}), (3.0, {})), GLASSY[solid], shape, points=4000)
+    result = solved(program((1.0, {"depth": 0.1}), (3.0, {})), solid, shape, points=4000)
     times, force = result.fields["time"], result.fields["normal_force"]
-    exact = indentation.loading_force(shape, GLASSY[solid], [0, 1, 4], [0, 0.1, 0.1], times)
+    exact = indentation.loading_force(shape, solid, [0, 1, 4], [0, 0.1, 0.1], times)
     late = times > 0.2  # a fifth of the depth
     np.testing.assert_allclose(force[late], exact[late], rtol=1e-5)  # the grid, at some 1000 points in contact
-
-
-def test_a_fractional_solid_relaxes_as_its_modes_do():
-    solid = Fractional(
-        modulus=0.25, relaxation_time=1.0, exponent=0.4, lowest_frequency=1e-2, highest_frequency=1e2
-    )
-    result = solved(program((1.0, {"depth": 0.1}), (3.0, {})), solid, points=4000)
-    exact = indentation.loading_force(BALL, solid, [0, 1, 4], [0, 0.1, 0.1], 4.0)
-    assert result.normal_force == pytest.approx(exact[0], rel=1e-5)
 
 
 def test_with_a_dashpot_the_force_is_that_of_lee_and_radok_to_a_pixel():
@@ -119,25 +73,13 @@ def test_with_a_dashpot_the_force_is_that_of_lee_and_radok_to_a_pixel():
     np.testing.assert_allclose(force[late], exact[late], rtol=3 / 8000 / 0.4)
 
 
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize("solid", ["kelvin", "series"])
 def test_a_prescribed_depth_has_no_error_in_time(solid):
-    few, many = (solved(cycle("depth"), SOLIDS[solid], points=200, steps=steps) for steps in (1, 500))
+    few, many = (solved(CYCLE, SOLIDS[solid], points=200, steps=steps) for steps in (1, 500))
     for name in ("work", "dissipated", "stored"):
         assert few.fields[name][-1] == pytest.approx(many.fields[name][-1], rel=ROUNDING)
     assert few.normal_force == pytest.approx(many.normal_force, rel=ROUNDING)
     np.testing.assert_allclose(few.fields["displacement"], many.fields["displacement"], atol=ROUNDING * 0.2)
-
-
-@pytest.mark.parametrize("by", CYCLES)
-@pytest.mark.parametrize("solid", SOLIDS)
-def test_work_of_the_indenter_is_what_is_stored_and_what_is_lost(solid, by):
-    result = solved(cycle(by), SOLIDS[solid], points=500)
-    work, lost, stored = (result.fields[name] for name in ("work", "dissipated", "stored"))
-    np.testing.assert_allclose(stored + lost, work, atol=1e-10 * work.max())
-    assert np.all(np.diff(lost) >= -ROUNDING * work.max())
-    assert np.all(stored >= 0)
-    assert result.fields["normal_force"].min() >= 0
-    assert lost[-1] == 0 if solid == "elastic" else lost[-1] > 0.01 * work[-1]
 
 
 def plainly(elastomer, approaches, step):
@@ -153,7 +95,7 @@ def plainly(elastomer, approaches, step):
     return instantaneous * force + w.sum()
 
 
-@pytest.mark.parametrize("solid", ["kelvin", "standard", "series", "chain with a dashpot"])
+@pytest.mark.parametrize("solid", ["series", "chain with a dashpot"])
 def test_a_plain_march_of_each_element_converges_to_the_history_at_its_order(solid):
     depths = np.array([0.2, 0.05, 0.12, 0.01, 0.15, 0.1])
     result = solved(program(*((0.5, {"depth": d}) for d in depths)), SOLIDS[solid], points=96, extent=1.2, steps=1)
@@ -170,7 +112,7 @@ def test_a_plain_march_of_each_element_converges_to_the_history_at_its_order(sol
 
 
 def test_an_elastic_foundation_follows_its_closed_form_and_has_no_history():
-    result = solved(cycle("depth"), ELASTIC)
+    result = solved(CYCLE, ELASTIC)
     depth, force = result.fields["depth"], result.fields["normal_force"]
     np.testing.assert_allclose(force, 4 / 3 * depth**1.5, atol=1e-6 * force.max())
     at_rest = solved(Indent(depth=0.16), ELASTIC)
@@ -191,7 +133,7 @@ def test_a_sudden_step_meets_the_glass():
     assert (after - before) / 1e-5 == pytest.approx(suddenly.measures["stiffness"], rel=1 / 1000)
 
 
-@pytest.mark.parametrize("solid", ["standard", "series", "chain with a dashpot"])
+@pytest.mark.parametrize("solid", ["standard", "chain with a dashpot"])
 def test_a_load_held_creeps_as_lee_and_radok_say_at_second_order_in_the_step(solid):
     # Where a time is resolved: the shortest of the series is a fiftieth of the ramp.
     motion, steps = program((1.0, {"load": 0.1}), (3.0, {})), np.array([100, 200, 400])
@@ -210,20 +152,19 @@ def test_a_kelvin_solid_creeps_to_a_pixel():
     assert result.depth == pytest.approx(exact[-1], rel=1e-5)
 
 
-@pytest.mark.parametrize("solid", ["elastic", "standard", "series"])
-def test_the_depths_found_under_a_load_give_the_load_back(solid):
-    found = solved(cycle("load"), SOLIDS[solid], points=300, steps=60)
+def test_the_depths_found_under_a_load_give_the_load_back():
+    found = solved(program((1.0, {"load": 0.1}), (0.2, {"load": 0.02}), (0.3, {})), SERIES, points=300, steps=30)
     times, depths, loads = (found.fields[name] for name in ("time", "depth", "normal_force"))
     durations = np.diff(times, prepend=0.0)
     motion = program(*((t, {"depth": d}) for t, d in zip(durations, depths, strict=True)))
     extent = found.settings["extent"]
-    back = solved(motion, SOLIDS[solid], points=300, extent=extent, steps=1)
+    back = solved(motion, SERIES, points=300, extent=extent, steps=1)
     again = np.interp(times, back.fields["time"], back.fields["normal_force"])
     # Steps as short as some 1e-3 of a relaxation time turn rounding of the depth into 1e-12 of force.
     np.testing.assert_allclose(again, loads, atol=1e-10 * loads.max())
 
 
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize("solid", ["elastic", "kelvin", "series"])
 def test_without_load_the_indenter_rests_on_the_surface_that_recovers(solid):
     motion = program((1.0, {"load": 0.1}), (0.2, {"load": 0.0}), (2.0, {}))
     result = solved(motion, SOLIDS[solid], points=500)
@@ -242,8 +183,10 @@ STARTED = {"points": 200, "extent": 2.0, "steps": 50}
 SPEED = 0.3
 
 
-@pytest.mark.parametrize("roughness", [None, ROUGH], ids=["smooth", "rough"])
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize(
+    ("solid", "roughness"),
+    [("elastic", ROUGH), ("kelvin", ROUGH), ("series", None), ("chain with a dashpot", ROUGH)],
+)
 def test_sliding_from_rest_ends_in_the_steady_friction_of_the_sweep(solid, roughness):
     # Three lengths of the grid: fresh elements all over. Averaged over a pixel of path, elements a pixel apart see
     # the very integral along the line.
@@ -261,7 +204,7 @@ def test_sliding_from_rest_ends_in_the_steady_friction_of_the_sweep(solid, rough
     np.testing.assert_allclose(kept, work, atol=1e-10 * work.max())
 
 
-@pytest.mark.parametrize("by", ["depth", "load"])
+@pytest.mark.parametrize("by", ["depth", pytest.param("load", marks=pytest.mark.slow)])
 def test_force_and_depth_of_sliding_tend_to_the_steady_ones_at_second_order(by):
     motion = program((1.0, {by: 0.1}), (20.0, {"speed": SPEED}))
     points, errors = np.array([100, 200, 400]), []
@@ -287,18 +230,7 @@ def test_friction_does_not_depend_on_where_in_a_pixel_the_program_ends():
     assert part == pytest.approx(whole, rel=1e-9)
 
 
-def test_a_faster_stage_drags_more_and_a_stop_forgets_the_path():
-    motion = program((1.0, {"depth": 0.1}), (10.0, {"speed": 0.01}), (3.0, {"speed": 0.1}), (30.0, {}))
-    result = solved(motion, points=300, extent=2.0)
-    time, friction = result.fields["time"], result.fields["friction_force"]
-    slow, fast = np.interp([11.0, 14.0], time, friction)
-    assert 0 < 2 * slow < fast
-    assert abs(friction[-1]) < 1e-3 * fast
-    at_rest = solved(Indent(depth=0.1), points=300, extent=2.0)
-    assert result.normal_force == pytest.approx(at_rest.normal_force, rel=1e-3)
-
-
-@pytest.mark.parametrize("by", CYCLES)
+@pytest.mark.parametrize("by", ["depth", "load"])
 def test_forces_and_depths_scale_over_twenty_decades(by):
     def scaled(length, time, modulus):
         solid = Prony(0.25 * modulus, (modulus, 20 * modulus), (time, 0.02 * time))
@@ -374,14 +306,13 @@ def test_what_cannot_be_followed_says_what_to_change():
         solved(program((1.0, {"depth": 0.1, "speed": 1e6})))
 
 
-@pytest.mark.parametrize("solid", ["elastic", *GLASSY])
-def test_a_load_lost_in_the_rounding_of_the_heights_is_no_answer(solid):
+def test_a_load_lost_in_the_rounding_of_the_heights_is_no_answer():
     light = program((1.0, {"load": 1e-25}), (1.0, {"speed": 0.01}))
     with pytest.raises(SolveError, match="differ by more than rounding allows"):
-        solved(light, SOLIDS[solid], roughness=ROUGH, points=50)
+        solved(light, roughness=ROUGH, points=50)
 
 
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize("solid", ["elastic", "kelvin"])
 def test_rough_contact_of_a_few_elements_is_no_answer(solid):
     # The steady sweep knows it on less than a pixel; elements a pixel apart miss the force between them.
     light = program((1.0, {"load": 1e-6}), (1.0, {"speed": 0.3}))

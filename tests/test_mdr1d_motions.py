@@ -6,39 +6,15 @@ import numpy as np
 import pytest
 from effects_page import closed_forms as motions
 from effects_page.track import harmonic
+from unit_solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
 from mdr1d import MDR, marching
 from mdr1d.timeline import timeline
-from scene import (
-    Elastic,
-    Kelvin,
-    KelvinChain,
-    Program,
-    Prony,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
-)
-
-# E* = 4G: moduli of indentation of 1 at rest and 5 at first.
-SOLID = StandardLinearSolid(rubbery_modulus=0.25, glassy_modulus=1.25, relaxation_time=1.0)
-KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
-SERIES = Prony(equilibrium_modulus=0.25, moduli=(1.0, 0.5, 20.0), relaxation_times=(1.0, 10.0, 0.02))
-CHAIN = KelvinChain(instantaneous_compliance=0.0, compliances=(3.0, 1.0), retardation_times=(1.0, 0.03))
-VISCOUS = {"standard": SOLID, "kelvin": KELVIN, "series": SERIES, "chain with a dashpot": CHAIN}
-SOLIDS = {"elastic": Elastic(0.25), **VISCOUS}
-BALL = Sphere(1.0)
-ROUGH = SelfAffine(hurst=0.7, rms_height=1e-3, longest=1.0, shortest=0.02, seed=3)
+from scene import Elastic, Program, Prony, Scene, Slide, SolveError, Stage, StandardLinearSolid
 
 DEPTH, SPEED = 0.1, 0.3
 A = np.sqrt(DEPTH)  # of the contact
-# Sums of some thousand terms over some hundred steps.
-ROUNDING = 1e-11
 
 
 def program(*stages):
@@ -66,8 +42,7 @@ def mirrored(motion):
 THERE_AND_BACK = program(pressed(), slid(1.3017), slid(-1.9003), {"duration": 0.3}, slid(0.7771))
 
 
-@pytest.mark.parametrize("roughness", [None, ROUGH], ids=["smooth", "rough"])
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize(("solid", "roughness"), [("kelvin", None), ("series", ROUGH)])
 def test_what_leaves_the_grid_is_found_again_as_if_the_grid_had_held_it(solid, roughness):
     near, far = (solved(THERE_AND_BACK, SOLIDS[solid], roughness, points=200 * n, extent=1.0 * n) for n in (1, 5))
     for name in ("normal_force", "friction_force", "depth", "contact_length", "work", "dissipated", "stored"):
@@ -77,19 +52,6 @@ def test_what_leaves_the_grid_is_found_again_as_if_the_grid_had_held_it(solid, r
     np.testing.assert_allclose(near.fields["displacement"], far.fields["displacement"][inside], atol=ROUNDING)
 
 
-def test_a_wake_that_is_forgotten_is_felt(monkeypatch):
-    right, follow = solved(THERE_AND_BACK), marching._Returning.follow
-
-    def forgetful(row, line, k):
-        row._behind = {1: [], -1: []}
-        return follow(row, line, k)
-
-    monkeypatch.setattr(marching._Returning, "follow", forgetful)
-    monkeypatch.setattr(marching, "_BALANCED", np.inf)
-    wrong = solved(THERE_AND_BACK)
-    assert np.abs(wrong.fields["normal_force"] - right.fields["normal_force"]).max() > 0.02
-
-
 def test_an_indenter_that_never_turns_back_keeps_nothing_behind(monkeypatch):
     monkeypatch.setattr(marching, "_Returning", None)
     solved(program(pressed(), slid(1.5), slid(0.5, 3 * SPEED)))
@@ -97,8 +59,7 @@ def test_an_indenter_that_never_turns_back_keeps_nothing_behind(monkeypatch):
         solved(program(pressed(), slid(-0.1)))
 
 
-@pytest.mark.parametrize("by", ["depth", "load"])
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize(("solid", "by"), [("elastic", "load"), ("series", "depth"), ("kelvin", "load")])
 def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(solid, by):
     motion = program(pressed(by), slid(0.4), slid(-0.9003, **{by: 0.8 * DEPTH}), slid(0.3, 2 * SPEED))
     one, other = solved(motion, SOLIDS[solid]), solved(mirrored(motion), SOLIDS[solid])
@@ -109,33 +70,17 @@ def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(solid,
     assert solid == "elastic" or one.friction_coefficient > 0.01
 
 
-def test_a_program_that_goes_backwards_first_is_the_mirror_image_of_one_that_goes_forwards():
-    forwards = program(pressed(), slid(2.0))
-    backwards = mirrored(forwards)
-    assert solved(backwards).friction_force == pytest.approx(-solved(forwards).friction_force, rel=1e-9)
-
-
-@pytest.mark.parametrize("solid", VISCOUS)
+@pytest.mark.parametrize("solid", ["kelvin", "series"])
 def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(solid):
-    steady = solved(Slide(speed=SPEED, depth=DEPTH), VISCOUS[solid])
+    steady = solved(Slide(speed=SPEED, depth=DEPTH), SOLIDS[solid])
     # the last 3 m are new to it, and the grid is 1 m long
-    result = solved(program(pressed(), slid(2.0), slid(-5.0)), VISCOUS[solid])
+    result = solved(program(pressed(), slid(2.0), slid(-5.0)), SOLIDS[solid])
     assert result.friction_force == pytest.approx(-steady.friction_force, rel=1e-9)
     at_turn = np.interp(1.0 + 2.0 / SPEED, result.fields["time"], result.fields["friction_force"])
     assert at_turn == pytest.approx(steady.friction_force, rel=1e-9)
 
 
-def test_a_solid_that_forgets_at_once_turns_its_friction_round_at_once():
-    quick = Kelvin(modulus=0.25, relaxation_time=1e-4)
-    result = solved(program(pressed(), slid(0.5), slid(-0.02)), quick, points=1000)
-    friction = result.fields["friction_force"]
-    steady = solved(Slide(speed=SPEED, depth=DEPTH), quick, points=1000).friction_force
-    before = np.searchsorted(result.fields["time"], 1.0 + 0.5 / SPEED) - 1
-    assert friction[before] == pytest.approx(steady, rel=1e-9)
-    assert friction[-1] == pytest.approx(-steady, rel=1e-3)
-
-
-@pytest.mark.parametrize("speeds", [(0.03, 0.3), (0.3, 0.03), (0.3, 0.0, 0.1)])
+@pytest.mark.parametrize("speeds", [(0.03, 0.3), (0.3, 0.0, 0.1)])
 def test_after_a_step_of_the_speed_friction_comes_to_that_of_the_new_one(speeds):
     stages = [slid(2.0, speed) if speed else {"duration": 3.0} for speed in speeds]
     result = solved(program(pressed(), *stages))
@@ -153,32 +98,24 @@ def approached(speed, approach, **settings):
 EXTENTS = np.linspace(1.0, 1.1, 5)
 
 
-@pytest.mark.parametrize(("speed", "approach"), [(0.0, 0.02), (0.02, 0.02), (0.3, 0.2), (3.0, 0.2)])
-def test_the_force_of_an_oblique_approach_on_a_kelvin_solid_is_the_closed_form(speed, approach):
-    found = [approached(speed, approach, points=600, extent=extent).normal_force for extent in EXTENTS]
-    force, _ = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)
-    # at the front of a dashpot an element carries its whole force at once: an edge is known to a pixel of 1/190
-    np.testing.assert_allclose(found, force, rtol=3 / 380)
-
-
-@pytest.mark.parametrize("points", [600, 2400])
-@pytest.mark.parametrize(("speed", "approach"), [(0.02, 0.02), (0.3, 0.2), (3.0, 0.2)])
-def test_friction_of_an_oblique_approach_is_the_closed_form_of_a_moment_ago(speed, approach, points):
-    for extent in EXTENTS:
-        result = approached(speed, approach, points=points, extent=extent)
+@pytest.mark.parametrize(("speed", "approach"), [(0.0, 0.02), (0.02, 0.02), (3.0, 0.2)])
+def test_an_oblique_approach_on_a_kelvin_solid_is_the_closed_form_friction_that_of_a_moment_ago(speed, approach):
+    now = DEPTH / approach
+    force, latest = motions.oblique(1.0, KELVIN, speed, approach, now)
+    for extent in EXTENTS[::2]:
+        result = approached(speed, approach, points=600, extent=extent)
+        # at the front of a dashpot an element carries its whole force at once: an edge is known to 1/190
+        assert result.normal_force == pytest.approx(force, rel=3 / 380)
+        if speed == 0:
+            assert abs(result.friction_force) < ROUNDING * result.normal_force
+            continue
         # the mean over the last pixel slid is half a pixel late, and each of two edges is met up to one later
-        pixel, now = result.settings["pixel"], DEPTH / approach
-        earlier, latest = (
-            motions.oblique(1.0, KELVIN, speed, approach, time)[1] for time in (now - 2.5 * pixel / speed, now)
-        )
+        pixel = result.settings["pixel"]
+        _, earlier = motions.oblique(1.0, KELVIN, speed, approach, now - 2.5 * pixel / speed)
         assert earlier < result.friction_force < latest
 
 
-def test_friction_of_an_approach_without_sliding_is_none():
-    result = approached(0.0, 0.02, points=600)
-    assert abs(result.friction_force) < ROUNDING * result.normal_force
-
-
+@pytest.mark.slow
 def test_friction_of_an_oblique_approach_converges_at_first_order_in_the_pixel():
     counts, speed, approach = np.array([300, 1200, 4800]), 0.3, 0.2
     exact = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)[1]
@@ -192,6 +129,7 @@ def test_friction_of_an_oblique_approach_converges_at_first_order_in_the_pixel()
 
 
 WORKED = {
+    **{by: program(*({"duration": time, by: value} for time, value in cycle)) for by, cycle in CYCLES.items()},
     "reversal": THERE_AND_BACK,
     "fretting": program(pressed(), *(slid(0.0237 * (-1) ** k) for k in range(20))),
     "reversal without load": program(pressed("load"), slid(0.3, load=0.0), slid(-0.4), slid(-0.1, load=DEPTH)),
@@ -204,8 +142,10 @@ WORKED = {
 }
 
 
-@pytest.mark.parametrize("motion", WORKED)
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize(
+    ("motion", "solid"),
+    [*((motion, "series") for motion in WORKED), ("reversal", "elastic"), ("load", "kelvin"), ("depth", "kelvin")],
+)
 def test_work_of_the_indenter_is_what_is_stored_and_what_is_lost(solid, motion):
     result = solved(WORKED[motion], SOLIDS[solid])
     work, lost, stored = (result.fields[name] for name in ("work", "dissipated", "stored"))
@@ -216,10 +156,10 @@ def test_work_of_the_indenter_is_what_is_stored_and_what_is_lost(solid, motion):
     assert np.all(lost == 0) if solid == "elastic" else lost[-1] > 0.01 * work.max()
 
 
-@pytest.mark.parametrize("solid", VISCOUS)
+@pytest.mark.parametrize("solid", ["kelvin", "series"])
 def test_friction_over_the_path_is_the_work_forwards_and_backwards(solid):
     """Over whole pixels of 1/200 the friction is the mean over the last one."""
-    result = solved(program(pressed(), slid(0.5), slid(-0.4), slid(0.2)), VISCOUS[solid])
+    result = solved(program(pressed(), slid(0.5), slid(-0.4), slid(0.2)), SOLIDS[solid])
     fields, pixel = result.fields, result.settings["pixel"]
     place = fields["path"] / pixel
     at_nodes = (np.abs(place - np.rint(place)) < 1e-6) & (fields["time"] > 1.0 + 1e-9)
@@ -244,7 +184,7 @@ def test_a_cycle_of_fretting_encloses_what_it_loses():
     assert abs(stored) < np.exp(-6) * work
 
 
-@pytest.mark.parametrize("solid", SOLIDS)
+@pytest.mark.parametrize("solid", ["elastic", "series"])
 def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it(solid):
     lifted, again = [pressed(), {"duration": 0.3, "depth": 0.0}], {"duration": 1.0, "depth": DEPTH}
     moved = solved(program(*lifted, slid(1.5, 1.5), slid(-1.5, 1.5), again), SOLIDS[solid])
@@ -272,8 +212,10 @@ def response(amplitude, omega, solid=SOLID, **settings):
     return harmonic(time, fields["normal_force"][late], omega) / amplitude  # the depth is a sine
 
 
-@pytest.mark.parametrize("omega", [0.2, 1.0, 5.0])
-@pytest.mark.parametrize("solid", [SOLID, Prony(0.25, (0.5, 5.0), (1.0, 0.05))], ids=["one mode", "two modes"])
+@pytest.mark.parametrize(
+    ("omega", "solid"),
+    [(0.2, Prony(0.25, (0.5, 5.0), (1.0, 0.05))), pytest.param(5.0, SOLID, marks=pytest.mark.slow)],
+)
 def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps_its_radius(omega, solid):
     # 410 pixels across the contact, and 200 steps a period at whose ends a mode much shorter is half a step late
     exact = motions.stiffness(A, solid, omega)
@@ -318,6 +260,7 @@ def test_an_amplitude_of_zero_costs_no_step():
     assert np.array_equal(timeline(still, 0.005, 50).times, timeline(plain, 0.005, 50).times)
 
 
+@pytest.mark.slow
 def test_friction_under_an_oscillating_load_departs_from_the_steady_one_at_second_order_of_the_amplitude():
     period, count = 0.5, 8
 
@@ -341,16 +284,15 @@ def test_too_many_periods_are_refused_with_what_to_change():
         solved(program(pressed(), slid(-1e6)))
 
 
-@pytest.mark.parametrize("path", [1e-3, 4.99999e-3, 0.005, 0.0123])
-@pytest.mark.parametrize("solid", ["kelvin", "series"])
+@pytest.mark.parametrize(("path", "solid"), [(1e-3, "series"), (4.99999e-3, "kelvin"), (0.005, "series")])
 def test_a_reversal_within_the_first_pixels_is_followed_as_by_far_smaller_ones(solid, path):
     motion = program(pressed(), slid(path), slid(-2 * path), slid(path))
-    coarse, fine = (solved(motion, VISCOUS[solid], points=points) for points in (200, 800))
+    coarse, fine = (solved(motion, SOLIDS[solid], points=points) for points in (200, 800))
     assert coarse.normal_force == pytest.approx(fine.normal_force, rel=2 / 126)  # edges, known to an element
     assert coarse.fields["path"][-1] == pytest.approx(0.0, abs=1e-15)
 
 
-@pytest.mark.parametrize("time", [1e-9, 1e-4, 1e4, 1e9])
+@pytest.mark.parametrize("time", [1e-9, 1e9])
 def test_reversal_of_the_shortest_and_longest_memories_loses_nothing(time):
     solid = StandardLinearSolid(0.25, 1.25, time)
     result = solved(program(pressed(), slid(0.7), slid(-1.1)), solid)
