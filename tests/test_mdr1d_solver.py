@@ -12,10 +12,8 @@ from scene import (
     Cone,
     Cylinder,
     Elastic,
-    Fractional,
     Indent,
     Kelvin,
-    KelvinChain,
     Plane,
     PowerLaw,
     Program,
@@ -27,17 +25,10 @@ from scene import (
     SolveError,
     Sphere,
     Stage,
-    StandardLinearSolid,
     Wave,
 )
 
 KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
-SOLID = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-3)
-PRONY = Prony(equilibrium_modulus=1e6, moduli=(1e6,), relaxation_times=(1e-3,))
-CHAIN = KelvinChain(instantaneous_compliance=0.0, compliances=(1e-6, 1e-6), retardation_times=(1e-3, 1e-2))
-POWER = Fractional(
-    modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-3, highest_frequency=1e12, tolerance=1e-3
-)
 SMOOTH = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.3, load=1.0))
 ROUGH = replace(SMOOTH, roughness=SelfAffine(hurst=0.8, rms_height=5e-6, longest=4e-3, shortest=1e-4, seed=3))
 PAPER = replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=None))
@@ -82,15 +73,12 @@ def test_smooth_and_resolved_scenes_say_so():
     assert resolved.settings["points"] >= 5000
 
 
-WAVY = Wave(amplitude=1e-6, wavelength=1e-3)
-
-
 @pytest.mark.parametrize(
     ("scene", "word"),
     [
-        (Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=1.0, line_load=1.0), ROUGH.roughness), "Cylinder"),
-        (Scene(Plane(), SOLID, Slide(speed=1.0, pressure=1.0), ROUGH.roughness), "Plane"),
-        (replace(ROUGH, roughness=WAVY), "Wave"),
+        (replace(ROUGH, indenter=Cylinder(radius=1e-2), motion=Slide(speed=1.0, line_load=1.0)), "Cylinder"),
+        (replace(ROUGH, indenter=Plane(), motion=Slide(speed=1.0, pressure=1.0)), "Plane"),
+        (replace(ROUGH, roughness=Wave(amplitude=1e-6, wavelength=1e-3)), "Wave"),
     ],
 )
 def test_what_has_no_one_dimensional_profile_is_refused_by_name(scene, word):
@@ -127,12 +115,9 @@ def test_a_spectrum_or_grid_beyond_memory_is_refused():
     ("settings", "said"),
     [
         ({"points": 7}, "greater than or equal to 8"),
-        ({"points": 10.5}, "valid integer"),
-        ({"points": True}, "valid integer"),
-        ({"extent": 0.0}, "greater than 0"),
-        ({"extent": -1.0}, "greater than 0"),
-        ({"extent": float("nan")}, "finite"),
         ({"pixels": 100}, "pixels"),
+        ({"shape": "given"}, r"shape\n.*'mapped' or 'as-given'"),
+        ({"spectrum": "scan"}, r"spectrum\n.*'mapped' or 'line-scan'"),
     ],
 )
 def test_bad_settings_are_named(settings, said):
@@ -140,7 +125,7 @@ def test_bad_settings_are_named(settings, said):
         MDR(**settings)
 
 
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
+@pytest.mark.parametrize("scene", [SMOOTH, PAPER])
 @pytest.mark.parametrize("motion", [Slide(speed=0.3, load=1.0), Slide(speed=0.0, depth=2e-4)])
 def test_contact_that_leaves_the_grid_is_an_error_whose_advice_works(scene, motion):
     scene = replace(scene, motion=motion)
@@ -185,38 +170,24 @@ def test_a_depth_that_does_not_reach_the_indenter_is_an_error():
         MDR(points=400, extent=4e-3).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
 
 
-def test_roughness_of_no_height_is_the_smooth_answer():
-    for scene in (ROUGH, PAPER):
-        for motion in (SMOOTH.motion, Indent(depth=5e-5)):
-            smooth = MDR().solve(replace(SMOOTH, motion=motion))
-            rough = replace(scene.roughness, rms_height=0.0)
-            result = MDR().solve(replace(scene, motion=motion, roughness=rough))
-            # Two grids, each of second order.
-            assert result.normal_force == pytest.approx(smooth.normal_force, rel=1e-6)
-            assert result.depth == pytest.approx(smooth.depth, rel=1e-6)
-            assert result.friction_force == pytest.approx(smooth.friction_force, rel=1e-6, abs=1e-15)
-            assert result.measures["rms_slope"] == 0
-
-
 @pytest.mark.parametrize("scene", [ROUGH, PAPER])
-def test_a_depth_far_below_the_roughness_is_carried_by_a_few_asperities(scene):
+def test_roughness_of_no_height_is_the_smooth_answer(scene):
+    for motion in (SMOOTH.motion, Indent(depth=5e-5)):
+        smooth = MDR().solve(replace(SMOOTH, motion=motion))
+        result = MDR().solve(replace(scene, motion=motion, roughness=replace(scene.roughness, rms_height=0.0)))
+        # Two grids, each of second order.
+        for name in ("normal_force", "depth", "friction_force"):
+            assert getattr(result, name) == pytest.approx(getattr(smooth, name), rel=1e-6, abs=1e-15)
+        assert result.measures["rms_slope"] == 0
+
+
+def test_a_depth_far_below_the_roughness_is_carried_by_a_few_asperities():
     shallow = Slide(speed=0.3, depth=1e-7)
-    smooth = MDR().solve(replace(SMOOTH, motion=shallow))
-    result = MDR().solve(replace(scene, motion=shallow))
+    smooth, result = (MDR().solve(replace(scene, motion=shallow)) for scene in (SMOOTH, ROUGH))
     # The lowest asperity hangs below the tip by many times the depth.
-    assert result.depth < 0.1 * scene.roughness.rms_height
+    assert result.depth < 0.1 * ROUGH.roughness.rms_height
     assert result.normal_force > 3 * smooth.normal_force
     assert result.friction_force > 0
-
-
-@pytest.mark.parametrize("speed", [0.0, 1e-3, 1e3, 1e9])
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH, PAPER])
-def test_tiny_and_huge_loads_are_met(scene, speed):
-    for load in (1e-12, 1e-6, 1e2):
-        solver = MDR() if scene is not PAPER else MDR(points=20000, extent=0.02)
-        result = solver.solve(replace(scene, motion=Slide(speed=speed, load=load)))
-        assert result.residual <= 1e-10
-        assert result.normal_force == pytest.approx(load, rel=1e-10)
 
 
 def test_roughness_repeats_over_an_extent_of_several_periods():

@@ -155,8 +155,10 @@ def test_what_can_be_no_value_is_named_with_its_field(scene, part, name, value):
     assert len(mistake["msg"]) > 10
 
 
-@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
+@pytest.mark.parametrize(
+    "solver", [SOLVERS[0], pytest.param(SOLVERS[1], marks=pytest.mark.slow)], ids=["MDR", "BEM"]
+)
 def test_extreme_numbers_are_solved_within_the_laws_or_declined_with_a_reason(scene, part, name, solver):
     """Zero, denormal, tiny and huge numbers in every field of a scene."""
     for value in EXTREME:
@@ -178,7 +180,10 @@ def test_stages_take_no_impossible_values(name, value):
 
 
 @pytest.mark.parametrize("name", ["duration", "speed", "load", "depth"])
-def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name):
+@pytest.mark.parametrize(
+    "solver", [SOLVERS[0], pytest.param(SOLVERS[1], marks=pytest.mark.slow)], ids=["MDR", "BEM"]
+)
+def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name, solver):
     """Friction by traction may cancel to rounding of the steepest slope times the force, whatever its sign."""
     for value in EXTREME:
         try:
@@ -186,13 +191,21 @@ def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name)
             program = Program(stages=(replace(stage, **{name: value}), START.stages[1]))
         except ValidationError:
             continue
-        for solver in SOLVERS:
-            answer = answered(solver, replace(BALL, motion=program))
-            if isinstance(answer, str):
-                assert len(answer) > 20
-            else:
-                assert isfinite(answer.normal_force), (solver.name, value)
-                assert isfinite(answer.friction_force), (solver.name, value)
+        answer = answered(solver, replace(BALL, motion=program))
+        if isinstance(answer, str):
+            assert len(answer) > 20
+        else:
+            assert isfinite(answer.normal_force), value
+            assert isfinite(answer.friction_force), value
+
+
+@pytest.mark.parametrize("value", [1e-150, 1e150])
+@pytest.mark.parametrize("scene", [BALL, LINE, PRESSED], ids=["ball", "line", "plane"])
+def test_three_dimensions_answer_extreme_moduli_and_speeds_or_say_why_not(scene, value):
+    """The quick part of the two above: all fields and programs are slow."""
+    stiff = replace(SOLID, rubbery_modulus=value, glassy_modulus=10 * value)
+    for changed in (replace(scene, elastomer=stiff), replace(scene, motion=replace(scene.motion, speed=value))):
+        assert lawful(answered(SOLVERS[1], changed))
 
 
 @pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
@@ -225,13 +238,9 @@ def test_extents_beyond_all_bounds_are_declined_with_a_reason(value, solver):
     ("points", "seeds", "message"),
     [
         ([1000], [-1], r"seeds = -1 must be a whole number, at least 0"),
-        ([1000], [1.5], r"seeds = 1.5 must be a whole number"),
-        ([1000], [nan], r"seeds = nan must be a whole number"),
         ([1000], ["1"], r"seeds = '1' must be a whole number"),
-        ([1000], [None], r"seeds = None must be a whole number"),
         ([1000], [True], r"seeds = True must be a whole number"),
         ([0], [1], r"points = 0 must be a whole number, at least 1"),
-        ([nan], [1], r"points = nan must be a whole number"),
         ([1000.5], [1], r"points = 1000.5 must be a whole number"),
         ([], [1], r"points has 0 values, scenes has 1"),
     ],
@@ -243,9 +252,8 @@ def test_profiles_solved_together_name_bad_points_and_seeds(points, seeds, messa
 
 
 def test_profiles_that_fit_in_no_memory_are_an_error_before_they_are_drawn():
-    scene = replace(BALL, elastomer=Kelvin(1e6, 1e-3))
     with pytest.raises(SolveError, match=r"points = 1000000000000 .* are more than"):
-        solve_profiles([scene], [10**12], [1])
+        solve_profiles([replace(BALL, elastomer=Kelvin(1e6, 1e-3))], [10**12], [1])
 
 
 @pytest.mark.parametrize("name", ["longest", "shortest", "rolloff"])

@@ -29,8 +29,10 @@ from scene import (
 from scene.reading import read
 from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 
-SHIPPED = sorted((Path(compare.__file__).parent / "scenes").glob("*.toml"))
-SOLVERS = MDR(points=600, steps=20), BEM(points=64, steps=20)
+SHIPPED = Path(compare.__file__).parent / "scenes"
+# But for one of many steps, whose words others have too.
+READY = [path for path in sorted(SHIPPED.glob("*.toml")) if path.stem != "shaken-load"]
+SOLVERS = MDR(points=600, steps=20), BEM(points=32, steps=20)
 BODY, SOLID = Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=1e-6, longest=2e-3, shortest=5e-4, seed=2)
 RUBBED = Scene(BODY, SOLID, Slide(speed=0.1, load=1.0), interface=Coulomb(coefficient=0.3))
@@ -71,7 +73,7 @@ OF_THE_MACHINE = {"seconds", "residual", "applications"}
 @cache
 def answered():
     """Every ready scene, and one rubbed in sliding, in the solvers that simulate it; histories with instants."""
-    scenes = [read(path, Case).scene for path in SHIPPED]
+    scenes = [read(path, Case).scene for path in READY]
     return [result for scene in [*scenes, RUBBED] for result in results(scene)]
 
 
