@@ -121,7 +121,7 @@ def test_shifts_within_reach_of_the_polynomial_are_recovered_to_rounding():
 
 def test_straight_lines_leave_both_shifts_undecided():
     rng = np.random.default_rng(0)
-    for data in (smooth(friction(line)), simulated(rng, friction(line), 10), measured(rng, friction(line))):
+    for data in (smooth(friction(line)), simulated(rng, friction(line), 6)):
         found = collapse(data)
         assert found.inseparable == found.both.reason == PARALLEL
         assert np.isnan(found.both.exponent.value)
@@ -175,15 +175,13 @@ def test_scatter_that_is_small_frees_the_curve_and_large_scatter_does_not():
 def test_units_of_load_friction_and_speed_and_the_order_of_surfaces_change_nothing():
     given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
     speeds, load, force = given.speeds, given.load, given.friction_force
+    known = numbers(collapse(given))
     for other in (
-        SimulatedCurves(3 * speeds, load, force),
-        SimulatedCurves(speeds, 5 * load, 5 * force),
-        SimulatedCurves(speeds, load, 7 * force),
-        SimulatedCurves(speeds, load[..., ::-1], force[..., ::-1]),
-        SimulatedCurves(speeds[::-1], load[::-1], force[::-1]),
+        SimulatedCurves(3 * speeds, 5 * load, 7 * 5 * force),
+        SimulatedCurves(speeds[::-1], load[::-1, :, ::-1], force[::-1, :, ::-1]),
     ):
         # The fit settles to this, relative to its own error.
-        assert numbers(collapse(other)) == pytest.approx(numbers(collapse(given)), rel=1e-4, abs=1e-6)
+        assert numbers(collapse(other)) == pytest.approx(known, rel=1e-4, abs=1e-6)
 
 
 def test_a_dataset_gives_the_same_curves_whatever_the_order_of_its_dimensions():
@@ -330,14 +328,21 @@ def by_points(error, freedom):
     return draw
 
 
-@pytest.mark.parametrize(("draw", "repeats"), [(on_surfaces(10, 0.1), 40), (by_points(0.02, 6), 20)])
+def few_and_many(few, many):
+    """Draws with their repeats: few quickly, many where there is time."""
+    return pytest.mark.parametrize(
+        ("draw", "repeats"), [*few, *(pytest.param(*each, marks=pytest.mark.slow) for each in many)]
+    )
+
+
+@few_and_many([(on_surfaces(10, 0.1), 16), (by_points(0.02, 6), 2)], [(by_points(0.02, 6), 20)])
 def test_the_right_law_is_kept_as_often_as_stated(draw, repeats):
     found = rates(draw, repeats, cubic, seed=1)
     assert min(found[name] for name in ("misfit", "exponent", "predicted")) >= least(repeats), found
     assert found["fails"] <= 1 - least(repeats)
 
 
-@pytest.mark.parametrize(("draw", "repeats"), [(on_surfaces(10, 0.05), 20), (by_points(0.01, 20), 8)])
+@few_and_many([(on_surfaces(10, 0.05), 6)], [(on_surfaces(10, 0.05), 20), (by_points(0.01, 20), 8)])
 def test_wrong_laws_are_rejected(draw, repeats):
     found = rates(draw, repeats, cubic, seed=2, bend=0.1)
     assert found["misfit"] >= least(repeats)
@@ -346,7 +351,7 @@ def test_wrong_laws_are_rejected(draw, repeats):
     assert raised["predicted"] <= 0.05
 
 
-@pytest.mark.parametrize(("draw", "repeats"), [(on_surfaces(4, 0.5), 20), (by_points(0.2, 20), 5)])
+@few_and_many([(on_surfaces(4, 0.5), 6)], [(on_surfaces(4, 0.5), 20), (by_points(0.2, 20), 5)])
 @pytest.mark.parametrize("bend", [0.0, 0.1])
 def test_noise_never_makes_a_claim_hold(draw, repeats, bend):
     # What chi square calls a collapse, as the misfit is within the scatter, says nothing at 5 %.

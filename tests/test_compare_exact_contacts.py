@@ -34,14 +34,17 @@ def test_peak_pressures_are_those_of_a_published_program():
         assert contact.peak_pressure / 1e6 == pytest.approx(peak, rel=1.5e-4)
 
 
+# A rule drawn to the leading edge.
+V, WEIGHTS = np.polynomial.legendre.leggauss(1500)
+
+
 @pytest.mark.parametrize("f", [0.0, 0.5, 9.0, 1e3, 1e9])
 @pytest.mark.parametrize("memory", [0.0, 1e-6, 0.03, 1.0, 20.0, 1e6])
 def test_line_pressure_carries_the_load_and_its_moment_is_the_friction(f, memory):
     contact, slow = cylinder(f, memory)
-    v, w = np.polynomial.legendre.leggauss(1500)
-    angle = pi * ((v + 1) / 2) ** 6  # drawn to the leading edge
+    angle = pi * ((V + 1) / 2) ** 6
     x = contact.centre - contact.half_width * np.cos(angle)
-    dx = contact.half_width * np.sin(angle) * w / 2 * 6 * ((v + 1) / 2) ** 5 * pi
+    dx = contact.half_width * np.sin(angle) * WEIGHTS / 2 * 6 * ((V + 1) / 2) ** 5 * pi
     p = contact._pressure_at(angle)
     assert np.all(p >= -1e-12 * p.max())
     assert p @ dx == pytest.approx(LOAD, rel=1e-11)
