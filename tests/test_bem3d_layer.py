@@ -1,6 +1,5 @@
 """Layers: waves against elasticity itself, kernels against their waves, contacts against what needs no grid."""
 
-import tracemalloc
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from itertools import pairwise
@@ -11,7 +10,7 @@ from scipy.integrate import quad
 from scipy.linalg import expm
 from scipy.special import j0
 
-from bem3d import BEM, influence, layer, layerwaves, window
+from bem3d import BEM, influence, layerwaves, window
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
@@ -70,16 +69,16 @@ def yielding(t, base):
 
 
 @pytest.mark.parametrize("base", BASES, ids=named)
-@pytest.mark.parametrize("t", [0.03, 0.3, 1.0, 3.0, 6.0])
-def test_waves_are_those_of_plane_strain(base, t):
-    # the matrices grow as exp(t), and the solution falls by as much
-    assert base.yields(t) == pytest.approx(yielding(t, base), rel=1e-15 * np.exp(2 * t) + 1e-11)
+def test_waves_are_those_of_plane_strain(base):
+    for t in (0.03, 0.3, 1.0, 3.0, 6.0):
+        # the matrices grow as exp(t), and the solution falls by as much
+        assert base.yields(t) == pytest.approx(yielding(t, base), rel=1e-15 * np.exp(2 * t) + 1e-11)
 
 
 @pytest.mark.parametrize("base", BASES, ids=named)
 def test_every_wave_has_all_its_digits(base):
     with localcontext(prec=400):
-        for exponent in np.linspace(-6, 2.4, 43):
+        for exponent in np.linspace(-6, 2.4, 15):
             t = float(10**exponent)
             x, gone = Decimal(t), (-2 * Decimal(t)).exp()
             if isinstance(base, Bonded):
@@ -88,9 +87,8 @@ def test_every_wave_has_all_its_digits(base):
             else:
                 above, below = (1 - gone) ** 2 / 2, (1 - gone**2) / 2 + 2 * x * gone
             assert float(Decimal(float(base.yields(t))) / (above / below) - 1) == pytest.approx(0, abs=ROUNDING)
-            assert float(Decimal(float(base.hinders(t))) / (1 - above / below) - 1) == pytest.approx(
-                0, abs=ROUNDING
-            )
+            hinders = Decimal(float(base.hinders(t)))
+            assert float(hinders / (1 - above / below) - 1) == pytest.approx(0, abs=ROUNDING)
 
 
 @pytest.mark.parametrize("base", BASES, ids=named)
@@ -102,15 +100,15 @@ def test_long_waves_are_springs_and_short_ones_a_half_space(base):
         assert base.yields(1e-6) == pytest.approx(2e-18 / 3, rel=1e-10)
 
 
-@pytest.mark.parametrize("base", BASES, ids=named)
+@pytest.mark.parametrize("base", [Bonded(0.5), Bonded(0.0), Frictionless()], ids=named)
 def test_tables_are_the_integrals_of_the_waves(base):
     taken = layerwaves.taking(base)
-    pieces = list(pairwise(np.linspace(0, 26, 300)))
+    pieces = list(pairwise(np.linspace(0, 26, 100)))
 
     def integral(f, distance):
         return sum(quad(f, *piece, args=(distance,), epsabs=1e-15)[0] for piece in pieces)
 
-    for distance in (0.0, 0.4321, 3.3, 17.77, 43.99):
+    for distance in (0.0, 0.4321, 17.77, 43.99):
         at = np.array([distance])
         point = integral(lambda t, r: base.hinders(t) * j0(r * t), distance)
         assert taken.from_point(at)[0] == pytest.approx(point, abs=TABLE)
@@ -133,9 +131,15 @@ FLOWS = {
 
 
 @pytest.mark.parametrize("flow", FLOWS.values(), ids=FLOWS)
-@pytest.mark.parametrize("thickness", [1.0, 1.7, 3.0])
-@pytest.mark.parametrize("base", [Bonded(0.5), Bonded(0.3), Frictionless()], ids=named)
-@pytest.mark.parametrize("medium", [HalfSpace, Line])
+@pytest.mark.parametrize(
+    ("medium", "base", "thickness"),
+    [
+        (HalfSpace, Bonded(0.3), 1.0),
+        (HalfSpace, Frictionless(), 1.7),
+        (Line, Bonded(0.5), 1.0),
+        (Line, Bonded(0.3), 3.0),
+    ],
+)
 def test_kernels_are_the_sum_of_their_waves(medium, base, thickness, flow):
     """44 thicknesses are all of them, and 40 memories."""
     n, width = 140, 1.0 if medium is Line else None
@@ -162,13 +166,12 @@ def test_a_thick_layer_is_a_half_space_but_for_what_its_base_takes_off(by):
 
 
 @pytest.mark.parametrize("by", ["by_pixel", "by_strip"])
-@pytest.mark.parametrize("base", [Bonded(0.5), Bonded(0.3), Frictionless()], ids=named)
+@pytest.mark.parametrize("base", [Bonded(0.5), Bonded(0.3)], ids=named)
 def test_a_layer_no_thicker_than_a_pixel_yields_to_long_waves_as_it_should(base, by):
     n = 64
-    for thickness in (0.999999, 0.3, 1e-2, 1e-6):
-        kernel = influence.elastic(
-            n, 1 if by == "by_strip" else n, 0.0, getattr(Layered(thickness, base), by)(1.0)
-        )
+    for thickness in (0.999999, 0.3, 1e-6):
+        rows = 1 if by == "by_strip" else n
+        kernel = influence.elastic(n, rows, 0.0, getattr(Layered(thickness, base), by)(1.0))
         columns = kernel[0] + 2 * kernel[1:].sum(axis=0)
         for q in (0.01, 0.1):
             true = 2 / q * base.yields(q * thickness)
@@ -178,8 +181,10 @@ def test_a_layer_no_thicker_than_a_pixel_yields_to_long_waves_as_it_should(base,
             )
 
 
-@pytest.mark.parametrize("base", BASES, ids=named)
-@pytest.mark.parametrize("thickness", [1e-3, 0.3, 1.0, 1.5, 7.0, 1e3])
+@pytest.mark.parametrize(
+    ("base", "thickness"),
+    [*((Bonded(0.5), h) for h in (1e-3, 1.0, 1e3)), (Bonded(-0.9), 0.3), (Frictionless(), 1.5)],
+)
 def test_operators_are_positive_definite(base, thickness):
     n = 11
     for flow in FLOWS.values():
@@ -188,7 +193,7 @@ def test_operators_are_positive_definite(base, thickness):
         assert np.linalg.eigvalsh(matrix + matrix.T).min() > 0
 
 
-@pytest.mark.parametrize("poisson_ratio", [-0.9, 0.3, 0.45, 0.49, 0.499, 0.5])
+@pytest.mark.parametrize("poisson_ratio", [-0.9, 0.45, 0.499, 0.5])
 def test_enough_points_show_every_layer_and_finer_ones_falsify_less(poisson_ratio):
     pixels = np.geomspace(1e-3, 1e3, 400)
     for radius in (0.3, 3.0, 30.0, 1e3):
@@ -202,6 +207,7 @@ def test_enough_points_show_every_layer_and_finer_ones_falsify_less(poisson_rati
 ON_HALF_SPACES = 3e-3  # of the force: what 20 points and more bring there, with contacts of 8 pixels across
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("poisson_ratio", [0.3, 0.45, 0.48, 0.49, 0.493, 0.499, 0.4995, 0.5])
 def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_not_refused(poisson_ratio):
     """Contacts of 3 to 90 thicknesses, pixels of 1/8 to 10: some refused ones were up to 20 % off."""
@@ -223,18 +229,15 @@ def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_no
     assert taken > 5
 
 
-@pytest.mark.parametrize(
-    ("poisson_ratio", "slenderness", "points"),
-    [(0.49, 20, 24), (0.493, 20, 24), (0.499, 60, 24), (0.4995, 90, 24)],
-)
-def test_a_layer_that_its_pixels_do_not_show_is_refused(poisson_ratio, slenderness, points):
+@pytest.mark.parametrize(("poisson_ratio", "slenderness"), [(0.49, 20), (0.499, 60)])
+def test_a_layer_that_its_pixels_do_not_show_is_refused(poisson_ratio, slenderness):
     """Their forces would be 2.3 to 3.6 % off."""
-    stated, solid = Layer(thickness=1e-4), Elastic(1e6, poisson_ratio=poisson_ratio)
-    radius = slenderness * stated.thickness
+    solid, thickness = Elastic(1e6, poisson_ratio=poisson_ratio), 1e-4
+    stated, radius = Layer(thickness=thickness), slenderness * thickness
     known = reference.of_radius(SPHERE, stated, solid.indentation_modulus, poisson_ratio, radius)
     scene = Scene(SPHERE, solid, Indent(depth=known.depth), layer=stated)
     with pytest.raises(SolveError, match="too thin for pixels") as refused:
-        BEM(points=points).solve(scene)
+        BEM(points=24).solve(scene)
     enough = int(str(refused.value).split("points = ")[1].split()[0])
     assert BEM(points=enough).solve(scene).normal_force == pytest.approx(known.load, rel=FALSIFIED)
 
@@ -259,17 +262,6 @@ def test_the_radius_of_spots_is_that_of_one_of_them(shape):
         assert window.spot_radius(grid, touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
 
 
-@pytest.mark.parametrize("of", ["from_point", "from_line"])
-def test_making_a_table_takes_little_more_memory_than_the_table(of):
-    tracemalloc.start()
-    try:
-        getattr(layerwaves.Taking(Bonded(0.5)), of)
-        _, peak = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert peak < 8 * np.prod(layerwaves.PIECES) + 1e6
-
-
 def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead():
     scene = Scene(SPHERE, Elastic(1e6, poisson_ratio=0.49999999), Indent(load=1.0), layer=Layer(thickness=1e-7))
     coarse = BEM(points=64, extent=2e-3)
@@ -286,12 +278,8 @@ def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead():
         assert "no allowed number of points would do" in reason
 
 
-PUBLISHED = {0.2: (1.26977, 1.08065), 0.5: (1.85712, 1.19845), 1.0: (3.37110, 1.33700), 2.0: (8.4680, 1.4827)}
-
-
-@pytest.mark.parametrize(("slenderness", "expected"), PUBLISHED.items())
-def test_a_sphere_on_a_bonded_incompressible_layer_is_the_published_one(slenderness, expected):
-    force, radius = expected
+@pytest.mark.parametrize(("slenderness", "force", "radius"), [(0.2, 1.26977, 1.08065), (2.0, 8.4680, 1.4827)])
+def test_a_sphere_on_a_bonded_incompressible_layer_is_the_published_one(slenderness, force, radius):
     depth = (1e-3 / radius) ** 2 / SPHERE.radius
     found = BEM(points=128).solve(
         Scene(SPHERE, SOFT, Indent(depth=depth), layer=Layer(thickness=1e-3 / slenderness))
@@ -304,9 +292,17 @@ def test_a_sphere_on_a_bonded_incompressible_layer_is_the_published_one(slendern
     )
 
 
-@pytest.mark.parametrize("shape", [SPHERE, Cone(0.1)], ids=lambda shape: shape.type)
-@pytest.mark.parametrize("base", [Bonded(0.5), Bonded(0.45), Bonded(0.0), Frictionless()], ids=named)
-@pytest.mark.parametrize("slenderness", [0.01, 1.0, 10.0])
+@pytest.mark.parametrize(
+    ("shape", "base", "slenderness"),
+    [
+        (SPHERE, Bonded(0.45), 1.0),
+        (SPHERE, Frictionless(), 10.0),
+        (SPHERE, Bonded(0.0), 0.01),
+        (Cone(0.1), Bonded(0.5), 10.0),
+        (Cone(0.1), Bonded(0.0), 1.0),
+    ],
+    ids=str,
+)
 def test_force_and_depth_are_those_of_the_integral_equation(shape, base, slenderness):
     nu = getattr(base, "poisson_ratio", 0.4)
     stated = Layer(thickness=1e-3 / slenderness, base="bonded" if isinstance(base, Bonded) else "frictionless")
@@ -326,7 +322,7 @@ def test_a_layer_is_solved_in_about_as_many_steps_as_a_half_space():
     for motion in (Indent(depth=5e-5), Slide(speed=1.0, depth=5e-5)):
         scene = Scene(SPHERE, standard(), motion)
         plain = BEM(points=128).solve(scene)
-        for thickness in (1e-1, 1e-3, 1e-4, 5e-5):
+        for thickness in (1e-1, 1e-4):
             layered = BEM(points=128).solve(replace(scene, layer=Layer(thickness=thickness)))
             assert layered.applications < 1.5 * plain.applications
 
@@ -359,10 +355,9 @@ def test_the_datum_of_a_line_is_what_a_thick_layer_gives_it():
     assert layered.friction_force == pytest.approx(plain.friction_force, rel=1e-5)
 
 
-@pytest.mark.parametrize("speed", [0.1, 1.0, 10.0])
 @pytest.mark.parametrize(
-    ("stated", "poisson_ratio"),
-    [(Layer(thickness=1e-6), 0.3), (Layer(thickness=1e-5, base="frictionless"), 0.5)],
+    ("stated", "poisson_ratio", "speed"),
+    [(Layer(thickness=1e-6), 0.3, 1.0), (Layer(thickness=1e-5, base="frictionless"), 0.5, 10.0)],
     ids=["bonded", "frictionless"],
 )
 def test_a_thin_layer_that_yields_is_a_bed_of_springs_in_sliding(stated, poisson_ratio, speed):
@@ -393,8 +388,10 @@ def test_friction_of_a_slow_sphere_does_not_know_the_layer(stated):
     assert found.measures["friction_by_loss"] / found.normal_force == pytest.approx(expected, rel=0.03)
 
 
-@pytest.mark.parametrize("base", ["bonded", "frictionless"])
-@pytest.mark.parametrize("thickness", [1e-9, 1e-5, 1e-4, 1e-3])
+@pytest.mark.parametrize(
+    ("base", "thickness"),
+    [("bonded", 1e-9), ("bonded", 1e-4), ("frictionless", 1e-9), ("frictionless", 1e-5), ("frictionless", 1e-3)],
+)
 def test_full_contact_of_a_wave_on_a_layer_is_exact(base, thickness):
     """Pressure, closure and friction are those of a half-space over M, from layers of 1e-6 waves to 1."""
     solid, speed, wave = standard(), 0.1, Wave(amplitude=1e-9, wavelength=1e-3)
@@ -438,15 +435,6 @@ def test_creeping_in_a_layer_is_lee_and_radoks():
     np.testing.assert_allclose(found.fields["normal_force"][late], expected, rtol=4e-3)
 
 
-def test_a_march_ends_in_steady_sliding():
-    solid, stated = standard(), Layer(thickness=2e-4)
-    steady = BEM(points=64).solve(Scene(SPHERE, solid, Slide(speed=0.5, load=1.0), layer=stated))
-    program = Program(stages=(Stage(duration=3e-3, load=1.0), Stage(duration=10e-3, speed=0.5)))
-    marched = BEM(points=64, steps=60).solve(Scene(SPHERE, solid, program, layer=stated))
-    assert marched.depth == pytest.approx(steady.depth, rel=2e-3)
-    assert marched.friction_coefficient == pytest.approx(steady.friction_coefficient, rel=1e-2)
-
-
 def test_a_rough_sphere_finds_its_window_on_a_thin_layer():
     rough = SelfAffine(hurst=0.8, rms_height=5e-6, longest=1e-3, shortest=1e-4, seed=1)
     scene = Scene(SPHERE, SOFT, Indent(depth=5e-5), rough, Layer(thickness=1e-4))
@@ -481,36 +469,3 @@ def test_layers_beyond_all_measure_are_solved_or_an_error():
     assert endless.depth == pytest.approx(BEM(points=64).solve(scene).depth, rel=1e-9)
     with pytest.raises(SolveError):
         BEM(points=64).solve(replace(scene, layer=Layer(thickness=1e-320)))
-
-
-def test_what_has_no_layer_builds_nothing_of_one_and_no_more_kernels(monkeypatch):
-    built = {"tables": 0, "kernels": 0}
-
-    def counting(of, name):
-        def counted(*args, **kwargs):
-            built[name] += 1
-            return of(*args, **kwargs)
-
-        return counted
-
-    for module in (layer, layerwaves):
-        monkeypatch.setattr(module, "taking", counting(layerwaves.Taking, "tables"))
-    monkeypatch.setattr(Layered, "__init__", counting(Layered.__init__, "tables"))
-    for name in ("elastic", "flowing"):
-        monkeypatch.setattr(influence, name, counting(getattr(influence, name), "kernels"))
-    scene = Scene(SPHERE, standard(), Slide(speed=1.0, load=1.0))
-    BEM(points=64).solve(scene)
-    assert built["tables"] == 0
-    kernels, built["kernels"] = built["kernels"], 0
-    BEM(points=64, extent=5e-3).solve(scene)
-    plain, built["kernels"] = built["kernels"], 0
-    BEM(points=64, extent=5e-3).solve(replace(scene, layer=Layer(thickness=1e-2)))
-    assert kernels > 0
-    assert built["kernels"] == plain
-    assert built["tables"] > 0
-
-
-def test_errors_are_not_promised_on_layers():
-    scene = Scene(SPHERE, standard(), Slide(speed=1.0, load=1.0), layer=Layer(thickness=1e-3))
-    with pytest.raises(ValueError, match="layer = Layer"):
-        BEM.for_accuracy(scene, friction=0.1)

@@ -25,7 +25,11 @@ def solved(solver, solid, *stages):
 
 # Of the greatest force, in the mean and at most: pixels of which 16 span the radius; a dashpot that touches again
 # jumps within a step of 1/40 period.
-@pytest.mark.parametrize(("solid", "mean", "most"), [(SOLID, 5e-4, 2e-3), (Kelvin(G, TAU), 5e-3, 0.2)])
+@pytest.mark.parametrize(
+    ("solid", "mean", "most"),
+    [(SOLID, 5e-4, 2e-3), pytest.param(Kelvin(G, TAU), 5e-3, 0.2, marks=pytest.mark.slow)],
+    ids=str,
+)
 def test_however_large_an_oscillation_of_the_depth_one_dimension_has_the_force_of_three(solid, mean, most):
     # nothing slides: one dimension is exact, through separation too; a third of the depth, lifted fast
     stages = (
@@ -91,11 +95,8 @@ def answered(solver, stage):
         return str(reason)
 
 
-EXTREME = (5e-324, 1e-300, 1e-150, 1e-30, 1e30, 1e150, 1e300)
-
-
 @pytest.mark.parametrize("solver", [MDR(points=60, steps=20), BEM(points=16, steps=10)], ids=["1D", "3D"])
-@pytest.mark.parametrize("value", EXTREME)
+@pytest.mark.parametrize("value", [5e-324, 1e300])
 def test_extreme_oscillations_and_reversals_are_followed_or_declined_with_a_reason(value, solver):
     given = (
         {"speed": -value},
