@@ -5,14 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import bem3d.surface
 import scene.topography
 from bem3d import BEM
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.problem import Problem
 from bem3d.surface import MOST_WAVES, RoughSurface
-from bem3d.topography import MeasuredRoughness
 from scene import (
     Arrhenius,
     Coulomb,
@@ -62,7 +60,7 @@ def same(one, other, rel):
 
 # 17 pixels show eight waves and no more; of 64 the shorter ones are left out, to the rounding they have.
 @pytest.mark.parametrize("map_", [{"points": 17}, {"points": 64, "shortest_kept": L / 8}])
-@pytest.mark.parametrize("motion", [Indent(pressure=2e4), Slide(speed=0.1, pressure=2e4), Indent(gap=1e-6)])
+@pytest.mark.parametrize("motion", [Slide(speed=0.1, pressure=2e4), Indent(gap=1e-6)])
 def test_a_plane_with_the_map_of_a_surface_is_the_plane_with_that_surface(map_, motion):
     asked = replace(PRESSED, motion=motion)
     solver = BEM(points=64)
@@ -71,16 +69,6 @@ def test_a_plane_with_the_map_of_a_surface_is_the_plane_with_that_surface(map_, 
     assert one.measures["rms_height"] == pytest.approx(other.measures["rms_height"], rel=ROUNDING)
     assert one.measures["rms_slope"] == pytest.approx(other.measures["rms_slope"], rel=ROUNDING)
     assert one.applications == other.applications
-
-
-@pytest.mark.parametrize("motion", [Indent(load=0.1), Slide(speed=0.1, load=0.1), Slide(speed=0.1, depth=1e-5)])
-def test_a_sphere_with_the_map_of_a_surface_is_the_sphere_with_that_surface(motion):
-    asked = replace(SLIDING, motion=motion)
-    twin = replace(asked, roughness=sampled(asked.roughness, 17))
-    solver = BEM(points=48)
-    one, other = solver.solve(asked), solver.solve(twin)
-    assert one.settings["extent"] == other.settings["extent"]
-    same(one, other, 1e-9)
 
 
 def test_a_program_with_the_map_of_a_surface_is_that_with_the_surface():
@@ -93,20 +81,23 @@ def test_a_program_with_the_map_of_a_surface_is_that_with_the_surface():
 
 
 @pytest.mark.parametrize(
-    "effect",
+    ("effect", "rel"),
     [
-        {"layer": Layer(thickness=1e-3)},
-        {"temperature": Arrhenius(temperature=310.0, reference=300.0, activation_energy=1e5)},
-        {"motion": Shear(load=0.1, displacement=1e-6), "interface": Coulomb(coefficient=0.3)},
+        ({"motion": Indent(load=0.1)}, 1e-9),
+        ({"motion": Slide(speed=0.1, depth=1e-5)}, 1e-9),
+        ({"layer": Layer(thickness=1e-3)}, 1e-8),
+        ({"temperature": Arrhenius(temperature=310.0, reference=300.0, activation_energy=1e5)}, 1e-8),
+        ({"motion": Shear(load=0.1, displacement=1e-6), "interface": Coulomb(coefficient=0.3)}, 1e-8),
     ],
-    ids=["layer", "temperature", "shear"],
+    ids=str,
 )
-def test_beside_other_effects_too_the_map_of_a_surface_is_that_surface(effect):
+def test_a_sphere_with_the_map_of_a_surface_is_the_sphere_with_that_surface_beside_any_effect(effect, rel):
     asked, solver = replace(SLIDING, **effect), BEM(points=48)
     one, other = (solver.solve(each) for each in (asked, replace(asked, roughness=sampled(asked.roughness, 17))))
-    same(one, other, 1e-8)
+    assert one.settings["extent"] == other.settings["extent"]
+    same(one, other, rel)
     smooth = solver.solve(replace(asked, roughness=None))
-    assert one.depth != pytest.approx(smooth.depth, rel=0.05)
+    assert (one.normal_force, one.depth) != pytest.approx((smooth.normal_force, smooth.depth), rel=0.05)
 
 
 def test_the_surface_of_a_map_is_the_map():
@@ -137,41 +128,11 @@ def test_a_seed_moves_the_map_by_whole_pixels():
     np.testing.assert_allclose(moved, np.roll(map_.relief, (-row, -column), (0, 1)), atol=1e-12)
 
 
-def test_places_of_a_map_differ():
-    asked, solver = replace(SLIDING, roughness=sampled(SLIDING.roughness, 17)), BEM(points=48)
-    forces = [
-        solver.solve(replace(asked, motion=Indent(depth=1e-5), roughness=replace(asked.roughness, seed=k)))
-        for k in (0, 2, 3)
-    ]
-    assert len({answer.normal_force for answer in forces}) == 3
-
-
 def test_a_map_without_heights_is_no_roughness():
     flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
     smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))
     same(smooth, bare, 0.0)
     assert smooth.applications == bare.applications
-
-
-def test_a_scene_without_a_map_builds_none(monkeypatch):
-    def built(*_):
-        raise AssertionError("a map was looked at")
-
-    monkeypatch.setattr(scene.topography, "_waves", built)
-    monkeypatch.setattr(MeasuredRoughness, "refusals", built)
-    monkeypatch.setattr(bem3d.window, "check_on_map", lambda *_: None)
-    answer = BEM(points=32).solve(SLIDING)
-    assert answer.friction_coefficient > 0
-
-
-def test_the_map_is_built_once_for_all_grids(monkeypatch):
-    calls = []
-    build = scene.topography._mirrored
-    monkeypatch.setattr(scene.topography, "_mirrored", lambda *given: calls.append(1) or build(*given))
-    fresh = sampled(SLIDING.roughness, 19, repeat="mirror")
-    for seed in (0, 1):
-        BEM(points=48).solve(replace(SLIDING, roughness=replace(fresh, seed=seed)))
-    assert len(calls) == 1
 
 
 def test_rectangles_are_roughness_but_no_cell():
@@ -281,11 +242,6 @@ def test_a_body_that_is_not_reached_is_not_touched():
 def test_a_grid_coarser_than_the_map_of_a_body_is_an_error():
     with pytest.raises(SolveError, match=r"indenter.shortest = 4e-05 m is less than two pixels"):
         BEM(points=32).solve(Scene(ball(200, 4e-3), SOLID, Indent(load=0.3)))
-
-
-def test_nothing_is_promised_of_measured_bodies():
-    with pytest.raises(ValueError, match="indenter = Measured"):
-        BEM.for_accuracy(Scene(ball(64, 4e-3), SOLID, Indent(load=0.1)), depth=0.1)
 
 
 def test_settings_for_a_map_keep_their_promise():

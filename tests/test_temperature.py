@@ -9,7 +9,6 @@ from scipy.optimize import bisect
 
 from bem3d import BEM
 from bem3d.convolution import FreeConvolution
-from compare.task import SceneTask as Task
 from mdr1d import MDR
 from scene import (
     WLF,
@@ -31,8 +30,6 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene import scene as scenes
-from scene.heated import Heated
 from scene.scales import elastic_contact
 from scene.temperature import GAS_CONSTANT
 
@@ -134,20 +131,6 @@ def test_at_rest_the_temperature_is_not_felt(solver):
     np.testing.assert_array_equal(
         numbers(solver.solve(replace(rest, temperature=LAW))), numbers(solver.solve(rest))
     )
-
-
-@names
-def test_a_scene_without_temperature_or_heating_builds_nothing_for_them(solver, monkeypatch):
-    def forbidden(*_, **__):
-        raise AssertionError("built")
-
-    monkeypatch.setattr(scenes, "Shifted", forbidden)
-    monkeypatch.setattr(Heated, "around", forbidden)
-    solver.solve(replace(PLAIN, roughness=ROUGH))
-    with pytest.raises(AssertionError, match="built"):
-        solver.solve(WARM)
-    with pytest.raises(AssertionError, match="built"):
-        solver.solve(replace(PLAIN, heating=Heating(conductivity=1.0)))
 
 
 @names
@@ -292,15 +275,3 @@ def test_a_program_with_heating_is_refused_by_name(solver):
     heated = replace(WARM, motion=program, heating=Heating(conductivity=1.0))
     with pytest.raises(Refused, match="heating = Heating: it is estimated of steady sliding, not of a Program"):
         solver.solve(heated)
-
-
-def test_errors_are_not_promised_of_what_acts_back_on_itself():
-    with pytest.raises(ValueError, match=r"heating\.feedback = 'average'"):
-        BEM.for_accuracy(replace(WARM, heating=Heating(conductivity=1.0, feedback="average")), friction=0.1)
-
-
-def test_tasks_at_two_temperatures_are_two():
-    task = Task(SOLVERS[0], (WARM,))
-    other = Task(SOLVERS[0], (replace(WARM, temperature=replace(LAW, temperature=311.0)),))
-    assert task.question != other.question
-    assert task.question == Task(SOLVERS[0], (replace(WARM),)).question
