@@ -14,7 +14,6 @@ from mdr1d import equations as eq
 from scene import (
     Cone,
     Elastic,
-    Fractional,
     Indent,
     Kelvin,
     PowerLaw,
@@ -32,59 +31,41 @@ ROUNDING = 1e-13
 SECOND_ORDER_AT_5000 = 2e-7
 # The energy of one period is the difference of two sums, one of n and one of n + 1 periods with their ends.
 ROUNDING_OF_A_PERIOD = 1e-10
-# What lies beyond so many aliases falls as their number of a loss ~ q, and as its cube of one ~ 1/q.
-ALIASES, BEYOND = 4000, 1e-8
 # Lengths of the longest memory after which an end is forgotten: exp(-40).
 FORGOTTEN = 40
 PROFILES = 20
 # Of the mean over the profiles.
 STANDARD_ERRORS = 3
 
-# One point in every variable, of no symmetry.
-POINT = {
-    "load": 7.0,
-    "modulus": 1.3e6,
-    "relaxation_time": 2e-3,
-    "speed": 0.03,
-    "rms_slope": 0.11,
-    "wave_number": 4e4,
-    "loss": 2e5,
-    "reference_frequency": 300.0,
-    "beta": 0.3,
-    "radius": 0.02,
-    "depth": 3e-4,
-    "contact_length": 5e-3,
-    "c": 50.0,
-    "n": 2.0,
+# One point in every variable, of no symmetry, and the powers of length, force and time in its unit.
+VARIABLES = {
+    "load": (7.0, (0, 1, 0)),
+    "modulus": (1.3e6, (-2, 1, 0)),
+    "relaxation_time": (2e-3, (0, 0, 1)),
+    "speed": (0.03, (1, 0, -1)),
+    "rms_slope": (0.11, (0, 0, 0)),
+    "wave_number": (4e4, (-1, 0, 0)),
+    "loss": (2e5, (-2, 1, 0)),
+    "reference_frequency": (300.0, (0, 0, -1)),
+    "beta": (0.3, (0, 0, 0)),
+    "radius": (0.02, (1, 0, 0)),
+    "depth": (3e-4, (1, 0, 0)),
+    "contact_length": (5e-3, (1, 0, 0)),
+    "c": (50.0, (-1, 0, 0)),
+    "n": (2.0, (0, 0, 0)),
 }
-# Powers of length, force and time in the units.
-UNITS = {
-    "load": (0, 1, 0),
-    "modulus": (-2, 1, 0),
-    "relaxation_time": (0, 0, 1),
-    "speed": (1, 0, -1),
-    "wave_number": (-1, 0, 0),
-    "loss": (-2, 1, 0),
-    "reference_frequency": (0, 0, -1),
-    "radius": (1, 0, 0),
-    "depth": (1, 0, 0),
-    "contact_length": (1, 0, 0),
-}
-# Of the values; numbers where nothing is said.
+POINT = {name: value for name, (value, _) in VARIABLES.items()}
+UNITS = {name: powers for name, (_, powers) in VARIABLES.items()}
+NUMBER = (0, 0, 0)
 RESULTS = {
     eq.contact_radius: (1, 0, 0),
     eq.indentation_depth: (1, 0, 0),
-    eq.macroscopic_slope: (0, 0, 0),
-    eq.low_speed_friction: (0, 0, 0),
     eq.one_sided_speed: (1, 0, -1),
-    eq.similarity_variable: (0, 0, 0),
     eq.high_frequency_force: (0, 1, 0),
-    eq.one_frequency_friction: (0, 0, 0),
-    eq.general_friction: (0, 0, 0),
     eq.force_shift: (0, -1, 0),
-    eq.power_law_friction: (0, 0, 0),
+    **dict.fromkeys((eq.macroscopic_slope, eq.low_speed_friction, eq.similarity_variable), NUMBER),
+    **dict.fromkeys((eq.one_frequency_friction, eq.general_friction, eq.power_law_friction), NUMBER),
 }
-KELVIN_POINT = ("load", "modulus", "relaxation_time", "speed", "rms_slope", "c", "n")
 
 
 def at(function, point, **more):
@@ -99,18 +80,18 @@ def kelvin_loss(modulus, time):
     return lambda omega: modulus * time * omega
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 3.5])
+@pytest.mark.parametrize("n", [1.0, 3.5])
 @pytest.mark.parametrize("function", RESULTS, ids=lambda f: f.__name__)
 def test_every_equation_keeps_its_meaning_in_other_units(function, n):
     point = POINT | {"n": n}
     known = at(function, point)
-    for powers in ((-10, 0, 0), (10, 0, 0), (0, -10, 0), (0, 10, 0), (0, 0, -10), (0, 0, 10), (7, -8, 9)):
+    for powers in ((-10, 0, 0), (0, 10, 0), (0, 0, -10), (7, -8, 9)):
         units = UNITS | {"c": (1 - n, 0, 0)}
-        scaled = {k: x * 10.0 ** np.dot(powers, units.get(k, (0, 0, 0))) for k, x in point.items()}
+        scaled = {k: x * 10.0 ** np.dot(powers, units[k]) for k, x in point.items()}
         assert at(function, scaled) == pytest.approx(known * 10.0 ** np.dot(powers, RESULTS[function]), rel=1e-12)
 
 
-@pytest.mark.parametrize("shape", [Sphere(radius=0.02), Cone(angle=0.2), PowerLaw(coefficient=3e3, exponent=3.5)])
+@pytest.mark.parametrize("shape", [Sphere(radius=0.02), PowerLaw(coefficient=3e3, exponent=3.5)])
 def test_radius_and_depth_are_those_of_the_simulated_contact_at_rest(shape):
     c, n = shape.mdr_coefficient, shape.exponent
     result = MDR().solve(Scene(shape, Elastic(modulus=1e6), Indent(load=2.0)))
@@ -180,12 +161,6 @@ def test_the_last_form_of_eq_15_as_printed_depends_on_the_unit_of_length():
         assert printed == pytest.approx(right / sqrt(total), rel=ROUNDING)
 
 
-def test_the_root_over_both_is_right_at_an_rms_slope_of_one_alone():
-    slope = np.array([0.25, 1.0, 4.0])
-    ratio = eq.normalised_friction(0.1, slope, form="as_printed") / eq.normalised_friction(0.1, slope)
-    np.testing.assert_allclose(ratio, np.sqrt(slope), rtol=ROUNDING)
-
-
 def test_in_the_kelvin_limit_eq_21_is_eq_12_and_as_printed_half_of_it():
     kelvin = at(eq.low_speed_friction, POINT)
     loss = kelvin_loss(POINT["modulus"], POINT["relaxation_time"])
@@ -219,37 +194,21 @@ def test_eq_25_is_eq_22_of_a_sphere_with_a_power_law_loss():
     np.testing.assert_allclose(
         printed, at(eq.general_friction, per_second, speed=speeds, form="as_printed"), rtol=1e-12
     )
+    np.testing.assert_allclose(printed, at(eq.power_law_friction, sphere, speed=speeds, form="as_printed"))
     assert at(eq.power_law_friction, sphere, speed=0.0) == 0.0
 
 
-def test_eq_25_as_printed_depends_on_the_unit_of_time():
-    minutes = POINT | {k: POINT[k] * 60 for k in ("speed", "reference_frequency")}
-    same = at(eq.power_law_friction, minutes) / at(eq.power_law_friction, POINT)
-    printed = at(eq.power_law_friction, minutes, form="as_printed") / at(
-        eq.power_law_friction, POINT, form="as_printed"
-    )
-    assert same == pytest.approx(1.0, rel=ROUNDING)
-    assert printed > 2
-
-
-@pytest.mark.parametrize("n", [1.0, 2.0, 4.0])
+@pytest.mark.parametrize("n", [1.0, 4.0])
 def test_the_force_master_curve_is_eq_22(n):
     point = POINT | {"n": n}
     speeds, loads = np.geomspace(1e-6, 1e2, 5)[:, None], np.geomspace(1e-3, 1e4, 8)
     shifted = loads * at(eq.force_shift, point, speed=speeds)
     whole = eq.master_curve(shifted, point["rms_slope"], n)
     np.testing.assert_allclose(whole, at(eq.general_friction, point, speed=speeds, load=loads), rtol=1e-12)
+    ends = eq.master_curve(np.array([0.0, np.inf]), 0.1, n)
+    np.testing.assert_allclose(ends, [eq.plateau(0.1), 0.0], rtol=ROUNDING)
     slope = np.diff(np.log(at(eq.force_shift, point, speed=speeds[:, 0]))) / np.diff(np.log(speeds[:, 0]))
     np.testing.assert_allclose(slope, eq.force_shift_exponent(point["beta"], n), rtol=1e-10)
-
-
-def test_the_master_curve_is_the_plateau_at_no_load_and_nothing_at_infinite_load():
-    ends = eq.master_curve(np.array([0.0, np.inf]), 0.1, 2)
-    np.testing.assert_allclose(ends, [eq.plateau(0.1), 0.0], rtol=ROUNDING)
-
-
-def test_the_shift_exponent_of_the_experiment_gives_a_tenth():
-    assert eq.force_shift_exponent(0.1, 2) == pytest.approx(-0.15, rel=ROUNDING)
 
 
 ROUGH = SelfAffine(hurst=0.4, rms_height=1e-6, longest=1e-3, shortest=1e-4, seed=1)
@@ -285,19 +244,6 @@ def test_the_spectral_force_is_the_integral_and_its_waves_add_up_to_it():
     assert eq.wave_force(loss, numbers, surface.amplitudes, 0.1, 2e-3) == pytest.approx(force, rel=1e-3)
 
 
-def test_the_one_frequency_form_overestimates_long_waves():
-    # Of waves with amplitudes ~ q^-(H + 1/2) and G'' ~ w^b the long ones win where 2H > 1 + b.
-    solid = partial(eq.power_law_loss, loss=1e5, reference_frequency=1.0, beta=0.3)
-    misfits = []
-    for hurst in (0.1, 0.9):
-        rough = SelfAffine(hurst=hurst, rms_height=1e-6, longest=1e-2, shortest=1e-6)
-        q = rough.q_max(0.0)
-        spectral = eq.spectral_force(solid, lambda k, r=rough, q=q: r.density_1d(k, q), (rough.q_min, q), 0.1, 1.0)
-        misfits.append(eq.high_frequency_force(solid, q, 0.1, rough.rms_slope(q), 1.0) / spectral)
-    assert misfits[0] == pytest.approx(1.0, abs=0.5)
-    assert misfits[1] < 0.2
-
-
 def per_period(elastomer, surface, speed, depth):
     """Friction [N] and length of contact [m] of one period of a rough line far from its ends, simulated."""
     modulus, moduli, times = elastomer.relaxation()
@@ -313,76 +259,42 @@ def per_period(elastomer, surface, speed, depth):
     return np.diff(sums, axis=0)[0]
 
 
-SOLIDS = (
-    Kelvin(modulus=1e6, relaxation_time=1e-4),
-    StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=4e6, relaxation_time=1e-3),
-    Prony(equilibrium_modulus=1e6, moduli=(2e6, 1e6), relaxation_times=(1e-4, 1e-3)),
-    Fractional(modulus=1e6, relaxation_time=1e-4, exponent=0.3, lowest_frequency=1e3, highest_frequency=1e6),
-)
 SPEED, DEPTH = 0.1, 4e-5
-
-
-def waves(surface):
-    return 2 * pi / surface.period * np.arange(1, surface.amplitudes.size + 1)
 
 
 def test_a_kelvin_solid_in_full_contact_has_the_friction_of_its_finite_differences():
     for points in (32, 256):
         surface = draw(ROUGH, points)
-        force, length = per_period(SOLIDS[0], surface, SPEED, DEPTH)
+        force, length = per_period(Kelvin(modulus=1e6, relaxation_time=1e-4), surface, SPEED, DEPTH)
         assert length == pytest.approx(surface.period, rel=ROUNDING_OF_A_PERIOD)
         expected = 4 * 1e6 * 1e-4 * SPEED * surface.rms_slope**2 * surface.period
         assert force == pytest.approx(expected, rel=ROUNDING_OF_A_PERIOD)
 
 
-@pytest.mark.parametrize("solid", SOLIDS, ids=lambda s: s.type)
-def test_full_contact_is_the_sum_of_all_waves_of_the_polygon(solid):
+def test_full_contact_is_the_sum_of_all_waves_of_the_polygon():
     """Linear interpolation makes of a wave q the waves q + 2 pi m / pixel, each sinc^2 of its amplitude."""
+    solid = Prony(equilibrium_modulus=1e6, moduli=(2e6, 1e6), relaxation_times=(1e-4, 1e-3))
     surface = draw(ROUGH, 32)
     force, length = per_period(solid, surface, SPEED, DEPTH)
     assert length == pytest.approx(surface.period, rel=ROUNDING_OF_A_PERIOD)
-    shifts = 2 * pi / surface.pixel * np.arange(-ALIASES, ALIASES + 1)[:, None]
-    numbers = np.abs(waves(surface) + shifts)
+    # What lies beyond so many aliases falls as the cube of their number.
+    shifts = 2 * pi / surface.pixel * np.arange(-4000, 4001)[:, None]
+    numbers = np.abs(2 * pi / surface.period * np.arange(1, surface.amplitudes.size + 1) + shifts)
     heights = surface.amplitudes * np.sinc(numbers * surface.pixel / (2 * pi)) ** 2
     total = eq.wave_force(
         lambda w: solid.complex_modulus(w).imag, numbers.ravel(), heights.ravel(), SPEED, surface.period
     )
-    missing = 1 / ALIASES if isinstance(solid, Kelvin) else BEYOND
-    assert total == pytest.approx(force, rel=missing)
-
-
-@pytest.mark.parametrize("solid", SOLIDS, ids=lambda s: s.type)
-def test_the_waves_themselves_are_met_to_second_order_in_the_pixel(solid):
-    errors, points = [], (64, 128, 256, 512)
-    for count in points:
-        surface = draw(ROUGH, count)
-        expected = eq.wave_force(
-            lambda w: solid.complex_modulus(w).imag, waves(surface), surface.amplitudes, SPEED, surface.period
-        )
-        errors.append(abs(per_period(solid, surface, SPEED, DEPTH)[0] / expected - 1))
-    assert -np.polyfit(np.log(points), np.log(errors), 1)[0] == pytest.approx(2.0, abs=0.1)
-
-
-def simulated(scene, points=8000):
-    """mu and rms slope on so many profiles (2, PROFILES)."""
-    found = []
-    for seed in range(PROFILES):
-        result = MDR(points=points).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
-        found.append((result.friction_coefficient, result.measures["rms_slope"]))
-    return np.array(found).T
-
-
-# A shallow sphere: h_0/d = 0.02, rms slope 0.16, eleven times the macroscopic one.
-SHALLOW = Scene(
-    Sphere(radius=1.0),
-    Kelvin(modulus=1e6, relaxation_time=1e-3),
-    Slide(speed=1e-3, load=10.0),
-    SelfAffine(hurst=0.3, rms_height=3e-6, longest=2e-3, shortest=2e-5),
-)
+    assert total == pytest.approx(force, rel=1e-8)
 
 
 def test_slow_rough_friction_is_eq_10_within_its_scatter():
-    friction, slope = simulated(SHALLOW)
+    # A shallow sphere: h_0/d = 0.02, rms slope 0.16, eleven times the macroscopic one.
+    rough = SelfAffine(hurst=0.3, rms_height=3e-6, longest=2e-3, shortest=2e-5)
+    scene = Scene(Sphere(radius=1.0), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=1e-3, load=10.0))
+    found = (
+        MDR(points=8000).solve(replace(scene, roughness=replace(rough, seed=seed))) for seed in range(PROFILES)
+    )
+    friction, slope = np.transpose([(each.friction_coefficient, each.measures["rms_slope"]) for each in found])
     arguments = (10.0, 1e6, 1e-3, 1e-3)
     both = np.hypot(slope, eq.macroscopic_slope(10.0, 1e6, 1.0, 2))
     kept = friction / eq.low_speed_friction(*arguments, both, 1.0, 2) - 1
@@ -392,33 +304,23 @@ def test_slow_rough_friction_is_eq_10_within_its_scatter():
     assert abs(kept.mean()) < STANDARD_ERRORS * error < left_out.mean()
 
 
-def test_fast_rough_friction_is_the_plateau_within_its_scatter():
-    friction, slope = simulated(replace(SHALLOW, motion=Slide(speed=100.0, load=10.0)))
-    ratio = friction / eq.plateau(slope)
-    # Measured -3 %, the standard error is 3 %.
-    assert abs(ratio.mean() - 1) < STANDARD_ERRORS * ratio.std(ddof=1) / sqrt(PROFILES)
-
-
 @pytest.mark.parametrize("function", RESULTS, ids=lambda f: f.__name__)
 def test_arguments_out_of_range_are_named(function):
     for name in signature(function).parameters:
         if name in POINT:
-            for wrong in (-1.0, np.nan, np.array([1.0, -2.0])):
+            for wrong in (np.nan, np.array([1.0, -2.0])):
                 with pytest.raises(ValueError, match=f"{name} = "):
                     at(function, POINT, **{name: wrong})
 
 
 def test_further_arguments_out_of_range_are_named():
     for call, message in (
-        (lambda: eq.contact_radius(1, 1, 1, 0.5), "n = 0.5 must be from 1 to 100"),
         (lambda: eq.interpolation(-1.0), "xi = -1 must be from 0 to inf"),
         (lambda: eq.interpolation(1.0, alpha=0.0), "alpha = 0 must be positive"),
         (lambda: eq.normalised_friction(0.1, 0.1, form="printed"), "form = 'printed' must be one of corrected"),
         (lambda: eq.plateau_of_slopes([0.0, 0.0]), "slopes must be finite, and not all"),
-        (lambda: eq.plateau_of_slopes([]), "slopes must be finite, and not all"),
         (lambda: eq.spectral_force(abs, abs, (2.0, 1.0), 1.0, 1.0), r"band = \(2, 1\) must rise"),
         (lambda: eq.wave_force(abs, [1.0], [-1.0], 1.0, 1.0), "amplitudes = -1 must be finite and not negative"),
-        (lambda: eq.master_curve(-1.0, 0.1, 2), "shifted_load = -1 must be"),
         (lambda: eq.power_law_loss(1.0, 1.0, 1.0, 1.5), "beta = 1.5 must be from 0 to 1"),
     ):
         with pytest.raises(ValueError, match=message):

@@ -36,7 +36,7 @@ def test_the_paper_heats_at_one_newton_what_it_says_of_a_hundred():
     assert flash == pytest.approx(0.075, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 100.0])
+@pytest.mark.parametrize("n", [1.0, 100.0])
 def test_the_average_heating_is_that_of_an_isothermal_disc_but_for_the_shape(n):
     load, c = 3.0, 0.4 * 1e3 ** (n - 1)
     radius, depth = equations.contact_radius(load, STATIC, c, n), equations.indentation_depth(load, STATIC, c, n)
@@ -47,7 +47,7 @@ def test_the_average_heating_is_that_of_an_isothermal_disc_but_for_the_shape(n):
 TIMES, DEPTHS = (0.0, 1.0, 1.2, 3.0), (0.0, 1e-4, 1e-4, 0.0)
 
 
-@pytest.mark.parametrize("shape", [Sphere(radius=1e-2), Cone(angle=0.2), PowerLaw(coefficient=1e3, exponent=3.0)])
+@pytest.mark.parametrize("shape", [Cone(angle=0.2), PowerLaw(coefficient=1e3, exponent=3.0)])
 def test_the_radius_depends_on_the_depth_alone_until_the_indenter_is_withdrawn(shape):
     solid = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=5e6, relaxation_time=1.0)
     for time, kept in ((0.2, True), (1.0, True), (1.2, True), (1.5, False), (2.0, False)):
@@ -71,8 +71,7 @@ def test_the_configuration_of_a_rough_contact_at_a_depth_is_the_same_for_every_m
     assert fast.sum() < 0.9 * first.sum()
 
 
-@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3, 0.5])
-@pytest.mark.parametrize("shape", [Sphere(radius=1e-2), Cone(angle=0.2)])
+@pytest.mark.parametrize(("shape", "poisson_ratio"), [(Sphere(radius=1e-2), 0.3), (Cone(angle=0.2), 0.5)])
 def test_springs_that_slip_one_by_one_add_up_to_the_closed_form(shape, poisson_ratio):
     load, modulus = 1.0, 1e6
     solid = Elastic(modulus=modulus, poisson_ratio=poisson_ratio)
@@ -104,16 +103,12 @@ def test_partial_slip_of_a_sphere_is_cattaneo_and_mindlin():
     assert slope == pytest.approx(8 * modulus * sqrt(radius * depth) / 1.5, rel=1e-6)
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 3.0])
+@pytest.mark.parametrize("n", [1.0, 3.0])
 def test_at_the_layer_force_the_contact_is_as_wide_as_the_layer_is_thick(n):
     force = estimates.layer_force(STATIC, 1e-2, 20.0, n)
     assert 2 * equations.contact_radius(force, STATIC, 20.0, n) == pytest.approx(1e-2, rel=ROUNDING)
-
-
-def test_forty_newtons_belong_to_one_pair_of_the_papers_values():
-    pairs = {(d, r): estimates.layer_force(STATIC, d, 1 / r, 2) for d in (5e-3, 10e-3) for r in (25e-3, 50e-3)}
-    assert pairs[10e-3, 50e-3] == pytest.approx(40.0, rel=ROUNDING)
-    assert [pair for pair, force in pairs.items() if abs(force - 40) < 1] == [(10e-3, 50e-3)]
+    # The paper's forty newtons.
+    assert estimates.layer_force(STATIC, 10e-3, 1 / 50e-3, 2) == pytest.approx(40.0, rel=ROUNDING)
 
 
 def thin_layer_force(depth, base, n):
@@ -128,8 +123,8 @@ def thin_layer_force(depth, base, n):
     return trapezoid(pi * r * (depth * r**2 / 2 - r ** (n + 2) / (n + 2)), r)
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 3.0])
-@pytest.mark.parametrize("base", ["half-space", "compressible layer", "incompressible layer"])
+@pytest.mark.parametrize("n", [1.0, 2.0])
+@pytest.mark.parametrize("base", estimates.STIFFENING)
 def test_the_exponents_of_stiffness_are_those_of_the_force(base, n):
     depths = np.array([1e-3, 1e-2])
     if base == "half-space":
@@ -140,25 +135,6 @@ def test_the_exponents_of_stiffness_are_those_of_the_force(base, n):
         growth = np.diff(np.log(forces))[0] / log(10)
     # k ~ F/d; equal grids make the quadrature scale too.
     assert estimates.stiffness_exponent(n, base) == pytest.approx(1 - 1 / growth, rel=1e-10)
-
-
-def test_the_exponents_of_a_sphere_are_a_third_a_half_and_two_thirds():
-    found = [estimates.stiffness_exponent(2, base) for base in estimates.STIFFENING]
-    np.testing.assert_allclose(found, [1 / 3, 1 / 2, 2 / 3], rtol=ROUNDING)
-
-
-def test_estimates_keep_their_meaning_in_other_units():
-    # Lengths and times in units 1e-10 and 1e10, forces in 1e7.
-    length, time, force = 1e-10, 1e10, 1e7
-    pressure = force / length**2
-    for n in (1.0, 3.5):
-        scaled = estimates.layer_force(STATIC * pressure, 1e-2 * length, 20.0 * length ** (1 - n), n)
-        assert scaled == pytest.approx(estimates.layer_force(STATIC, 1e-2, 20.0, n) * force, rel=1e-12)
-    conductivity = CONDUCTIVITY * force / time
-    scaled = estimates.average_heating(
-        FRICTION, STATIC * pressure, 1e-4 * length, SPEED * length / time, conductivity
-    )
-    assert scaled == pytest.approx(heated(1e-4), rel=1e-12)
 
 
 def test_arguments_out_of_range_are_named():

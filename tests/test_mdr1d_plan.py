@@ -68,42 +68,30 @@ FACTOR = 1.5  # the formulas count arrays; copies within an expression come and 
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_plan_is_of_the_grid_and_the_steps_of_the_solve(name):
+def test_a_plan_is_of_the_grid_the_steps_and_nearly_the_sweeps_of_the_solve(name):
     scene = SCENES[name]
     asked = MDR(points=300 if name == "far-and-back" else 2000, steps=50)
     plan, answer = asked.plan(scene), asked.solve(scene)
     assert plan.shape == (answer.settings["points"] + 1,)
     assert plan.steps == answer.measures.get("time_steps", 0)
     assert plan.kernels == ()
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_the_applications_expected_are_near_those_that_it_takes(name):
     # exact at a prescribed depth and in time; under a load the search takes 2 to 7 sweeps, and 5 are expected
-    scene = SCENES[name]
-    asked = MDR(points=300 if name == "far-and-back" else 2000, steps=50)
-    plan, taken = asked.plan(scene), asked.solve(scene).applications
     expected = plan.applications.value
     if scene.motion.pressed_by == "depth" or isinstance(scene.motion, Program):
-        assert expected == taken
+        assert expected == answer.applications
     else:
-        assert taken / 3 < expected < taken * 3
+        assert answer.applications / 3 < expected < answer.applications * 3
 
 
 @pytest.mark.parametrize(
     ("name", "points"),
     [
-        ("rest", 10**5),
-        ("modes", 10**5),
+        ("rest", 5000),
         ("rough", 10**5),
         ("shear", 10**5),
         ("topography", 10**5),
-        ("program", 2000),
-        ("depths", 2000),
         ("many", 2000),
         ("far-and-back", 300),
-        ("rest", 5000),
-        ("slide", 5000),
     ],
 )
 def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):

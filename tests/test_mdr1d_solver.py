@@ -14,6 +14,7 @@ from scene import (
     Elastic,
     Indent,
     Kelvin,
+    Measured,
     Plane,
     PowerLaw,
     Program,
@@ -79,6 +80,7 @@ def test_smooth_and_resolved_scenes_say_so():
         (replace(ROUGH, indenter=Cylinder(radius=1e-2), motion=Slide(speed=1.0, line_load=1.0)), "Cylinder"),
         (replace(ROUGH, indenter=Plane(), motion=Slide(speed=1.0, pressure=1.0)), "Plane"),
         (replace(ROUGH, roughness=Wave(amplitude=1e-6, wavelength=1e-3)), "Wave"),
+        (replace(SMOOTH, indenter=Measured(heights=np.eye(5), pixel=1e-3)), "Measured"),
     ],
 )
 def test_what_has_no_one_dimensional_profile_is_refused_by_name(scene, word):

@@ -17,19 +17,17 @@ ROUNDING = 1e-12
 SIGMAS, KOLMOGOROV = 4, 1.95
 
 
-@pytest.mark.parametrize("hurst", [0.0, 0.4, 0.8, 1.0])
-@pytest.mark.parametrize("shortest", [None, 5e-5, 4.7e-5])
+@pytest.mark.parametrize(("hurst", "shortest"), [(0.0, None), (0.4, 4.7e-5), (1.0, 5e-5)])
 def test_the_rms_height_is_exact_on_every_grid(hurst, shortest):
     rough = replace(ROUGH, hurst=hurst, shortest=shortest)
-    for nodes in (427, 428, 5000):
+    for nodes in (427, 428):
         surface = draw(rough, nodes)
         assert surface.rms_height == pytest.approx(5e-5, rel=ROUNDING)
         assert surface.heights.size == nodes
         assert surface.period == pytest.approx(1e-2, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("hurst", [0.0, 0.4, 0.8, 1.0])
-@pytest.mark.parametrize("shortest", [None, 5e-5])
+@pytest.mark.parametrize(("hurst", "shortest"), [(0.0, 5e-5), (0.8, None)])
 def test_the_rms_slope_is_that_of_the_spectrum(hurst, shortest):
     rough = replace(ROUGH, hurst=hurst, shortest=shortest)
     surface = draw(rough, 5000)
@@ -47,7 +45,7 @@ def test_finite_differences_reach_the_spectral_slope_on_a_fine_grid():
     assert 0.83 < nyquist.rms_slope / nyquist.rms_slope_spectral < 0.89
 
 
-@pytest.mark.parametrize("hurst", [0.0, 0.4, 1.0])
+@pytest.mark.parametrize("hurst", [0.0, 1.0])
 def test_the_periodogram_follows_the_density(hurst):
     rough = replace(ROUGH, hurst=hurst)
     power = np.abs(np.fft.rfft(draw(rough, 3000).heights, norm="forward")) ** 2
@@ -62,33 +60,20 @@ def test_the_periodogram_follows_the_density(hurst):
 
 
 def test_the_same_seed_and_cut_off_give_the_same_surface_on_every_grid():
-    coarse, fine = draw(ROUGH, 500), draw(ROUGH, 4000)
+    coarse, fine, other = draw(ROUGH, 500), draw(ROUGH, 4000), draw(replace(ROUGH, seed=1), 500)
+    # Two independent draws: correlation of the order of one over the root of the few strong waves.
+    assert abs(np.corrcoef(coarse.heights, other.heights)[0, 1]) < 0.9
     np.testing.assert_allclose(fine.heights[::8], coarse.heights, atol=ROUNDING * 1e-2)
 
 
-def test_a_later_cut_off_adds_waves_and_keeps_the_phases_of_the_others():
-    near, far = draw(ROUGH, 1000), draw(replace(ROUGH, shortest=2.5e-5), 1000)
-    a, b = (np.fft.rfft(s.heights)[1:190] for s in (near, far))
-    np.testing.assert_allclose(np.angle(a / b), 0.0, atol=1e-9)
-
-
-def test_seeds_differ_and_repeat():
-    first, again, other = (draw(replace(ROUGH, seed=s), 1000).heights for s in (1, 1, 2))
-    np.testing.assert_array_equal(first, again)
-    # Two independent draws: correlation of the order of one over the root of the few strong waves.
-    assert abs(np.corrcoef(first, other)[0, 1]) < 0.9
-
-
-def test_heights_are_symmetric_over_many_draws():
-    heights = np.array([draw(replace(ROUGH, seed=s), 400).heights for s in range(300)])
-    skewness = np.mean(heights**3) / np.mean(heights**2) ** 1.5
-    # 300 draws of some ten independent heights each.
-    assert abs(skewness) < 4 * sqrt(15 / 3000)
-    np.testing.assert_allclose(heights.mean(axis=0), 0.0, atol=5 * 5e-5 / sqrt(300))
+def test_a_later_cut_off_adds_waves_and_keeps_the_phases_of_the_others_as_does_a_line_scan():
+    near = np.fft.rfft(draw(ROUGH, 1000).heights)[1:190]
+    for other in (draw(replace(ROUGH, shortest=2.5e-5), 1000), draw(ROUGH, 1000, "line-scan")):
+        np.testing.assert_allclose(np.angle(near / np.fft.rfft(other.heights)[1:190]), 0.0, atol=1e-9)
 
 
 def test_the_spectrum_ends_at_its_cut_off_without_loss_between_two_waves():
-    for bandwidth in (2.0, 2.4, 2.6, 2.999, 3.0, 3 - 1e-15, 1000.7):
+    for bandwidth in (2.0, 2.4, 2.6, 3 - 1e-15):
         waves = amplitudes(ROUGH, bandwidth)
         assert waves.size == int(bandwidth + 1e-9)
         assert np.all(waves > 0)
@@ -113,8 +98,7 @@ def test_a_later_cut_off_adds_waves_and_keeps_the_moduli_of_the_others():
     np.testing.assert_allclose(ratios[1][:200], ratios[0], rtol=ROUNDING)
 
 
-@pytest.mark.parametrize("shortest", [2e-3, None])
-@pytest.mark.parametrize("kind", ["fixed", "gaussian"])
+@pytest.mark.parametrize(("kind", "shortest"), [("fixed", None), ("gaussian", None), ("fixed", 2e-3)])
 def test_heights_over_many_draws_have_the_kurtosis_of_their_waves(kind, shortest):
     # A cosine of random phase has the fourth cumulant -3/8 A^4, a Gaussian wave none.
     rough = replace(ROUGH, hurst=0.8, shortest=shortest, amplitudes=kind)
@@ -132,15 +116,6 @@ def test_heights_over_many_draws_have_the_kurtosis_of_their_waves(kind, shortest
     assert abs(-3 / 8 * np.sum(waves**4) / 5e-5**4) > 2 * SIGMAS * sqrt(24 / 8000)
 
 
-def test_a_gaussian_wave_at_the_nyquist_wave_number_is_a_gaussian_height_of_its_variance():
-    rough = replace(ROUGH, hurst=0.0, shortest=None, amplitudes="gaussian")
-    heights = np.array([draw(replace(rough, seed=s), 10).heights for s in range(2000)])
-    last = heights @ (-1.0) ** np.arange(10) / 10
-    variance = amplitudes(rough, 5.0)[-1] ** 2 / 2
-    assert np.mean(last**2) == pytest.approx(variance, rel=SIGMAS * sqrt(2 / 2000))
-    assert np.mean(last**4) == pytest.approx(3 * variance**2, rel=SIGMAS * sqrt(96 / 9 / 2000))
-
-
 def test_a_gaussian_line_has_an_rms_height_that_scatters_about_that_of_the_spectrum():
     # The variance of the mean square is the sum of A^4 / 4 over the waves.
     rough = replace(ROUGH, amplitudes="gaussian")
@@ -151,8 +126,7 @@ def test_a_gaussian_line_has_an_rms_height_that_scatters_about_that_of_the_spect
     assert squares.std() == pytest.approx(spread, rel=0.25)
 
 
-@pytest.mark.parametrize("rolloff", [None, 2e-3])
-@pytest.mark.parametrize("hurst", [0.0, 0.4, 1.0])
+@pytest.mark.parametrize(("hurst", "rolloff"), [(0.0, 2e-3), (0.8, None)])
 def test_a_line_scan_lacks_the_height_of_what_is_longer_than_two_periods(hurst, rolloff):
     rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
     top = rough.q_max(0.0)
@@ -165,7 +139,7 @@ def test_a_line_scan_lacks_the_height_of_what_is_longer_than_two_periods(hurst, 
     assert surface.rms_slope_spectral == pytest.approx(rough.rms_slope(top) / sqrt(2), rel=0.03)
 
 
-@pytest.mark.parametrize("hurst", [0.0, 0.4, 0.8])
+@pytest.mark.parametrize("hurst", [0.0, 0.8])
 def test_a_line_scan_has_the_waves_of_a_cut_through_the_rough_surface(hurst):
     rough = replace(ROUGH, hurst=hurst)
     cut = np.sum(np.abs(RoughSurface.draw(rough, rough.q_max(0.0)).amplitudes) ** 2, axis=0)[1:]
@@ -174,11 +148,6 @@ def test_a_line_scan_has_the_waves_of_a_cut_through_the_rough_surface(hurst):
     np.testing.assert_allclose(cut[4:190], waves[4:190], rtol=0.05)
     mapped = amplitudes(rough, 200.0) ** 2
     assert hurst == 0 or np.all(mapped[4:100] > 1.2 * cut[4:100])
-
-
-def test_both_spectra_are_drawn_with_the_same_phases():
-    mapped, scan = (np.fft.rfft(draw(ROUGH, 1000, s).heights)[1:190] for s in ("mapped", "line-scan"))
-    np.testing.assert_allclose(np.angle(mapped / scan), 0.0, atol=1e-9)
 
 
 def test_the_shortest_wave_asks_for_two_nodes():

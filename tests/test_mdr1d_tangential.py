@@ -1,6 +1,5 @@
 """Foundations drawn along the surface: springs that friction holds, against closed forms and themselves."""
 
-import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -31,7 +30,7 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, s
 SHAPES = {"sphere": Sphere(10e-3), "cone": Cone(0.1), "fourth power": PowerLaw(1e6, 4)}
 SECOND_ORDER = 2e-7  # what a polygon of 5000 points is short of the shape
 ROUNDING = 1e-12
-SHARES = (1e-6, 0.1, 0.5, 0.9, 0.999)
+SHARES = (1e-6, 0.5, 0.999)
 
 
 def scene(indenter=SHAPES["sphere"], nu=0.5, roughness=None, coefficient=MU, **drawn):
@@ -43,8 +42,7 @@ def at_rest(of, **pressed):
 
 
 @pytest.mark.parametrize("share", SHARES)
-@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(("shape", "nu"), [("sphere", 0.5), ("cone", 0.0), ("fourth power", 0.3)])
 def test_a_smooth_body_is_that_of_cattaneo_and_mindlin(shape, nu, share):
     body = SHAPES[shape]
     depth = MDR().solve(at_rest(scene(body, nu, displacement=0.0))).depth
@@ -60,7 +58,7 @@ def test_a_smooth_body_is_that_of_cattaneo_and_mindlin(shape, nu, share):
     assert stick == pytest.approx((1 - share) ** (1 / body.exponent), abs=1e-3)
 
 
-@pytest.mark.parametrize("points", [100, 300, 1000, 3000, 10000])
+@pytest.mark.parametrize("points", [100, 1000, 10000])
 @pytest.mark.parametrize("share", [0.3, 0.7])
 def test_the_error_of_the_polygon_is_of_second_order_in_its_spacing(share, points):
     depth = MDR(points=100_000).solve(at_rest(scene(displacement=0.0))).depth
@@ -81,8 +79,7 @@ def test_a_force_is_met_to_rounding_and_its_displacement_leads_back_to_it(roughn
     assert back.friction_force == pytest.approx(force, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("share", [0.2, 0.6, 0.9])
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize(("share", "seed"), [(0.2, 1), (0.9, 2)])
 def test_a_rough_line_is_the_difference_of_two_contacts_of_its_own(seed, share):
     # F_x = mu (F_a - F_c), u = mu (E*/G*) (d_a - d_c): another algorithm finds the contacts
     rough = replace(ROUGH, seed=seed)
@@ -130,23 +127,11 @@ def test_friction_without_a_pull_draws_no_springs(motion, monkeypatch):
     one, other = (MDR().solve(each) for each in (plain, replace(plain, interface=Coulomb(MU))))
     for name, field in one.fields.items():
         np.testing.assert_array_equal(field, other.fields[name])
-    assert other.friction_force == one.friction_force + (MU * one.normal_force if motion.speed else 0.0)
-
-
-def test_friction_of_elastomer_and_interface_add():
-    answer = MDR().solve(
-        Scene(SHAPES["sphere"], Kelvin(G, 1e-3), Slide(speed=0.1, load=LOAD), interface=Coulomb(MU))
-    )
-    parts = [answer.measures[f"friction_in_{where}"] for where in ("elastomer", "interface")]
-    assert answer.friction_force == sum(parts)
-    assert parts[0] > 0
-    assert parts[1] == pytest.approx(MU * LOAD, rel=1e-10)
-
-
-def test_all_slips_in_the_end_and_friction_holds_no_more():
-    answer = MDR().solve(scene(roughness=ROUGH, displacement=1.0))
-    assert answer.measures["stick_length"] == 0
-    assert answer.friction_force == pytest.approx(MU * answer.normal_force, rel=ROUNDING)
+    parts = (one.friction_force, MU * one.normal_force if motion.speed else 0.0)
+    assert other.friction_force == sum(parts)
+    if motion.speed:
+        assert tuple(other.measures[f"friction_in_{where}"] for where in ("elastomer", "interface")) == parts
+        assert min(parts) > 0
 
 
 def test_without_friction_all_slips_at_once():
@@ -156,7 +141,7 @@ def test_without_friction_all_slips_at_once():
     assert (answer.fields["slip"][answer.fields["contact"]] == 1e-6).all()
 
 
-@pytest.mark.parametrize("drawn", [1e-300, 1e-18, 1e-12])
+@pytest.mark.parametrize("drawn", [1e-300, 1e-12])
 def test_next_to_nothing_displaces_in_proportion(drawn):
     answer = MDR().solve(scene(displacement=drawn))
     stiffness = closed.no_slip_stiffness(G, 0.5, answer.measures["contact_length"] / 2)
@@ -164,12 +149,11 @@ def test_next_to_nothing_displaces_in_proportion(drawn):
     assert answer.friction_force == pytest.approx(stiffness * drawn, rel=1e-3)
 
 
-@pytest.mark.parametrize("drawn", ["displacement", "force"])
-@pytest.mark.parametrize("roughness", [None, ROUGH])
+@pytest.mark.parametrize(("drawn", "roughness"), [("displacement", ROUGH), ("force", None)])
 def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(roughness, drawn):
     pull = {"displacement": 3e-5, "force": 0.6 * MU * LOAD}[drawn]
     one = MDR().solve(scene(roughness=roughness, **{drawn: pull}))
-    for factor in (1e-250, 1e-160, 1e-12, 1e100, 1e150):
+    for factor in (1e-250, 1e-12, 1e150):
         asked = scene(roughness=roughness, coefficient=factor * MU, **{drawn: factor * pull})
         other = MDR().solve(asked)
         assert other.friction_force == pytest.approx(factor * one.friction_force, rel=ROUNDING)
@@ -197,7 +181,7 @@ def test_the_line_as_given_slips_by_its_own_depth():
     assert answer.friction_force == pytest.approx(MU * LOAD * closed.force(1e-5 / u_max), rel=SECOND_ORDER)
 
 
-@pytest.mark.parametrize(("coefficient", "force"), [(MU, MU * LOAD), (MU, 2.0), (0.0, 1e-3)])
+@pytest.mark.parametrize(("coefficient", "force"), [(MU, MU * LOAD), (0.0, 1e-3)])
 def test_a_force_beyond_friction_slides_and_is_an_error(coefficient, force):
     # the load itself is met to 1e-13
     with pytest.raises(SolveError, match=rf"motion.force = {force:g} slides: all that friction holds"):
@@ -208,13 +192,3 @@ def test_a_history_of_partial_slip_is_refused_by_name():
     asked = replace(scene(force=0.1), motion=Program(stages=(Stage(duration=1.0, load=LOAD),)))
     with pytest.raises(Refused, match="interface = Coulomb: a history of partial slip is not simulated"):
         MDR().solve(asked)
-
-
-def test_a_plan_has_the_springs_that_are_held():
-    asked = scene(force=0.1)
-    MDR().solve(asked)
-    tracemalloc.start()
-    MDR(points=200_000).solve(asked)
-    held = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert 0.6 < held / MDR(points=200_000).plan(asked).memory < 1.5

@@ -13,17 +13,12 @@ from mdr1d import MDR, draw
 from mdr1d.surface import band_of
 from mdr1d.topography import amplitudes
 from scene import (
-    Cone,
-    Indent,
     Kelvin,
-    Measured,
-    Program,
     Refused,
     Scene,
     SelfAffine,
     Slide,
     Sphere,
-    Stage,
     Topography,
 )
 from scene.waves import MOST_WAVES
@@ -47,8 +42,7 @@ def noise(shape, **other):
 
 
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
-@pytest.mark.parametrize("shape", [(9, 9), (12, 12), (8, 15), (30, 6)])
-@pytest.mark.parametrize("kept", [None, 2.5e-3])
+@pytest.mark.parametrize(("shape", "kept"), [((9, 9), None), ((8, 15), 2.5e-3), ((30, 6), None)])
 def test_a_mapped_line_keeps_the_mean_square_of_the_map(repeat, shape, kept):
     map_ = noise(shape, repeat=repeat, shortest_kept=kept)
     found = amplitudes(map_)
@@ -83,18 +77,15 @@ def test_a_mapped_line_is_the_line_of_the_spectrum_that_the_map_was_drawn_from()
     assert np.exp(np.mean(np.log(ratio))) == pytest.approx(1.0, abs=0.03)
 
 
-@pytest.mark.parametrize("peaks", ["up", "down"])
-def test_the_sign_of_heights_is_lost_on_mapped_lines_alone(peaks):
-    turned = noise((9, 9), peaks=peaks)
-    up = noise((9, 9), peaks="up")
-    assert np.allclose(draw(turned, 64).heights, draw(up, 64).heights)
-    sign = 1.0 if peaks == "up" else -1.0
-    assert np.allclose(draw(turned, 64, "line-scan").heights, sign * draw(up, 64, "line-scan").heights)
+def test_the_sign_of_heights_is_lost_on_mapped_lines_alone():
+    for spectrum, sign in (("mapped", 1.0), ("line-scan", -1.0)):
+        up, down = (draw(noise((9, 9), peaks=peaks), 64, spectrum).heights for peaks in ("up", "down"))
+        np.testing.assert_allclose(down, sign * up, atol=ROUNDING)
 
 
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
-@pytest.mark.parametrize("shape", [(9, 11), (8, 15), (9, 8)])
-@pytest.mark.parametrize("seed", [0, 1, 2, 7])
+@pytest.mark.parametrize("shape", [(8, 15), (9, 8)])
+@pytest.mark.parametrize("seed", [0, 1, 7])
 def test_a_scanned_line_is_a_row_of_the_map(repeat, shape, seed):
     map_ = noise(shape, repeat=repeat, seed=seed)
     rows, columns = shape
@@ -125,28 +116,11 @@ def test_on_as_many_nodes_as_pixels_a_row_is_whole():
         np.testing.assert_allclose(coarse, fine[::2], atol=1e-12)
 
 
-def test_rows_have_all_they_have_and_no_mean():
-    map_ = sampled(points=65)
-    squares = [draw(replace(map_, seed=seed), 130, "line-scan").rms_height ** 2 for seed in range(1, 300)]
-    rows = map_.relief - map_.relief.mean(axis=1, keepdims=True)
-    assert np.mean(squares) == pytest.approx(
-        np.mean(rows**2), rel=SIGMAS * np.std(squares) / 17 / np.mean(squares)
-    )
-
-
-def test_seeds_are_lines_and_equal_seeds_are_equal():
-    map_ = sampled()
-    for spectrum in ("mapped", "line-scan"):
-        one, twin, other = (draw(replace(map_, seed=seed), 200, spectrum).heights for seed in (3, 3, 4))
-        assert np.array_equal(one, twin)
-        assert not np.allclose(one, other)
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize("spectrum", ["mapped", "line-scan"])
-@pytest.mark.parametrize("body", [Sphere(0.1), Cone(0.03)])  # flatter than the roughness
-def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum, body):
-    slow = replace(SLIDING.motion, speed=0.01)
-    scene, solver = replace(SLIDING, indenter=body, motion=slow), MDR(points=1000, spectrum=spectrum)
+def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum):
+    scene = replace(SLIDING, indenter=Sphere(0.1), motion=replace(SLIDING.motion, speed=0.01))
+    solver = MDR(points=1000, spectrum=spectrum)
     rough = replace(ROUGH, amplitudes="gaussian", rms_height=2e-5)
 
     def friction(roughness, seeds):
@@ -162,25 +136,6 @@ def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum, b
     assert rows.mean() - smooth > 10 * error  # the roughness does something
 
 
-def test_a_map_without_heights_is_no_roughness():
-    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
-    for spectrum in ("mapped", "line-scan"):
-        solver = MDR(points=1000, extent=4e-3, spectrum=spectrum)
-        with_it, without = solver.solve(replace(SLIDING, roughness=flat)), solver.solve(SLIDING)
-        assert with_it.friction_force == pytest.approx(without.friction_force, rel=1e-9)
-        assert with_it.depth == pytest.approx(without.depth, rel=1e-9)
-
-
-def test_a_program_slides_on_rows_of_a_map():
-    program = Program(stages=(Stage(duration=1e-2, load=1.0), Stage(duration=4e-3, speed=0.1)))
-    for spectrum in ("mapped", "line-scan"):
-        answer = MDR(points=400, spectrum=spectrum, steps=20).solve(
-            replace(SLIDING, motion=program, roughness=sampled())
-        )
-        assert answer.friction_force > 0
-        assert answer.normal_force == pytest.approx(1.0)
-
-
 def test_measures_are_those_of_the_line():
     map_ = sampled()
     answer = MDR(points=2000).solve(replace(SLIDING, roughness=map_))
@@ -189,13 +144,6 @@ def test_measures_are_those_of_the_line():
     row = MDR(points=2000, spectrum="line-scan").solve(replace(SLIDING, roughness=map_))
     relief = map_.relief[32] - map_.relief[32].mean()
     assert row.measures["rms_height"] == pytest.approx(relief.std(), rel=1e-6)
-
-
-def test_a_rectangle_is_as_long_as_its_longer_side_or_its_rows():
-    map_ = noise((30, 6), repeat="periodic")
-    assert band_of(map_, "mapped").period == pytest.approx(30e-3)
-    assert band_of(map_, "line-scan").period == pytest.approx(6e-3)
-    assert band_of(map_, "line-scan").shortest == pytest.approx(2e-3)
 
 
 def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
@@ -211,21 +159,6 @@ def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
 def test_a_grid_too_coarse_for_a_map_is_refused():
     with pytest.raises(Refused, match="is not resolved"):
         MDR(points=16, extent=4e-3).solve(replace(SLIDING, roughness=sampled()))
-
-
-def test_measured_bodies_are_refused_by_name():
-    body = Measured(heights=np.random.default_rng(0).normal(size=(5, 5)), pixel=1e-3)
-    with pytest.raises(Refused, match="indenter = Measured: it is no body of revolution"):
-        MDR().solve(replace(SLIDING, indenter=body, motion=Indent(load=1.0)))
-
-
-def test_a_scene_without_a_map_draws_from_none(monkeypatch):
-    def built(*_):
-        raise AssertionError("a map was looked at")
-
-    monkeypatch.setattr(mdr1d.topography, "draw", built)
-    assert MDR(points=500).solve(replace(SLIDING, roughness=ROUGH)).friction_force > 0
-    assert MDR(points=500).solve(SLIDING).friction_force > 0
 
 
 def test_amplitudes_are_summed_once_for_all_seeds(monkeypatch):
