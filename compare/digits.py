@@ -49,6 +49,11 @@ def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str
     return f"{middle} ({below} to {above}){_times(power)}"
 
 
+def with_unit(text: str, unit: str) -> str:
+    """A number as text with its unit, of which a ratio has none."""
+    return text if unit in ("", "1") else f"{text} {unit}"
+
+
 def plus_minus(value: float, error: float, digits: int = DIGITS) -> str:
     """value ± error, to two digits of the error; the number alone without one."""
     if not (isfinite(value) and ROUNDING * abs(value) < error < inf):

@@ -72,7 +72,7 @@ class Finding:
     reason : why there is no verdict; beside a stated verdict, what else has to be said; else empty
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
     plot : name of the plot that shows it
-    dimension : "1D", "3D", "1D/3D"; that of the claim if empty
+    dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
     """
 
     claim: Claim
@@ -87,6 +87,9 @@ class Finding:
     stated: str = ""
     plot: str = ""
     dimension: str = ""
+
+    def __post_init__(self):
+        object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -117,13 +120,48 @@ class Finding:
         return "" if isfinite(self.grid) else "the error of the grid is not known"
 
     @property
+    def why(self) -> str:
+        """Why there is no verdict, or what else has to be said; else empty."""
+        return self.reason or (self.undecidable if self.verdict == UNDECIDED else "")
+
+    @property
+    def place(self) -> str:
+        """Where it was measured, with the regime, in words."""
+        return ", ".join(part for part in (self.where, self.regime) if part)
+
+    def found(self, figures: int = digits.DIGITS) -> str:
+        """Value with its interval and unit in words; figures : significant digits of a value without interval"""
+        if not isfinite(self.value):
+            return "not known"
+        return digits.with_unit(digits.interval(self.value, *self.interval, figures), self.claim.unit)
+
+    @property
+    def claimed(self) -> str:
+        """Number expected with its tolerance and unit in words; empty of a number without a claim."""
+        claim = self.claim
+        if not isfinite(claim.tolerance):
+            return ""
+        expected, tolerance = digits.number(claim.expected), digits.number(claim.tolerance)
+        said = f"{expected} ± {tolerance}" if isfinite(claim.expected) else f"at most {tolerance}"
+        return digits.with_unit(said, claim.unit)
+
+    @property
+    def basis(self) -> str:
+        """What the interval is made of, in words."""
+        if not isfinite(self.grid):
+            return ""
+        surfaces = f"{self.draws} surfaces, " if self.draws else ""
+        exact = f" {digits.number(self.grid, 2)}" if self.grid else ""
+        return f"{surfaces}grid{exact} ({self.grid_method})"
+
+    @property
     def row(self) -> dict[str, Any]:
         """Finding as a row of the table that every command gives."""
         low, high = self.interval
         return {
             "claim": self.claim.id,
             "where": self.where,
-            "dimension": self.dimension or self.claim.dimension,
+            "dimension": self.dimension,
             "verdict": self.verdict,
             "value": self.value,
             "low": low,
@@ -137,7 +175,7 @@ class Finding:
             "grid_method": self.grid_method,
             "draws": self.draws,
             "regime": self.regime,
-            "reason": self.reason or (self.undecidable if self.verdict == UNDECIDED else ""),
+            "reason": self.why,
             "sentence": self.claim.sentence,
             "meaning": self.claim.meaning,
             "plot": self.plot,
@@ -158,8 +196,8 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
         parts = []
-        for dimension in dict.fromkeys(each.dimension or each.claim.dimension for each in own):
-            here = [each for each in own if (each.dimension or each.claim.dimension) == dimension]
+        for dimension in dict.fromkeys(each.dimension for each in own):
+            here = [each for each in own if each.dimension == dimension]
             verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
             said = ", ".join(
                 _said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts
@@ -193,7 +231,4 @@ def _listed(parts):
 
 def number(found: Finding) -> str:
     """Value and interval of a finding in words."""
-    if not isfinite(found.value):
-        return "not measured"
-    unit = "" if found.claim.unit in ("", "1") else f" {found.claim.unit}"
-    return digits.interval(found.value, *found.interval, 3) + unit
+    return found.found(3) if isfinite(found.value) else "not measured"

@@ -1,8 +1,8 @@
 """Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from textwrap import wrap
@@ -43,31 +43,23 @@ class Ready:
     text: str
 
 
-@dataclass(frozen=True, repr=False)
-class Listing(Mapping[str, Any]):
+class Listing(dict[str, Any]):
     """What can be named, each with a title and what it is about; printed, a list for people.
 
     offered : by name; groups : headings with the names below each, all names under none if absent
     end : last line
     """
 
-    offered: Mapping[str, Any]
-    groups: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    end: str = ""
-
-    def __getitem__(self, name: str) -> Any:
-        return self.offered[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.offered)
-
-    def __len__(self) -> int:
-        return len(self.offered)
+    def __init__(
+        self, offered: Mapping[str, Any], groups: Mapping[str, Sequence[str]] | None = None, end: str = ""
+    ) -> None:
+        super().__init__(offered)
+        self.groups, self.end = groups or {"": list(offered)}, end
 
     def __str__(self) -> str:
         width = max((len(name) for name in self), default=0) + 2
         lines = []
-        for heading, names in (self.groups or {"": list(self)}).items():
+        for heading, names in self.groups.items():
             lines += [f"{heading}:", ""] if heading else []
             for name in names:
                 lines.append(f"{name:{width}s}{self[name].title}")

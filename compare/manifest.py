@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
 from scene.reading import InvalidInput
 
 from .csvfiles import write_text
-from .page import Page, Plot, Table
+from .page import Page, Plot
 from .store import PACKAGES, finite
 
 if TYPE_CHECKING:
@@ -87,15 +87,9 @@ def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
         "plots": [_entry(plot) for plot in page.every(Plot)],
-        "tables": tables(page),
+        "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
     }
     write_text(folder / NAME, json.dumps(_storable(content), indent=1, allow_nan=False, ensure_ascii=False))
-
-
-def tables(page: Page) -> list[str]:
-    """Names of all tables that a page leaves as CSV files, without ending, each once."""
-    behind = (f"{plot.folder}{name}" for plot in page.every(Plot) for name in plot.tables)
-    return list(dict.fromkeys([FINDINGS, *(table.name for table in page.every(Table)), *behind]))
 
 
 def remove(folder: Path) -> None:
@@ -123,6 +117,15 @@ def versions() -> dict[str, str]:
 def machine() -> dict[str, Any]:
     """What the numbers were computed on."""
     return {"system": platform.system(), "machine": platform.machine(), "processors": os.cpu_count()}
+
+
+def made() -> dict[str, str]:
+    """What a page was made with and on, in words."""
+    where = machine()
+    return {
+        "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
+        "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
+    }
 
 
 def _entry(plot):

@@ -68,6 +68,11 @@ class Plot:
         """Folder of its files below that of the page, with a slash at the end; empty of that folder itself."""
         return self.name[: self.name.rfind("/") + 1]
 
+    @property
+    def files(self) -> Tables:
+        """Its tables by the names of their files, without .csv, with the folder."""
+        return {f"{self.folder}{name}": frame for name, frame in self.tables.items()}
+
     def figure(self) -> Figure:
         """The figure, drawn from the tables in the style that is applied."""
         return self.draw(self.tables, **self.options)
@@ -98,6 +103,12 @@ class Page:
     answer: Sequence[str]
     blocks: Sequence[Block]
     about: Mapping[str, str] = field(default_factory=dict)
+
+    def tables(self) -> Iterator[tuple[str, DataFrame]]:
+        """Name of its file, without .csv, and frame of every table that is shown or drawn; some come twice."""
+        yield from ((table.name, table.frame) for table in self.every(Table))
+        for plot in self.every(Plot):
+            yield from plot.files.items()
 
     def every(self, kind: type) -> Iterator[Any]:
         """Blocks of one kind, in sections too, in their order."""

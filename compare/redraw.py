@@ -3,7 +3,6 @@
 import inspect
 from collections.abc import Callable, Mapping
 from importlib import import_module
-from operator import methodcaller
 from os import PathLike
 from pathlib import Path
 from pkgutil import walk_packages
@@ -13,12 +12,11 @@ from matplotlib.figure import Figure
 
 from scene.reading import InvalidInput
 
-from . import csvfiles, manifest, plots
+from . import csvfiles, manifest, pages, plots
 from .page import Plot
 from .plots import style as looks
 from .plots.journals import journal as find_journal
 from .plots.rendering import FORMS, picture
-from .store import write
 
 FIGURES = "figures"
 # What a function of a table that was changed may raise.
@@ -63,8 +61,8 @@ def redraw(
 def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
     """The files of one figure."""
     draw = function(entry, folder / manifest.NAME)
-    below = entry.name[: entry.name.rfind("/") + 1]
-    tables = {name: csvfiles.read(folder / f"{below}{name}.csv") for name in entry.tables}
+    below = (folder / entry.name).parent
+    tables = {name: csvfiles.read(below / f"{name}.csv") for name in entry.tables}
     plot = Plot(entry.name, draw, tables, "", options=entry.options)
     try:
         drawn = picture(plot, FORMS)
@@ -72,12 +70,7 @@ def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
         raise
     except UNDRAWABLE as error:
         raise InvalidInput(f"{folder}: figure {entry.name} cannot be drawn from its tables: {error!r}") from error
-    paths = []
-    for form, content in drawn.files.items():
-        paths.append(target / f"{entry.name}.{form}")
-        paths[-1].parent.mkdir(parents=True, exist_ok=True)
-        write(paths[-1], methodcaller("write", content))
-    return paths
+    return pages.write_picture(drawn, target / entry.name)
 
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:

@@ -138,7 +138,7 @@ def other(contacts, name, **roughness):
 def of(judged, name, dimension=None):
     """The findings on claims whose id begins so."""
     found = [each for each in judged.findings if each.claim.id.startswith(name) and each.verdict != REPORTED]
-    return [each for each in found if dimension in (None, each.dimension or each.claim.dimension)]
+    return [each for each in found if dimension in (None, each.dimension)]
 
 
 def verdicts(judged, dimension):
@@ -405,7 +405,7 @@ def test_solved_contacts_tell_the_known_truths(solved):
 def test_only_the_kinds_of_claims_that_are_asked_are_judged(whole, kinds, ids, dimensions):
     found = judge_series(replace(whole, series=replace(SERIES, claims=kinds)))
     assert {each.claim.id.partition(".")[0] for each in of(found, "")} == ids
-    assert {each.dimension or each.claim.dimension for each in found.findings} == dimensions
+    assert {each.dimension for each in found.findings} == dimensions
 
 
 @pytest.mark.parametrize("name", catalogue.STUDIES)

@@ -1,22 +1,20 @@
 """Pages: five renderers of `page.Page`, and what lies beside a page: figures and tables."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import methodcaller
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from pandas import DataFrame
-
 from .. import csvfiles, finding
 from ..finding import Finding
 from ..manifest import FINDINGS
-from ..page import Page, Plot, Table
+from ..page import Page, Plot
 from ..plots.rendering import FORMS, Picture, picture
 from ..store import write as write_whole
 from . import html, latex, markdown, notebook, terminal
 
-__all__ = ["FILES", "FORMATS", "FORMS", "notebook", "terminal", "write", "write_tables"]
+__all__ = ["FILES", "FORMATS", "FORMS", "notebook", "terminal", "write", "write_picture", "write_tables"]
 
 _RENDERERS: Mapping[str, tuple[str, ModuleType]] = {
     "html": ("report.html", html),
@@ -47,32 +45,29 @@ def write(
     pictures: dict[str, Picture] = {}
     for plot in page.every(Plot):
         pictures[plot.name] = picture(plot, forms)
-        for form, content in pictures[plot.name].files.items():
-            path = folder / f"{plot.name}.{form}"
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(path, methodcaller("write", content))
+        write_picture(pictures[plot.name], folder / plot.name)
         told(plot.name)
     name, renderer = _RENDERERS[format]
     csvfiles.write_text(folder / name, renderer.text(page, pictures, tables))
     return folder / name
 
 
+def write_picture(drawn: Picture, path: Path) -> list[Path]:
+    """Write every form of a figure; path : without its ending. Returns the files. Raises OSError."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    files = {path.with_name(f"{path.name}.{form}"): content for form, content in drawn.files.items()}
+    for file, content in files.items():
+        write_whole(file, methodcaller("write", content))
+    return list(files)
+
+
 def write_tables(page: Page, findings: Sequence[Finding], folder: Path) -> dict[str, str]:
     """Write every table of a page as CSV, and all findings; returns their texts by name. Raises OSError."""
     texts: dict[str, str] = {}
-    for name, frame in _tables(page, findings):
+    for name, frame in ((FINDINGS, finding.table(findings)), *page.tables()):
         text = csvfiles.text(frame)
         if texts.setdefault(name, text) != text:
             raise ValueError(f"two tables of the page have the name {name!r}")
     for name, text in texts.items():
         csvfiles.write_text(folder / f"{name}.csv", text)
     return texts
-
-
-def _tables(page, findings) -> Iterator[tuple[str, DataFrame]]:
-    yield FINDINGS, finding.table(findings)
-    for table in page.every(Table):
-        yield table.name, table.frame
-    for plot in page.every(Plot):
-        for name, frame in plot.tables.items():
-            yield f"{plot.folder}{name}", frame

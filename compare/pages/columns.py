@@ -2,14 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite, nan
 from numbers import Real
 from typing import Any
 
 from pandas import DataFrame
 
 from .. import digits
-from ..finding import Finding
 from ..vocabulary import head
 
 LOW, HIGH, ERROR = "_low", "_high", "_error"
@@ -68,80 +66,3 @@ def _column(frame, name, ends, figures):
 
 def _key(value):
     return float(value) if isinstance(value, Real) else "" if value is None else str(value)
-
-
-@dataclass(frozen=True)
-class Row:
-    """A finding as people read it.
-
-    claim, meaning : what is claimed, and how it is measured
-    place : where it was measured, and in which dimensionality
-    found : value with its interval and unit
-    claimed : number expected with its tolerance; empty of a number without a claim
-    """
-
-    finding: Finding
-
-    @property
-    def claim(self) -> str:
-        return self.finding.claim.sentence
-
-    @property
-    def meaning(self) -> str:
-        return self.finding.claim.meaning
-
-    @property
-    def dimension(self) -> str:
-        return self.finding.dimension or self.finding.claim.dimension
-
-    @property
-    def place(self) -> str:
-        return ", ".join(part for part in (self.finding.where, self.finding.regime) if part)
-
-    @property
-    def value(self) -> float:
-        return self.finding.value
-
-    @property
-    def found(self) -> str:
-        low, high = self.finding.interval
-        if not isfinite(self.value):
-            return "not known"
-        return digits.interval(self.value, low, high) + self._unit
-
-    @property
-    def expected(self) -> float:
-        return self.finding.claim.expected if isfinite(self.finding.claim.tolerance) else nan
-
-    @property
-    def claimed(self) -> str:
-        claim = self.finding.claim
-        if not isfinite(claim.tolerance):
-            return ""
-        if not isfinite(claim.expected):
-            return f"at most {digits.number(claim.tolerance)}{self._unit}"
-        return f"{digits.number(claim.expected)} ± {digits.number(claim.tolerance)}{self._unit}"
-
-    @property
-    def verdict(self) -> str:
-        return self.finding.verdict
-
-    @property
-    def reason(self) -> str:
-        """Why there is no verdict, or what else has to be said."""
-        return self.finding.row["reason"]
-
-    @property
-    def basis(self) -> str:
-        """What the interval is made of."""
-        finding = self.finding
-        if not isfinite(finding.grid):
-            return ""
-        surfaces = f"{finding.draws} surfaces, " if finding.draws else ""
-        exact = "" if not finding.grid else f" {digits.number(finding.grid, 2)}"
-        return f"{surfaces}grid{exact} ({finding.grid_method})"
-
-    @property
-    def _unit(self) -> str:
-        unit = self.finding.claim.unit
-        return "" if unit in ("", "1") else f" {unit}"

@@ -10,13 +10,12 @@ import jinja2
 from markupsafe import Markup
 from pandas import DataFrame
 
-from ..finding import VERDICTS
-from ..manifest import FINDINGS, machine, versions
-from ..page import Findings, Page, Plot, Section, Table
+from ..manifest import FINDINGS, made
+from ..page import Page, Plot, Section, Table
 from ..plots.rendering import Picture
 from ..vocabulary import Term, entry, stem
 from . import prose
-from .columns import Row, columns
+from .columns import columns
 
 # A longer table is no reading, and a larger file is not put into the page.
 MOST_ROWS, MOST_BYTES = 400, 300_000
@@ -35,19 +34,14 @@ def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str])
     """
     definitions = Definitions()
     shown = {table.name for table in page.every(Table)}
-    behind = {
-        f"{plot.folder}{name}": frame
-        for plot in page.every(Plot)
-        for name, frame in plot.tables.items()
-        if f"{plot.folder}{name}" not in shown
-    }
+    behind = {name: frame for name, frame in page.tables() if name not in shown}
     return _template("page.html").render(
         page=page,
         contents=[
             (anchor("section", each.title), each.title) for each in page.blocks if isinstance(each, Section)
         ],
         data={name: _rows(frame, definitions) for name, frame in behind.items()},
-        about={**page.about, **_made()},
+        about={**page.about, **made()},
         **_content(definitions, pictures, tables, {plot.name for plot in page.every(Plot)}),
     )
 
@@ -95,18 +89,11 @@ def _content(definitions, pictures, tables, figures) -> dict[str, Any]:
         "figures": figures,
         "prose": lambda markdown: Markup(prose.html(markdown)),
         "rows": lambda table: _rows(table.frame, definitions, people=True),
-        "findings": lambda block: [Row(finding) for finding in block.findings],
-        "counts": _counts,
+        "head": lambda label, name: Markup(_head(label, definitions.use(name))),
         "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),
         "download": lambda name: _download(name, tables),
         "FINDINGS": FINDINGS,
     }
-
-
-def _counts(block: Findings) -> str:
-    """Number of findings of each verdict in a block."""
-    verdicts = [finding.verdict for finding in block.findings]
-    return ", ".join(f"{verdict} {verdicts.count(verdict)}" for verdict in VERDICTS if verdict in verdicts)
 
 
 def _rows(frame: DataFrame, definitions: Definitions, people: bool = False) -> Markup | None:
@@ -145,21 +132,7 @@ def _download(name: str, tables: Mapping[str, str]) -> str:
     return f"data:text/csv;charset=utf-8,{quote(content, safe=SAFE)}"
 
 
-def _made() -> dict[str, str]:
-    """What the page was made with and on."""
-    where = machine()
-    return {
-        "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
-        "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
-    }
-
-
 def _template(name: str) -> jinja2.Template:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("compare", "pages"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template(name)
+    loader = jinja2.PackageLoader("compare", "pages")
+    kept = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
+    return jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **kept).get_template(name)

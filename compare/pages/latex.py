@@ -8,7 +8,7 @@ from pandas import DataFrame
 from ..page import Findings, Page, Plot, Section, Table, Text
 from ..plots.rendering import Picture
 from . import prose
-from .columns import Row, columns
+from .columns import columns
 
 MOST_ROWS = 100
 HEAD = r"""\documentclass{article}
@@ -71,14 +71,13 @@ def table(frame: DataFrame, caption: str = "", label: str = "") -> str:
 
 def findings(block: Findings, label: str = "") -> str:
     """Findings as a table."""
-    rows = [Row(finding) for finding in block.findings]
     cells = {
-        "Claim": [row.claim for row in rows],
-        "Model": [row.dimension for row in rows],
-        "Where": [row.finding.where for row in rows],
-        "Claimed": [row.claimed for row in rows],
-        "Found (95 %)": [row.found for row in rows],
-        "Verdict": [row.verdict for row in rows],
+        "Claim": [each.claim.sentence for each in block.findings],
+        "Model": [each.dimension for each in block.findings],
+        "Where": [each.where for each in block.findings],
+        "Claimed": [each.claimed for each in block.findings],
+        "Found (95 %)": [each.found() for each in block.findings],
+        "Verdict": [each.verdict for each in block.findings],
     }
     return table(DataFrame({head: column for head, column in cells.items() if any(column)}), block.caption, label)
 

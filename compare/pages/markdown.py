@@ -3,11 +3,11 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from ..manifest import FINDINGS, machine, versions
+from ..manifest import FINDINGS, made
 from ..page import Findings, Page, Plot, Section, Table, Text
 from ..plots.rendering import Picture
 from ..vocabulary import entry, stem
-from .columns import Row, columns
+from .columns import columns
 
 MOST_ROWS = 100
 SPECIAL = re.compile(r"([\\`*\[\]<>|$]|(?<![^\W_])_|_(?![^\W_]))")
@@ -21,10 +21,8 @@ def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str])
     parts.append(f"All findings, every digit: [{FINDINGS}.csv]({FINDINGS}.csv).")
     if used:
         parts += ["## Definitions", "\n".join(f"- {_definition(name)}" for name in used)]
-    made = {**page.about, "versions": ", ".join(f"{name} {each}" for name, each in versions().items())}
-    where = machine()
-    made["machine"] = f"{where['system']}, {where['machine']}, {where['processors']} processors"
-    parts += ["## How this page was made", "\n".join(f"- {name}: {escaped(fact)}" for name, fact in made.items())]
+    about = {**page.about, **made()}
+    parts += ["## How this page was made", "\n".join(f"- {name}: {escaped(fact)}" for name, fact in about.items())]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -72,20 +70,19 @@ def _table(block, used):
 
 def _findings(block, used):
     used.update(dict.fromkeys(("verdict", "dimension", "value", "tolerance", "grid_method")))
-    found = [Row(finding) for finding in block.findings]
     if block.caption:
         yield escaped(block.caption)
-    rows = [
-        [row.verdict, row.claim, row.dimension, row.place, row.found, row.claimed, _beside(row)] for row in found
-    ]
-    heads = ["Verdict", "Claim", "Model", "Where", "Found (95 %)", "Claimed", "Basis"]
-    empty = [k for k in range(len(heads)) if not any(row[k] for row in rows)]
-    kept = [k for k in range(len(heads)) if k not in empty]
-    yield table([heads[k] for k in kept], [[row[k] for k in kept] for row in rows], [False] * len(kept))
-
-
-def _beside(row):
-    return "; ".join(part for part in (row.basis, row.reason) if part)
+    cells = {
+        "Verdict": [each.verdict for each in block.findings],
+        "Claim": [each.claim.sentence for each in block.findings],
+        "Model": [each.dimension for each in block.findings],
+        "Where": [each.place for each in block.findings],
+        "Found (95 %)": [each.found() for each in block.findings],
+        "Claimed": [each.claimed for each in block.findings],
+        "Basis": ["; ".join(filter(None, (each.basis, each.why))) for each in block.findings],
+    }
+    shown = {head: column for head, column in cells.items() if any(column)}
+    yield table(list(shown), [list(row) for row in zip(*shown.values(), strict=True)], [False] * len(shown))
 
 
 def _definition(name):

@@ -4,9 +4,10 @@ import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..finding import Finding
 from ..page import Findings, Page, Plot, Section, Table, Text
 from . import prose
-from .columns import Row, columns
+from .columns import columns
 
 WIDTH = 100
 # Of tables that a terminal can show.
@@ -44,15 +45,15 @@ def _blocks(blocks, rule) -> Iterator[str]:
 
 def _findings(findings) -> Iterator[str]:
     """Each claim, and below it a line for each place: verdict, place, number found, reason."""
-    claims: dict[tuple[str, str], list[Row]] = {}
-    for row in map(Row, findings):
-        claims.setdefault((row.claim, row.claimed), []).append(row)
-    for (claim, claimed), rows in claims.items():
+    claims: dict[tuple[str, str], list[Finding]] = {}
+    for each in findings:
+        claims.setdefault((each.claim.sentence, each.claimed), []).append(each)
+    for (claim, claimed), found in claims.items():
         yield _filled(f"{claim}{f' (claimed {claimed})' if claimed else ''}:", 2)
-        for row in rows:
-            place = " ".join(part for part in (row.dimension, row.finding.where) if part)
-            reason = f"; {row.reason}" if row.reason else ""
-            yield _filled(f"  {row.verdict:<9}  {place}: {row.found}{reason}", 13)
+        for each in found:
+            place = " ".join(part for part in (each.dimension, each.where) if part)
+            reason = f"; {each.why}" if each.why else ""
+            yield _filled(f"  {each.verdict:<9}  {place}: {each.found()}{reason}", 13)
 
 
 def _table(frame) -> str:

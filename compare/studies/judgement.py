@@ -56,5 +56,5 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
 
 def _asked(series: Series, found: Iterable[Finding], kind: str) -> tuple[Finding, ...]:
     """Findings of a kind that is asked; what compares the dimensionalities is a kind of its own."""
-    kinds = ((PAIRS if (each.dimension or each.claim.dimension) == BOTH else kind, each) for each in found)
+    kinds = ((PAIRS if each.dimension == BOTH else kind, each) for each in found)
     return tuple(each for kind, each in kinds if kind in series.claims)

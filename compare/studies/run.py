@@ -164,7 +164,7 @@ def summary(cases: Sequence[CaseFindings]) -> DataFrame:
         several: dict[tuple[str, str], list[Finding]] = {}
         for each in case.claims:
             if np.isfinite(each.claim.tolerance):
-                several.setdefault((each.claim.sentence, each.dimension or each.claim.dimension), []).append(each)
+                several.setdefault((each.claim.sentence, each.dimension), []).append(each)
         for place, found in several.items():
             rows.setdefault(place, {})[case.name] = _cell(found)
     return DataFrame(

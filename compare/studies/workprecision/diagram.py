@@ -255,4 +255,4 @@ def _amount(value, unit):
 
 
 def _place(each):
-    return " ".join(part for part in (each.dimension or each.claim.dimension, each.where) if part)
+    return " ".join(part for part in (each.dimension, each.where) if part)
