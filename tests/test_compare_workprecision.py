@@ -18,7 +18,7 @@ from compare.statistics.convergence import MeasuredLadder, answers, ladders, obs
 from compare.store import Store
 from compare.studies.workprecision import elastic, extent, marching, mdr, precision, scenes, sliding, timed_solve
 from compare.studies.workprecision.convergence import Convergence, Ladder, steps_table
-from compare.studies.workprecision.diagram import ConvergenceDiagram, advice, enough_finding, order_finding
+from compare.studies.workprecision.diagram import advice, convergence, enough_finding, order_finding
 from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form, finer, slow_limit
 from compare.studies.workprecision.study import DIAGRAMS, WorkPrecision
 from compare.studies.workprecision.timed_solve import TimedSolve
@@ -116,7 +116,7 @@ def test_a_page_has_errors_against_the_reference_and_costs_as_measured(monkeypat
         Ladder.of("MDR", PRESSED, MDR(), "points", (64, 128, 256)),
     )
     contact = Convergence("sphere", "a sphere", HERTZ, (FORCE,), pair, {"force": 2.0})
-    diagram = ConvergenceDiagram("little", "Little", "Five steps.", lambda size: [contact])
+    diagram = convergence("little", "Little", "Five steps.", lambda size: [contact])
     monkeypatch.setitem(DIAGRAMS, "little", diagram)
     study = WorkPrecision.of("little")
     untimed, timed = study.batches()
@@ -189,7 +189,7 @@ def test_where_all_solves_fail_findings_say_why_and_nothing_is_recommended(diagr
     outcomes = {task: Outcome((fine,)) for task in diagram.untimed("quick")}
     outcomes |= {task: Outcome((Row(reason=why),)) for task in diagram.timed("quick")}
     found = xarray.DataTree.from_dict(diagram.datasets("quick", outcomes))
-    findings = diagram.findings(found)
+    findings = list(diagram.findings(found))
     assert all(isnan(each.value) for each in findings)
     assert any(why in each.reason for each in findings)
     (plot,) = diagram.plots(found)
@@ -371,7 +371,7 @@ def test_single_precision_reaches_what_its_tolerance_asks_for_and_no_more():
 
 
 def drawn(*arguments, **how):
-    (plot,) = ConvergenceDiagram("made", "Made", "", lambda size: []).plots(made(*arguments, **how))
+    (plot,) = convergence("made", "Made", "", lambda size: []).plots(made(*arguments, **how))
     return plot, plot.figure()
 
 

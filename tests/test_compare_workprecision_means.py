@@ -12,7 +12,7 @@ from compare.outcome import Outcome, Row
 from compare.plots import style
 from compare.plots.workprecision_surfaces import means as drawn_means
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
-from compare.studies.workprecision.answers import LEVELS, answers_table, cells, rough_regimes, smooth_regimes
+from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes
 from compare.studies.workprecision.convergence import Convergence, Ladder
 from compare.studies.workprecision.ensemble import Ensemble, means, plans_table
 from compare.studies.workprecision.models import MODELS, SURFACES
@@ -101,8 +101,7 @@ def smooth(own_error=1e-5, errors=None):
 
 
 def regime(parts):
-    found = node(parts)
-    return [*smooth_regimes(found), *rough_regimes(found)][0]
+    return regimes(node(parts))[0]
 
 
 def test_the_expected_error_is_that_of_means_of_normal_deviates():
@@ -131,7 +130,7 @@ def test_no_other_numbers_of_surfaces_give_a_smaller_error_in_the_same_time():
 def test_what_is_said_to_reach_an_error_reaches_it_with_no_surface_to_spare(level):
     """With the largest bias of the interval, and corrections that scatter by the largest of theirs."""
     both = plan(bias=0.001, reach=0.0005, scatters=(0.2, 0.02), seconds=(0.1, 0.7))
-    effort, most = both.reaching(level), both.levels[1].scatter.interval()[1]
+    effort, most = both.effort(level), both.levels[1].scatter.interval()[1]
     assert most > 0.02
 
     def error(first, second):
@@ -143,16 +142,16 @@ def test_what_is_said_to_reach_an_error_reaches_it_with_no_surface_to_spare(leve
 
 
 def test_no_number_of_surfaces_passes_the_bias_nor_its_interval():
-    assert plan(bias=0.02).reaching(0.02) is None
-    assert plan(bias=0.02, reach=0.01).reaching(0.029) is None
-    assert plan(bias=-0.02, reach=0.01).reaching(0.031) is not None
+    assert plan(bias=0.02).effort(0.02) is None
+    assert plan(bias=0.02, reach=0.01).effort(0.029) is None
+    assert plan(bias=-0.02, reach=0.01).effort(0.031) is not None
 
 
 @pytest.mark.parametrize("failed", [{"bias": nan}, {"reach": nan}, {"scatters": (nan,)}, {"seconds": (nan,)}])
 def test_what_failed_is_never_the_cheapest(failed):
     failed, slow = plan(**failed), plan(seconds=(1e6,))
-    assert failed.reaching(inf) is None
-    assert cheapest([failed, slow], 0.1).plan is slow
+    assert failed.effort(inf) is None
+    assert cheapest([failed, slow], 0.1) == slow.effort(0.1)
     assert cheapest([failed], 0.1) is None
     assert envelope([failed], np.array([1.0, 10.0])).tolist() == [inf, inf]
 
@@ -210,7 +209,7 @@ def test_nothing_below_what_is_known_of_the_truth_is_claimed():
 def test_a_solve_that_failed_is_told_with_its_reason_and_its_grid_reaches_nothing():
     found = regime(smooth(errors={"MDR": (0.0, nan), "BEM": (0.05, 0.01, 0.002)}))
     assert found.answer(0.01, "MDR") is None
-    assert found.ladders[0].failures == [(1000, "does not converge")]
+    assert found.ways[0].failures == [(1000, "does not converge")]
     rough = made(fails=lambda solver, k: solver.name == "BEM" and k == 1, timed_fails=lambda s: s.points == 64)
     told = {(row["solver"], row["points"]): row for row in plans_table([regime(rough).mean])}
     coarse = told["BEM", 64]
@@ -276,7 +275,7 @@ def test_figures_and_findings_come_of_whatever_was_solved(diagram, fails):
     with style.applied():
         assert len(plot.figure().axes) == len(found.children)
     assert len(plot.caption.split()) <= 60
-    findings = diagram.findings(found)
+    findings = list(diagram.findings(found))
     assert all(each.reason for each in findings if not np.isfinite(each.value))
     assert any(np.isfinite(each.value) for each in findings) or fails
 
@@ -287,4 +286,4 @@ def test_plans_are_drawn_from_their_table_alone():
     for there, here in zip(drawn.plans, measured.plans, strict=True):
         assert there.levels == here.levels
         assert there.bias.most == pytest.approx(here.bias.most, rel=1e-12)  # rounding
-    assert SURFACES.plots(xarray.DataTree()) == MODELS.plots(xarray.DataTree()) == []
+    assert [*SURFACES.plots(xarray.DataTree()), *MODELS.plots(xarray.DataTree())] == []

@@ -117,8 +117,8 @@ def _panel(axes: Axes, each: Mean, taken):
         axes.plot(
             effort.counts[0],
             level,
-            marker=TAKEN[effort.plan.corrected],
-            markersize=style.mark(0.9) if effort.plan.corrected else 6,
+            marker=TAKEN[len(effort.counts) > 1],
+            markersize=style.mark(0.9) if len(effort.counts) > 1 else 6,
             color=style.ink(),
             linestyle="none",
             zorder=5,

@@ -10,6 +10,7 @@ from pandas import DataFrame
 
 from ..amounts import seconds, setting, share
 from .jackknife import student
+from .sampling import Effort
 
 # Steps that a line is fitted through at least, and how far above the error of the reference they have to lie.
 FEWEST, ABOVE = 3, 3.0
@@ -107,6 +108,18 @@ class MeasuredLadder:
         within = self.errors <= level
         good = [k for k in range(len(within)) if within[k:].all()]
         return min(good, key=lambda k: self.processor[k]) if good else None
+
+    @property
+    def certain(self) -> float:
+        """Error that the last step is known to reach, with that of the reference."""
+        return self.errors[-1] + self.reference_error
+
+    def effort(self, level: float) -> Effort | None:
+        """What a wanted error takes with the error of the reference; None where it is not reached."""
+        k = self.reaching(level - self.reference_error)
+        if k is None:
+            return None
+        return Effort(self.solver, f"{self.values[k]:g} {self.setting}", float(self.processor[k]))
 
     @property
     def enough(self) -> int | None:

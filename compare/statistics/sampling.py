@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, inf, isfinite, nan, sqrt
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
 from scipy import special
@@ -87,6 +87,27 @@ class Level:
 
 
 @dataclass(frozen=True)
+class Effort:
+    """What a wanted error takes.
+
+    solver : by name; settings : in words; seconds : of processor time
+    counts : surfaces on each level of a plan
+    """
+
+    solver: str
+    settings: str
+    seconds: float
+    counts: tuple[int, ...] = ()
+
+
+class Way(Protocol):
+    """A way to an answer."""
+
+    def effort(self, level: float) -> Effort | None:
+        """What a wanted error takes; None where it is not reached."""
+
+
+@dataclass(frozen=True)
 class SamplingPlan:
     """One way to the mean over surfaces: a mean of answers, or of coarse answers and of their corrections.
 
@@ -119,7 +140,12 @@ class SamplingPlan:
         """Error expected of so many answers of the first level, corrections aside."""
         return np.sqrt(self.bias.size**2 + self.levels[0].scatter.value ** 2 / counts)
 
-    def reaching(self, level: float) -> "Effort | None":
+    @property
+    def certain(self) -> float:
+        """Error that is reached with enough surfaces, by the largest bias of its interval."""
+        return self.bias.most
+
+    def effort(self, level: float) -> Effort | None:
         """Effort for a wanted error (rms) with the largest bias of its interval; None where that is more.
 
         Corrections are few, and scatter by as much as their interval allows.
@@ -131,9 +157,8 @@ class SamplingPlan:
             return None
         shares = [scatter * work / sqrt(each.seconds) / room for scatter, each in drawn]
         counts = tuple(max(1, ceil(share)) for share in shares)
-        return Effort(
-            self, counts, sum(count * each.seconds for count, each in zip(counts, self.levels, strict=True))
-        )
+        seconds = sum(count * each.seconds for count, each in zip(counts, self.levels, strict=True))
+        return Effort(self.solver, self._settings(counts), seconds, counts)
 
     @property
     def least_seconds(self) -> float:
@@ -149,20 +174,10 @@ class SamplingPlan:
     def _work(self):
         return sum(level.scatter.value * sqrt(level.seconds) for level in self.levels)
 
-
-@dataclass(frozen=True)
-class Effort:
-    """Numbers of surfaces on the levels of a plan by which it reaches a wanted error, and the time [s]."""
-
-    plan: SamplingPlan
-    counts: tuple[int, ...]
-    seconds: float
-
-    @property
-    def settings(self) -> str:
+    def _settings(self, counts):
         """Surfaces and points in words."""
-        what = "profiles" if self.plan.solver == "MDR" else "surfaces"
-        (count, *more), (level, *finer) = self.counts, self.plan.levels
+        what = "profiles" if self.solver == "MDR" else "surfaces"
+        (count, *more), (level, *finer) = counts, self.levels
         told = f"{count:,} {what if count > 1 else what[:-1]} of {level.points[0]} points"
         for number, correction in zip(more, finer, strict=True):
             told += f", corrected by {number:,} of {correction.points[0]}"
@@ -188,6 +203,11 @@ class Mean:
     grid_error: float
     failed: int
 
+    @property
+    def where(self) -> str:
+        """Contact and quantity in words."""
+        return f"{self.title}: {self.label}"
+
     def of(self, solver: str) -> list[SamplingPlan]:
         """Plans of one solver."""
         return [plan for plan in self.plans if plan.solver == solver]
@@ -204,9 +224,9 @@ class Mean:
         return own[-1].bias if own else Bias(nan, nan)
 
 
-def cheapest(plans: Sequence[SamplingPlan], level: float) -> Effort | None:
-    """Least effort of all plans that reach a wanted error; None if none does."""
-    found = [effort for plan in plans if (effort := plan.reaching(level)) is not None]
+def cheapest(ways: Sequence[Way], level: float) -> Effort | None:
+    """Least effort of all ways that reach a wanted error; None if none does."""
+    found = [effort for each in ways if (effort := each.effort(level)) is not None]
     return min(found, key=lambda effort: effort.seconds, default=None)
 
 

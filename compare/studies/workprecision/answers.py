@@ -1,17 +1,16 @@
 """The shortest way to a wanted error of the true answer of three dimensions, in either model."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, isfinite, nan
-from typing import Any, ClassVar, TypeAlias
+from math import isfinite, nan
+from typing import Any
 
-import numpy as np
 import xarray
 
 from ...amounts import seconds, share
 from ...finding import HALVED, UNKNOWN, Claim, Finding
 from ...statistics.convergence import MeasuredLadder, ladders
-from ...statistics.sampling import Bias, Effort, cheapest
+from ...statistics.sampling import Bias, Effort, SamplingPlan, cheapest
 from .convergence import DIMENSIONS, steps_table
 from .ensemble import MeasuredMean, means
 
@@ -22,160 +21,129 @@ FALLS = 0.3
 
 
 @dataclass(frozen=True)
-class Answer:
-    """The shortest way to a wanted error.
+class Regime:
+    """One quantity of one contact, and all ways to it: ladders of a smooth body, plans to the mean of a rough one.
 
-    solver : by name; settings : in words; seconds : of processor time
+    title : of the contact; quantity, label : name, for people
+    floor : error of the 1D model on its finest grid
+    converges : whether that error still falls with the points
+    known : of the finding on that error, all but its claim and value
+    mean : over surfaces, that of a rough body
     """
-
-    solver: str
-    settings: str
-    seconds: float
-
-    @property
-    def text(self) -> str:
-        """Model, settings and time in words."""
-        return f"{DIMENSIONS[self.solver]}, {self.settings}: {seconds(self.seconds)}"
-
-
-@dataclass(frozen=True)
-class OneQuantity:
-    """One quantity of one contact. title : of the contact; quantity, label : name, for people"""
 
     title: str
     quantity: str
     label: str
+    ways: Sequence[MeasuredLadder | SamplingPlan]
+    floor: Bias
+    converges: bool
+    known: Mapping[str, Any]
+    mean: MeasuredMean | None = None
 
     @property
     def where(self) -> str:
         """Contact and quantity in words."""
         return f"{self.title}: {self.label}"
 
-
-@dataclass(frozen=True)
-class SmoothRegime(OneQuantity):
-    """A regime of a smooth body: ladders of both solvers by one quantity.
-
-    method : how the error of the reference is known
-    """
-
-    ladders: tuple[MeasuredLadder, ...]
-    method: str
-
-    def answer(self, level: float, solver: str | None = None) -> Answer | None:
-        """The shortest way to a level with the error of the reference; None where there is none."""
-        found = []
-        for each in self._of(solver):
-            k = each.reaching(level - self._own)
-            if k is not None:
-                settings = f"{each.values[k]:g} {each.setting}"
-                found.append(Answer(each.solver, settings, float(each.processor[k])))
-        return min(found, key=lambda option: option.seconds, default=None)
-
-    def best(self, solver: str | None = None) -> float:
-        """Least error that is known to be reached."""
-        return _least([each.errors[-1] + self._own for each in self._of(solver)])
-
-    @property
-    def floor(self) -> Bias:
-        """Error of the 1D model on its finest grid."""
-        errors = [each.errors[-1] for each in self._of("MDR")]
-        return Bias(float(errors[-1]), self._own) if errors else Bias(nan, nan)
-
-    @property
-    def converges(self) -> bool:
-        """Whether the order between the last two steps in 1D is more than FALLS; one alone cannot tell."""
-        own = self._of("MDR")
-        if not own or len(own[-1].values) < 2:
-            return False
-        (coarse, fine), (before, last) = own[-1].values[-2:], own[-1].errors[-2:]
-        return bool(before > last * (fine / coarse) ** FALLS)
-
-    def error_1d(self, claim: Claim) -> Finding:
-        """Error of the 1D model, uncertain by that of the reference."""
-        value, method = self.floor.value, self.method if isfinite(self._own) else UNKNOWN
-        why = "" if isfinite(value) else "not solved"
-        return Finding(claim, value, (value, value), self._own, method, self.where, reason=why)
-
-    @property
-    def _own(self):
-        return self.ladders[0].reference_error
-
-    def _of(self, solver):
-        return [each for each in self.ladders if solver in (None, each.solver)]
-
-
-@dataclass(frozen=True)
-class RoughRegime(OneQuantity):
-    """A regime of a rough body, of which the answer is the mean over surfaces.
-
-    The time of a mean grows with the number of surfaces, however large. The scatter of profiles would hide whether
-    the 1D model comes ever closer with its points.
-    """
-
-    mean: MeasuredMean
-    converges: ClassVar[bool] = False
-
-    def effort(self, level: float, solver: str | None = None) -> Effort | None:
-        """Plan and numbers of surfaces for a level."""
-        return cheapest(self._of(solver), level)
-
-    def answer(self, level: float, solver: str | None = None) -> Answer | None:
+    def answer(self, level: float, solver: str | None = None) -> Effort | None:
         """The shortest way to a level; None where there is none."""
-        effort = self.effort(level, solver)
-        return None if effort is None else Answer(effort.plan.solver, effort.settings, effort.seconds)
+        return cheapest([each for each in self.ways if solver in (None, each.solver)], level)
 
     def best(self, solver: str | None = None) -> float:
-        """Least error that is known to be reached."""
-        return _least([plan.bias.most for plan in self._of(solver)])
-
-    @property
-    def floor(self) -> Bias:
-        """Error of the mean of the 1D model on its finest grid."""
-        return self.mean.floor
+        """Least error that is known to be reached; NaN without any."""
+        return least_known(each.certain for each in self.ways if solver in (None, each.solver))
 
     def error_1d(self, claim: Claim) -> Finding:
-        """Error of the mean of the 1D model, with scatter and grid apart."""
-        floor, grid = self.floor, self.mean.grid_error
-        half = floor.reach - grid
-        ends = (floor.value - half, floor.value + half)
-        draws = min(sample.count for sample in self.mean.samples)
-        known = all(map(isfinite, (floor.value, half, grid)))
-        method, why = (HALVED, "") if known else (UNKNOWN, "too many surfaces have no answer")
-        return Finding(claim, floor.value, ends, grid, method, self.where, draws, reason=why)
-
-    def _of(self, solver):
-        return [plan for plan in self.mean.plans if solver in (None, plan.solver)]
+        """Error of the 1D model on its finest grid."""
+        return Finding(claim, self.floor.value, where=self.where, **self.known)
 
 
-Regime: TypeAlias = SmoothRegime | RoughRegime
+def least_known(errors: Iterable[float]) -> float:
+    """Least of some errors; NaN where none is known."""
+    known = list(filter(isfinite, errors))
+    return float(min(known, default=nan))
 
 
-def smooth_regimes(node: xarray.DataTree) -> list[SmoothRegime]:
-    """Every quantity of every smooth contact of a diagram."""
+def regimes(node: xarray.DataTree) -> list[Regime]:
+    """Every quantity of every contact of a diagram, smooth ones first."""
     datasets = {name: child.to_dataset(inherit=False) for name, child in node.children.items() if child.data_vars}
     found: dict[tuple[str, str], list[MeasuredLadder]] = {}
     for each in ladders(steps_table(datasets.values())):
         found.setdefault((each.contact, each.quantity), []).append(each)
-    return [
-        SmoothRegime(own[0].title, name, own[0].label, tuple(own), datasets[contact].attrs["reference_method"])
-        for (contact, name), own in found.items()
-    ]
+    smooth = [_smooth(own, datasets[contact].attrs["reference_method"]) for (contact, _), own in found.items()]
+    return [*smooth, *map(_rough, rough_means(node))]
 
 
-def rough_regimes(node: xarray.DataTree) -> list[RoughRegime]:
-    """Every quantity of every rough contact of a diagram."""
-    pairs = [
+def rough_means(node: xarray.DataTree) -> list[MeasuredMean]:
+    """Means over surfaces of every quantity of every rough contact."""
+    pairs = (
         [child.children[name].to_dataset(inherit=False) for name in ("BEM", "MDR")]
         for child in node.children.values()
         if child.children
-    ]
-    return [RoughRegime(mean.title, mean.quantity, mean.label, mean) for pair in pairs for mean in means(*pair)]
+    )
+    return [mean for pair in pairs for mean in means(*pair)]
 
 
-def answers_table(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dict[str, Any]]:
+def _smooth(own, method):
+    first, uncertain = own[0], own[0].reference_error
+    lines = [each for each in own if each.solver == "MDR"]
+    floor = Bias(float(lines[-1].errors[-1]), uncertain) if lines else Bias(nan, nan)
+    known = {
+        "scatter": (floor.value, floor.value),
+        "grid": uncertain,
+        "grid_method": method if isfinite(uncertain) else UNKNOWN,
+        "reason": "" if isfinite(floor.value) else "not solved",
+    }
+    falls = bool(lines) and _falls(lines[-1])
+    return Regime(first.title, first.quantity, first.label, own, floor, falls, known)
+
+
+def _falls(ladder):
+    """Whether the order between the last two steps is more than FALLS; one alone cannot tell."""
+    if len(ladder.values) < 2:
+        return False
+    (coarse, fine), (before, last) = ladder.values[-2:], ladder.errors[-2:]
+    return bool(before > last * (fine / coarse) ** FALLS)
+
+
+def _rough(mean):
+    """The scatter of profiles would hide whether the 1D model comes ever closer with its points."""
+    floor, grid = mean.floor, mean.grid_error
+    half = floor.reach - grid
+    sure = all(map(isfinite, (floor.value, half, grid)))
+    known = {
+        "scatter": (floor.value - half, floor.value + half),
+        "grid": grid,
+        "grid_method": HALVED if sure else UNKNOWN,
+        "draws": min(sample.count for sample in mean.samples),
+        "reason": "" if sure else "too many surfaces have no answer",
+    }
+    return Regime(mean.title, mean.quantity, mean.label, mean.plans, floor, False, known, mean)
+
+
+def answers_table(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> Iterator[dict[str, Any]]:
     """A row for each regime and wanted error; times in seconds, errors relative."""
-    return [_row(each, level) for each in found for level in levels]
+    for each in found:
+        for level in levels:
+            taken, own = each.answer(level), each.floor
+            by_solver = {label: each.answer(level, name) for name, label in DIMENSIONS.items()}
+            yield {
+                "regime": each.title,
+                "quantity": each.label,
+                "wanted": level,
+                "model": "" if taken is None else DIMENSIONS[taken.solver],
+                "settings": "" if taken is None else taken.settings,
+                "seconds": nan if taken is None else taken.seconds,
+                **{
+                    f"seconds_{label.lower()}": nan if answer is None else answer.seconds
+                    for label, answer in by_solver.items()
+                },
+                "best_known": each.best(),
+                "floor_1d": own.size,
+                "floor_1d_least": own.least,
+                "floor_1d_most": own.most,
+                "converges_1d": each.converges,
+            }
 
 
 def cells(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dict[str, str]]:
@@ -185,16 +153,16 @@ def cells(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dic
     """
     return [
         {
-            "regime": f"{each.title}{', expected (rms)' if isinstance(each, RoughRegime) else ''}",
+            "regime": f"{each.title}{', expected (rms)' if each.mean else ''}",
             "quantity": each.label,
             **{f"within {share(level)}": _cell(each, level) for level in levels},
-            "error that 1D keeps": "none (it converges)" if each.converges else interval(each.floor),
+            "error that 1D keeps": "none (it converges)" if each.converges else _interval(each.floor),
         }
         for each in found
     ]
 
 
-def interval(bias: Bias) -> str:
+def _interval(bias):
     """A size with the ends of its interval in words."""
     if not isfinite(bias.size):
         return "not known"
@@ -209,31 +177,5 @@ def interval(bias: Bias) -> str:
 def _cell(each, level):
     taken, known = each.answer(level), each.best()
     if taken is not None:
-        return taken.text
+        return f"{DIMENSIONS[taken.solver]}, {taken.settings}: {seconds(taken.seconds)}"
     return f"not reached; best known {share(known)}" if isfinite(known) else "not known"
-
-
-def _row(each, level):
-    taken, own = each.answer(level), each.floor
-    by_solver = {name: each.answer(level, name) for name in DIMENSIONS}
-    return {
-        "regime": each.title,
-        "quantity": each.label,
-        "wanted": level,
-        "model": "" if taken is None else DIMENSIONS[taken.solver],
-        "settings": "" if taken is None else taken.settings,
-        "seconds": nan if taken is None else taken.seconds,
-        **{
-            f"seconds_{DIMENSIONS[name].lower()}": nan if answer is None else answer.seconds
-            for name, answer in by_solver.items()
-        },
-        "best_known": each.best(),
-        "floor_1d": own.size,
-        "floor_1d_least": own.least,
-        "floor_1d_most": own.most,
-        "converges_1d": each.converges,
-    }
-
-
-def _least(errors):
-    return float(np.nanmin([*errors, inf])) if np.isfinite(errors).any() else nan

@@ -12,7 +12,7 @@ from pandas import DataFrame, concat
 from ...amounts import short
 from ...finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from ...outcome import Outcome
-from ...page import Block, Plot, Table
+from ...page import Plot, Table
 from ...plots import workprecision_costs
 from ...statistics.costs import Law, NoLaw
 from ...store import stored_size
@@ -24,6 +24,7 @@ from .diagram import Diagram
 from .forecasts import LARGEST, MEMORIES, Forecast, forecasts
 from .reference import Outcomes
 
+PLOT = "workprecision-costs"
 # Settings of a solver that tables tell, with what stands where it lacks them.
 SETTINGS = {"points": nan, "steps": nan, "tolerance": nan, "precision": "double"}
 
@@ -65,54 +66,49 @@ class CostLadder:
         return {self.name: described(xarray.Dataset(found, coordinates, about), solves[0].scene)}
 
 
-@dataclass(frozen=True)
-class CostDiagram(Diagram):
-    """What costs are asked of the solvers."""
+def _findings(node: xarray.DataTree) -> Iterator[Finding]:
+    """Exponents with their intervals, time over that of transforms, and forecasts with their checks."""
+    fits = fits_of(node)
+    yield from (_exponent(each, cost) for each in fits for cost in _exponents_of(each))
+    yield from (_over_limit(each) for each in fits if np.isfinite(each.known("over_limit")).any())
+    yield from (_forecast(each) for each in forecasts(fits) if each.kind != "stored")
 
-    def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """Exponents with their intervals, time over that of transforms, and forecasts with their checks."""
-        fits = fits_of(node)
-        return [
-            *(_exponent(each, cost) for each in fits for cost in _exponents_of(each)),
-            *(_over_limit(each) for each in fits if np.isfinite(each.known("over_limit")).any()),
-            *(_forecast(each) for each in forecasts(fits) if each.kind != "stored"),
-        ]
 
-    def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """Costs, laws and forecasts in one figure; none without any ladder against points."""
-        fits, name = fits_of(node), f"workprecision-{self.name}"
-        if not any(each.setting == "points" for each in fits):
-            return []
-        tables = {
-            name: concat([each.steps[list(STEPS)] for each in fits], ignore_index=True),
-            f"{name}-laws": DataFrame([row for each in fits for row in _laws(each)]),
-            f"{name}-forecasts": DataFrame([{**asdict(each), "held": each.held} for each in forecasts(fits)]),
-        }
-        options = {"largest": LARGEST, "memories": list(MEMORIES), "memory_from": MEMORY_FROM}
-        axes = {name: axis.label for name, axis in AXES.items()}
-        return [workprecision_costs.plot(name, tables, axes, options)]
+def _plots(node: xarray.DataTree) -> Iterator[Plot]:
+    """Costs, laws and forecasts in one figure; none without any ladder against points."""
+    fits, name = fits_of(node), PLOT
+    if not any(each.setting == "points" for each in fits):
+        return
+    tables = {
+        name: concat([each.steps[list(STEPS)] for each in fits], ignore_index=True),
+        f"{name}-laws": DataFrame([row for each in fits for row in _laws(each)]),
+        f"{name}-forecasts": DataFrame([{**asdict(each), "held": each.held} for each in forecasts(fits)]),
+    }
+    options = {"largest": LARGEST, "memories": list(MEMORIES), "memory_from": MEMORY_FROM}
+    yield workprecision_costs.plot(name, tables, {name: axis.label for name, axis in AXES.items()}, options)
 
-    def tables(self, node: xarray.DataTree) -> list[Block]:
-        """Times along all that is no number of points."""
-        rows = []
-        for each in fits_of(node):
-            known = each.steps[np.isfinite(each.steps["processor"])].sort_values("processor", kind="stable")
-            if len(known):
-                law = each.laws["processor"]
-                rows.append(
-                    {
-                        "ladder": each.title,
-                        "against": AXES[each.setting].label,
-                        "from": short(each.steps["x"].min()),
-                        "to": short(each.steps["x"].max()),
-                        "least time [s]": short(known["processor"].iloc[0]),
-                        "longest time [s]": short(known["processor"].iloc[-1]),
-                        "longest at": short(known["x"].iloc[-1]),
-                        "power": short(law.exponent) if isinstance(law, Law) else f"none: {law.reason}",
-                    }
-                )
-        caption = "Processor time along each ladder."
-        return [Table("workprecision-cost-ranges", DataFrame(rows), caption)] if rows else []
+
+def _tables(node: xarray.DataTree) -> Iterator[Table]:
+    """Times along all that is no number of points."""
+    rows = []
+    for each in fits_of(node):
+        known = each.steps[np.isfinite(each.steps["processor"])].sort_values("processor", kind="stable")
+        if len(known):
+            law = each.laws["processor"]
+            rows.append(
+                {
+                    "ladder": each.title,
+                    "against": AXES[each.setting].label,
+                    "from": short(each.steps["x"].min()),
+                    "to": short(each.steps["x"].max()),
+                    "least time [s]": short(known["processor"].iloc[0]),
+                    "longest time [s]": short(known["processor"].iloc[-1]),
+                    "longest at": short(known["x"].iloc[-1]),
+                    "power": short(law.exponent) if isinstance(law, Law) else f"none: {law.reason}",
+                }
+            )
+    if rows:
+        yield Table("workprecision-cost-ranges", DataFrame(rows), "Processor time along each ladder.")
 
 
 def _exponents_of(each):
@@ -125,11 +121,10 @@ def _exponent(each, cost):
     law, setting = each.laws[cost], each.setting
     sentence = f"Power of the {setting} with which {LABELS[cost]} grows"
     claim = Claim(f"workprecision.costs.{cost}-{setting}", sentence, dimension=each.dimension)
-    where, plot = each.title, "workprecision-costs"
     if isinstance(law, NoLaw):
-        return Finding(claim, nan, where=where, reason=f"no power: {law.reason}", plot=plot)
+        return Finding(claim, nan, where=each.title, reason=f"no power: {law.reason}", plot=PLOT)
     said = f"from {law.lowest:g} to {law.highest:g} {setting}"
-    return Finding(claim, law.exponent, law.exponent_interval, 0.0, where=where, regime=said, plot=plot)
+    return Finding(claim, law.exponent, law.exponent_interval, 0.0, where=each.title, regime=said, plot=PLOT)
 
 
 def _over_limit(each):
@@ -141,12 +136,12 @@ def _over_limit(each):
     ratios = each.known("over_limit", MEMORY_FROM)
     ratios = ratios[np.isfinite(ratios)]
     value, why = (float(ratios.max()), "") if len(ratios) else (nan, "not measured")
-    return Finding(claim, value, where=each.title, reason=why, plot="workprecision-costs")
+    return Finding(claim, value, where=each.title, reason=why, plot=PLOT)
 
 
 def _forecast(each: Forecast):
     """Findings of forecasts: a cost left out and then measured decides, a cost beyond all measured is reported."""
-    told: dict[str, Any] = {"where": each.title, "reason": each.reason, "plot": "workprecision-costs"}
+    told: dict[str, Any] = {"where": each.title, "reason": each.reason, "plot": PLOT}
     if each.kind.startswith("held-out"):
         claim = Claim(
             f"workprecision.costs.{each.kind}",
@@ -179,10 +174,13 @@ def _laws(each: CostFit) -> Iterator[dict[str, Any]]:
         )
 
 
-COSTS_DIAGRAM = CostDiagram(
+COSTS_DIAGRAM = Diagram(
     "costs",
     "What a solve costs",
     "Time, memory and operator applications of both solvers against points, modes, steps, speed and contact; the "
     "powers they follow, and what those say of larger sizes.",
     lambda size: [CostLadder(name, ladder) for name, ladder in ladders(size).items()],
+    _findings,
+    _plots,
+    _tables,
 )

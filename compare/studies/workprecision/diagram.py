@@ -1,6 +1,5 @@
 """A diagram: contacts solved along ladders of settings, the findings on them, their plots and tables."""
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite, nan
@@ -11,7 +10,7 @@ from pandas import DataFrame
 
 from ...amounts import seconds, share, short
 from ...finding import EXACT, REPORTED, Claim, Finding, sentences
-from ...page import Block, Plot, Table
+from ...page import Plot, Table
 from ...plots import workprecision
 from ...statistics.convergence import MeasuredLadder, answers, ladders
 from ...task import Task
@@ -40,18 +39,22 @@ class Measurable(Protocol):
 
 
 @dataclass(frozen=True)
-class Diagram(ABC):
+class Diagram:
     """What the command measures and tells under one name.
 
     name : of the command and of files
     title, about : what is compared, how and why, for people
     contacts : at a size
+    findings, plots, tables : of the Datasets of all contacts
     """
 
     name: str
     title: str
     about: str
     contacts: Callable[[str], Sequence[Measurable]]
+    findings: Callable[[xarray.DataTree], Iterable[Finding]]
+    plots: Callable[[xarray.DataTree], Iterable[Plot]]
+    tables: Callable[[xarray.DataTree], Iterable[Table]] = lambda node: ()
 
     def untimed(self, size: str) -> list[Task]:
         """Tasks solved besides, each once."""
@@ -65,73 +68,68 @@ class Diagram(ABC):
         """Everything measured, by the path below the name of the diagram."""
         return {name: dataset for each in self.contacts(size) for name, dataset in each.datasets(outcomes).items()}
 
-    @abstractmethod
-    def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """Findings from these Datasets."""
 
-    @abstractmethod
-    def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """Figures with their tables; none where nothing can be drawn."""
-
-    @abstractmethod
-    def tables(self, node: xarray.DataTree) -> list[Block]:
-        """Tables that people read."""
-
-
-@dataclass(frozen=True)
-class ConvergenceDiagram(Diagram):
-    """Errors over time of contacts, by points, tolerance, steps or whatever else is set.
+def convergence(
+    name: str,
+    title: str,
+    about: str,
+    contacts: Callable[[str], Sequence[Convergence]],
+    more: Callable[[Mapping[str, list[MeasuredLadder]]], Iterable[Finding]] = lambda found: (),
+) -> Diagram:
+    """Diagram of errors over time of contacts, by points, tolerance, steps or whatever else is set.
 
     more : findings on all contacts besides orders and times, from their ladders by contact
     """
 
-    contacts: Callable[[str], Sequence[Convergence]]
-    more: Callable[[Mapping[str, list[MeasuredLadder]]], Iterable[Finding]] = lambda found: ()
-
-    def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """Orders, times to a wanted error, and what more the diagram finds."""
+    def findings(node):
         found = ladders(_steps(node))
-        own, plot = answers(found), f"workprecision-{self.name}"
-        orders = {name: child["expected_order"] for name, child in node.children.items()}
+        own, plot = answers(found), f"workprecision-{name}"
+        orders = {contact: child["expected_order"] for contact, child in node.children.items()}
+        by_points = [each for each in own if each.setting == "points"]
+        for each in own:
+            if each.setting in ("points", "steps"):
+                expected = orders[each.contact].sel(quantity=each.quantity).item()
+                yield order_finding(name, each, expected, plot)
+        yield from (time_finding(name, each, plot) for each in by_points)
+        yield from (enough_finding(name, each, plot) for each in own if each.setting != "points")
         whole: dict[str, list[MeasuredLadder]] = {}
         for each in found:
             whole.setdefault(each.contact, []).append(each)
-        return [
-            *(
-                order_finding(self.name, each, orders[each.contact].sel(quantity=each.quantity).item(), plot)
-                for each in own
-                if each.setting in ("points", "steps")
-            ),
-            *(time_finding(self.name, each, plot) for each in own if each.setting == "points"),
-            *(enough_finding(self.name, each, plot) for each in own if each.setting != "points"),
-            *self.more(whole),
-        ]
+        yield from more(whole)
 
-    def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """One figure, a panel a contact and quantity."""
-        steps, name = _steps(node), f"workprecision-{self.name}"
-        tables = {name: steps, f"workprecision-orders-{self.name}": orders_table(ladders(steps))}
-        return [workprecision.plot(name, tables)] if len(steps) else []
+    def plots(node):
+        steps, file = _steps(node), f"workprecision-{name}"
+        if len(steps):
+            yield workprecision.plot(
+                file, {file: steps, f"workprecision-orders-{name}": orders_table(ladders(steps))}
+            )
 
-    def tables(self, node: xarray.DataTree) -> list[Block]:
-        """Settings for wanted errors."""
-        sources = {name: child.attrs["reference"] for name, child in node.children.items()}
+    def tables(node):
+        sources = {contact: child.attrs["reference"] for contact, child in node.children.items()}
         rows = [
             {
                 "contact": each.title,
                 "quantity": each.label,
-                "against": against(sources[each.contact], each.reference_error),
+                "against": _against(sources[each.contact], each.reference_error),
                 "ladder": each.ladder,
                 **{f"within {share(level)}": each.cell(level) for level in LEVELS},
             }
             for each in answers(ladders(_steps(node)))
         ]
         caption = "The cheapest setting for each wanted error, from which on all finer ones keep it too."
-        return [Table(f"workprecision-settings-{self.name}", DataFrame(rows), caption)] if rows else []
+        if rows:
+            yield Table(f"workprecision-settings-{name}", DataFrame(rows), caption)
+
+    return Diagram(name, title, about, contacts, findings, plots, tables)
 
 
 def _steps(node):
     return steps_table(each.to_dataset(inherit=False) for each in node.children.values())
+
+
+def _against(source, own):
+    """Reference of a ladder, and how well it is known."""
+    return f"{source}, known to {share(own)}" if own > 0 else source if isfinite(own) else f"{source}, not solved"
 
 
 def order_finding(diagram: str, each: MeasuredLadder, expected: float = nan, plot: str = "") -> Finding:
@@ -183,11 +181,6 @@ def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Findin
     if k == len(each.values) - 1:
         why = "every step gains"
     return Finding(claim, nan if k is None else float(each.values[k]), where=where_of(each), reason=why, plot=plot)
-
-
-def against(source: str, own: float) -> str:
-    """Reference of a ladder, and how well it is known."""
-    return f"{source}, known to {share(own)}" if own > 0 else source if isfinite(own) else f"{source}, not solved"
 
 
 def where_of(each: MeasuredLadder) -> str:

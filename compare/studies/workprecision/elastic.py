@@ -12,7 +12,7 @@ from scene import Indent, Plane, Scene, SelfAffine
 from scene.scales import elastic_contact
 
 from .convergence import Convergence, Ladder
-from .diagram import ConvergenceDiagram
+from .diagram import convergence
 from .reference import DEPTH, FORCE, Known, Quantity, closed_form, finer
 from .scenes import CONE, KELVIN, QUICK, SPHERE, at, powers, pressed, rough
 
@@ -88,7 +88,7 @@ def _ladders(scene, size, points=POINTS, **others):
     )
 
 
-DIAGRAM = ConvergenceDiagram(
+DIAGRAM = convergence(
     "elastic",
     "Three dimensions at rest: error against points and tolerance",
     "BEM at rest, by points at a tight tolerance and by tolerance at fixed points: smooth bodies against Hertz "

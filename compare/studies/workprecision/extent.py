@@ -22,7 +22,7 @@ from scene.scales import elastic_contact
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import ConvergenceDiagram, reported
+from .diagram import convergence, reported
 from .reference import FRICTION, Known, Quantity, closed_form, finer
 from .scenes import CONTACT, KELVIN, SPHERE, TIME, at, pressed, some
 from .timed_solve import TimedSolve
@@ -162,7 +162,7 @@ def shape(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
             yield reported("extent.shape", sentence, value, less.title, missing=cells[0].unsolved)
 
 
-DIAGRAM = ConvergenceDiagram(
+DIAGRAM = convergence(
     "extent",
     "A free surface against a cell that repeats",
     "BEM of one tip by extent at a fixed pixel: free, where the extent has no error of its own, and as a lattice "

@@ -13,7 +13,7 @@ from scene import Program, Scene, Stage
 from ...exact import indentation
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import ConvergenceDiagram, reported
+from .diagram import convergence, reported
 from .reference import FORCE, FRICTION, Known, Quantity, closed_form, finer
 from .scenes import CONTACT, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, slid
 from .timed_solve import TimedSolve
@@ -100,7 +100,7 @@ def price(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         yield reported("marching.price", sentence, ratio, f"{value:g} points", missing=why)
 
 
-DIAGRAM = ConvergenceDiagram(
+DIAGRAM = convergence(
     "marching",
     "Three dimensions in time: error against points and steps",
     "BEM marched through a program: a sphere pressed in and drawn back against Lee, Radok and Ting, by points, by "

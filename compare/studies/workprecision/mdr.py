@@ -8,7 +8,7 @@ from scene.scales import elastic_contact
 
 from ...exact import foundation, indentation
 from .convergence import Convergence, Ladder
-from .diagram import ConvergenceDiagram
+from .diagram import convergence
 from .reference import FORCE, FRICTION, Known, closed_form, finer
 from .scenes import CONE, KELVIN, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, pressed, rough, slid, some
 
@@ -79,7 +79,7 @@ def _withdrawal(size):
     return Convergence("withdrawal", title, truth, (FORCE,), (by_points, by_steps), {FORCE.name: 2.0})
 
 
-DIAGRAM = ConvergenceDiagram(
+DIAGRAM = convergence(
     "mdr",
     "One dimension: error against points",
     "The errors of MDR against what one dimension itself would answer: closed forms of the foundation, or the "

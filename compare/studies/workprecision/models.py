@@ -1,7 +1,6 @@
 """Both models against the true answer of three dimensions: which model, which settings, how many surfaces."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 from math import isfinite, nan
 from typing import Any
 
@@ -11,10 +10,12 @@ from pandas import DataFrame
 
 from ...amounts import share
 from ...finding import HALVED, Claim, Finding
-from ...page import Block, Plot, Table
+from ...page import Plot, Table
 from ...plots import workprecision_models, workprecision_surfaces
+from ...statistics.sampling import cheapest
 from . import regimes
-from .answers import LEVELS, Regime, RoughRegime, answers_table, cells, rough_regimes, smooth_regimes
+from .answers import LEVELS, answers_table, cells, least_known, rough_means
+from .answers import regimes as regimes_of
 from .convergence import DIMENSIONS, steps_table
 from .diagram import Diagram, reported
 from .ensemble import plans_table
@@ -25,72 +26,34 @@ WANTED = (0.1, 0.01)
 ASKED = {"friction": ("friction",), "depth or force": ("depth", "force")}
 
 
-@dataclass(frozen=True)
-class ModelDiagram(Diagram):
-    """Both models in regimes of smooth and of rough bodies."""
-
-    def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """Errors that 1D keeps, and times to wanted errors."""
-        return list(_model_findings(_regimes(node)))
-
-    def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """A figure for each thing asked for."""
-        found = []
-        smooth = steps_table(each.to_dataset(inherit=False) for each in node.children.values() if each.data_vars)
-        for what, names in ASKED.items():
-            own = [each for each in _regimes(node) if each.quantity in names]
-            rows = {
-                "steps": smooth[smooth["quantity"].isin(names)],
-                "plans": DataFrame(plans_table([each.mean for each in own if isinstance(each, RoughRegime)])),
-                "answers": DataFrame(answers_table(own)),
-            }
-            name = f"workprecision-models-{what.split()[0]}"
-            tables = {name.replace("models", f"models-{kind}"): each for kind, each in rows.items() if len(each)}
-            found += [workprecision_models.plot(name, tables)] if own else []
-        return found
-
-    def tables(self, node: xarray.DataTree) -> list[Block]:
-        """What wanted errors take, in words."""
-        found = {
-            what: cells([each for each in _regimes(node) if each.quantity in names])
-            for what, names in ASKED.items()
+def _model_plots(node: xarray.DataTree) -> Iterator[Plot]:
+    """A figure for each thing asked for."""
+    smooth = steps_table(each.to_dataset(inherit=False) for each in node.children.values() if each.data_vars)
+    for what, names in ASKED.items():
+        own = [each for each in regimes_of(node) if each.quantity in names]
+        rows = {
+            "steps": smooth[smooth["quantity"].isin(names)],
+            "plans": DataFrame(plans_table([each.mean for each in own if each.mean])),
+            "answers": DataFrame(answers_table(own)),
         }
-        return [
-            Table(
-                f"workprecision-cells-{what.split()[0]}",
-                DataFrame(rows),
-                f"To know {what}: model, settings, time.",
-            )
-            for what, rows in found.items()
-            if rows
-        ]
+        name = f"workprecision-models-{what.split()[0]}"
+        tables = {name.replace("models", f"models-{kind}"): each for kind, each in rows.items() if len(each)}
+        if own:
+            yield workprecision_models.plot(name, tables)
 
 
-@dataclass(frozen=True)
-class SurfaceDiagram(Diagram):
-    """Numbers of surfaces with points in 3D."""
-
-    def findings(self, node: xarray.DataTree) -> list[Finding]:
-        """What scatters between surfaces, what a grid leaves, and times to wanted errors."""
-        return list(_surface_findings(rough_regimes(node)))
-
-    def plots(self, node: xarray.DataTree) -> list[Plot]:
-        """One figure, from plans to the mean and what they take."""
-        found, name = rough_regimes(node), f"workprecision-{self.name}"
-        rows = {name: plans_table([each.mean for each in found]), f"{name}-recipes": list(_recipes(found))}
-        tables = {key: DataFrame(each) for key, each in rows.items()}
-        return [workprecision_surfaces.plot(name, tables, LEVELS)] if found else []
-
-    def tables(self, node: xarray.DataTree) -> list[Block]:
-        """Nothing that the figure does not say."""
-        return []
+def _model_tables(node: xarray.DataTree) -> Iterator[Table]:
+    """What wanted errors take, in words."""
+    for what, names in ASKED.items():
+        rows = cells([each for each in regimes_of(node) if each.quantity in names])
+        caption = f"To know {what}: model, settings, time."
+        if rows:
+            yield Table(f"workprecision-cells-{what.split()[0]}", DataFrame(rows), caption)
 
 
-def _regimes(node) -> list[Regime]:
-    return [*smooth_regimes(node), *rough_regimes(node)]
-
-
-def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
+def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
+    """Errors that 1D keeps, and times to wanted errors."""
+    found = regimes_of(node)
     for level in WANTED:
         claim = Claim(
             f"workprecision.models.1d-within-{100 * level:g}-percent",
@@ -101,10 +64,8 @@ def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
         )
         yield from (each.error_1d(claim) for each in found)
     for level in WANTED:
-        id, sentence = (
-            f"models.time-{100 * level:g}-percent",
-            f"Processor time to {share(level)} of the true answer",
-        )
+        id = f"models.time-{100 * level:g}-percent"
+        sentence = f"Processor time to {share(level)} of the true answer"
         for each in found:
             taken = each.answer(level)
             if taken is None:
@@ -113,10 +74,11 @@ def _model_findings(found: Sequence[Regime]) -> Iterator[Finding]:
                 yield reported(id, sentence, taken.seconds, each.where, "s", DIMENSIONS[taken.solver])
 
 
-def _surface_findings(found: Sequence[RoughRegime]) -> Iterator[Finding]:
-    for each in found:
-        first, where = each.mean.plain[0], each.where
-        scatter, bias, grid = first.levels[0].scatter, first.bias, each.mean.grid_error
+def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
+    """What scatters between surfaces, what a grid leaves, and times to wanted errors."""
+    for each in rough_means(node):
+        first, where, grid = each.plain[0], each.where, each.grid_error
+        scatter, bias = first.levels[0].scatter, first.bias
         why = "too few surfaces were solved"
         yield reported(
             "surfaces.scatter", "Scatter of one surface", scatter.value, where,
@@ -133,49 +95,64 @@ def _surface_findings(found: Sequence[RoughRegime]) -> Iterator[Finding]:
             missing=why,
         )  # fmt: skip
         for level in WANTED:
-            effort = each.effort(level, "BEM")
+            effort = cheapest(each.of("BEM"), level)
             id, sentence = f"surfaces.time-{100 * level:g}-percent", f"Processor time to {share(level)} in 3D"
             value = nan if effort is None else effort.seconds
-            yield reported(id, sentence, value, where, "s", missing=_missed(each.best("BEM")))
+            known = least_known(plan.certain for plan in each.of("BEM"))
+            yield reported(id, sentence, value, where, "s", missing=_missed(known))
 
 
 def _missed(known):
     return f"best known {share(known)}" if isfinite(known) else "not solved"
 
 
-def _recipes(found: Sequence[RoughRegime]) -> Iterator[dict[str, Any]]:
+def _surface_plots(node: xarray.DataTree) -> Iterator[Plot]:
+    """One figure, from plans to the mean and what they take."""
+    found, name = rough_means(node), "workprecision-surfaces"
+    tables = {name: DataFrame(plans_table(found)), f"{name}-recipes": DataFrame(_recipes(found))}
+    if found:
+        yield workprecision_surfaces.plot(name, tables, LEVELS)
+
+
+def _recipes(found) -> Iterator[dict[str, Any]]:
     """A row for each wanted error and plan: surfaces of each level, and the time."""
     for each in found:
         for level in LEVELS:
-            best = each.effort(level, "BEM")
-            for plan in each.mean.of("BEM"):
-                effort = plan.reaching(level)
+            efforts = [(plan, plan.effort(level)) for plan in each.of("BEM")]
+            times = [nan if effort is None else effort.seconds for _, effort in efforts]
+            best = np.nanargmin(times) if np.isfinite(times).any() else None
+            for k, (plan, effort) in enumerate(efforts):
                 yield {
-                    "contact": each.mean.contact,
+                    "contact": each.contact,
                     "quantity": each.quantity,
                     "wanted": level,
                     "plan": plan.label,
                     "first_surfaces": nan if effort is None else effort.counts[0],
                     "surfaces": "" if effort is None else " + ".join(str(count) for count in effort.counts),
-                    "seconds": nan if effort is None else effort.seconds,
-                    "cheapest": best is not None and best.plan is plan,
+                    "seconds": times[k],
+                    "cheapest": k == best,
                     "grid_error": plan.bias.size,
                     "scatter": plan.levels[0].scatter.value,
                 }
 
 
-MODELS = ModelDiagram(
+MODELS = Diagram(
     "models",
     "Which model for which error",
     "Both models against the true answer of three dimensions: one is fast and keeps the error of the model, "
     "the other is slow and converges. Smooth bodies have one answer; that of rough ones is the mean over "
     "surfaces, so that the scatter between surfaces counts beside the grid.",
     lambda size: [*regimes.smooth(size), *regimes.rough(size)],
+    _model_findings,
+    _model_plots,
+    _model_tables,
 )
-SURFACES = SurfaceDiagram(
+SURFACES = Diagram(
     "surfaces",
     "How many surfaces, on how many points",
     "A rough contact has the mean over surfaces as its answer. The error of a mean is what the grid leaves, "
     "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
     lambda size: [each for each in regimes.rough(size) if each.name.endswith(("rest", "middle"))],
+    _surface_findings,
+    _surface_plots,
 )

@@ -9,7 +9,7 @@ from bem3d import BEM
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import ConvergenceDiagram, reported, where_of
+from .diagram import convergence, reported, where_of
 from .reference import DEPTH, FORCE, FRICTION, finer
 from .scenes import KELVIN, QUICK, SPHERE, at, pressed, rough, slid
 
@@ -65,7 +65,7 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         yield reported("precision.memory-ratio", sentence, ratio, double.title, missing="not measured")
 
 
-DIAGRAM = ConvergenceDiagram(
+DIAGRAM = convergence(
     "precision",
     "Single against double precision",
     "BEM in single and in double precision by tolerance, on one grid each: against the same grid solved tightly "

@@ -12,7 +12,7 @@ from scene import Scene, Slide, Sphere, StandardLinearSolid
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import ConvergenceDiagram, reported
+from .diagram import convergence, reported
 from .reference import DEPTH, FORCE, FRICTION, Known, Quantity, Reference, closed_form, finer, slow_limit
 from .scenes import FULL, KELVIN, QUICK, SPHERE, at, powers, rough, slid, some
 
@@ -151,7 +151,7 @@ def _over_indicator(every):
     return np.concatenate(ratios)
 
 
-DIAGRAM = ConvergenceDiagram(
+DIAGRAM = convergence(
     "sliding",
     "Three dimensions in steady sliding: error against points and tolerance",
     "BEM in steady sliding: smooth spheres against finer grids and the table of two independent codes, rough ones "
