@@ -3,11 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from math import isfinite, nan
 
 import numpy as np
 import xarray
-from pandas import DataFrame, concat
+from pandas import DataFrame
 
 from ..cases import Case
 from ..finding import HALVED, UNKNOWN, Claim, Finding
@@ -15,7 +16,7 @@ from ..rectangle import COARSE, FINE
 from ..statistics import eq23, means
 from ..statistics.collapse import Collapse, collapse
 from ..statistics.frictioncurves import SimulatedCurves
-from ..statistics.means import FRICTION, Compared, compared, failures
+from ..statistics.means import FRICTION, Compared, compared
 from .casecurves import (
     CURVES,
     LOAD,
@@ -27,6 +28,7 @@ from .casecurves import (
     predicted_exponent,
     scaled_speed,
 )
+from .points import stacked
 
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 TOLERANCE = 0.05
@@ -106,92 +108,70 @@ class CaseFindings:
     case: Case
     datasets: Mapping[str, xarray.Dataset]
 
-    @property
+    @cached_property
     def claims(self) -> list[Finding]:
         """Findings on claims, then numbers that tell how far these can be trusted."""
         return [
-            *self.slow,
-            *self.own,
+            *self._slow(),
+            *self._own(),
             *self.forces(ROUGH_FORCE).values(),
             *self.forces(SMOOTH_FORCE).values(),
             *(each for shifted in self.shifted for each in shifted.findings),
-            *self.unshifted,
+            *self._unshifted(),
             *self.at_speeds.values(),
-            *self.closed_form,
-            *self.grid,
-            *self.spread,
+            *self._closed_form(),
+            *self._grid(),
+            *self._spread(),
         ]
 
-    @cached_property
-    def slow(self) -> list[Finding]:
+    def _slow(self):
         """Friction of the smooth body at its lowest speed."""
-        if f"{SMOOTH_SPEED}/BEM" not in self.datasets:
-            return []
-        found, speeds = self._friction(SMOOTH_SPEED), self._of(SMOOTH_SPEED, "BEM")["speed"].values
-        lowest = int(np.argmin(speeds))
-        regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
-        return [self._finding(SLOW, found, (lowest, 0), plot="smooth-limit", regime=regime)]
+        if speeds := self._speeds(SMOOTH_SPEED):
+            lowest = int(np.argmin(speeds))
+            regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
+            found = self._friction(SMOOTH_SPEED)
+            yield self._finding(SLOW, found, (lowest, 0), plot="smooth-limit", regime=regime)
 
-    @cached_property
-    def own(self) -> list[Finding]:
+    def _own(self):
         """Friction of the scene as it stands."""
-        if not (self.case.slides and self.case.motion.speed > 0):
-            return []
-        return [self._finding(OWN_FRICTION, self._friction(OWN), (0, 0), plot="friction-speed")]
+        if self.case.slides and self.case.motion.speed > 0:
+            yield self._finding(OWN_FRICTION, self._friction(OWN), (0, 0), plot="friction-speed")
 
     @cached_property
     def at_speeds(self) -> dict[float, Finding]:
         """Friction at every speed."""
-        if f"{SPEED}/BEM" not in self.datasets:
-            return {}
-        found, speeds = self._friction(SPEED), self._of(SPEED, "BEM")["speed"].values.tolist()
-        return {
-            speed: self._finding(AT_SPEEDS, found, (k, 0), f"v = {speed:.3g} m/s", "friction-speed")
-            for k, speed in enumerate(speeds)
-        }
+        speeds = self._speeds(SPEED)
+        found = self._friction(SPEED) if speeds else None
+        return {speed: self._at_speed(AT_SPEEDS, found, k, speed) for k, speed in enumerate(speeds)}
 
     def forces(self, claim: Claim) -> dict[float, Finding]:
         """Force at every depth at which anything touches in three dimensions, 1D over 3D less one."""
         curve = ROUGH_DEPTH if claim is ROUGH_FORCE else SMOOTH_DEPTH
         return self._deviations(claim, curve, "MDR", "BEM") if f"{curve}/BEM" in self.datasets else {}
 
-    @cached_property
-    def closed_form(self) -> list[Finding]:
+    def _closed_form(self):
         """Force on the smooth body over the closed form, less one."""
-        if f"{SMOOTH_DEPTH}/exact" not in self.datasets:
-            return []
-        return [
-            found
-            for solver, dimension in DIMENSIONS.items()
-            for found in self._deviations(CLOSED_FORM, SMOOTH_DEPTH, solver, "exact", dimension).values()
-        ]
+        if f"{SMOOTH_DEPTH}/exact" in self.datasets:
+            for solver, dimension in DIMENSIONS.items():
+                yield from self._deviations(CLOSED_FORM, SMOOTH_DEPTH, solver, "exact", dimension).values()
 
-    @cached_property
-    def grid(self) -> list[Finding]:
+    def _grid(self):
         """Change of the scene's own answer from half the points to all."""
         names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
         names = FRICTION if self.case.slides and self.case.motion.speed > 0 else names
-        found = []
         for solver, dimension in DIMENSIONS.items():
-            number = compared(self._of(OWN, solver), None, *names)
+            number = compared(self.datasets[f"{OWN}/{solver}"], None, *names)
             value = float((number.grid / np.abs(number.value))[0, 0])
-            found.append(Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension))
-        return found
+            yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension)
 
-    @cached_property
-    def spread(self) -> list[Finding]:
+    def _spread(self):
         """Spread of both estimates of friction in three dimensions, at every speed."""
-        if f"{SPEED}/BEM" not in self.datasets:
-            return []
-        dataset = means.with_spread(self._of(SPEED, "BEM"))
-        if "friction_spread" not in dataset:
-            return []
-        found = compared(dataset, None, "friction_spread")
-        return [
-            self._finding(SPREAD, found, (k, 0), f"v = {speed:.3g} m/s", "friction-speed")
-            for k, speed in enumerate(dataset["speed"].values)
-            if isfinite(found.value[k, 0])
-        ]
+        if speeds := self._speeds(SPEED):
+            dataset = means.with_spread(self.datasets[f"{SPEED}/BEM"])
+            if "friction_spread" in dataset:
+                found = compared(dataset, None, "friction_spread")
+                known = [(k, speed) for k, speed in enumerate(speeds) if isfinite(found.value[k, 0])]
+                yield from (self._at_speed(SPREAD, found, k, speed) for k, speed in known)
 
     @cached_property
     def shifted(self) -> list[Shifted]:
@@ -218,57 +198,44 @@ class CaseFindings:
             found.append(Shifted(solver, fine, tuple(told)))
         return found
 
-    @property
-    def unshifted(self) -> list[Finding]:
+    def _unshifted(self):
         """Curves that cannot be shifted for want of answers."""
         asked = self.datasets.get(f"{LOAD}/BEM")
-        if asked is None or not eq23.shiftable(asked.sizes["speed"], asked.sizes[means.pressed(asked)]):
-            return []
-        known = {each.solver for each in self.shifted}
-        return [eq23.too_few(DIMENSIONS[solver], self.name) for solver in DIMENSIONS if solver not in known]
+        if asked is not None and eq23.shiftable(asked.sizes["speed"], asked.sizes[means.pressed(asked)]):
+            known = {each.solver for each in self.shifted}
+            yield from (eq23.too_few(DIMENSIONS[each], self.name) for each in DIMENSIONS if each not in known)
 
     @cached_property
     def points(self) -> DataFrame:
         """Every point of every curve on the fine grid, a row each."""
-        rows = []
-        for curve in CURVES:
-            for solver in (*DIMENSIONS, "exact"):
-                if f"{curve}/{solver}" in self.datasets:
-                    dataset = self._of(curve, solver)
-                    frame = means.means(dataset)
-                    rough = "draw" in dataset.dims or (self.case.roughness and "smooth" not in curve)
-                    frame.insert(0, "body", "rough" if rough else "smooth")
-                    frame.insert(0, "solver", solver)
-                    frame.insert(0, "curve", curve)
-                    rows.append(frame)
-        every = concat(rows, ignore_index=True)
+        frames = {}
+        for curve, solver in product(CURVES, (*DIMENSIONS, "exact")):
+            if (dataset := self.datasets.get(f"{curve}/{solver}")) is not None:
+                rough = "draw" in dataset.dims or (self.case.roughness and "smooth" not in curve)
+                frames[curve, solver, "rough" if rough else "smooth"] = means.means(dataset)
+        every = stacked(frames, "curve", "solver", "body")
         first = [name for name in ("curve", "solver", "body", "points", "speed", "load", "depth") if name in every]
         return every[[*first, *(name for name in every if name not in first)]]
 
     @cached_property
     def failures(self) -> DataFrame:
         """Every solve that failed, with its reason."""
-        rows = []
-        for place, dataset in self.datasets.items():
-            curve, _, solver = place.partition("/")
-            if curve in CURVES:
-                frame = failures(dataset)
-                frame.insert(0, "solver", solver)
-                frame.insert(0, "curve", curve)
-                rows.append(frame)
-        return concat([each for each in rows if len(each)] or rows[:1], ignore_index=True)
+        found = {tuple(place.split("/")): means.failures(dataset) for place, dataset in self.datasets.items()}
+        return stacked(found, "curve", "solver")
 
-    def _of(self, curve, solver):
-        return self.datasets[f"{curve}/{solver}"]
+    def _speeds(self, curve):
+        """Speeds of a curve; none if it was not asked for."""
+        asked = self.datasets.get(f"{curve}/BEM")
+        return [] if asked is None else asked["speed"].values.tolist()
 
     def _friction(self, curve) -> Compared:
-        return compared(self._of(curve, "MDR"), self._of(curve, "BEM"), *FRICTION)
+        return compared(self.datasets[f"{curve}/MDR"], self.datasets[f"{curve}/BEM"], *FRICTION)
 
     def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
         """Force of one over that of another less one, by depth."""
-        reference = self._of(curve, below)
+        reference = self.datasets[f"{curve}/{below}"]
         touched, depths = means.touches(reference)[0], reference["depth"].values.tolist()
-        found = compared(self._of(curve, above), reference, "normal_force")
+        found = compared(self.datasets[f"{curve}/{above}"], reference, "normal_force")
         place = {"plot": "force-depth", "less": 1.0, "dimension": dimension}
         return {
             depth: self._finding(claim, found, (0, k), f"{depth * 1e6:.3g} µm", **place)
@@ -276,9 +243,10 @@ class CaseFindings:
             if touched[k]
         }
 
-    def _finding(
-        self, claim, found: Compared, at, place="", plot="", less=0.0, regime="", dimension=""
-    ) -> Finding:
+    def _at_speed(self, claim, found, place, speed):
+        return self._finding(claim, found, (place, 0), f"v = {speed:.3g} m/s", "friction-speed")
+
+    def _finding(self, claim, found, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
         value, low, high, grid = (
             float(each[at])
             for each in (found.value, found.low, found.high, np.broadcast_to(found.grid, found.value.shape))
@@ -298,10 +266,8 @@ class CaseFindings:
 
     def _collapse(self, solver, grid) -> Collapse | None:
         """None with too few speeds or points."""
-        if f"{LOAD}/{solver}" not in self.datasets:
-            return None
-        dataset = self._of(LOAD, solver)
-        if grid not in dataset["grid"].values:
+        dataset = self.datasets.get(f"{LOAD}/{solver}")
+        if dataset is None or grid not in dataset["grid"].values:
             return None
         try:
             return collapse(SimulatedCurves.of(dataset.sel(grid=grid)))

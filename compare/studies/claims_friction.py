@@ -26,10 +26,10 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
     """Findings on a series that slides, but for what shifts of its curves say."""
     found = []
     for solver, dimension in SOLVERS.items():
-        words = laws[solver].regime.words
+        words = laws[solver].words
         for each, xi in _one_sided(contacts, solver, dimension, laws[solver]):
             found.append(finding(each, contacts, ROUGH, at_xi(xi, words) if xi is not None else words, solver))
-    words = laws["BEM"].regime.words
+    words = laws["BEM"].words
     for name, place in _places(laws["BEM"]):
 
         def ratio(sample, place=place):
@@ -159,7 +159,7 @@ def shift_findings(
 ) -> Iterator[Finding]:
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
     series, dimension = contacts.series, SOLVERS[solver]
-    words, draws = laws.regime.words, series.draws[solver]
+    words, draws = laws.words, series.draws[solver]
     plots = f"{series.folder}/collapse", f"{series.folder}/shifts"
     if both is not None:
         shifts = dict(zip(series.speeds, laws.shifts.tolist(), strict=True))

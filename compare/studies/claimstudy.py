@@ -100,22 +100,18 @@ class ClaimStudy(Study):
 
     @property
     def title(self) -> str:  # type: ignore[override]
-        """Heading of the page."""
         return self.study.title
 
     @property
     def about(self) -> str:  # type: ignore[override]
-        """Inputs of the study, as JSON can hold them."""
         return self.study.about
 
     @property
     def place(self) -> str:  # type: ignore[override]
-        """One folder for a study and a size."""
         return slug(f"{self.name}-{self.size}")
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """Name, size and, if it is a user's own, the whole text."""
         own = {} if self.source is None else {"source": self.source}
         return {"name": self.name, "size": self.size} | own
 
@@ -144,12 +140,11 @@ class ClaimStudy(Study):
         return self._judged[id(answers)][1]
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """What becomes of each claim, in every series and dimensionality."""
         return self.judged(answers).findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone."""
-        return sentences([each for each in findings if each.verdict != REPORTED])
+        return sentences(_claimed(findings))
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
@@ -194,12 +189,10 @@ class AllStudies(Study):
 
     @property
     def place(self) -> str:  # type: ignore[override]
-        """One folder for a size."""
         return slug(f"{ALL}-{self.studies[0].size}")
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """Name and size."""
         return {"name": ALL, "size": self.studies[0].size}
 
     def rectangles(self) -> Mapping[str, Rectangle]:
@@ -207,18 +200,16 @@ class AllStudies(Study):
         return {f"{each.name}/{name}": found for each in self.studies for name, found in each.rectangles().items()}
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """Findings of every study."""
         return [found for each in self.studies for found in self._own(each, answers)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A statement for each claim, from the findings of all studies."""
-        return sentences([each for each in findings if each.verdict != REPORTED])
+        return sentences(_claimed(findings))
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
         """Verdicts of each study, and its series against one variable."""
         found = []
         for each in self.studies:
-            judged = self._judged(each, answers)
+            judged = each.judged(answers.children[each.name])
             plots = study_plots.plots_of_study(judged.series, judged.findings, bool(judged.together))
             found += [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
         return found
@@ -231,17 +222,19 @@ class AllStudies(Study):
         for each in self.studies:
             own = [plot for plot in plots if plot.folder == f"{each.name}/"]
             command = f"`crosscheck study {each.name} --size {each.size}`."
-            claimed = [found for found in self._own(each, answers) if found.verdict != REPORTED]
-            blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, Findings(claimed)]))
+            claimed = Findings(_claimed(self._own(each, answers)))
+            blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, claimed]))
         return blocks
-
-    def _judged(self, each, answers) -> JudgedStudy:
-        return each.judged(answers[each.name])
 
     def _own(self, each, answers):
         """Findings of one study, each with the study in front of its place and its plot."""
-        found = self._judged(each, answers).findings
+        found = each.findings(answers.children[each.name])
         return [replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found]
+
+
+def _claimed(findings: Sequence[Finding]) -> list[Finding]:
+    """Findings on claims, without numbers that are only reported."""
+    return [each for each in findings if each.verdict != REPORTED]
 
 
 def _located(name: str | Path) -> Path:
@@ -258,12 +251,12 @@ def _located(name: str | Path) -> Path:
 
 def _overview(findings: Sequence[Finding]) -> Iterator[dict]:
     """Number of findings of each verdict, for each claim and dimensionality."""
-    claimed = [each for each in findings if each.verdict != REPORTED]
-    for key in dict.fromkeys((each.claim.id, each.row["dimension"]) for each in claimed):
-        own = [each for each in claimed if (each.claim.id, each.row["dimension"]) == key]
-        verdicts = [each.verdict for each in own]
-        counts = {name: verdicts.count(name) for name in VERDICTS if name != REPORTED}
-        yield {"sentence": own[0].claim.sentence, "dimension": key[1], **counts}
+    verdicts: dict[tuple[str, str], list[Finding]] = {}
+    for each in _claimed(findings):
+        verdicts.setdefault((each.claim.id, each.row["dimension"]), []).append(each)
+    for (_, dimension), own in verdicts.items():
+        counts = {name: sum(each.verdict == name for each in own) for name in VERDICTS if name != REPORTED}
+        yield {"sentence": own[0].claim.sentence, "dimension": dimension, **counts}
 
 
 def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
@@ -307,5 +300,5 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
         answers = judged.contacts(solver)
         known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)
         if np.isfinite(known).any():
-            words = f"; {judged.laws[solver].regime.words}" if judged.laws else ""
+            words = f"; {judged.laws[solver].words}" if judged.laws else ""
             yield f"{dimension}: rms slope {np.nanmean(known):.3g}{words}"

@@ -1,8 +1,7 @@
 """Claims on several series together: roughness and rheology count through one variable alone."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,36 +13,13 @@ from ..statistics.frictioncurves import SimulatedCurves
 from ..statistics.jackknife import RmsMisfit, Sample, friction, mean_ratio, measured
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
+from .judgement import JudgedSeries
 from .series import FAMILIES, ROUGH, SOLVERS, sliding
-
-if TYPE_CHECKING:
-    from .judgement import JudgedSeries
 
 PLOT = "family"
 
 
-@dataclass(frozen=True)
-class Family:
-    """Samples of several series by one solver, on the same surfaces."""
-
-    samples: tuple[Sample, ...]
-
-    @property
-    def draws(self) -> int:
-        """Number of surfaces."""
-        return self.samples[0].draws
-
-    @property
-    def groups(self) -> Sequence[np.ndarray]:
-        """Surfaces that are left out together."""
-        return self.samples[0].groups
-
-    def without(self, group: np.ndarray) -> Self:
-        """Samples without some surfaces, in all series at once."""
-        return replace(self, samples=tuple(sample.without(group) for sample in self.samples))
-
-
-def families(series: "Sequence[JudgedSeries]") -> "dict[str, list[JudgedSeries]]":
+def families(series: Sequence[JudgedSeries]) -> dict[str, list[JudgedSeries]]:
     """Series that slide, by the name of their shape, where roughness or solid differ.
 
     All of a family have as many surfaces; of several such families of one shape it is the largest.
@@ -58,7 +34,7 @@ def families(series: "Sequence[JudgedSeries]") -> "dict[str, list[JudgedSeries]]
     return {shape: members for (shape, *_), members in rising if _differ(members)}
 
 
-def reduced(members: "Sequence[JudgedSeries]", solver: str, grid: str = FINE) -> SimulatedCurves:
+def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> SimulatedCurves:
     """mu over the plateau against 1/xi, a curve for each series; `speeds` count the series."""
     loads, frictions = [], []
     for judged in members:
@@ -73,7 +49,7 @@ def reduced(members: "Sequence[JudgedSeries]", solver: str, grid: str = FINE) ->
     return SimulatedCurves(np.arange(1.0, len(members) + 1), *filled)
 
 
-def family_findings(series: "Sequence[JudgedSeries]") -> Iterator[Finding]:
+def family_findings(series: Sequence[JudgedSeries]) -> Iterator[Finding]:
     """Findings for each shape and dimensionality."""
     for shape, members in families(series).items():
         for solver in SOLVERS:
@@ -88,7 +64,7 @@ def _one_curve(members, solver, shape):
     return replace(
         found,
         dimension=SOLVERS[solver],
-        where=_every(shape),
+        where=f"every {shape}",
         draws=members[0].series.draws[solver],
         regime=_words(members, solver),
         plot=PLOT,
@@ -110,8 +86,10 @@ def _slope_exponents(members, solver, shape):
         return
     laws = [judged.laws[solver] for judged in alike]
     plateaus = np.array([each.plateau for each in laws])
+    # The same surfaces are left out of all series.
     fine, coarse = (
-        Family(tuple(judged.contacts.sample(grid, ROUGH, solver) for judged in alike)) for grid in (FINE, COARSE)
+        Sample({each.series.name: each.contacts.sample(grid, ROUGH, solver)[solver] for each in alike})
+        for grid in (FINE, COARSE)
     )
     slow = np.all([(each.xi[0] <= SLOW) & (each.slowest_loss <= SLOW) for each in laws], axis=0)
     fast = np.all([each.xi[-1] >= FAST for each in laws], axis=0)
@@ -124,20 +102,13 @@ def _slope_exponents(members, solver, shape):
         # What Eq. 19 still lacks of either limit.
         lacking = [each.law[place] / (each.plateau * each.xi[place] ** (expected - 1)) for each in laws]
 
-        def exponent(family, place=place, values=values, lacking=lacking):
-            levels = [
-                friction(sample[solver])[1:][place] / each
-                for sample, each in zip(family.samples, lacking, strict=True)
-            ]
-            return power(plateaus, np.array([geometric(each[values]) for each in levels]))
+        def exponent(sample, place=place, values=values, lacking=lacking):
+            pairs = zip(sample.values(), lacking, strict=True)
+            levels = [geometric((friction(each)[1:][place] / less)[values]) for each, less in pairs]
+            return power(plateaus, np.array(levels))
 
         words = at_xi(np.array([each.xi[place][values] for each in laws]), _words(alike, solver))
-        yield measured(claim(name, exponent, SOLVERS[solver]), fine, coarse, _every(shape), words, PLOT)
-
-
-def _every(shape):
-    """All series of a shape, in words."""
-    return f"every {shape}"
+        yield measured(claim(name, exponent, SOLVERS[solver]), fine, coarse, f"every {shape}", words, PLOT)
 
 
 def _apart_by_height(members):
@@ -159,7 +130,7 @@ def _differ(members):
 
 def _words(members, solver):
     """The regimes of all."""
-    return "; ".join(dict.fromkeys(judged.laws[solver].regime.words for judged in members))
+    return "; ".join(dict.fromkeys(judged.laws[solver].words for judged in members))
 
 
 def _filled(rows, count):

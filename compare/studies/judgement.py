@@ -49,7 +49,7 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
         if both is not None:
             shifted[solver] = both[0]
         shifts += shift_findings(contacts, solver, both, each)
-    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled["BEM"].regime.words)]
+    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled["BEM"].words)]
     findings = _asked(series, shifts, COLLAPSE) + _asked(series, friction, FRICTION)
     return JudgedSeries(contacts, ruled, shifted, findings)
 

@@ -1,5 +1,6 @@
 """What theory says of every point of a series: the paper's laws, and the exact limits of low speed."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import nan
 
@@ -10,7 +11,7 @@ from mdr1d import equations
 
 from .. import exact
 from ..statistics.jackknife import mean_ratio
-from .regime import PointRegime, gathered
+from .regime import SYMBOLS, ratios, words
 from .series import ROUGH, SMOOTH, Contacts, Series, resting, sliding
 
 # Relative spread of exponents up to which they are one.
@@ -24,7 +25,7 @@ class Laws:
     """Laws for one solver on a series that slides, arrays (speeds, values) unless stated.
 
     speeds : (speeds,) [m/s]
-    points : dimensionless groups of each point (speeds, values); None where every solve failed
+    ratios : dimensionless groups of each point by name, see `regime.ratios`; NaN where every solve failed
     load : mean over surfaces, or prescribed [N]
     exponent_of_load : of xi, -n/(n+1)
     xi : friction at low speed over the plateau, Eq. 18 with the loss of the solid at the shortest wave
@@ -39,7 +40,7 @@ class Laws:
     """
 
     speeds: np.ndarray
-    points: tuple[tuple[PointRegime | None, ...], ...]
+    ratios: Mapping[str, np.ndarray]
     load: np.ndarray
     exponent_of_load: float
     xi: np.ndarray
@@ -53,13 +54,9 @@ class Laws:
     exponent: float
 
     @property
-    def regime(self) -> PointRegime:
-        """Groups of all points that have an answer, one after the other."""
-        return gathered([at for row in self.points for at in row if at is not None])
-
-    def ratio(self, name: str) -> np.ndarray:
-        """One group of every point, NaN where every solve failed."""
-        return np.array([[nan if at is None else getattr(at, name) for at in row] for row in self.points])
+    def words(self) -> str:
+        """Ranges of the groups of all points."""
+        return words(self.ratios)
 
     def xi_under(self, load: np.ndarray) -> np.ndarray:
         """xi at other loads [N], (speeds, values)."""
@@ -82,8 +79,8 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
     solver's own measure.
     """
     series, answers = contacts.series, sliding(contacts(solver))
-    points = regimes(series, answers)
-    if not any(at is not None for row in points for at in row):
+    groups = regimes(series, answers)
+    if not np.isfinite(groups["depth_over_height"]).any():
         return None
     scene, speeds = series.scene, np.array(series.speeds)
     solid, body = scene.solid, scene.indenter
@@ -107,7 +104,7 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
     rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
     return Laws(
         speeds=speeds,
-        points=points,
+        ratios=groups,
         load=load,
         exponent_of_load=-n / (n + 1),
         xi=xi,
@@ -122,25 +119,22 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
     )
 
 
-def regimes(series: Series, answers: xarray.Dataset) -> tuple[tuple[PointRegime | None, ...], ...]:
-    """Groups of each rough contact of one grid, (speeds, values).
+def regimes(series: Series, answers: xarray.Dataset) -> dict[str, np.ndarray]:
+    """Groups of each rough contact of one grid by name, (speeds, values), from means over the surfaces.
 
-    None where it is pressed in at a rate, which has none, and where every solve failed.
+    NaN where it is pressed in at a rate, which has none, and where every solve failed.
     """
     force = _draws(answers, "normal_force")
     measures = {name: _draws(answers, name) for name in GROUPED if name in answers}
-
-    def at(i, j, value, speed):
-        known = np.isfinite(force[i, j])
-        if not known.any() or (speed and series.pressed_in):
-            return None
-        here = {name: float(values[i, j][known].mean()) for name, values in measures.items()}
-        return PointRegime.of(series.at(value, speed), here)
-
-    speeds = answers["speed"].values.tolist()
-    return tuple(
-        tuple(at(i, j, value, speed) for j, value in enumerate(series.values)) for i, speed in enumerate(speeds)
-    )
+    found = {name: np.full(force.shape[:2], nan) for name in SYMBOLS}
+    for i, speed in enumerate(answers["speed"].values.tolist()):
+        for j, value in enumerate(series.values):
+            known = np.isfinite(force[i, j])
+            if known.any() and not (speed and series.pressed_in):
+                here = {name: float(values[i, j][known].mean()) for name, values in measures.items()}
+                for name, ratio in ratios(series.at(value, speed), here).items():
+                    found[name][i, j] = ratio
+    return found
 
 
 def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:

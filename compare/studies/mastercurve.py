@@ -86,12 +86,10 @@ class Mastercurve(Study):
 
     @property
     def title(self) -> str:  # type: ignore[override]
-        """Heading of the page."""
         return f"Friction of {self.path.stem} on one curve"
 
     @property
     def inputs(self) -> Mapping[str, str]:
-        """The file."""
         return {"table": str(self.path)}
 
     @cached_property
@@ -105,11 +103,9 @@ class Mastercurve(Study):
         return collapse(curves_of(self.data))
 
     def batches(self) -> Sequence[Batch]:
-        """None: nothing is solved."""
         return ()
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """The measurements."""
         return xarray.DataTree.from_dict({f"/{MEASURED}": self.data})
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
@@ -150,11 +146,9 @@ class Mastercurve(Study):
         return findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """The claims and the exponent."""
         return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id == EXPONENT.id])
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        """The curves, shifted, and the shifts."""
         row = shifted_curves.ShiftedCurves(self.path.stem, self.collapse, findings[0])
         plot = shifted_curves.plot([row])
         return [plot] if plot else []
@@ -162,7 +156,6 @@ class Mastercurve(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """Figure, findings, shifts."""
         shifts = Table("shifts", self.collapse.shifts, "Natural logarithms of the shifts, with intervals of 95 %.")
         return [*plots, Findings(findings), shifts]
 

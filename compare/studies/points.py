@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from math import nan
+from typing import Any
 
 import numpy as np
 from pandas import DataFrame, concat
@@ -11,10 +12,9 @@ from ..statistics import means
 from ..statistics.jackknife import friction, mean, resample
 from ..statistics.means import Interval
 from .laws import regimes
-from .regime import PointRegime
-from .series import ROUGH, SMOOTH, SOLVERS, Contacts
+from .series import ROUGH, SOLVERS, Contacts
 
-# Dimensionless groups of a point, by what has them.
+# Ratios of a rough point, see `regime.ratios`.
 GROUPS = (
     "depth_over_height",
     "shortest_in_contact",
@@ -22,8 +22,9 @@ GROUPS = (
     "memory_over_contact",
     "memory_over_shortest",
     "contact_fraction",
+    "contact_over_period",
+    "macro_over_rough",
 )
-SCENE_GROUPS = ("contact_over_period", "macro_over_rough")
 # Area [m²] or length [m] that touches.
 CONTACT = {"MDR": "contact_length", "BEM": "contact_area"}
 
@@ -51,40 +52,30 @@ def force_at(contacts: Contacts, solver: str, body: str = ROUGH) -> Interval:
     return interval(lambda sample: mean(sample[solver], "normal_force")[1:], contacts, body, solver)
 
 
+def stacked(frames: Mapping[Any, DataFrame], *names: str) -> DataFrame:
+    """Tables one below the other, with the words that name each of them in its first columns."""
+    for words, frame in frames.items():
+        for place, (name, word) in enumerate(zip(names, words, strict=True)):
+            frame.insert(place, name, word)
+    parts = list(frames.values())
+    return concat([each for each in parts if len(each)] or parts[:1], ignore_index=True)
+
+
 def points(contacts: Contacts) -> DataFrame:
     """A row for each solver, body, speed, and load or depth: means, intervals of 95 %, dimensionless groups."""
-    return concat(
-        [_rows(contacts, solver, body) for solver in SOLVERS for body in (ROUGH, SMOOTH)], ignore_index=True
-    )
+    frames = {(SOLVERS[solver], body): _rows(contacts, solver, body) for solver, body in contacts.datasets}
+    return stacked(frames, "dimension", "body")
 
 
 def failures(contacts: Contacts) -> DataFrame:
     """Every solve that failed, with its reason."""
-    found = []
-    for solver, dimension in SOLVERS.items():
-        for body in (ROUGH, SMOOTH):
-            frame = means.failures(contacts.dataset(solver, body))
-            frame.insert(0, "dimension", dimension)
-            frame.insert(1, "body", body)
-            found.append(frame)
-    return concat(found, ignore_index=True)
+    found = {(SOLVERS[solver], body): means.failures(each) for (solver, body), each in contacts.datasets.items()}
+    return stacked(found, "dimension", "body")
 
 
 def _rows(contacts, solver, body):
-    dataset = contacts.dataset(solver, body)
+    dataset = contacts.datasets[solver, body]
     if CONTACT[solver] in dataset:
         dataset = dataset.assign(contact=dataset[CONTACT[solver]])
-    frame = means.means(dataset)
-    frame.insert(0, "dimension", SOLVERS[solver])
-    frame.insert(1, "body", body)
-    groups = [_groups(None)] * len(frame)
-    if body == ROUGH:
-        groups = [_groups(at) for row in regimes(contacts.series, contacts(solver)) for at in row]
-    return frame.join(DataFrame(groups, index=frame.index))
-
-
-def _groups(at: PointRegime | None) -> dict[str, float]:
-    if at is None:
-        return dict.fromkeys((*GROUPS, *SCENE_GROUPS), nan)
-    own = {name: float(getattr(at, name)) for name in GROUPS}
-    return own | {name: float(getattr(at.regime, name)) for name in SCENE_GROUPS}
+    groups = regimes(contacts.series, contacts(solver)) if body == ROUGH else {}
+    return means.means(dataset).assign(**{name: groups[name].ravel() if groups else nan for name in GROUPS})

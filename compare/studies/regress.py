@@ -80,11 +80,9 @@ class Regress(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """Name of the file."""
         return {"baseline": self.path.name}
 
     def batches(self) -> Sequence[Batch]:
-        """What the quantities need."""
         return (Batch([task for quantity in self.quantities for task in quantity.tasks]),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
@@ -112,7 +110,6 @@ class Regress(Study):
         return xarray.DataTree.from_dict({"/quantities": dataset})
 
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        """Every quantity today, beside what is stored of it."""
         named = {quantity.id: quantity for quantity in self.quantities}
         dataset = answers["quantities"]
         rows = zip(

@@ -80,7 +80,6 @@ class Run(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """Every case, as JSON can hold it."""
         return {"cases": {name: as_json(Case, case) for name, case in self.cases.items()}}
 
     @cached_property
@@ -106,7 +105,6 @@ class Run(Study):
         )
 
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        """Findings of each case."""
         return [each for case in self.judged(answers) for each in case.claims]
 
     def judged(self, answers: xarray.DataTree) -> Sequence[CaseFindings]:
@@ -125,13 +123,11 @@ class Run(Study):
         return CaseFindings(name, slug(name), self.cases[name], datasets)
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A sentence for each claim, those that contradict included."""
         return finding.sentences([each for each in findings if np.isfinite(each.claim.tolerance)])
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
     ) -> Sequence[Block]:
-        """A summary across cases, then a section each."""
         cases = self.judged(answers)
         sections = [Section(case.case.title or case.name, _blocks(case, answers[case.folder])) for case in cases]
         return [Table("summary", summary(cases), "Every claim in every case."), *sections]

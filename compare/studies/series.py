@@ -16,7 +16,7 @@ from ..describe import slug
 from ..rectangle import FINE, Rectangle, on_two_grids
 from ..statistics.jackknife import Sample
 
-ROUGH, SMOOTH = "rough", "smooth"
+ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
 # each, all that compares the dimensionalities, and what compares several series.
 COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = KINDS = "collapse", "friction", "depth", "dimensions", "families"
@@ -110,16 +110,14 @@ class Contacts:
 
     def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> xarray.Dataset:
         """Dataset on one grid, rest first."""
-        return self._on_grids[solver, body].sel(grid=grid)
+        return self.datasets[solver, body].sel(grid=grid)
 
     @cached_property
-    def _on_grids(self):
-        return {(solver, body): self.dataset(solver, body) for solver in SOLVERS for body in (ROUGH, SMOOTH)}
-
-    def dataset(self, solver: str, body: str = ROUGH) -> xarray.Dataset:
-        """Dataset on both grids."""
-        node = cast(xarray.DataTree, self.answers[f"{self.series.name}/{body}/{solver}"])
-        return node.to_dataset(inherit=False)
+    def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:
+        """Datasets on both grids, by solver and body."""
+        places = {(solver, body): f"{self.series.name}/{body}/{solver}" for solver in SOLVERS for body in BODIES}
+        nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
+        return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
 
     def sample(self, grid: str, body: str, *solvers: str) -> Sample:
         """Datasets by the name of the solver, of which draws can be left out; always the same object."""

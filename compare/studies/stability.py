@@ -53,11 +53,9 @@ class Stability(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """The size."""
         return {"size": self.size}
 
     def batches(self) -> Sequence[Batch]:
-        """Every case, a task each."""
         return (Batch([Examination(name, self.size) for name in CASES]),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:

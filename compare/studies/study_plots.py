@@ -1,6 +1,8 @@
 """Plots of a study: the tables behind each figure, from its answers, laws, shifts and findings."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import product
 
 import numpy as np
 from pandas import DataFrame, concat
@@ -18,10 +20,8 @@ from ..statistics.means import Interval
 from .claims_depth import closed_forms, loading
 from .families import families, reduced
 from .judgement import JudgedSeries
-from .points import force_at, friction_at, interval
-from .series import ROUGH, SMOOTH, SOLVERS, Contacts
-
-FORCES = "friction_force", "normal_force"
+from .points import force_at, friction_at, interval, stacked
+from .series import BODIES, ROUGH, SMOOTH, SOLVERS, Contacts, resting
 
 
 def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], together: bool) -> Iterator[Plot]:
@@ -82,6 +82,16 @@ def _counted(findings):
     return ", ".join(f"{name} {verdicts.count(name)}" for name in dict.fromkeys(verdicts))
 
 
+def _each_dimension(table: Callable[[str], DataFrame]) -> DataFrame:
+    """Tables of the solvers by their names, one below the other, with the dimension in front."""
+    return stacked({(dimension,): table(solver) for solver, dimension in SOLVERS.items()}, "dimension")
+
+
+def _each_body(table: Callable[[str], dict]) -> DataFrame:
+    """Columns of the rough and of the smooth body as tables one below the other, with the body in front."""
+    return stacked({(body,): DataFrame(table(body)) for body in BODIES}, "body")
+
+
 def _columns(name: str, found: Interval) -> dict[str, np.ndarray]:
     """Numbers and both ends of their intervals, flat, under a name."""
     return {f"{name}{end}": np.ravel(each) for end, each in zip(("", "_low", "_high"), found, strict=True)}
@@ -94,19 +104,12 @@ def _places(series, name="speed") -> dict[str, np.ndarray]:
 
 
 def _collapse(judged) -> Plot:
-    kinds: tuple[list[DataFrame], ...] = [], [], []
-    for solver, dimension in SOLVERS.items():
-        parts = (_shifted(judged, solver), _curves(judged, solver), _fit(judged, solver, dimension))
-        for frames, frame in zip(kinds, parts, strict=True):
-            frame.insert(0, "dimension", dimension)
-            frames.append(frame)
-    names = "collapse", "collapse-curves", "collapse-fits"
-    tables = {name: concat(frames, ignore_index=True) for name, frames in zip(names, kinds, strict=True)}
+    parts = {"collapse": _shifted, "collapse-curves": _curves, "collapse-fits": _fit}
     verdicts = [each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id]
     return Plot(
         f"{judged.series.folder}/collapse",
         study_friction.collapse,
-        tables,
+        {name: _each_dimension(partial(table, judged)) for name, table in parts.items()},
         "Friction against normal force, a curve for each speed, with intervals of 95 %; then shifted along the "
         "force (Eq. 23) so as to come closest to one curve (black), or as p(v) of Eq. 22 if no shifts can be "
         "fitted; then what the curve is missed by, with the tolerance in grey. δ: rms without scatter.",
@@ -115,49 +118,46 @@ def _collapse(judged) -> Plot:
     )
 
 
+def _fitted(judged, solver):
+    """What shifts along the load achieve, where a common curve was found; else None."""
+    found = judged.collapses.get(solver)
+    return None if found is None or found.horizontal.curve is None else found
+
+
 def _shifted(judged, solver) -> DataFrame:
     """Every point, shifted as fits best or, where no shifts are known, as theory has it."""
-    contacts, series = judged.contacts, judged.series
+    contacts, series, found = judged.contacts, judged.series, _fitted(judged, solver)
     mu, load = friction_at(contacts, solver), force_at(contacts, solver).value
-    found = judged.collapses.get(solver)
-    fitted = found is not None and found.horizontal.curve is not None
     frame = DataFrame(_places(series) | {"normal_force": load.ravel()} | _columns("friction_coefficient", mu))
-    shift, how = np.full(load.shape, np.nan), np.full(load.shape, ALONE, object)
-    if fitted:
-        for speed, by, known in zip(
-            found.speeds, found.horizontal.horizontal.value, found.data.known, strict=True
-        ):
+    if found is None:
+        shift = np.broadcast_to(_predicted(judged, solver)[:, None], load.shape)
+        how = np.full(load.shape, PREDICTED, object)
+    else:
+        shift, how = np.full(load.shape, np.nan), np.full(load.shape, ALONE, object)
+        shifts = found.horizontal.horizontal.value
+        for speed, by, known in zip(found.speeds, shifts, found.data.known, strict=True):
             row = series.speeds.index(speed)
             shift[row, known], how[row, known] = by, FITTED
-    else:
-        shift[:], how[:] = _predicted(judged, solver)[:, None], PREDICTED
     frame["shifted_force"] = (load * np.exp(shift)).ravel()
     frame["shifted_as"] = how.ravel()
-    curve = found.horizontal.curve(np.log(frame["shifted_force"])) if fitted else np.nan
+    curve = np.nan if found is None else found.horizontal.curve(np.log(frame["shifted_force"]))
     for end in ("", "_low", "_high"):
-        frame[f"off_curve{end}"] = (
-            np.log(frame[f"friction_coefficient{end}"].where(lambda value: value > 0)) - curve
-        )
+        positive = frame[f"friction_coefficient{end}"].where(lambda value: value > 0)
+        frame[f"off_curve{end}"] = np.log(positive) - curve
     return frame
 
 
-def _middle(judged, solver):
-    """Place of the speed whose curve is not moved."""
-    found, series = judged.collapses.get(solver), judged.series
-    speeds = series.speeds if found is None or found.horizontal.curve is None else found.speeds.tolist()
-    return series.speeds.index(speeds[len(speeds) // 2])
-
-
 def _predicted(judged, solver):
-    """ln p(v) of all speeds over that of the middle one."""
-    shifts = judged.laws[solver].shifts
-    return shifts - shifts[_middle(judged, solver)]
+    """ln p(v) of all speeds over that of the middle one, whose curve is not moved."""
+    found, speeds, shifts = _fitted(judged, solver), judged.series.speeds, judged.laws[solver].shifts
+    kept = speeds if found is None else found.speeds.tolist()
+    return shifts - shifts[speeds.index(kept[len(kept) // 2])]
 
 
 def _curves(judged, solver) -> DataFrame:
     """The common curve, and Eq. 19 at all points, which is one curve once shifted as theory has it."""
-    laws, found, parts = judged.laws[solver], judged.collapses.get(solver), []
-    if found is not None and found.horizontal.curve is not None:
+    laws, found, parts = judged.laws[solver], _fitted(judged, solver), []
+    if found is not None:
         first, last = found.horizontal.curve.domain
         x = np.linspace(first, last, 201)
         columns = {"shifted_force": np.exp(x), "friction_coefficient": np.exp(found.horizontal.curve(x))}
@@ -167,15 +167,12 @@ def _curves(judged, solver) -> DataFrame:
     return concat([*parts, law.dropna().sort_values("shifted_force")], ignore_index=True)
 
 
-def _fit(judged, solver, dimension) -> DataFrame:
+def _fit(judged, solver) -> DataFrame:
     found = judged.collapses.get(solver)
     if found is None:
         return DataFrame([{"misfit": np.nan, "reason": "too few points"}])
-    ends = [
-        each.interval
-        for each in judged.findings
-        if each.claim.id == eq23.COLLAPSE.id and each.dimension == dimension
-    ]
+    own = [each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id]
+    ends = [each.interval for each in own if each.dimension == SOLVERS[solver]]
     low, high = ends[0] if ends else found.horizontal.misfit.interval()
     row = {
         "misfit": found.horizontal.misfit.value,
@@ -191,71 +188,59 @@ def _fit(judged, solver, dimension) -> DataFrame:
 
 
 def _shifts(judged) -> Plot:
-    shifts, fits, said = [], [], []
+    shifts, fits, said = {}, {}, []
     for solver, found in judged.collapses.items():
-        dimension = SOLVERS[solver]
-        places = [judged.series.speeds.index(speed) for speed in found.speeds.tolist()]
-        theory = judged.laws[solver].shifts[places]
-        frame = found.shifts
-        frame.insert(0, "dimension", dimension)
-        frame["theory"] = theory - theory[len(theory) // 2]
-        shifts.append(frame)
+        dimension, exponent = SOLVERS[solver], found.horizontal.exponent
+        theory = judged.laws[solver].shifts[[judged.series.speeds.index(speed) for speed in found.speeds.tolist()]]
+        shifts[dimension,] = found.shifts.assign(theory=theory - theory[len(theory) // 2])
         reason = found.horizontal.reason or found.inseparable
-        exponent = found.horizontal.exponent.value
-        low, high = found.horizontal.exponent.interval()
-        fits.append(
-            {
-                "dimension": dimension,
-                "exponent": exponent,
-                "exponent_low": low,
-                "exponent_high": high,
-                "reason": reason,
-            }
-        )
-        said.append(f"{dimension}: {reason}" if reason else "")
+        low, high = exponent.interval()
+        row = {"exponent": exponent.value, "exponent_low": low, "exponent_high": high, "reason": reason}
+        fits[dimension,] = DataFrame([row])
+        said += [f"{dimension}: {reason}"] if reason else []
     return Plot(
         f"{judged.series.folder}/shifts",
         study_friction.shifts,
-        {"shifts": concat(shifts, ignore_index=True), "shifts-fits": DataFrame(fits)},
+        {"shifts": stacked(shifts, "dimension"), "shifts-fits": stacked(fits, "dimension")},
         "Shifts that bring the curves onto one, zero at the middle speed, with intervals of 95 % over surfaces. "
         "(a) Along ln F_N alone, and ln p(v) of Eq. 22 (line). (b) Their difference. (c) Along ln μ, both "
         "fitted; grey, the tolerance.",
-        "; ".join(each for each in said if each),
+        "; ".join(said),
         {"tolerance": eq23.TOLERANCE},
     )
 
 
 def _levels(judged) -> Plot:
-    contacts, series, frames = judged.contacts, judged.series, []
-    for solver, laws in judged.laws.items():
-        columns = {"dimension": SOLVERS[solver], **_places(series)}
-        columns |= {name: laws.ratio(name).ravel() for name, _ in study_friction.MEMORIES.values()}
+    contacts, series = judged.contacts, judged.series
+
+    def memories(solver):
+        groups = judged.laws[solver].ratios
+        return _places(series) | {name: groups[name].ravel() for name, _ in study_friction.MEMORIES.values()}
+
+    def friction_of(solver):
+        laws, columns = judged.laws[solver], memories(solver)
         columns |= _columns("friction_coefficient", friction_at(contacts, solver))
         columns["smooth"] = friction_at(contacts, solver, SMOOTH).value.ravel()
         columns |= {"low_speed": laws.slow.ravel(), "smooth_low_speed": laws.smooth.ravel()}
-        frames.append(DataFrame(columns | {"plateau": laws.plateau, "eq_19": laws.law.ravel()}))
-    ratios = []
-    for body in (ROUGH, SMOOTH):
-        ratio = interval(_friction_ratio, contacts, body)
-        memories = {name: judged.laws["BEM"].ratio(name).ravel() for name, _ in study_friction.MEMORIES.values()}
-        ratios.append(
-            DataFrame({"body": body, **_places(series), **memories, **_columns("friction_1d_over_3d", ratio)})
-        )
+        return DataFrame(columns | {"plateau": laws.plateau, "eq_19": laws.law.ravel()})
+
+    def ratio(sample):
+        one, three = (friction(sample[solver])[1:] for solver in SOLVERS)
+        return one / three
+
+    ratios = _each_body(
+        lambda body: memories("BEM") | _columns("friction_1d_over_3d", interval(ratio, contacts, body))
+    )
     return Plot(
         f"{series.folder}/levels",
         study_friction.levels,
-        {"levels": concat(frames, ignore_index=True), "levels-ratios": concat(ratios, ignore_index=True)},
+        {"levels": _each_dimension(friction_of), "levels-ratios": ratios},
         f"Friction against speed at the least, a middle and the greatest {series.prescribed}, with intervals of "
         "95 %: rough (markers), smooth (thin), exact limit of low speed (dotted), Eqs. 19 and 14 (pale). "
         "Below: 1D over 3D, rough and smooth, with lines at 1 and at 2, the limit of smooth bodies at low "
         "speed.",
         f"Friction of {series.title} in both dimensionalities",
     )
-
-
-def _friction_ratio(sample):
-    one, three = (friction(sample[solver])[1:] for solver in SOLVERS)
-    return one / three
 
 
 def _depth(contacts: Contacts) -> Plot:
@@ -265,48 +250,34 @@ def _depth(contacts: Contacts) -> Plot:
     name, known, unit = (
         ("depth_reached", depth, series.scene.roughness.rms_height) if at_load else ("normal_force", load, load)
     )
-    frames, stiffness = [], []
-    for solver, dimension in SOLVERS.items():
-        columns = {"dimension": dimension, series.prescribed: series.values, "closed_form": known}
-        for body in (ROUGH, SMOOTH):
-            found = interval(_at_rest(solver, name), contacts, body, solver)
+    places = {series.prescribed: series.values}
+
+    def at_rest(solver):
+        columns = places | {"closed_form": known}
+        for body in BODIES:
+            found = interval(lambda sample: mean(sample[solver], name)[0], contacts, body, solver)
             less = Interval(*((each - known) / unit for each in found))
             columns |= _columns(body, found) | _columns(f"{body}_deviation", less)
-        frames.append(DataFrame(columns))
-        if len(series.values) > 1:
-            force = mean(contacts.sample(FINE, ROUGH, solver)[solver], "normal_force")[0]
-            secants = _columns("stiffness", interval(_stiffness(solver), contacts, ROUGH, solver))
-            stiffness.append(
-                DataFrame({"dimension": dimension, "normal_force": np.sqrt(force[1:] * force[:-1]), **secants})
-            )
-    if len(series.values) > 1:
-        closed = {"normal_force": np.sqrt(load[1:] * load[:-1]), "stiffness": np.diff(load) / np.diff(depth)}
-        stiffness.append(DataFrame({"dimension": study_depth.CLOSED, **closed}))
+        return DataFrame(columns)
 
     def apart(sample):
         one, three = (mean(sample[solver], name)[0] for solver in SOLVERS)
         return (one - three) / depth if at_load else one / three - 1
 
-    differences = [
-        DataFrame(
-            {
-                "body": body,
-                series.prescribed: series.values,
-                **_columns("difference", interval(apart, contacts, body)),
-            }
-        )
-        for body in (ROUGH, SMOOTH)
-    ]
-    empty = DataFrame(columns=["dimension", "normal_force", "stiffness", "stiffness_low", "stiffness_high"])
+    differences = _each_body(lambda body: places | _columns("difference", interval(apart, contacts, body)))
+    stiffness = DataFrame(columns=["dimension", "normal_force", "stiffness", "stiffness_low", "stiffness_high"])
+    if len(series.values) > 1:
+        closed = {"normal_force": np.sqrt(load[1:] * load[:-1]), "stiffness": np.diff(load) / np.diff(depth)}
+        frames = [
+            _each_dimension(partial(_stiffness, contacts)),
+            DataFrame({"dimension": study_depth.CLOSED, **closed}),
+        ]
+        stiffness = concat(frames, ignore_index=True)
     what = "Depth under prescribed loads" if at_load else "Force at prescribed depths"
     return Plot(
         f"{series.folder}/depth",
         study_depth.depth,
-        {
-            "depth": concat(frames, ignore_index=True),
-            "depth-differences": concat(differences, ignore_index=True),
-            "depth-stiffness": concat(stiffness, ignore_index=True) if stiffness else empty,
-        },
+        {"depth": _each_dimension(at_rest), "depth-differences": differences, "depth-stiffness": stiffness},
         f"(a) {what} at rest, and the closed form of the smooth body (line). (b) Less that closed form. (c) 1D "
         "against 3D. (d) Stiffness between neighbours. Bars are intervals of 95 %; points are drawn apart "
         "along the axis. Depth is that of the macroscopic tip, below zero where only the highest asperities "
@@ -315,47 +286,39 @@ def _depth(contacts: Contacts) -> Plot:
     )
 
 
-def _at_rest(solver, name):
-    """Means of a variable at rest."""
-    return lambda sample: mean(sample[solver], name)[0]
-
-
-def _stiffness(solver):
-    """dF/dd [N/m] between neighbouring loads or depths, on the same surfaces."""
+def _stiffness(contacts, solver) -> DataFrame:
+    """dF/dd [N/m] between neighbouring loads or depths at rest, on the same surfaces."""
 
     def secants(sample):
-        answers = sample[solver].isel(speed=0)
-        force, depth = (
-            np.diff(answers[name].transpose(..., "draw").values, axis=0)
-            for name in ("normal_force", "depth_reached")
-        )
+        rest = resting(sample[solver])
+        names = "normal_force", "depth_reached"
+        force, depth = (np.diff(rest[name].transpose(..., "draw").values, axis=0) for name in names)
         return mean_ratio(force, depth).value
 
-    return secants
+    force = mean(contacts.sample(FINE, ROUGH, solver)[solver], "normal_force")[0]
+    columns = _columns("stiffness", interval(secants, contacts, ROUGH, solver))
+    return DataFrame({"normal_force": np.sqrt(force[1:] * force[:-1]), **columns})
 
 
 def _pressed_in(contacts: Contacts) -> Plot:
-    series, frames = contacts.series, []
-    closed = study_depth.CLOSED.replace(" ", "_")
-    for solver, dimension in SOLVERS.items():
-        columns = {
-            "dimension": dimension,
-            **_places(series, "rate"),
-            **_columns("normal_force", force_at(contacts, solver)),
-        }
+    series = contacts.series
+
+    def forces(solver):
+        columns = _places(series, "rate") | _columns("normal_force", force_at(contacts, solver))
         columns["smooth_normal_force"] = force_at(contacts, solver, SMOOTH).value.ravel()
-        frames.append(DataFrame(columns | {closed: loading(series).ravel()}))
+        return DataFrame(columns | {study_depth.CLOSED.replace(" ", "_"): loading(series).ravel()})
 
     def apart(sample):
         one, three = (mean(sample[solver], "normal_force")[1:] for solver in SOLVERS)
         return one / three - 1
 
-    ratios = _places(series, "rate") | _columns("rough_difference", interval(apart, contacts, ROUGH))
-    ratios |= _columns("smooth_difference", interval(apart, contacts, SMOOTH))
+    ratios = _places(series, "rate")
+    for body in BODIES:
+        ratios |= _columns(f"{body}_difference", interval(apart, contacts, body))
     return Plot(
         f"{series.folder}/pressed-in",
         study_depth.pressed_in,
-        {"pressed-in": concat(frames, ignore_index=True), "pressed-in-ratios": DataFrame(ratios)},
+        {"pressed-in": _each_dimension(forces), "pressed-in-ratios": DataFrame(ratios)},
         "Force at the end of an indentation at a constant rate, by colour: rough (markers), smooth (lines), Lee "
         "and Radok (crosses). Right: 1D over 3D at the same depth and rate, less one; in 3D the last half step "
         "is still to come, which the claims allow for and the figure does not. Bars are intervals of 95 %.",
@@ -364,33 +327,34 @@ def _pressed_in(contacts: Contacts) -> Plot:
 
 
 def _family(found) -> Plot:
-    frames, laws = [], []
-    for shape, members in found.items():
-        for solver, dimension in SOLVERS.items():
-            fine, coarse = (reduced(members, solver, grid) for grid in (FINE, COARSE))
-            own = []
-            for k, each in enumerate(members):
-                count = each.laws[solver].xi.size
-                mu, other = (mean_ratio(data.friction_force[k], data.load[k]) for data in (fine, coarse))
-                low, high = mu.interval()
-                grid = np.abs(mu.value - other.value)
-                columns = _columns("friction_over_plateau", Interval(mu.value, low - grid, high + grid))
-                xi = 1 / mean_ratio(fine.load[k]).value
-                own.append(DataFrame({"series": each.series.title, "xi": xi, **columns})[:count])
-            points = concat(own, ignore_index=True)
-            points.insert(0, "shape", shape)
-            points.insert(1, "dimension", dimension)
-            frames.append(points)
-            if (known := points["xi"].dropna()).size:
-                xi = np.geomspace(known.min(), known.max(), 101)
-                columns = {"xi": xi, "friction_over_plateau": interpolation(xi)}
-                laws.append(DataFrame({"shape": shape, "dimension": dimension, **columns}))
+    points, laws = {}, {}
+    for (shape, members), (solver, dimension) in product(found.items(), SOLVERS.items()):
+        points[shape, dimension] = frame = _reduced(members, solver)
+        known = frame["xi"].dropna()
+        if known.size:
+            xi = np.geomspace(known.min(), known.max(), 101)
+            laws[shape, dimension] = DataFrame({"xi": xi, "friction_over_plateau": interpolation(xi)})
     return Plot(
         "family",
         study_friction.family,
-        {"family": concat(frames, ignore_index=True), "family-law": concat(laws, ignore_index=True)},
+        {"family": stacked(points, "shape", "dimension"), "family-law": stacked(laws, "shape", "dimension")},
         "Friction over its plateau, Eq. 14, against ξ of Eq. 18, with the loss at the shortest wave and the rms "
         "slope as each dimensionality has it; bars are intervals of 95 %, a marker for each series. Line: Eq. "
         "19. If roughness and solid count through ξ alone, all markers lie on one curve.",
-        f"{len(frames)} panels of friction against ξ",
+        f"{len(points)} panels of friction against ξ",
     )
+
+
+def _reduced(members, solver) -> DataFrame:
+    """Friction over its plateau against xi of every point of several series."""
+    fine, coarse = (reduced(members, solver, grid) for grid in (FINE, COARSE))
+    frames = []
+    for k, each in enumerate(members):
+        mu, other = (mean_ratio(data.friction_force[k], data.load[k]) for data in (fine, coarse))
+        low, high = mu.interval()
+        grid = np.abs(mu.value - other.value)
+        columns = _columns("friction_over_plateau", Interval(mu.value, low - grid, high + grid))
+        xi = 1 / mean_ratio(fine.load[k]).value
+        frame = DataFrame({"series": each.series.title, "xi": xi, **columns})
+        frames.append(frame[: each.laws[solver].xi.size])
+    return concat(frames, ignore_index=True)

@@ -78,11 +78,9 @@ class Sweep(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """What was asked, as JSON can hold it."""
         return {"speed": self.speeds, self.case.motion.pressed_by: self.values, "draws": self.draws}
 
     def rectangles(self) -> Mapping[str, Rectangle]:
-        """One rectangle, both solvers on two grids each."""
         scene: Scene = self.case.scene
         return {
             "contacts": Rectangle(
@@ -136,13 +134,11 @@ class Sweep(Study):
         return dataset.reset_coords("points").drop_attrs(deep=False)
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        """Friction against speed or load, both models with error bars."""
         return [plots.plot(means(self.dataset(answers)))] if max(self.speeds) > 0 else []
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """Figure, findings, means."""
         return [
             *super().blocks(answers, findings, plots),
             Table("means", means(self.dataset(answers)), "Means over draws with intervals of 95 %."),

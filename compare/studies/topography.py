@@ -76,12 +76,10 @@ class Map(Study):
 
     @property
     def title(self) -> str:  # type: ignore[override]
-        """Heading of the page."""
         return f"Topography of {self.path.name}"
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """The file and what was stated of it."""
         return {"file": str(self.path), **self.stated}
 
     @cached_property
@@ -96,7 +94,6 @@ class Map(Study):
             raise InvalidInput(f"{self.path}: {error}") from error
 
     def batches(self) -> Sequence[Batch]:
-        """None: nothing is solved."""
         return ()
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
@@ -149,18 +146,15 @@ class Map(Study):
         return findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """Height, slope and Hurst exponent."""
         told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
         return sentences([each for each in findings if each.claim.id in told])
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        """Spectra of the map and of its rows."""
         return [plots.plot(self.description)]
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """What the map is, its spectra, its numbers."""
         return [Text("\n\n".join(self.lines())), *plots, Findings(findings)]
 
     def lines(self) -> list[str]:
