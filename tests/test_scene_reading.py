@@ -8,15 +8,10 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from scene import (
-    Cone,
     Cylinder,
     Elastic,
-    Fractional,
     Indent,
     Kelvin,
-    KelvinChain,
-    Plane,
-    PowerLaw,
     Program,
     Prony,
     Scene,
@@ -24,7 +19,6 @@ from scene import (
     Slide,
     Sphere,
     Stage,
-    StandardLinearSolid,
 )
 from scene.reading import InvalidInput, read
 
@@ -66,88 +60,35 @@ def test_a_file_says_what_python_says(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("table", "expected"),
-    [
-        ('type = "elastic"\nmodulus = 1000000', Elastic(1e6)),
-        (
-            'type = "standard-linear-solid"\nrubbery_modulus = 1e6\nglassy_modulus = 1e9\nrelaxation_time = 1',
-            StandardLinearSolid(1e6, 1e9, 1.0),
-        ),
-        (
-            'type = "prony"\nequilibrium_modulus = 1e6\nmoduli = [1e6, 2]\nrelaxation_times = [1, 0.1]',
-            Prony(1e6, (1e6, 2.0), (1.0, 0.1)),
-        ),
-        (
-            'type = "kelvin-chain"\ninstantaneous_compliance = 0\ncompliances = [1e-6]\nretardation_times = [1]',
-            KelvinChain(0.0, (1e-6,), (1.0,)),
-        ),
-        (
-            'type = "fractional"\nmodulus = 1e6\nrelaxation_time = 1e-3\nexponent = 0.1\n'
-            "lowest_frequency = 1e-2\nhighest_frequency = 1e6",
-            Fractional(
-                modulus=1e6, relaxation_time=1e-3, exponent=0.1, lowest_frequency=1e-2, highest_frequency=1e6
-            ),
-        ),
-    ],
-)
-def test_every_solid_can_be_read(tmp_path, table, expected):
-    assert scene_from(tmp_path, f"{INDENTER}{MOTION}[elastomer]\n{table}\n").elastomer == expected
-
-
-@pytest.mark.parametrize(
-    ("table", "expected"),
-    [
-        ('type = "cone"\nangle = 0.2', Cone(0.2)),
-        ('type = "power-law"\ncoefficient = 3\nexponent = 2.5', PowerLaw(3.0, 2.5)),
-        ('type = "cylinder"\nradius = 1', Cylinder(1.0)),
-        ('type = "plane"', Plane()),
-    ],
-)
-def test_every_indenter_can_be_read(tmp_path, table, expected):
-    motion = MOTION.replace("load", expected.pressed_by[0]) + ROUGHNESS
-    assert scene_from(tmp_path, f"{ELASTOMER}{motion}[indenter]\n{table}\n").indenter == expected
-
-
-@pytest.mark.parametrize(
     ("old", "new", "said"),
     [
         ("radius = 1e-2", "radius = -1.0", r"indenter.radius = -1.0: .*greater than 0"),
+        ("radius = 1e-2", 'radius = "-5 mm"', r"indenter.radius = '-5 mm': .*greater than 0, in SI units"),
         (
             "radius = 1e-2",
             'radius = "wide"',
-            r"indenter.radius = 'wide': Input should be a length, as 5 mm or 0.005 \(in m\)",
+            r"radius = 'wide': Input should be a length, as 5 mm or 0.005 \(in m\)",
         ),
         ("radius = 1e-2", "radius = true", r"indenter.radius = True: Input should be a length"),
-        ("radius = 1e-2", "radius = inf", r"indenter.radius = inf: .*finite"),
         ("radius = 1e-2", "", r"indenter.radius: missing, a length, as 5 mm"),
         ("radius = 1e-2", "radius = 1\nangle = 1", r"indenter.angle = 1: unknown here; known are radius, type"),
         ('"sphere"', '"ball"', r"indenter.type = 'ball': one of 'sphere', 'cone', 'power-law', 'cylinder'"),
         ('type = "sphere"', "", r"indenter.type: missing, one of 'sphere', 'cone'"),
-        (
-            '"kelvin"',
-            '"jelly"',
-            r"elastomer.type = 'jelly': one of 'elastic', 'kelvin', .*'kelvin-chain', 'fractional', 'tabulated'",
-        ),
         ("load = 1.0", "", r"motion: none given: give exactly one of load \[N\], depth \[m\]"),
         ("load = 1.0", "pressure = 1.0", r"motion.pressure = 1 does not press a Sphere: give load \[N\] or depth"),
-        (
-            '"sphere"\nradius = 1e-2',
-            '"plane"',
-            r"motion.load = 1 does not press a Plane: give pressure",
-        ),
         ("load = 1.0", "load = 1.0\ndepth = 1e-4", r"load = 1, depth = 0.0001: give exactly one"),
-        ("load = 1.0", "load = 0", r"motion.load = 0.*greater than 0"),
-        ("speed = 0.1", "speed = -0.1", r"motion.speed = -0.1: .*greater than or equal to 0"),
         ("[motion]", "[movement]", r"motion: missing, a table"),
         (
             "longest = 1e-2",
             "longest = 1e-2\nshortest = 1",
             r"roughness: shortest = 1 must be at most half of longest",
         ),
-        ("longest = 1e-2", "longest = 1e-2\nseed = 0.5", r"roughness.seed = 0.5: .*valid integer"),
         ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*without a decimal point"),
-        ("speed = 0.1", "", r"motion.speed: missing, a speed"),
-        ("hurst = 0.2", "hurst = 2", r"roughness.hurst = 2.*less than or equal to 1"),
+        (
+            "[roughness]",
+            "[layer]\nthickness = 1\nbase = 'bondd'\n[roughness]",
+            r"layer.base = 'bondd': .*mean 'bonded'\?",
+        ),
     ],
 )
 def test_a_mistake_is_named_with_its_place_value_and_what_is_allowed(tmp_path, old, new, said):
@@ -169,16 +110,14 @@ def test_a_program_of_stages_can_be_read(tmp_path):
     [
         ("duration = 2.0", "duration = 0", r"motion.stages.1.duration = 0.*greater than 0"),
         ("duration = 2.0", "", r"motion.stages.1.duration: missing, a time"),
-        ("speed = 0.1", "speed = inf", r"motion.stages.1.speed = inf.*finite number"),
         ("speed = 0.1", "amplitude = 1e-5", r"motion.stages.1: amplitude alone.*give both"),
         ("speed = 0.1", "sped = 0.1", r"motion.stages.1.sped = 0.1: unknown here; did you mean speed\?"),
-        ("speed = 0.1", "gap = 0.1", r"motion.stages.1.gap = 0.1: unknown here; known are duration, speed, load"),
         ("speed = 0.1", "load = 1", r"motion: stages prescribe depth and load: give one and the same throughout"),
-        ("speed = 0.1", "depth = -1e-4", r"motion.stages.1.depth = -0.0001.*greater than or equal to 0"),
         ("depth = 1e-4", "", r"motion: stages press nowhere: give one of load \[N\], depth \[m\], line_load"),
         (PROGRAM[26:], "stages = []", r"motion.stages = \[\]: .*at least 1 item"),
         (PROGRAM[26:], "", r"motion.stages: missing, a list"),
         (PROGRAM[26:], "stages = [1.0]", r"motion.stages.0 = 1.0: a table"),
+        (PROGRAM[26:], "stages = [{duration = 1.0, gap = 1e-6}]", r"^\S*scene.toml: motion.stages.0.gap[^\n]*$"),
     ],
 )
 def test_a_mistake_in_a_program_is_named_with_its_stage(tmp_path, old, new, said):
@@ -198,15 +137,6 @@ def test_a_program_prescribes_by_straight_lines_from_zero_and_what_presses_it_su
         Scene(Cylinder(1.0), Elastic(1e6), program)
 
 
-def test_every_mistake_is_named_at_once_each_on_a_line_with_the_file(tmp_path):
-    text = WHOLE.replace("radius = 1e-2", "radius = -1").replace("hurst = 0.2", "hurst = 2")
-    with pytest.raises(InvalidInput) as caught:
-        scene_from(tmp_path, text)
-    lines = str(caught.value).splitlines()
-    assert len(lines) == 2
-    assert all("scene.toml: " in line for line in lines)
-
-
 def test_what_is_no_toml_or_no_file_is_said(tmp_path):
     with pytest.raises(InvalidInput, match=r"not valid TOML: .*line 1"):
         scene_from(tmp_path, "radius 3")
@@ -219,41 +149,14 @@ def test_what_is_no_toml_or_no_file_is_said(tmp_path):
         read(tmp_path, Scene)
 
 
-# Types of fields, in Python
-
-
-@pytest.mark.parametrize("number", [2, 2.0, np.float64(2), np.float32(2), np.int64(2)])
-def test_any_real_number_is_taken_and_kept_as_a_float(number):
-    assert Sphere(number).radius == 2.0
-    assert type(Sphere(number).radius) is float
-
-
-@pytest.mark.parametrize("value", [True, "2", None, 2j, [2.0], float("nan"), float("inf")])
-def test_nothing_else_is_taken_for_a_number(value):
-    with pytest.raises(ValidationError):
-        Sphere(value)
-
-
-@pytest.mark.parametrize("value", [True, "2", 2.0, np.float64(2)])
-def test_nothing_but_a_whole_number_is_taken_for_one(value):
+def test_any_number_is_kept_as_a_float_and_a_whole_one_is_no_other():
+    for number in (2, np.float32(2), np.int64(2)):
+        assert (Sphere(number).radius, type(Sphere(number).radius)) == (2.0, float)
     rough = SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, seed=np.int64(2))
     assert type(rough.seed) is int
-    with pytest.raises(ValidationError, match="seed"):
-        replace(rough, seed=value)
-
-
-@pytest.mark.parametrize("make", [Indent, lambda **pressed: Slide(speed=1.0, **pressed)])
-def test_either_the_load_or_the_depth_is_given(make):
-    assert make(load=2).load == 2.0
-    assert make(depth=1e-4).depth == 1e-4
-    for wrong in ({}, {"load": 1.0, "depth": 1.0}):
-        with pytest.raises(ValidationError, match="exactly one of load"):
-            make(**wrong)
-
-
-def test_what_is_pressed_in_does_not_move_and_sliding_may_start_from_rest():
-    assert Indent(load=1.0).speed == 0
-    assert Slide(speed=0, load=1.0).speed == 0
+    for value in (True, "2", 2.0, np.float64(2)):
+        with pytest.raises(ValidationError, match="seed"):
+            replace(rough, seed=value)
 
 
 def test_a_scene_cannot_be_changed_and_survives_its_own_json():
@@ -262,13 +165,6 @@ def test_a_scene_cannot_be_changed_and_survives_its_own_json():
         scene.motion.speed = 2.0
     adapter = TypeAdapter(Scene)
     assert adapter.validate_json(adapter.dump_json(scene)) == scene
-
-
-def test_a_mistake_in_the_only_stage_is_one_mistake(tmp_path):
-    motion = '[motion]\ntype = "program"\n[[motion.stages]]\nduration = 1.0\ngap = 1e-6\n'
-    with pytest.raises(InvalidInput) as raised:
-        scene_from(tmp_path, INDENTER + ELASTOMER + motion)
-    assert str(raised.value).count("\n") == 0
 
 
 def test_rows_of_numbers_are_not_repeated_to_whoever_wrote_them(tmp_path):
@@ -322,32 +218,14 @@ def lines_of(tmp_path, text):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        (
-            "modulus =",
-            "modlus =",
-            "elastomer.modlus = 1000000.0: unknown here; did you mean modulus? Known",
-        ),
-        (
-            "relaxation_time",
-            "relaxation-time",
-            "elastomer.relaxation-time = 0.001: unknown here; did you mean",
-        ),
+        ("modulus =", "modlus =", "elastomer.modlus = 1000000.0: unknown here; did you mean modulus? Known"),
+        ("relaxation_time", "relaxation-time", "elastomer.relaxation-time = 0.001: unknown here; did you mean"),
         ("radius", "RADIUS", "indenter.RADIUS = 0.01: unknown here; did you mean radius? Known are radius, type"),
         ("[roughness]", "[roughnes]", "roughnes: unknown here; did you mean roughness? Known are indenter, "),
         ("[motion]", "[Motion]", "Motion: unknown here; did you mean motion?"),
-        (
-            '"sphere"',
-            '"spher"',
-            "indenter.type = 'spher': one of 'sphere', 'cone', 'power-law', 'cylinder', 'plane'",
-        ),
         ('"kelvin"', '"Kelvin"', "elastomer.type = 'Kelvin': one of 'elastic', 'kelvin', "),
         ('type = "slide"', 'typ = "slide"', "motion.typ = 'slide': unknown here; did you mean type?"),
         ("[indenter]", "speed = 0.1\n[indenter]", "speed = 0.1: unknown here"),
-        (
-            "radius = 1e-2",
-            "radius = '1 cmm'",
-            "indenter.radius = '1 cmm': Input should be a length, as 5 mm or 0.005",
-        ),
         ("seed = 1", "hurts = 1", "roughness.hurts = 1: unknown here; did you mean hurst?"),
         ("seed = 1", "fudge = 1", "roughness.fudge = 1: unknown here; known are type, hurst, "),
     ],
@@ -389,18 +267,6 @@ def test_everything_that_is_missing_is_said(tmp_path):
         "indenter.angle: missing, an angle, as 30 deg or 0.523599 (in rad)",
         "motion.type: missing, one of 'indent', 'slide', 'shear', 'program'",
         "elastomer: missing, a table",
-    ]
-
-
-def test_a_string_with_a_unit_is_shown_as_it_is_written(tmp_path):
-    assert lines_of(tmp_path, SCENE.replace("1e-2", '"-5 mm"')) == [
-        "indenter.radius = '-5 mm': Input should be greater than 0, in SI units"
-    ]
-
-
-def test_a_choice_is_said_with_the_one_that_is_meant(tmp_path):
-    assert lines_of(tmp_path, SCENE + "[layer]\nthickness = 1\nbase = 'bondd'\n") == [
-        "layer.base = 'bondd': Input should be 'bonded' or 'frictionless'; did you mean 'bonded'?"
     ]
 
 

@@ -2,7 +2,6 @@
 
 import copy
 import json
-import os
 import pickle
 import sys
 from dataclasses import replace
@@ -16,7 +15,6 @@ import scene.topography
 from compare.cases import Case
 from compare.task import SCENES
 from scene import (
-    CrossedWaves,
     Elastic,
     Indent,
     Measured,
@@ -25,14 +23,12 @@ from scene import (
     SelfAffine,
     Sphere,
     Topography,
-    Wave,
 )
 from scene.reading import InvalidInput, read
 from scene.waves import MOST_WAVES
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
 SPLINE = 1e-12  # a paraboloid is a bicubic spline: what is left is rounding
-SHAPES = [(4, 4), (5, 7), (6, 8), (9, 6)]
 STORED = TypeAdapter(Topography)
 
 
@@ -59,11 +55,10 @@ def says(error):
     return " ".join(str(error.value).split())
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("shape", [(4, 4), (5, 8), (9, 6)])
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
-@pytest.mark.parametrize("pixel", [1.0, (1.0, 2.5)])
-def test_waves_pass_through_every_pixel(shape, repeat, pixel):
-    map_ = rough(drawn(shape), pixel=pixel, repeat=repeat)
+def test_waves_pass_through_every_pixel(shape, repeat):
+    map_ = rough(drawn(shape), pixel=(1.0, 2.5), repeat=repeat)
     expected = map_.heights.heights - map_.heights.heights.mean()
     np.testing.assert_allclose(summed(map_.waves, *places(map_)), expected, atol=10 * ROUNDING)
 
@@ -83,13 +78,12 @@ def test_mean_squares_of_the_waves_are_those_of_the_pixels():
         assert map_.rms_height == pytest.approx(map_.relief.std(), rel=ROUNDING)
     even = rough(np.tile([1.0, -1.0], (4, 2)), repeat="periodic")
     assert even.rms_height == pytest.approx(np.sqrt(0.5))
-
-
-def test_slopes_of_the_waves_are_those_of_one_wave():
-    x = np.arange(16) / 16
-    along_x = rough(np.tile(np.cos(2 * pi * x), (16, 1)), pixel=1 / 16, repeat="periodic").waves
-    assert (along_x.rms_slope_x, along_x.rms_slope_y) == pytest.approx((2 * pi / np.sqrt(2), 0.0), abs=1e-12)
-    assert along_x.rms_slope == pytest.approx(2 * pi / np.sqrt(2))
+    # also where squares of heights are no numbers
+    one = rough()
+    for height in (1e-200, 1e200):
+        far = rough(height * drawn((6, 8)))
+        assert far.rms_height == pytest.approx(height * one.rms_height, rel=1e-12)
+        assert far.waves.rms_slope == pytest.approx(height * one.waves.rms_slope, rel=1e-12)
 
 
 def test_peaks_up_touch_first():
@@ -102,24 +96,6 @@ def test_peaks_up_touch_first():
     assert Measured(heights=tip, pixel=1.0, peaks="down").height(0.0, 0.0) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(("level", "left"), [("mean", 1.0), ("tilt", 1.0), ("curvature", 0.0)])
-def test_what_is_levelled_is_gone_and_nothing_else(level, left):
-    y, x = np.mgrid[-1:1:20j, -1:1:30j]
-    form = x**2 - 0.3 * x * y + 0.1 * y**2
-    tilt = 5.0 + (0.0 if level == "mean" else 2.0 * x - y)
-    relief = rough(form + tilt, level=level).relief
-    np.testing.assert_allclose(relief, left * (form - form.mean()), atol=1e-12)
-
-
-def test_a_plane_levelled_has_no_heights_at_all():
-    y, x = np.mgrid[0:1:20j, 0:1:30j]
-    plane = rough(1e-3 + 0.1 * x - 0.7 * y, level="tilt")
-    assert plane.rms_height == 0.0
-    assert not plane.relief.any()
-    with pytest.raises(ValidationError, match="without roughness touches everywhere"):
-        Scene(Plane(), Elastic(1e6), Indent(pressure=1e4), plane)
-
-
 def test_a_map_that_repeats_keeps_its_plane_and_one_that_is_mirrored_does_not():
     # a sine over its period has a plane that fits it best, and is falsified where that is taken off
     sine = np.tile(np.sin(2 * pi * np.arange(64) / 64), (64, 1))
@@ -129,17 +105,11 @@ def test_a_map_that_repeats_keeps_its_plane_and_one_that_is_mirrored_does_not():
     assert whole == Topography(**stated, repeat="periodic", level="mean")
     assert whole.rms_height == pytest.approx(np.sqrt(0.5), rel=ROUNDING)
     assert whole.waves.rms_slope == pytest.approx(2 * pi * np.sqrt(0.5), rel=ROUNDING)
+    found = whole.waves.rms_slope_x, whole.waves.rms_slope_y
+    assert found == pytest.approx((2 * pi * np.sqrt(0.5), 0.0), abs=1e-12)
     assert Topography(**stated).level == Topography(**stated, repeat="mirror").level == "tilt"
     with pytest.raises(ValidationError, match='level = "tilt" with repeat = "periodic"'):
         replace(Topography(**stated), repeat="periodic")
-
-
-def test_a_scene_file_without_level_has_that_of_what_repeats(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    np.save("surface.npy", drawn((5, 6)))
-    for repeat, level in (("periodic", "mean"), ("mirror", "tilt")):
-        (tmp_path / "scene.toml").write_text(FILE + f"pixel = 1e-6\nrepeat = '{repeat}'\n")
-        assert read("scene.toml", Scene).roughness.level == level
 
 
 def test_whether_there_are_heights_is_asked_without_a_wave(monkeypatch):
@@ -155,13 +125,6 @@ def test_whether_there_are_heights_is_asked_without_a_wave(monkeypatch):
     assert Case(indenter=ball, elastomer=solid, motion=Indent(load=1.0), roughness=rough()).roughness is not None
     flat = rough(plane, level="tilt")
     assert Case(indenter=ball, elastomer=solid, motion=Indent(load=1.0), roughness=flat).roughness is None
-
-
-@pytest.mark.parametrize("kind", [Wave, CrossedWaves])
-def test_plain_waves_are_flat_where_they_have_no_amplitude(kind):
-    assert kind(amplitude=0.0, wavelength=1.0).flat
-    assert not kind(amplitude=1e-9, wavelength=1.0).flat
-    assert SelfAffine(hurst=0.5, rms_height=0.0, longest=1.0).flat
 
 
 def test_more_waves_than_fit_are_an_error_before_they_are_built(monkeypatch):
@@ -181,23 +144,15 @@ def test_more_waves_than_fit_are_an_error_before_they_are_built(monkeypatch):
     assert kept.tops[0] < MOST_WAVES / 40
 
 
-@pytest.mark.parametrize("level", ["tilt", "curvature"])
-@pytest.mark.parametrize("shape", [(4, 4), (5, 9), (20, 6)])
+@pytest.mark.parametrize("level", ["mean", "tilt", "curvature"])
+@pytest.mark.parametrize("shape", [(4, 4), (20, 6)])
 def test_what_is_taken_off_is_what_fits_best(level, shape):
     heights, (rows, columns) = drawn(shape), shape
     y, x = (axis.ravel() for axis in np.mgrid[-1 : 1 : rows * 1j, -1 : 1 : columns * 1j])
-    terms = [np.ones_like(x), x, y] + ([x * y, x * x, y * y] if level == "curvature" else [])
+    terms = [np.ones_like(x), x, y, x * y, x * x, y * y][: {"mean": 1, "tilt": 3, "curvature": 6}[level]]
     fitted = np.stack(terms, 1) @ np.linalg.lstsq(np.stack(terms, 1), heights.ravel(), rcond=None)[0]
     relief = rough(heights, level=level).relief
     np.testing.assert_allclose(relief, heights - fitted.reshape(shape), atol=10 * ROUNDING)
-
-
-@pytest.mark.parametrize("height", [1e-200, 1e200])
-def test_heights_whose_squares_are_no_numbers_keep_their_proportion(height):
-    one = rough()
-    far = rough(height * drawn((6, 8)))
-    assert far.rms_height == pytest.approx(height * one.rms_height, rel=1e-12)
-    assert far.waves.rms_slope == pytest.approx(height * one.waves.rms_slope, rel=1e-12)
 
 
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
@@ -268,15 +223,11 @@ def test_a_map_goes_to_a_worker_and_cannot_be_changed():
         ({"heights": np.where(np.arange(25).reshape(5, 5) == 7, np.inf, 1.0)}, r"heights\[1\]\[2\] = inf"),
         ({"heights": np.ma.masked_equal(np.eye(5), 1.0)}, "5 pixels have no height"),
         ({"heights": np.full((5, 5), 1j)}, "real numbers"),
-        ({"heights": np.full((5, 5), "a")}, "real numbers"),
         ({"heights": "a.npy"}, "or give file instead"),
         ({"pixel": 0.0}, "greater than 0"),
         ({"pixel": (1e-6, -1e-6)}, "greater than 0"),
         ({"pixel": (1e-6, 1.0)}, "factor of 1000"),
         ({"pixel": (1e-6,) * 3}, "side of a pixel, greater than 0 .m., or two of them, along x and y"),
-        ({"pixel": [1e-6]}, "or two of them"),
-        ({"pixel": []}, "or two of them"),
-        ({"pixel": np.ones(3)}, "or two of them"),
         ({"pixel": np.array("a")}, "or two of them"),
         ({"pixel": 10**400}, "or two of them"),
         ({"peaks": "sideways"}, "'up' or 'down'"),
@@ -293,19 +244,6 @@ def test_a_map_goes_to_a_worker_and_cannot_be_changed():
 def test_what_is_no_map_is_named(wrong, named):
     with pytest.raises(ValidationError, match=named):
         rough(**wrong)
-
-
-@pytest.mark.parametrize("other", [{"repeat": "periodic"}, {"file": "a.npy"}])
-def test_fields_of_a_map_have_names(other):
-    with pytest.raises(ValidationError, match=r"\n0\n  Input should be"):
-        Topography(drawn((5, 5)), pixel=1.0, **other)
-
-
-def test_what_is_no_file_is_not_read(tmp_path):
-    pipe = tmp_path / "a.npy"
-    os.mkfifo(pipe)
-    with pytest.raises(ValidationError, match="it is no file to read from"):
-        Topography(file=pipe, pixel=1.0)
 
 
 def test_a_body_whose_map_is_a_plane_has_no_lowest_point():
@@ -364,54 +302,28 @@ def test_an_archive_states_its_pixel_in_the_unit_of_its_heights(tmp_path):
     assert Topography(file=path, unit="nm").pixel == pytest.approx((3e-9, 3e-9))
     with pytest.raises(ValidationError, match="states its own"):
         Topography(file=path, pixel=1e-6)
+    for pixel in (4e-6, [4e-6], [3e-6, 4e-6]):
+        np.savez(path, heights=heights, pixel=pixel)
+        assert Topography(file=path) == Topography(heights=heights, pixel=(np.ravel(pixel)[0], 4e-6))
+    for pixel, said in (
+        (np.full(3, 1e-6), r"a pixel of shape \(3,\)"),
+        ("a", "a pixel of shape .* and type <U1"),
+        (np.nan, "pixel = nan: numbers greater than 0"),
+        ([1e-6, 0.0], r"pixel = \[1e-06, 0.0\]: numbers greater than 0"),
+    ):
+        np.savez(path, heights=heights, pixel=pixel)
+        with pytest.raises(ValidationError, match=f"a.npz has {said}"):
+            Topography(file=path)
     np.savez(path, other=heights)
     with pytest.raises(ValidationError, match="holds other, and no array heights"):
         Topography(file=path, pixel=1e-6)
 
 
-# What is no pixel, and what is said of it.
-NO_PIXELS = [
-    ([], "shape (0,)"),
-    (np.full(3, 1e-6), "shape (3,)"),
-    (np.eye(3), "shape (3, 3)"),
-    ("a", "type <U1"),
-    (1j, "type complex128"),
-    (True, "type bool"),
-    (np.nan, "pixel = nan: numbers greater than 0"),
-    ([1e-6, -1e-6], "pixel = [1e-06, -1e-06]: numbers greater than 0"),
-]
-
-
-@pytest.mark.parametrize(("pixel", "said"), NO_PIXELS, ids=[said for _, said in NO_PIXELS])
-def test_a_pixel_of_an_archive_is_one_number_or_two(tmp_path, pixel, said):
-    path = tmp_path / "a.npz"
-    np.savez(path, heights=drawn((5, 6)), pixel=pixel)
-    with pytest.raises(ValidationError) as error:
-        Topography(file=path)
-    assert f"a.npz has {'a pixel of ' * said.startswith(('shape', 'type'))}" in says(error)
-    assert said in says(error)
-
-
-@pytest.mark.parametrize("pixel", [3e-6, [3e-6], [3e-6, 4e-6]])
-def test_pixels_of_archives_and_arrays_are_those_of_numbers(tmp_path, pixel):
-    heights, path = drawn((5, 6)), tmp_path / "a.npz"
-    np.savez(path, heights=heights, pixel=pixel)
-    expected = Topography(heights=heights, pixel=(3e-6, np.ravel(pixel)[-1]))
-    assert Topography(file=path) == expected
-    if np.size(pixel) == np.ndim(pixel) + 1:  # a number, or two
-        assert Topography(heights=heights, pixel=np.array(pixel)) == expected
-
-
 # Arrays that are no maps, and what is said of each.
 NO_MAPS = {
-    "nan": (np.where(np.eye(5) > 0, np.nan, 1.0), "heights[0][0] = nan: every pixel needs a finite height"),
     "infinite": (np.where(np.eye(5) > 0, -np.inf, 1.0), "heights[0][0] = -inf: every pixel needs a finite height"),
-    "complex": (np.full((5, 5), 1j), "an array of type complex128: heights are real numbers [m]"),
     "text": (np.full((5, 5), "1.0"), "an array of type <U3: heights are real numbers [m]"),
-    "records": (np.zeros((5, 5), [("a", float)]), "heights are real numbers [m]"),
     "solid": (np.zeros((5, 5, 5)), "an array of shape (5, 5, 5): a map has at least 4 rows and columns"),
-    "small": (np.eye(3), "an array of shape (3, 3): a map has at least 4 rows and columns"),
-    "empty": (np.zeros((0, 5)), "an array of shape (0, 5)"),
 }
 
 
@@ -436,40 +348,21 @@ def test_a_scene_file_whose_map_is_none_is_told_the_table_the_file_and_what_is_a
     assert "\n" not in str(error.value)
 
 
-def test_a_damaged_archive_is_named(tmp_path):
-    path = tmp_path / "a.npz"
-    np.savez(path, heights=drawn((9, 9)), pixel=1.0)
-    whole = path.read_bytes()
-    for damaged in (whole[:-60], whole[:60] + b"x" * 30 + whole[90:], b""):
-        path.write_bytes(damaged)
-        with pytest.raises(ValidationError, match=r"a.npz cannot be read as arrays"):
-            Topography(file=path)
-
-
-def test_numbers_of_half_precision_are_no_less_in_nanometres(tmp_path):
-    heights = drawn((5, 6)).astype(np.float16)
-    np.save(tmp_path / "a.npy", heights)
-    found = Topography(file=tmp_path / "a.npy", pixel=1e-6, unit="nm")
-    assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
-
-
 @pytest.mark.parametrize(
     ("name", "content", "stated", "named"),
     [
-        ("a.csv", "1,2\n3\n", {"pixel": 1.0}, "cannot be read as rows of numbers"),
         ("a.csv", "1,2\n3,x\n", {"pixel": 1.0}, "cannot be read as rows of numbers"),
         ("a.txt", "# nothing\n", {"pixel": 1.0}, "there is nothing in it"),
         ("a.csv", "1 2 3 4\n" * 4, {}, "give pixel"),
         ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": "inch"}, "one of m, mm, um, nm"),
         ("a.npy", "no array", {"pixel": 1.0}, "cannot be read as arrays"),
-        ("a.npz", "no archive", {"pixel": 1.0}, "cannot be read as arrays"),
+        ("a.npz", "PK\x03\x04 damaged", {"pixel": 1.0}, "cannot be read as arrays"),
         ("a.npy", None, {"pixel": 1.0}, "there is no such file"),
         (".", None, {"pixel": 1.0}, "it is a folder"),
         ("a" * 5000 + ".npy", None, {"pixel": 1.0}, "too long"),
         ("a\0.npy", None, {"pixel": 1.0}, "null"),
         ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": ["m"]}, "one of m, mm, um, nm"),
         ("a.csv", "1 2 3 nan\n" * 4, {"pixel": 1.0}, r"a.csv': heights\[0\]\[3\] = nan: every pixel"),
-        ("a.csv", "1 2 3 1+2j\n" * 4, {"pixel": 1.0}, "cannot be read as rows of numbers"),
     ],
 )
 def test_what_is_wrong_with_a_file_is_said_with_its_name(tmp_path, name, content, stated, named):
@@ -495,7 +388,7 @@ def surface_topography():
     return pytest.importorskip("SurfaceTopography")
 
 
-@pytest.mark.parametrize(("unit", "metre"), [("nm", 1e-9), ("um", 1e-6), ("mm", 1e-3)])
+@pytest.mark.parametrize(("unit", "metre"), [("nm", 1e-9), ("mm", 1e-3)])
 def test_other_files_are_read_with_their_sizes_and_units(tmp_path, surface_topography, unit, metre):
     heights, path = drawn((5, 6)), tmp_path / "a.nc"
     one = surface_topography.Topography(heights.T, (12.0, 20.0), unit=unit)
@@ -515,13 +408,6 @@ def test_a_file_that_states_no_unit_asks_for_it(tmp_path, surface_topography):
     with pytest.raises(ValidationError, match="give unit"):
         Topography(file=path)
     assert Topography(file=path, unit="um").pixel == pytest.approx((2e-6, 4e-6))
-
-
-def test_a_damaged_file_is_named(tmp_path, surface_topography):
-    path = tmp_path / "a.sur"
-    path.write_bytes(b"DIGITAL SURF" + b"\0" * 40)
-    with pytest.raises(ValidationError, match="cannot be read by SurfaceTopography: it is of no format"):
-        Topography(file=path)
 
 
 def test_of_what_another_program_says_a_line_is_kept(tmp_path, surface_topography, monkeypatch):
@@ -567,9 +453,3 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
         read("scene.toml", Scene)
     for named in ("roughness.heights", "roughness.pixel: missing", "roughness.path"):
         assert named in str(error.value)
-
-
-def test_a_stored_map_is_its_digest():
-    stored = STORED.dump_python(rough(), mode="json")["heights"]
-    assert stored["shape"] == [6, 8]
-    assert len(stored["digest"]) == 64
