@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, cerruti, engine, stickslip
+from bem3d.engine import Engine
+from bem3d.grid import Grid
 from compare.exact import tangential as closed
 from scene import (
     Coulomb,
@@ -33,6 +35,7 @@ from scene.scales import elastic_contact
 R, G, MU, LOAD = 10e-3, 1e6, 0.4, 1.0
 ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, seed=1)
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
+WAVES = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
 TIGHT = 1e-9  # tolerance of solves that are compared with one another
 FORCE = 1e-3  # asked for: of the tangential force at 64 points across the contact
 EXTENT = 3.6e-3  # of contacts of a radius of 1.4 mm
@@ -40,6 +43,10 @@ EXTENT = 3.6e-3  # of contacts of a radius of 1.4 mm
 
 def sphere(nu=0.5, roughness=None, coefficient=MU, **drawn):
     return Scene(Sphere(R), Elastic(G, nu), Shear(load=LOAD, **drawn), roughness, interface=Coulomb(coefficient))
+
+
+def plane(roughness=WAVES, nu=0.5, pressure=1e5, **drawn):
+    return Scene(Plane(), Elastic(G, nu), Shear(pressure=pressure, **drawn), roughness, interface=Coulomb(MU))
 
 
 def at_rest(scene, **pressed):
@@ -56,7 +63,7 @@ def greatest(scene, depth):
 # -- closed forms
 
 
-@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+@pytest.mark.parametrize("share", [0.1, 0.9])
 def test_a_sphere_without_coupling_is_that_of_cattaneo_and_mindlin(share):
     scene = sphere(nu=0.0, displacement=1.0)
     contact = elastic_contact(scene)
@@ -75,7 +82,7 @@ def test_a_sphere_without_coupling_is_that_of_cattaneo_and_mindlin(share):
     assert np.abs(found - expected)[inside & (r < 0.95)].max() < 0.01
 
 
-@pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.5])
+@pytest.mark.parametrize("nu", [0.0, 0.5])
 def test_what_sticks_everywhere_is_mindlins_disc_at_any_poisson_ratio(nu):
     scene = sphere(nu=nu, coefficient=1e6, displacement=1e-9)
     contact = elastic_contact(scene)
@@ -120,8 +127,7 @@ def test_a_line_contact_slips_from_both_edges_as_by_cattaneo(share):
 def test_one_wave_slips_as_by_westergaard_and_ciavarella(share):
     wave, closing = Wave(amplitude=1e-6, wavelength=1e-3), np.pi * 4 * G * 1e-6 / 1e-3
     force = share * MU * 0.4 * closing * 1e-6
-    scene = Scene(Plane(), Elastic(G), Shear(pressure=0.4 * closing, force=force), wave, interface=Coulomb(MU))
-    answer = BEM(points=512).solve(scene)
+    answer = BEM(points=512).solve(plane(wave, pressure=0.4 * closing, force=force))
     expected = closed.wave_displacement(MU, share, 0.4, wave.amplitude)
     assert answer.measures["tangential_displacement"] == pytest.approx(expected, rel=5e-3)
     assert answer.friction_force == pytest.approx(force, rel=1e-5)
@@ -130,26 +136,17 @@ def test_one_wave_slips_as_by_westergaard_and_ciavarella(share):
 # -- laws of any contact
 
 
-@pytest.mark.parametrize("share", [0.2, 0.6, 0.95])
-@pytest.mark.parametrize("scene", ["sphere", "plane", "wave"])
-def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(scene, share):
+@pytest.mark.parametrize(
+    ("asked", "share"),
+    [
+        (sphere(nu=0.0, roughness=ROUGH, force=0.6 * MU * LOAD), 0.6),
+        (plane(CELL, nu=0.0, pressure=1e4, force=0.95 * MU * 1e-2), 0.95),
+    ],
+    ids=["sphere", "plane"],
+)
+def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(asked, share):
     # Jaeger and Ciavarella: exact on any grid where tractions displace as pressures do; another algorithm finds it
-    asked = {
-        "sphere": sphere(nu=0.0, roughness=ROUGH, force=share * MU * LOAD),
-        "plane": Scene(
-            Plane(), Elastic(G, 0.0), Shear(pressure=1e4, force=share * MU * 1e-2), CELL, interface=Coulomb(MU)
-        ),
-        "wave": Scene(
-            Plane(),
-            Elastic(G),
-            Shear(pressure=5e3, force=share * MU * 5e-3),
-            Wave(amplitude=1e-6, wavelength=1e-3),
-            interface=Coulomb(MU),
-        ),
-    }[scene]
-    solver = BEM(
-        points=256 if scene == "wave" else 64, extent=EXTENT if scene == "sphere" else None, tolerance=TIGHT
-    )
+    solver = BEM(points=64, extent=EXTENT if asked.motion.pressed_by == "load" else None, tolerance=TIGHT)
     answer = solver.solve(asked)
     less = solver.solve(at_rest(asked, **{asked.motion.pressed_by: (1 - share) * asked.motion.greatest}))
     expected = MU * (answer.fields["pressure"] - less.fields["pressure"])
@@ -159,43 +156,14 @@ def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(scene, s
     assert answer.measures["stick_area"] == pytest.approx(less.measures["contact_area"], rel=0.01)
 
 
-def influence_by_quadrature(points):
-    """Means of x^2/r^3, y^2/r^3, x y/r^3 over pixels over pi, by Gauss, (2 points - 1)^2 around the loaded."""
-    node, weight = np.polynomial.legendre.leggauss(24)
-    at = np.arange(1 - points, points)
-    x = (at[:, None] + node / 2)[None, :, None, :]
-    y = (at[:, None] + node / 2)[:, None, :, None]
-    both = weight[:, None] * weight[None, :] / 4
-    r = np.hypot(x, y)
-    kernels = [(both * part / r**3).sum(axis=(2, 3)) / np.pi for part in (x * x, y * y, x * y)]
-    own = 2 * np.log(1 + np.sqrt(2)) / np.pi  # Love's 4 ln(1 + sqrt 2)/pi shared by both
-    for kernel, value in zip(kernels, (own, own, 0.0), strict=True):
-        kernel[points - 1, points - 1] = value
-    return kernels
-
-
-def displaced(kernels, traction, nu):
-    """By a plain sum over all pairs of pixels; pixels and units of E*."""
-    along, aside, mixed = kernels
-    coupling, n = nu / (1 - nu), traction.shape[-1]
-    image = np.zeros_like(traction)
-    for j, i in np.argwhere(np.abs(traction).sum(axis=0) > 0):
-        seen = slice(n - 1 - j, 2 * n - 1 - j), slice(n - 1 - i, 2 * n - 1 - i)
-        own = along[seen] + aside[seen]
-        x, y = traction[:, j, i]
-        image[0] += (own + coupling * along[seen]) * x + coupling * mixed[seen] * y
-        image[1] += (own + coupling * aside[seen]) * y + coupling * mixed[seen] * x
-    return image
-
-
-@pytest.mark.parametrize("nu", [-0.8, 0.3, 0.5])
-def test_the_conditions_hold_by_an_independent_sum(nu):
+@pytest.mark.parametrize("nu", [-0.8, 0.5])
+def test_the_conditions_of_stick_and_slip_hold(nu):
     scene = sphere(nu=nu, roughness=ROUGH, force=0.6 * MU * LOAD)
     answer = BEM(points=40).solve(scene)
     fields, modulus, pixel = answer.fields, scene.solid.indentation_modulus, answer.measures["pixel"]
     traction, slip = (np.stack([fields[f"{name}_{axis}"] for axis in "xy"]) for name in ("traction", "slip"))
     drawn = answer.measures["tangential_displacement"]
-    image = pixel * displaced(influence_by_quadrature(40), traction / modulus, nu)
+    image = pixel * cerruti.free(Grid(40, 1.0), nu, Engine())(traction / modulus)
     touched = fields["pressure"] > 0
     expected = (np.array([drawn, 0.0])[:, None, None] - image) * touched
     assert np.abs(slip - expected).max() < 1e-9 * drawn
@@ -211,16 +179,6 @@ def test_the_conditions_hold_by_an_independent_sum(nu):
     assert 0 < answer.measures["stick_area"] < answer.measures["contact_area"]
     assert traction[0].sum() * pixel**2 == pytest.approx(answer.friction_force, rel=1e-12)
     assert answer.friction_force == pytest.approx(0.6 * MU * LOAD, rel=answer.settings["tolerance"])
-
-
-def test_a_wrong_slip_would_be_seen():
-    # the sum by pairs tells a kernel of another Poisson ratio from the right one
-    scene = sphere(nu=0.5, displacement=1e-5)
-    answer = BEM(points=32, extent=EXTENT).solve(scene)
-    traction = np.stack([answer.fields["traction_x"], answer.fields["traction_y"]]) / (4 * G)
-    kernels = influence_by_quadrature(32)
-    right, wrong = (displaced(kernels, traction, nu) for nu in (0.5, 0.49))
-    assert np.abs(right - wrong).max() > 1e-2 * np.abs(right).max()
 
 
 def test_a_smooth_sphere_has_the_symmetry_of_its_pull():
@@ -253,8 +211,7 @@ def test_a_displacement_and_the_force_that_it_takes_are_one_state(nu):
         np.testing.assert_allclose(other.fields[name], one.fields[name], atol=1e-4 * peak)
 
 
-@pytest.mark.parametrize("nu", [-0.9, 0.5])
-@pytest.mark.parametrize("short", [2e-3, 1.2e-3, 1e-4, 1e-6, 1e-8])
+@pytest.mark.parametrize(("nu", "short"), [(0.5, 2e-3), (0.5, 1.2e-3), (0.5, 1e-8), (-0.9, 1e-6)])
 def test_a_force_just_short_of_all_that_friction_holds_has_its_displacement_too(nu, short):
     # with nothing left to stick, tractions that point aside in part make up for what is short
     solver = BEM(points=48, tolerance=TIGHT)
@@ -268,13 +225,6 @@ def test_a_force_just_short_of_all_that_friction_holds_has_its_displacement_too(
     assert (size <= MU * answer.fields["pressure"] * (1 + 1e-9)).all()
 
 
-def test_the_displacement_grows_with_the_force_up_to_all_that_friction_holds():
-    shares = 1 - np.array([0.05, 0.01, 3e-3, 1.7e-3, 1e-3, 1e-4, 1e-5, 1e-7])
-    answers = [BEM(points=48).solve(sphere(force=share * MU * LOAD)) for share in shares]
-    assert (np.diff([answer.measures["tangential_displacement"] for answer in answers]) > 0).all()
-    assert answers[0].measures["stick_area"] > answers[-1].measures["stick_area"] == 0
-
-
 def test_the_force_grows_with_the_displacement_less_and_less():
     forces = [
         BEM(points=48, extent=EXTENT).solve(sphere(roughness=ROUGH, displacement=u)).friction_force
@@ -285,18 +235,21 @@ def test_the_force_grows_with_the_displacement_less_and_less():
     assert (np.diff(gained) < 0).all()
 
 
-@pytest.mark.parametrize("nu", [0.0, 0.5])
-def test_all_slips_in_the_end_and_friction_holds_no_more(nu):
-    answer = BEM(points=48).solve(sphere(nu=nu, displacement=1.0))
+@pytest.mark.parametrize(("nu", "drawn", "precision"), [(0.0, 1.0, "double"), (0.5, 1e200, "single")])
+def test_all_slips_in_the_end_and_friction_holds_no_more(nu, drawn, precision):
+    answer = BEM(points=48, precision=precision).solve(sphere(nu=nu, displacement=drawn))
     assert answer.measures["stick_area"] == 0
+    assert answer.measures["tangential_displacement"] == drawn
     size = np.hypot(answer.fields["traction_x"], answer.fields.get("traction_y", 0.0))
     np.testing.assert_allclose(size, MU * answer.fields["pressure"], rtol=1e-9)
+    slip = answer.fields["slip_x"][answer.fields["pressure"] > 0]
+    np.testing.assert_allclose(slip, drawn, rtol=1e-4 if nu == 0 else 1e-12)
     # tractions that point aside as long as the slip is finite: not here
-    assert answer.friction_force == pytest.approx(MU * LOAD, rel=1e-6)
+    assert answer.friction_force == pytest.approx(MU * LOAD, rel=1e-6 if nu == 0 else 1e-9)
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.5])
-@pytest.mark.parametrize("drawn", [1e-300, 1e-165, 1e-162, 1e-18, 1e-12])
+@pytest.mark.parametrize("drawn", [1e-300, 1e-163, 1e-12])
 def test_next_to_nothing_displaces_in_proportion(nu, drawn):
     unit = BEM(points=48).solve(sphere(nu=nu, displacement=1e-15)).friction_force / 1e-15
     answer = BEM(points=48).solve(sphere(nu=nu, displacement=drawn))
@@ -308,24 +261,13 @@ def test_next_to_nothing_displaces_in_proportion(nu, drawn):
     assert back.measures["tangential_displacement"] == pytest.approx(drawn, rel=1e-4)
 
 
-@pytest.mark.parametrize("precision", ["double", "single"])
-@pytest.mark.parametrize("drawn", [1e20, 1e200])
-def test_a_displacement_however_large_is_answered_by_all_that_friction_holds(drawn, precision):
-    answer = BEM(points=48, precision=precision).solve(sphere(displacement=drawn))
-    assert answer.friction_force == pytest.approx(MU * LOAD, rel=1e-9)
-    assert answer.measures["tangential_displacement"] == drawn
-    assert answer.measures["stick_area"] == 0
-    slip = answer.fields["slip_x"][answer.fields["pressure"] > 0]
-    np.testing.assert_allclose(slip, drawn, rtol=1e-12)
-
-
 @pytest.mark.parametrize("drawn", ["displacement", "force"])
 @pytest.mark.parametrize("nu", [0.0, 0.5])
 def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(nu, drawn):
     pull = {"displacement": 3e-5, "force": 0.6 * MU * LOAD}[drawn]
     one = BEM(points=32).solve(sphere(nu=nu, roughness=ROUGH, **{drawn: pull}))
     # of 1e-250 to 1e150; powers of two change no digits
-    for factor in (2.0**-830, 2.0**-540, 2.0**-40, 2.0**330, 2.0**498):
+    for factor in (2.0**-830, 2.0**-40, 2.0**498):
         scene = sphere(nu=nu, roughness=ROUGH, coefficient=factor * MU, **{drawn: factor * pull})
         other = BEM(points=32).solve(scene)
         for name in ("traction_x", "slip_x"):
@@ -339,15 +281,8 @@ def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(nu, d
 @pytest.mark.parametrize("precision", ["double", "single"])
 def test_a_cell_that_touches_everywhere_slips_somewhere_however_little_it_is_drawn(precision):
     forces = []
-    for drawn in (1e-300, 1e-100, 1e-16):
-        scene = Scene(
-            Plane(),
-            Elastic(G),
-            Shear(pressure=1e5, displacement=drawn),
-            CrossedWaves(amplitude=1e-6, wavelength=1e-3),
-            interface=Coulomb(MU),
-        )
-        answer = BEM(points=32, precision=precision, tolerance=1e-4).solve(scene)
+    for drawn in (1e-300, 1e-16):
+        answer = BEM(points=32, precision=precision, tolerance=1e-4).solve(plane(displacement=drawn))
         assert answer.measures["contact_fraction"] == 1
         assert answer.measures["slip_area"] > 0
         # the least pressure holds an even traction of so much, and it is a little more by the sizes of pixels
@@ -356,20 +291,13 @@ def test_a_cell_that_touches_everywhere_slips_somewhere_however_little_it_is_dra
     np.testing.assert_allclose(forces, forces[0], rtol=1e-3)
 
 
-@pytest.mark.parametrize("length", [1e-6, 1e3])
-@pytest.mark.parametrize("modulus", [1e-3, 1e3])
-def test_units_do_not_matter(length, modulus):
-    scene = sphere(displacement=2e-5, roughness=ROUGH)
+def test_units_do_not_matter():
+    scene, length, modulus = sphere(displacement=2e-5, roughness=ROUGH), 1e-6, 1e3
     scaled = Scene(
         Sphere(R * length),
         Elastic(G * modulus),
         Shear(load=LOAD * modulus * length**2, displacement=2e-5 * length),
-        replace(
-            ROUGH,
-            rms_height=ROUGH.rms_height * length,
-            longest=ROUGH.longest * length,
-            shortest=ROUGH.shortest * length,
-        ),
+        replace(ROUGH, **{name: getattr(ROUGH, name) * length for name in ("rms_height", "longest", "shortest")}),
         interface=Coulomb(MU),
     )
     one, other = (BEM(points=32).solve(each) for each in (scene, scaled))
@@ -384,28 +312,14 @@ def test_the_relaxed_modulus_alone_counts():
 
 def test_the_mean_slip_of_a_cell_is_how_far_it_was_drawn():
     # displacements have no mean there
-    scene = Scene(
-        Plane(),
-        Elastic(G),
-        Shear(pressure=1e5, displacement=2e-8),
-        CrossedWaves(amplitude=1e-6, wavelength=1e-3),
-        interface=Coulomb(MU),
-    )
-    answer = BEM(points=64).solve(scene)
+    answer = BEM(points=64).solve(plane(displacement=2e-8))
     assert answer.measures["contact_fraction"] == 1
     assert answer.fields["slip_x"].mean() == pytest.approx(2e-8, rel=1e-4)
     assert 0 < answer.measures["slip_area"] < answer.measures["contact_area"]
 
 
 def test_an_even_traction_displaces_a_cell_nowhere():
-    scene = Scene(
-        Plane(),
-        Elastic(G),
-        Shear(pressure=1e5, force=0.01 * MU * 0.1),
-        CrossedWaves(amplitude=1e-6, wavelength=1e-3),
-        interface=Coulomb(MU),
-    )
-    answer = BEM(points=64).solve(scene)
+    answer = BEM(points=64).solve(plane(force=0.01 * MU * 0.1))
     assert answer.measures["contact_fraction"] == 1
     assert abs(answer.measures["tangential_displacement"]) < 1e-20
     assert np.ptp(answer.fields["traction_x"]) < 1e-9 * answer.fields["traction_x"].max()
@@ -484,13 +398,13 @@ def test_a_force_beyond_friction_slides_and_is_an_error(coefficient, force, most
         BEM(points=48).solve(sphere(coefficient=coefficient, force=force))
 
 
+PROGRAM = Program(stages=(Stage(duration=1.0, load=LOAD),))
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (
-            {"motion": Program(stages=(Stage(duration=1.0, load=LOAD),))},
-            "interface = Coulomb: a history of partial",
-        ),
+        ({"motion": PROGRAM}, "interface = Coulomb: a history of partial"),
         ({"layer": Layer(thickness=1e-3)}, "motion = Shear: tangential kernels are those of a half-space"),
     ],
 )
@@ -529,19 +443,20 @@ def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
 
 
 @pytest.mark.parametrize(
-    "other",
-    [{"transforms": "fftw"}, {"threads": 2}, {"precision": "single", "tolerance": 1e-4}, {"transforms": "cupy"}],
+    ("scene", "other"),
+    [
+        (sphere(roughness=ROUGH, displacement=2e-5), {"transforms": "fftw"}),
+        (sphere(roughness=ROUGH, displacement=2e-5), {"transforms": "cupy"}),
+        (plane(CELL, pressure=1e4, displacement=2e-7), {"precision": "single", "tolerance": 1e-4}),
+        (plane(CELL, pressure=1e4, displacement=2e-7), {"transforms": "cupy"}),
+    ],
+    ids=str,
 )
-@pytest.mark.parametrize("body", ["sphere", "plane"])
-def test_every_library_gives_the_same_tractions(body, other, monkeypatch):
+def test_every_library_gives_the_same_tractions(scene, other, monkeypatch):
     if other.get("transforms") == "cupy":  # numpy stands in for it, whose arrays and functions have the same names
         names = {name: getattr(np, name) for name in dir(np) if not name.startswith("_")}
         stand_in = types.SimpleNamespace(**names | {"asnumpy": np.asarray})
         monkeypatch.setattr(engine, "_cupy", lambda: stand_in)
-    scene = sphere(roughness=ROUGH, displacement=2e-5)
-    if body == "plane":
-        motion = Shear(pressure=1e4, displacement=2e-7)
-        scene = Scene(Plane(), Elastic(G), motion, CELL, interface=Coulomb(MU))
     one, two = BEM(points=49).solve(scene), BEM(points=49, **other).solve(scene)
     # to tolerance
     assert two.friction_force == pytest.approx(one.friction_force, rel=2e-4)

@@ -13,7 +13,7 @@ SINGLE = 2e-6  # 2^-23 summed over a transform
 NU = 0.3
 
 
-@pytest.mark.parametrize(("j", "i"), [(0, 1), (1, 1), (2, 5), (40, 99), (99, 99), (100, 100), (3, 120), (150, 20)])
+@pytest.mark.parametrize(("j", "i"), [(0, 1), (2, 5), (99, 99), (100, 100), (3, 120), (150, 20)])
 def test_kernels_are_means_over_pixels(j, i):
     node, weight = np.polynomial.legendre.leggauss(30)
     x, y, both = i + node[None, :] / 2, j + node[:, None] / 2, weight[None, :] * weight[:, None] / 4
@@ -67,27 +67,20 @@ def test_on_odd_grids_the_approximate_inverse_of_a_cell_is_exact():
     np.testing.assert_allclose(image, given, atol=ROUNDING * 10)
 
 
-def products(points, engine):
-    grid = Grid(points, 1.0)
-    yield cerruti.free(grid, NU, engine)
-    yield cerruti.periodic(grid, NU, engine)
-
-
-@pytest.mark.parametrize("points", [16, 17])
 @pytest.mark.parametrize(
-    ("other", "accuracy"),
+    ("other", "accuracy", "points"),
     [
-        (Engine("fftw"), ROUNDING),
-        (Engine("ducc0", threads=2), ROUNDING),
-        (Engine("ducc0", precision="single"), SINGLE),
-        (Engine("fftw", precision="single"), SINGLE),
+        (Engine("fftw"), ROUNDING, 16),
+        (Engine("fftw"), ROUNDING, 17),
+        (Engine(precision="single"), SINGLE, 17),
     ],
 )
 def test_every_library_gives_the_same_pairs(other, accuracy, points):
-    given = tractions(points)
-    for product, another in zip(products(points, Engine()), products(points, other), strict=True):
-        expected = product(given)
-        np.testing.assert_allclose(another(given), expected, atol=accuracy * np.abs(expected).max())
+    given, grid = tractions(points), Grid(points, 1.0)
+    for kind in (cerruti.free, cerruti.periodic):
+        expected = kind(grid, NU, Engine())(given)
+        found = kind(grid, NU, other)(given)
+        np.testing.assert_allclose(found, expected, atol=accuracy * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("points", [16, 17])
