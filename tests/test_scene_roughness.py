@@ -16,7 +16,7 @@ ROUNDING = 1e-12
 QUADRATURE = 1e-11
 ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed=3)
 # The ends, the exponents at which an integral turns into a logarithm, and as near to those as numbers go.
-HURSTS = [0.0, 1e-16, 1e-9, 0.2, 0.5 - 1e-9, 0.5, np.nextafter(0.5, 1), 0.8, 1 - 1e-9, 1.0]
+HURSTS = [0.0, 1e-9, 0.5, np.nextafter(0.5, 1), 0.8, 1.0]
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
 
 
@@ -34,30 +34,15 @@ def _between(low, high, function):
 
 @pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
 @pytest.mark.parametrize("hurst", HURSTS)
-def test_both_densities_integrate_to_the_rms_height(hurst, rolloff):
+def test_both_densities_integrate_to_the_rms_height_and_to_the_rms_slope(hurst, rolloff):
     rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
     top = rough.q_max(0.0)
     line = 2 * integral(lambda q: rough.density_1d(q, top), rough)
     surface = 2 * np.pi * integral(lambda q: q * rough.density_2d(q, top), rough)
-    assert line == pytest.approx(rough.rms_height**2, rel=ROUNDING)
-    assert surface == pytest.approx(rough.rms_height**2, rel=ROUNDING)
-
-
-@pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
-@pytest.mark.parametrize("hurst", HURSTS)
-def test_both_densities_integrate_to_the_rms_slope(hurst, rolloff):
-    rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
-    top = rough.q_max(0.0)
-    line = 2 * integral(lambda q: q**2 * rough.density_1d(q, top), rough)
-    surface = 2 * np.pi * integral(lambda q: q**3 * rough.density_2d(q, top), rough)
-    assert line == pytest.approx(rough.rms_slope(top) ** 2, rel=ROUNDING)
-    assert surface == pytest.approx(rough.rms_slope(top) ** 2, rel=ROUNDING)
-
-
-def test_the_density_of_the_line_is_pi_q_that_of_the_surface():
-    top = ROUGH.q_max(0.0)
-    q = np.linspace(0, 2 * top, 50)
-    np.testing.assert_allclose(ROUGH.density_1d(q, top), np.pi * q * ROUGH.density_2d(q, top), rtol=ROUNDING)
+    assert (line, surface) == pytest.approx((rough.rms_height**2,) * 2, rel=ROUNDING)
+    steep = 2 * integral(lambda q: q**2 * rough.density_1d(q, top), rough)
+    gradient = 2 * np.pi * integral(lambda q: q**3 * rough.density_2d(q, top), rough)
+    assert (steep, gradient) == pytest.approx((rough.rms_slope(top) ** 2,) * 2, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("hurst", HURSTS)
@@ -70,12 +55,6 @@ def test_the_density_falls_with_the_power_of_its_hurst_exponent_and_ends_at_the_
     outside = rough.density_2d(np.array([0.0, 0.99 * rough.q_min, 1.01 * top]), top)
     np.testing.assert_array_equal(outside, 0.0)
     assert np.all(rough.density_2d(np.array([rough.q_min, top]), top) > 0)
-
-
-def test_nothing_jumps_where_an_integral_turns_into_a_logarithm():
-    for hurst in (0.0, 0.5, 1.0):
-        slopes = [replace(ROUGH, hurst=h).rms_slope(1e5) for h in (hurst, abs(hurst - 1e-7))]
-        assert slopes[1] == pytest.approx(slopes[0], rel=1e-5)
 
 
 @pytest.mark.parametrize("exponent", [-3.0, -1 - 1e-12, -1.0, -1 + 1e-12, 0.0, 2.5])
@@ -92,22 +71,16 @@ def test_the_cut_off_is_the_shortest_wave_or_else_the_nyquist_wave_number():
     assert ROUGH.q_min == 2 * np.pi / 1e-2
 
 
-def test_without_height_there_is_no_slope():
-    flat = replace(ROUGH, rms_height=0.0)
-    assert flat.rms_slope(1e5) == 0
-    np.testing.assert_array_equal(flat.density_2d(np.array([1e3, 1e4]), 1e5), 0.0)
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [
         ({"hurst": 1.1}, r"hurst\n.*less than or equal to 1"),
         ({"hurst": -0.1}, r"hurst\n.*greater than or equal to 0"),
-        ({"rms_height": -1e-9}, r"rms_height\n.*greater than or equal to 0"),
-        ({"longest": 0.0}, r"longest\n.*greater than 0"),
         ({"shortest": 6e-3}, r"shortest = 0\.006 must be at most half of longest = 0\.01"),
         ({"seed": -1}, r"seed\n.*greater than or equal to 0"),
-        ({"seed": 1.5}, r"seed\n.*valid integer"),
+        ({"rolloff": 1e-4}, "rolloff = 0.0001 must be more than shortest"),
+        ({"rolloff": 2e-2}, "rolloff = 0.02 must be more than shortest .* at most longest"),
+        ({"amplitudes": "rayleigh"}, r"amplitudes\n.*'fixed' or 'gaussian'"),
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(change, said):
@@ -123,15 +96,15 @@ def test_above_the_rolloff_the_spectrum_is_flat_and_below_it_falls():
     np.testing.assert_allclose(density, [1, 1, 1, 2 ** (-2 * rough.hurst - 2)], rtol=ROUNDING)
 
 
-@pytest.mark.parametrize("rolloff", [1e-4, 2e-2])
-def test_a_rolloff_outside_the_spectrum_is_named(rolloff):
-    with pytest.raises(ValidationError, match=f"rolloff = {rolloff:g} must be more than shortest"):
-        replace(ROUGH, rolloff=rolloff)
-
-
 @pytest.mark.parametrize(("kind", "mean_square"), [(Wave, 1 / 2), (CrossedWaves, 1 / 4)])
 def test_waves_have_the_rms_height_of_their_cosines(kind, mean_square):
-    assert kind(amplitude=3.0, wavelength=2.0).rms_height == pytest.approx(3 * mean_square**0.5, rel=ROUNDING)
+    wave = kind(amplitude=3.0, wavelength=2.0)
+    assert wave.rms_height == pytest.approx(3 * mean_square**0.5, rel=ROUNDING)
+    assert (wave.flat, replace(wave, amplitude=0.0).flat, replace(ROUGH, rms_height=0.0).flat) == (
+        False,
+        True,
+        True,
+    )
 
 
 def by_quadrature(rough, q):
@@ -148,7 +121,7 @@ def by_quadrature(rough, q):
     return 2 * total
 
 
-@pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
+@pytest.mark.parametrize("rolloff", [None, 2e-3])
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_a_line_scan_has_the_density_of_all_waves_that_it_cuts(hurst, rolloff):
     rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)
@@ -197,8 +170,3 @@ def test_on_a_wide_band_the_mapped_density_is_the_greater_by_a_ratio_of_gamma_fu
     ratio = wide.density_1d(q, top) / wide.density_line_scan(q, top)
     # What is cut off beyond q_max is (q / q_max)^(2H + 1) of it.
     assert ratio == pytest.approx(np.sqrt(np.pi) * gamma(hurst + 1) / gamma(hurst + 0.5), rel=2e-5)
-
-
-def test_another_kind_of_amplitude_is_refused():
-    with pytest.raises(ValidationError, match=r"amplitudes\n.*'fixed' or 'gaussian'"):
-        replace(ROUGH, amplitudes="rayleigh")

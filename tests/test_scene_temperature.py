@@ -31,7 +31,7 @@ from scene.viscoelastic import Linear
 ROUNDING = 1e-13
 # The zeros of a rational function are found anew from shifted poles, each to rounding.
 CONVERTED = 1e-11
-FACTORS = (1e-9, 0.3, 7.0, 1e9)
+FACTORS = (1e-9, 7.0)
 
 
 def measured():
@@ -102,11 +102,6 @@ def test_at_the_reference_nothing_is_shifted_not_even_by_rounding(law):
         assert scene.solid.viscosity == solid.viscosity
 
 
-def test_without_a_temperature_the_solid_is_the_elastomer_itself():
-    solid = SOLIDS["standard"]
-    assert Scene(Sphere(radius=1e-2), solid, Indent(load=1.0)).solid is solid
-
-
 @pytest.mark.parametrize("factor", FACTORS)
 @pytest.mark.parametrize("name", SOLIDS)
 def test_all_times_are_longer_by_the_factor_and_no_modulus_is_another(name, factor):
@@ -143,19 +138,6 @@ def test_the_dashpot_of_a_solid_that_states_its_relaxation_is_slower_too():
     np.testing.assert_allclose(found, Damped().complex_modulus(omega), rtol=ROUNDING)
 
 
-def test_a_shift_changes_something():
-    assert not np.allclose(
-        Shifted(SOLIDS["standard"], 2.0).complex_modulus(1e3), SOLIDS["standard"].complex_modulus(1e3), rtol=1e-2
-    )
-
-
-@pytest.mark.parametrize("name", SOLIDS)
-def test_two_shifts_are_one_by_their_product(name):
-    twice, once = Shifted(Shifted(SOLIDS[name], 3.0), 5.0), Shifted(SOLIDS[name], 15.0)
-    omega = np.geomspace(1e-3, 1e9, 25)
-    np.testing.assert_allclose(twice.complex_modulus(omega), once.complex_modulus(omega), rtol=ROUNDING)
-
-
 def test_times_that_rounding_makes_equal_are_one_mode():
     time, later, factor = 1.9, float(np.nextafter(1.9, 2)), 5.0
     assert time != later
@@ -184,14 +166,10 @@ def test_temperatures_where_a_law_ends_are_named():
 
     for ask, message in (
         (lambda: universal(-51.6), r"temperature = 168.4 K: the law ends at reference - c2 = 168.4 K"),
-        (lambda: universal(-100.0), r"the law ends at reference - c2 = 168.4 K, it must be above"),
         (lambda: universal(-50.5), r"temperature = 169.5 K: times would be longer by exp\(1.84e\+03\)"),
         (lambda: arrhenius(10.0), r"temperature = 10 K: times would be longer by exp\(1.16e\+03\), beyond"),
         (lambda: arrhenius(5e-324), r"beyond the range of numbers; give one closer to reference = 300 K"),
         (lambda: replace(arrhenius(300.0), activation_energy=1e300, temperature=301.0), "beyond the range"),
-        (lambda: arrhenius(-1.0), "greater than 0"),
-        (lambda: arrhenius(float("inf")), "finite number"),
-        (lambda: replace(universal(1.0), c1=0.0), "greater than 0"),
         (lambda: replace(universal(1.0), c2=-51.6), "greater than 0"),
     ):
         with pytest.raises(ValidationError, match=message):

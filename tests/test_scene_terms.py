@@ -13,7 +13,6 @@ from scene import (
     WLF,
     Cone,
     Coulomb,
-    Cylinder,
     Elastic,
     Heating,
     Indent,
@@ -21,7 +20,6 @@ from scene import (
     Layer,
     Refused,
     Scene,
-    SelfAffine,
     Shear,
     Slide,
     Sphere,
@@ -93,29 +91,6 @@ def test_the_last_term_is_outmost_around_a_solve():
     assert surrounded(lambda scene: "solved", terms)(PLAIN) == "motion(indenter(solved))"
 
 
-def test_what_one_dimension_lacks_is_refused_with_what_can_be_done():
-    lacking_in_1d = {
-        "layer": replace(PLAIN, layer=Layer(thickness=1e-3)),
-        "indenter": replace(PLAIN, indenter=Cylinder(radius=1e-3), motion=Indent(line_load=1.0)),
-    }
-    for field, scene in lacking_in_1d.items():
-        (reason,) = MDR().refusals(scene)
-        assert reason.startswith(f"{field} = {type(getattr(scene, field)).__name__}: ")
-        assert "three-dimensional solver" in reason
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"motion": Shear(load=1.0, displacement=1e-6)}, "motion = Shear .* give interface"),
-        ({"heating": Heating(conductivity=1.0, feedback="average")}, "heating.feedback = 'average' .* give temp"),
-    ],
-)
-def test_parts_that_need_others_say_which(change, said):
-    with pytest.raises(ValidationError, match=said):
-        replace(PLAIN, **change)
-
-
 @pytest.mark.parametrize("given", [{}, {"displacement": 1e-6, "force": 1.0}])
 def test_shear_is_drawn_by_one_quantity(given):
     with pytest.raises(ValidationError, match="exactly one of displacement"):
@@ -125,17 +100,3 @@ def test_shear_is_drawn_by_one_quantity(given):
 def test_the_solid_is_the_elastomer_itself_without_a_temperature():
     assert PLAIN.solid is PLAIN.elastomer
     assert replace(PLAIN, temperature=WARM).solid.retardation()[2] == pytest.approx([1e-3 * WARM.shift])
-
-
-def test_roughness_is_not_asked_about_where_there_is_none():
-    asked = []
-
-    class Told(Term):
-        def refusals(self, scene):
-            asked.append(self.field)
-            return []
-
-    table = {Axisymmetric: Told, Kelvin: Told, Slide: Told, SelfAffine: Told, Layer: Told}
-    for term in terms_of(table, PLAIN):
-        term.refusals(PLAIN)
-    assert asked == ["indenter", "elastomer", "motion"]
