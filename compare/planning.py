@@ -20,7 +20,9 @@ class Plans(dict[str, Plan | str]):
         return "\n\n".join(map(str, self.values()))
 
     def _repr_html_(self) -> str:
-        parts = (each._repr_html_() if isinstance(each, Plan) else markup.paragraph(each) for each in self.values())
+        parts = (
+            each._repr_html_() if isinstance(each, Plan) else markup.paragraph(each) for each in self.values()
+        )
         return "".join(parts)
 
 

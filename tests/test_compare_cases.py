@@ -151,20 +151,6 @@ def test_a_mistake_is_named_with_exit_status_2_and_nothing_is_written(tmp_path, 
     assert not (tmp_path / "out").exists()
 
 
-def test_a_file_that_is_not_there_is_a_mistake_too(tmp_path):
-    answer = CliRunner().invoke(app, ["run", str(tmp_path / "nowhere.toml")])
-    assert answer.exit_code == 2
-    assert "nowhere.toml" in answer.stderr
-
-
-def test_a_folder_that_cannot_be_made_is_a_mistake_too(tmp_path):
-    (tmp_path / "case.toml").write_text(SCENE)
-    (tmp_path / "taken").write_text("")
-    answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "taken")])
-    assert answer.exit_code == 2
-    assert "--output" in answer.stderr
-
-
 @pytest.mark.parametrize("name", ["solved", "report.html"])
 def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved(tmp_path, name):
     (tmp_path / "case.toml").write_text(SCENE)

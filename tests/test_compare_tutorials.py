@@ -13,7 +13,7 @@ NAMES = [
     pytest.param("first", marks=pytest.mark.slow),
     "regression",
     pytest.param("study", marks=pytest.mark.slow),
-    "sweep",
+    pytest.param("sweep", marks=pytest.mark.slow),
 ]
 
 

@@ -58,12 +58,14 @@ def test_a_sphere_at_rest_is_that_of_hertz(shown):
     assert missed["BEM"] < 1e-3  # some 50 pixels across
 
 
+@pytest.mark.slow
 def test_in_and_out_is_that_of_ting(shown):
     missed = shown("ting")["missed"]
     assert missed["MDR"] < 1e-5
     assert missed["BEM"] < 1e-3
 
 
+@pytest.mark.slow
 def test_friction_at_low_speed_is_twice_that_of_three_dimensions(shown):
     ratio = shown("speed")["ratio"]
     assert ratio[0] == pytest.approx(2, rel=0.02)  # on 64 points
@@ -74,6 +76,7 @@ def test_the_load_lies_ahead_of_the_axis(shown):
     assert shown("wake")["centre"] < -1e-4
 
 
+@pytest.mark.slow
 def test_a_layer_carries_more_and_as_much_as_without_a_grid(shown):
     names = shown("layer")
     assert names["missed"] < 1e-3
@@ -81,6 +84,7 @@ def test_a_layer_carries_more_and_as_much_as_without_a_grid(shown):
     assert names["forces"][-1] > names["half_space"]
 
 
+@pytest.mark.slow
 def test_temperatures_fall_onto_one_curve(shown):
     names = shown("temperature")
     assert names["missed"] < 1e-12
@@ -94,6 +98,7 @@ def test_partial_slip_is_that_of_cattaneo_and_mindlin(shown):
     assert missed["BEM"] < 3e-3
 
 
+@pytest.mark.slow
 def test_turning_back_ends_in_steady_sliding(shown):
     names = shown("reversal")
     for name, answer in names["answers"].items():
@@ -101,6 +106,7 @@ def test_turning_back_ends_in_steady_sliding(shown):
         assert answer.fields["friction_force"].min() < -0.8 * names["steady"][name].friction_force
 
 
+@pytest.mark.slow
 def test_shifts_bring_1d_together_and_are_not_known_in_3d(shown):
     names = shown("collapse")
     before, after = names["misfits"]["MDR"]
@@ -119,6 +125,7 @@ def test_every_page_of_the_gallery_is_shown_and_tested():
     assert tested == pages
 
 
+@pytest.mark.slow
 def test_the_examples_of_the_readme_print_what_they_say(capsys, tmp_path, monkeypatch):
     first, whole, second, third = PYTHON.findall((ROOT / "README.md").read_text(encoding="utf-8"))
     names = {}

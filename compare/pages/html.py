@@ -133,6 +133,11 @@ def _download(name: str, tables: Mapping[str, str]) -> str:
 
 
 def _template(name: str) -> jinja2.Template:
-    loader = jinja2.PackageLoader("compare", "pages")
-    kept = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
-    return jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **kept).get_template(name)
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("compare", "pages"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template(name)
