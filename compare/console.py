@@ -25,7 +25,7 @@ def watch(lines: bool = False) -> "Watch":
 
     console = Console(highlight=False, soft_wrap=True)
     return Watch(
-        lambda: progress.Lines(console, pause=0.0) if lines else progress.watch(console),
+        lambda: progress.Watched(console, pause=0.0, bar=False) if lines else progress.Watched(console),
         lambda count: _figures(console, count, lines),
     )
 

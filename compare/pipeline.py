@@ -104,7 +104,7 @@ def _solve(batches, output, workers, scheduler, watch) -> SweepResult:
         store = Store(output / SOLVED)
         with watch.solving() as progress:
             if batch.timed:
-                found = runner.sweep(batch.tasks, store, 1, progress, tasks_each=1)
+                found = runner.sweep(batch.tasks, store, progress=progress, fresh=True)
             else:
                 found = runner.sweep(batch.tasks, store, workers, progress, scheduler=scheduler)
         swept = swept.joined(found)

@@ -3,27 +3,16 @@
 import time
 from collections.abc import Callable, Sequence
 
+from rich import progress as bars
 from rich.console import Console
-from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
 from rich.table import Column
-from rich.text import Text
 
 from .outcome import Outcome
-from .store import Task
-from .timeleft import TimeLeft
+from .runner import Progress
+from .task import Task
 
 # Seconds between lines where there is no terminal to draw a bar on.
 PAUSE = 5.0
-
-
-def watch(console: Console) -> "Bar | Lines":
-    """A progress bar on a terminal, plain lines elsewhere."""
-    return Bar(console) if console.is_terminal else Lines(console)
-
-
-def failed(outcome: Outcome) -> bool:
-    """Whether a task, or a part of it, has no answer."""
-    return any(row.reason is not None for row in outcome.rows)
 
 
 def duration(seconds: float | None) -> str:
@@ -38,167 +27,99 @@ def duration(seconds: float | None) -> str:
     return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
 
 
-class _Counts:
-    """Progress of a sweep: tasks by what became of them, work, and the time left."""
+class Watched(Progress):
+    """Progress of a sweep on a console: a context.
 
-    def __init__(self, tasks: Sequence[Task], reused: int, clock: Callable[[], float]):
-        self.total, self.all_work = len(tasks), sum(task.work for task in tasks)
-        self.done, self.failed, self.reused, self.work = 0, 0, reused, 0.0
-        self.left, self.clock = TimeLeft(tasks, clock), clock
-        self.start = clock()
+    pause : seconds between lines where there is no bar; 0 for a line a task, and no bar
+    clock : seconds that grow
+    """
 
-    def finished(self, task: Task, outcome: Outcome) -> None:
-        self.left.finished(task)
-        self.done, self.work = self.done + 1, self.work + task.work
-        self.failed += failed(outcome)
-
-    def found(self, task: Task) -> None:
-        self.left.found(task)
-        self.total, self.reused = self.total - 1, self.reused + 1
-        self.work += task.work
-
-    @property
-    def short(self) -> str:
-        """Tasks so far, of how many, and how many of them failed."""
-        return f"{self.done}/{self.total}" + (f", {self.failed} failed" if self.failed else "")
-
-    @property
-    def whole(self) -> str:
-        """Tasks solved, reused and failed in a sentence, at the end."""
-        all_of = f"{self.done}" if self.done == self.total else f"{self.done} of {self.total}"
-        parts = [f"{all_of} tasks solved", f"{self.reused} reused"]
-        parts += [f"{self.failed} failed"] if self.failed else []
-        return ", ".join([*parts, duration(self.clock() - self.start)])
-
-
-class _Told:
-    """What both ways of telling share: counts while a sweep runs, a line at its end."""
-
-    def __init__(self, console: Console, clock: Callable[[], float]):
-        self.console, self.clock = console, clock
-        self.counts: _Counts | None = None
-
-    def planned(self, waiting, reused):
-        self.counts = _Counts(waiting, reused, self.clock)
-
-    def started(self, task):
-        self.counts.left.started(task)
-
-    def finished(self, task, outcome):
-        self.counts.finished(task, outcome)
-
-    def found(self, task):
-        self.counts.found(task)
-
-    def said(self, line):
-        self.console.print(line, markup=False)
-
-    def __exit__(self, *_):
-        if self.counts and self.counts.done:
-            self.console.print(self.counts.whole, markup=False)
-
-
-class Lines(_Told):
-    """Progress as a line every few seconds. pause : seconds between lines; 0 for a line a task"""
-
-    def __init__(self, console: Console, clock: Callable[[], float] = time.monotonic, pause: float = PAUSE):
-        super().__init__(console, clock)
-        self.pause = pause
-
-    def __enter__(self):
-        return self
-
-    def planned(self, waiting, reused):
-        super().planned(waiting, reused)
-        self.last = self.clock()
-        if waiting:
-            known = f", {reused} reused" if reused else ""
-            self.console.print(f"{len(waiting)} tasks to solve{known}")
-
-    def interrupted(self):
-        self.console.print("finishing what is being solved")
-
-    def finished(self, task, outcome):
-        super().finished(task, outcome)
-        now = self.clock()
-        if now - self.last < self.pause:
-            return
-        self.last = now
-        left = duration(self.counts.left.seconds())
-        self.console.print(f"{self.counts.short}, {left} left, solved {task.label}", markup=False)
-
-
-class _Left(ProgressColumn):
-    """Counts down from the last estimate to the next."""
-
-    def __init__(self, clock: Callable[[], float]):
-        super().__init__(Column(no_wrap=True, min_width=10))
-        self.clock = clock
-        self.end: float | None = None
-
-    def set(self, seconds: float | None) -> None:
-        """An estimate."""
-        self.end = None if seconds is None else self.clock() + seconds
-
-    def render(self, task):
-        seconds = None if self.end is None else max(self.end - self.clock(), 0.0)
-        return Text(f"{duration(seconds)} left", style="progress.remaining")
-
-
-class Bar(_Told):
-    """Progress as a bar that names what is being solved, how long is left, and how many have failed."""
-
-    def __init__(self, console: Console, clock: Callable[[], float] = time.monotonic):
-        super().__init__(console, clock)
-        self.running: list[Task] = []
-        self.doing, self.left = "", _Left(clock)
+    def __init__(
+        self, console: Console, pause: float = PAUSE, clock: Callable[[], float] = time.monotonic, bar: bool = True
+    ):
+        self.console, self.pause, self.clock = console, pause, clock
+        self.shown = bar and console.is_terminal
         # Where there is little room, what is being solved is cut off first, then the bar, never the times.
-        what = Column(ratio=1, no_wrap=True, overflow="ellipsis")
-        self.bar = Progress(
-            BarColumn(bar_width=24),
-            TextColumn("{task.percentage:3.0f} %", table_column=Column(no_wrap=True, min_width=5)),
-            TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=7)),
-            self.left,
-            TextColumn("{task.fields[counts]}", markup=False, table_column=Column(no_wrap=True)),
-            TextColumn("{task.description}", markup=False, table_column=what),
+        self.bar = bars.Progress(
+            bars.BarColumn(bar_width=24),
+            bars.TextColumn("{task.percentage:3.0f} %", table_column=Column(no_wrap=True, min_width=5)),
+            bars.TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=7)),
+            bars.TextColumn("{task.fields[left]} left", table_column=Column(no_wrap=True, min_width=10)),
+            bars.TextColumn("{task.fields[counts]}", markup=False, table_column=Column(no_wrap=True)),
+            bars.TextColumn(
+                "{task.description}",
+                markup=False,
+                table_column=Column(ratio=1, no_wrap=True, overflow="ellipsis"),
+            ),
             console=console,
+            get_time=clock,
             expand=True,
             transient=True,
+            disable=not self.shown,
         )
+        self.row: bars.TaskID | None = None
+        self.total = self.done = self.failed = self.reused = 0
+        self.doing, self.running = "", dict[Task, None]()
 
     def __enter__(self):
-        self.bar.__enter__()
+        self.bar.start()
         return self
 
-    def __exit__(self, *raised):
-        self.bar.__exit__(*raised)
-        super().__exit__(*raised)
+    def __exit__(self, *_):
+        self.bar.stop()
+        if self.done:
+            of = f"{self.done}" if self.done == self.total else f"{self.done} of {self.total}"
+            failed = [f"{self.failed} failed"] if self.failed else []
+            parts = [f"{of} tasks solved", f"{self.reused} reused", *failed, duration(self.clock() - self.start)]
+            self.console.print(", ".join(parts), markup=False)
 
-    def planned(self, waiting, reused):
-        if self.counts:
-            self.bar.remove_task(self.total)
-        super().planned(waiting, reused)
-        self.total = self.bar.add_task("", total=self.counts.all_work or 1.0, counts=self.counts.short)
+    def planned(self, tasks: Sequence[Task], reused: int) -> None:
+        """The tasks that have to be solved, and how many more the store has."""
+        if self.row is not None:
+            self.bar.remove_task(self.row)
+        self.total, self.done, self.failed, self.reused = len(tasks), 0, 0, reused
+        self.start = self.last = self.clock()
+        self.work, self.all_work = 0.0, sum(task.work for task in tasks) or 1.0
+        self.row = self.bar.add_task("", total=self.all_work, counts=self._counts(), left="?")
+        if tasks and not self.shown:
+            self.console.print(f"{len(tasks)} tasks to solve" + (f", {reused} reused" if reused else ""))
 
-    def started(self, task):
-        super().started(task)
-        self.running.append(task)
+    def started(self, task: Task) -> None:
+        """A task is handed out to a worker."""
+        self.running[task] = None
         self._tell()
 
-    def finished(self, task, outcome):
-        super().finished(task, outcome)
-        self.running.remove(task)
+    def finished(self, task: Task, outcome: Outcome) -> None:
+        """A task is solved and stored, or has failed."""
+        self.running.pop(task, None)
+        self.done, self.work = self.done + 1, self.work + task.work
+        self.failed += any(row.reason is not None for row in outcome.rows)
         self._tell()
+        now = self.clock()
+        if not self.shown and now - self.last >= self.pause:
+            self.last = now
+            self.console.print(f"{self._counts()}, {self._left()} left, solved {task.label}", markup=False)
 
-    def found(self, task):
-        super().found(task)
-        self._tell()
+    def said(self, line: str) -> None:
+        """A line for a person."""
+        self.console.print(line, markup=False)
 
-    def interrupted(self):
+    def interrupted(self) -> None:
+        """Nothing more is started."""
         self.doing = "finishing "
+        if not self.shown:
+            self.console.print("finishing what is being solved")
         self._tell()
+
+    def _left(self):
+        """Time left if a unit of work goes on taking what it took."""
+        return duration((self.clock() - self.start) * (self.all_work / self.work - 1) if self.work else None)
+
+    def _counts(self):
+        return f"{self.done}/{self.total}" + (f", {self.failed} failed" if self.failed else "")
 
     def _tell(self):
-        self.left.set(self.counts.left.seconds())
-        what = self.doing + (self.running[0].label if self.running else "")
-        self.bar.update(self.total, completed=self.counts.work, counts=self.counts.short, description=what)
+        if self.row is not None:
+            what = self.doing + next((task.label for task in self.running), "")
+            now = {"counts": self._counts(), "left": self._left()}
+            self.bar.update(self.row, completed=self.work, description=what, **now)

@@ -1,31 +1,340 @@
-"""What has been solved, on disk: one file a task, named by everything that its answer depends on."""
+"""Store: what has been solved, as lines of one file, named by everything that an answer depends on."""
 
+import errno
 import hashlib
+import io
+import json
+import math
 import os
-import platform
 import re
 import tempfile
-import time
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from base64 import b64decode, b64encode
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
-from math import isfinite
 from pathlib import Path
 from typing import IO, Any
 
-from .outcome import Outcome
-from .task import Task
-from .taskfile import canonical, read, written
+import numpy as np
 
+from .outcome import NUMBERS, Outcome, Row
+from .task import Task
+
+try:
+    import fcntl
+except ImportError:  # Windows: two runs at once may solve a task twice
+    fcntl = None  # type: ignore[assignment]
+
+FILE = "answers.txt"
 TRACE = ".fault.txt"  # of how a task broke, behind its key
-DAY = 86400.0  # as long no write takes
-# Of a file that is being written: that of the file, machine and process, and some letters.
-TEMPORARY = re.compile(r"\..+\.([0-9a-f]{8})-([1-9][0-9]*)\.[a-z0-9_]{8}")
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
+# Of a file that is being written: name of the file, process, and some letters.
+TEMPORARY = re.compile(r"\..+\.([1-9][0-9]*)\.[a-z0-9_]{8}")
+DIGEST = 32  # letters of a digest
+HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
+
+
+class Store:
+    """A folder of outcomes, a line of its file each; fields, which are large, are files beside it.
+
+    Each line carries a digest: one that is damaged or cut off counts as absent and touches no other. Nothing is
+    ever changed in place, so that a kill costs at most the line that was being written.
+    """
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.path = folder / FILE
+        self._places: dict[str, tuple[int, int]] = {}
+        self._end = 0
+        self._file: int | None = None
+
+    def get(self, task: Task) -> Outcome | None:
+        """The stored outcome of a task by this code, or None: also for a task that keeps fields not there."""
+        name = key(task)
+        self._read_on()
+        if name not in self._places:
+            return None
+        try:
+            outcome = self._outcome(name, task.keeps_fields)
+            return outcome if task.fits(outcome) else None
+        # What something else has written here raises nearly anything.
+        except Exception:
+            return None
+
+    def put(self, task: Task, outcome: Outcome) -> None:
+        """Add an outcome. The folder must be open for `writing`.
+
+        Raises OSError, which names the file; TypeError, ValueError for what no file can hold.
+        """
+        name = key(task)
+        fields = _packed(outcome.fields) if outcome.fields or task.keeps_fields else None
+        line = _line(name, _text(task, outcome, fields))
+        if self._file is None:
+            with self.writing():
+                self._add(name, line, fields)
+        else:
+            self._add(name, line, fields)
+
+    def __len__(self) -> int:
+        """Number of outcomes, whatever code they are of."""
+        self._read_on()
+        return len(self._places)
+
+    def by_other_code(self, tasks: Iterable[Task]) -> int:
+        """Number of the tasks whose question other code has answered, and this code has not."""
+        self._read_on()
+        questions = {name[:DIGEST] for name in self._places}
+        return sum((name := key(task)) not in self._places and name[:DIGEST] in questions for task in tasks)
+
+    def trace(self, task: Task) -> Path:
+        """Where it is told how a task broke."""
+        return self.folder / f"{key(task)}{TRACE}"
+
+    @contextmanager
+    def writing(self, wait: Callable[[], bool] = lambda: True, say: Callable[[str], Any] = str) -> Iterator[bool]:
+        """The folder for this run alone; what a killed run left half written is cleared.
+
+        wait : called again and again while another run has the folder; it stops the waiting by False
+        say : is told what a person wants to know: that another run is waited for, or that nothing keeps it out
+
+        Gives whether the folder could be had. Raises OSError, which names the file.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with _named(self.path):
+            file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
+        try:
+            had = _locked(file, wait, say)
+            if had:
+                self._file = file
+                self._mend()
+            yield had
+        finally:
+            self._file = None
+            os.close(file)
+
+    def _mend(self):
+        """Cut off a line without an end, which was being written as its run was killed."""
+        self._read_on()
+        if os.fstat(self._file).st_size > self._end:
+            with _named(self.path):
+                os.ftruncate(self._file, self._end)
+
+    def _add(self, name, line, fields):
+        if fields is not None:
+            write(self.folder / f"{name}.npz", lambda file: file.write(fields))
+        start = os.fstat(self._file).st_size
+        # Two ends of a line: where one is damaged, the other still keeps this line and the next apart.
+        written = line + b"\n\n"
+        with _named(self.path):
+            try:
+                if os.write(self._file, written) < len(written):
+                    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            except OSError:
+                with suppress(OSError):
+                    os.ftruncate(self._file, start)
+                raise
+
+    def _read_on(self):
+        """Find the lines that came since the last look; a line still being written is left for the next."""
+        try:
+            if self.path.stat().st_size == self._end:
+                return
+            with self.path.open("rb") as file:
+                file.seek(self._end)
+                for line in file:
+                    if not line.endswith(b"\n"):
+                        break
+                    if len(line) > HEAD:
+                        name = line[DIGEST + 1 : HEAD].decode(errors="replace")
+                        self._places[name] = self._end, len(line) - 1
+                    self._end += len(line)
+        except OSError:
+            return
+
+    def _outcome(self, name, keeps):
+        start, length = self._places[name]
+        with self.path.open("rb") as file:
+            file.seek(start)
+            line = file.read(length)
+        text = line[HEAD + 1 :]
+        if line != _line(name, text):
+            raise ValueError("the line is damaged")
+        content = json.loads(text, object_hook=_unnamed)
+        fields = {}
+        if keeps:
+            packed = (self.folder / f"{name}.npz").read_bytes()
+            if _digest(packed) != content["fields"]:
+                raise ValueError("the fields are damaged")
+            with np.load(io.BytesIO(packed), allow_pickle=False) as kept:
+                fields = {label: kept[f"{k}"] for k, label in enumerate(content["names"])}
+        return Outcome(_rows(content), fields)
+
+
+def _locked(file, wait, say):
+    """Whether a file is locked for this process; the system gives it back however the process ends."""
+    if fcntl is None:
+        return True
+    told = False
+    while True:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return True
+        except BlockingIOError:
+            if not told:
+                say("another run solves in this folder: waiting for it")
+            told = True
+            if not wait():
+                return False
+        except OSError as error:
+            say(f"this folder cannot be locked ({error.strerror}), as on some network drives: run one at a time")
+            return True
+
+
+def key(task: Task) -> str:
+    """Name of a task's outcome: digest of its question, then of the code that answers it and of versions."""
+    return f"{_digest(canonical(task.question).encode())}-{_code_digest(tuple(task.packages))}"
+
+
+def _line(name, text):
+    covered = name.encode() + b" " + text
+    return _digest(covered).encode() + b" " + covered
+
+
+def _text(task, outcome, fields):
+    """An outcome as JSON: numbers of all rows in columns, bit for bit."""
+    rows = outcome.rows
+    measures = list(dict.fromkeys(name for row in rows for name in row.measures))
+    columns = [[getattr(row, name) for row in rows] for name in NUMBERS]
+    columns += [[row.measures.get(name, math.nan) for row in rows] for name in measures]
+    content = {
+        "label": task.label,
+        "rows": len(rows),
+        "numbers": b64encode(np.array(columns, "<f8").tobytes()).decode(),
+        "measures": measures,
+        "absent": [[k for k, row in enumerate(rows) if name not in row.measures] for name in measures],
+        "settings": [dict(row.settings) for row in rows],
+        "reasons": {k: row.reason for k, row in enumerate(rows) if row.reason is not None},
+    }
+    if fields is not None:
+        content |= {"names": list(outcome.fields), "fields": _digest(fields)}
+    return canonical(content).encode()
+
+
+def _rows(content):
+    count, measures = content["rows"], content["measures"]
+    numbers = np.frombuffer(b64decode(content["numbers"]), "<f8").reshape(len(NUMBERS) + len(measures), count)
+    columns = numbers.tolist()
+    taken = list(zip(measures, columns[len(NUMBERS) :], map(set, content["absent"]), strict=True))
+    return tuple(
+        Row(
+            *(column[k] for column in columns[: len(NUMBERS)]),
+            {name: column[k] for name, column, absent in taken if k not in absent},
+            content["settings"][k],
+            content["reasons"].get(str(k)),
+        )
+        for k in range(count)
+    )
+
+
+def _packed(fields):
+    """Fields as the bytes of a NumPy archive, named by their number. Raises TypeError for what it cannot hold."""
+    arrays = {name: np.asarray(values) for name, values in fields.items()}
+    for name, values in arrays.items():
+        if values.dtype.kind not in "iufb":
+            raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
+    packed = io.BytesIO()
+    np.savez(packed, **{f"{k}": values for k, values in enumerate(arrays.values())})
+    return packed.getvalue()
+
+
+def stored_size(task: Task, outcome: Outcome) -> int:
+    """Bytes that an outcome takes in a store."""
+    fields = _packed(outcome.fields) if outcome.fields or task.keeps_fields else None
+    return len(_line(key(task), _text(task, outcome, fields))) + len(fields or b"")
+
+
+def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
+    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
+
+    Raises OSError, which names the file.
+    """
+    _clear(path.parent)
+    with _named(path):
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.{os.getpid()}.")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                fill(file)
+            os.chmod(name, 0o644)
+            os.replace(name, path)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(name)
+            raise
+
+
+@contextmanager
+def _named(path):
+    """Errors of the system name the file that a person knows."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+@cache
+def _clear(folder: Path) -> None:
+    """Clear a folder of what processes left that ended while they wrote; once a process."""
+    for path in folder.glob(".*"):
+        if (left := TEMPORARY.fullmatch(path.name)) and _ended(int(left[1])):
+            with suppress(OSError):
+                path.unlink()
+
+
+def _ended(process):
+    """Whether a process has ended, as far as this machine knows."""
+    if os.name != "posix":
+        return False
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return True
+    except PermissionError:
+        pass
+    return False
+
+
+def canonical(value: Any) -> str:
+    """JSON that is the same for equal values on every platform; numbers that JSON lacks are named."""
+    try:
+        return _json(value)
+    except ValueError:
+        return _json(_finite(value))
+
+
+def _json(value):
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _finite(value):
+    if isinstance(value, float) and not math.isfinite(value):
+        return {"not finite": repr(value)}
+    if isinstance(value, Mapping):
+        return {name: _finite(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    return value
+
+
+def _unnamed(value):
+    return float(value["not finite"]) if value.keys() == {"not finite"} else value
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:DIGEST]
 
 
 def code_digest(folder: Path) -> str:
@@ -39,159 +348,6 @@ def code_digest(folder: Path) -> str:
     return whole.hexdigest()
 
 
-def key(task: Task) -> str:
-    """Name of a task's file: digest of its question, then of the code that answers it and of versions."""
-    return _named_by(canonical(task.question), task)
-
-
-def _named_by(text, task):
-    return f"{_digest(text)}-{_code_digest(tuple(task.packages))}"
-
-
-@dataclass(frozen=True)
-class Store:
-    """A folder of outcomes. A file appears whole or not at all; one that cannot be read counts as absent."""
-
-    folder: Path
-
-    def get(self, task: Task) -> Outcome | None:
-        """The stored outcome of a task by this code, or None: also for a task that keeps fields not there."""
-        text = canonical(task.question)  # takes a third of the time that reading takes: once
-        return self._own(task, text)
-
-    def put(self, task: Task, outcome: Outcome) -> None:
-        """Write an outcome.
-
-        Raises OSError, which names the file; ValueError, TypeError for what no file can hold.
-        """
-        question = task.question
-        text = canonical(question)
-        content = _content(task, outcome, question, text)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        _tidy(self.folder)
-        write(self._path(task, text), lambda file: file.write(content))
-
-    def recall(self, task: Task) -> Outcome | None:
-        """The outcome of a question by whatever code answered it, this one first, then the newest; or None."""
-        return self.recalled([task]).get(task)
-
-    def recalled(self, tasks: Iterable[Task]) -> dict[Task, Outcome]:
-        """As `recall`, of those that there is an outcome of; the folder is listed once."""
-        known = defaultdict(list)
-        for path in self.folder.glob("*-*.nc"):
-            known[path.name.partition("-")[0]].append(path)
-        found = {}
-        for task in tasks:
-            text = canonical(task.question)
-            outcome = self._own(task, text)
-            if outcome is None:
-                others = [_read(path, task, text) for path in known[_digest(text)]]
-                _, outcome = max(others, key=lambda other: other[0], default=NONE)
-            if outcome is not None:
-                found[task] = outcome
-        return found
-
-    def holds(self, task: Task) -> bool:
-        """Whether there is a file of a task by this code, which is not read for it."""
-        return self._path(task, canonical(task.question)).exists()
-
-    def traces(self, task: Task) -> list[Path]:
-        """Where it is told how a task broke, by whatever code, and was not solved since by the same."""
-        return sorted(self.folder.glob(f"{_digest(canonical(task.question))}-*{TRACE}"))
-
-    def trace(self, name: str) -> Path:
-        """Where it is told how the task of a key broke."""
-        return self.folder / f"{name}{TRACE}"
-
-    def _own(self, task, text):
-        _, outcome = _read(self._path(task, text), task, text)
-        return outcome
-
-    def _path(self, task, text):
-        return self.folder / f"{_named_by(text, task)}.nc"
-
-
-NONE = "", None
-
-
-def _read(path, task, text):
-    """When it was written, as text that sorts, and the outcome; "" and None where there is none that fits."""
-    try:
-        content = path.read_bytes()
-    except OSError:
-        return NONE
-    try:
-        created, outcome = read(content, text, task.keeps_fields)
-        return (created, outcome) if task.fits(outcome) else NONE
-    # What something else has written under this name raises nearly anything.
-    except Exception:
-        return NONE
-
-
-def stored_size(task: Task, outcome: Outcome) -> int:
-    """Bytes that an outcome takes in a store."""
-    return len(_content(task, outcome, task.question, canonical(task.question)))
-
-
-def _content(task, outcome, question, text):
-    about = {"title": task.label, "source": "mdr-bem-crosscheck", **_code_texts(tuple(task.packages))}
-    return written(outcome, question, text, about, task.keeps_fields)
-
-
-def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
-    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
-
-    Raises OSError, which names the file.
-    """
-    try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.{_machine()}-{os.getpid()}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                fill(file)
-            os.chmod(name, 0o644)
-            os.replace(name, path)
-        except BaseException:
-            with suppress(OSError):
-                os.unlink(name)
-            raise
-    except OSError as error:
-        if error.errno is None:
-            raise
-        raise OSError(error.errno, error.strerror, str(path)) from error
-
-
-@cache
-def _tidy(folder: Path) -> None:
-    """Clear a folder of what processes left that ended while they wrote; once a process."""
-    for path in folder.glob(".*"):
-        if left := TEMPORARY.fullmatch(path.name):
-            with suppress(OSError):
-                if _ended(*left.groups()) or time.time() - path.stat().st_mtime > DAY:
-                    path.unlink()
-
-
-def _machine():
-    """As the name of a temporary file tells it."""
-    return _digest(platform.node())[:8]
-
-
-def _ended(machine, process):
-    """Whether it is a process of this machine and has ended; of others nothing is known."""
-    if os.name != "posix" or machine != _machine():
-        return False
-    try:
-        os.kill(int(process), 0)
-    except ProcessLookupError:
-        return True
-    except PermissionError:
-        pass
-    return False
-
-
-def _digest(text):
-    return hashlib.sha256(text.encode()).hexdigest()[:32]
-
-
 def code_of(packages: Sequence[str]) -> dict[str, dict[str, str]]:
     """Digests of the code of packages, and versions."""
     return {"code": {name: _package_digest(name) for name in packages}, "versions": _versions()}
@@ -199,12 +355,7 @@ def code_of(packages: Sequence[str]) -> dict[str, dict[str, str]]:
 
 @cache
 def _code_digest(packages):
-    return _digest(canonical(code_of(packages)))
-
-
-@cache
-def _code_texts(packages):
-    return {name: canonical(value) for name, value in code_of(packages).items()}
+    return _digest(canonical(code_of(packages)).encode())
 
 
 @cache
@@ -223,4 +374,4 @@ def _package_digest(package):
 
 def finite(value):
     """A value as JSON can hold it: None for NaN and infinities."""
-    return None if isinstance(value, float) and not isfinite(value) else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -24,7 +24,7 @@ from compare import csvfiles
 from compare.manifest import machine, versions
 from compare.plots import style
 from compare.plots.rendering import rendered
-from compare.progress import watch
+from compare.progress import Watched
 from compare.runner import sweep
 from compare.store import Store
 from scene.costs import two_digits
@@ -57,7 +57,7 @@ def main() -> None:
     FOLDER.mkdir(exist_ok=True)
     console, store = Console(), Store(FOLDER / "solved")
     outcomes = _swept(console, store, [task for study in STUDIES for task in study.tasks()])
-    timed = _swept(console, store, costs.tasks(), 1, tasks_each=1)
+    timed = _swept(console, store, costs.tasks(), fresh=True)
     billed = costs.costs(timed)
     for name, rows in costs.tables(billed).items():
         _write_csv(TABLES[name], rows)
@@ -69,7 +69,7 @@ def main() -> None:
 
 
 def _swept(console, store, tasks, workers=None, **how):
-    with watch(console) as progress:
+    with Watched(console) as progress:
         return sweep(tasks, store, workers, progress, **how).outcomes
 
 

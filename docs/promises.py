@@ -16,7 +16,7 @@ from tables import table
 
 import bem3d.accuracy
 from compare import csvfiles
-from compare.progress import watch
+from compare.progress import Watched
 from compare.runner import sweep
 from compare.store import Store
 
@@ -112,7 +112,7 @@ def promised(made: Sequence[Mapping], estimates: Sequence[Mapping]) -> str:
 
 
 def _swept(console, store, tasks):
-    with watch(console) as progress:
+    with Watched(console) as progress:
         return sweep(tasks, store, None, progress).outcomes
 
 

@@ -13,7 +13,7 @@ from tables import table
 
 from bem3d import BEM
 from compare.csvfiles import text, write_text
-from compare.progress import watch
+from compare.progress import Watched
 from compare.runner import sweep
 from compare.store import Store
 from compare.studies.paper import parameters

@@ -24,15 +24,15 @@ DOORS = {
     "tomllib": {"scene/reading.py"},
     "SurfaceTopography": {"scene/heightfile.py"},
     "pint": {"scene/units.py"},
-    "h5py": {"compare/netcdf.py"},
-    "distributed": {"compare/pools/cluster.py"},
+    "h5py": {"compare/results.py"},
+    "distributed": {"compare/cluster.py"},
 }
 # Floors of the judge, from the ground up: a room imports rooms of its own floor and of those below.
 FLOORS = (
-    {"outcome", "vocabulary", "suggest", "netcdf", "amounts", "digits", "written", "library"},
-    {"task", "taskfile", "finding", "exact", "page", "describe"},
-    {"store", "sharing", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
-    {"plots", "pools", "runner", "timeleft", "progress", "pages", "manifest", "redraw", "views", "film"},
+    {"outcome", "vocabulary", "suggest", "amounts", "digits", "written", "library"},
+    {"task", "finding", "exact", "page", "describe"},
+    {"store", "workers", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
+    {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film"},
     {"declaration", "results", "report", "pipeline", "planning", "animation", "tables"},
     {"studies", "json_schema"},
     {"commands", "console", "cli", "__init__", "__main__"},

@@ -13,6 +13,7 @@ import pytest
 from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
+from compare.store import Store
 from compare.cli import app
 from compare.finding import COLUMNS
 from compare.library import ready
@@ -93,14 +94,14 @@ def folder(tmp_path):
 def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     process = start(folder, "run", "tiny.toml", "--workers", "1")
     solved = folder / "crosscheck-report" / "solved"
-    wait_for(lambda: len(list(solved.glob("*.nc"))) >= 3)
+    wait_for(lambda: len(Store(solved)) >= 3)
     # As from a keyboard: every process of the run gets it.
     os.killpg(process.pid, signal.SIGINT)
     status, _, complained = finish(process)
     assert status == 130
     assert "resumes" in complained
     assert "Traceback" not in complained
-    kept = len(list(solved.glob("*.nc")))
+    kept = len(Store(solved))
 
     status, said, complained = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
     assert (status, complained) == (0, "")
@@ -152,7 +153,7 @@ def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(fol
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")
-    wait_for(lambda: any((folder / "crosscheck-report" / "solved").glob("*.nc")))
+    wait_for(lambda: len(Store(folder / "crosscheck-report" / "solved")) > 0)
     process.send_signal(number)
     # The output ends when the last process that holds it has ended.
     assert finish(process)[0] == status

@@ -103,7 +103,7 @@ def test_a_timed_solve_has_the_answer_of_its_solver_and_what_that_took():
 def test_a_solve_alone_in_a_process_shows_its_memory_and_is_not_measured_again(tmp_path):
     tasks = [TimedSolve.of(BEM(points=n), PRESSED) for n in (64, 512)]
     for counted in ((2, 0), (0, 2)):
-        swept = sweep(tasks, Store(tmp_path), 1, tasks_each=1)
+        swept = sweep(tasks, Store(tmp_path), fresh=True)
         assert (swept.solved, swept.reused) == counted
     small, large = (swept.outcomes[task].rows[0].measures["memory"] for task in tasks)
     # Pressure, gap, heights and kernel alone are planes of eight bytes a point.

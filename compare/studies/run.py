@@ -26,9 +26,8 @@ from ..page import Block, Findings, Plot, Section, Table, Text
 from ..plots import contact, contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
 from ..rectangle import Rectangle
 from ..task import SceneTask, Task
-from ..taskfile import along_axes
 from ..views import view
-from ..vocabulary import attributes
+from ..vocabulary import FIELDS, attributes
 from ..written import as_json
 from .casecurves import (
     CURVES,
@@ -251,11 +250,25 @@ def _smooth_limit(found: CaseFindings) -> Plot | None:
 
 
 def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
-    """Fields of one contact along their axes."""
-    variables = along_axes(kept, indenter).variables
-    return xarray.Dataset(
-        {name: (each.dimensions, each.values, each.attributes) for name, each in variables.items()}
-    )
+    """Fields of one contact along the axes of the vocabulary, where all of them agree on how long those are."""
+    # A field that is called like an axis is that axis, or there is none.
+    axes = {name: np.asarray(values) for name, values in kept.items() if FIELDS[name].axes == (name,)}
+    lengths = {name: values.size if values.ndim == 1 else -1 for name, values in axes.items()}
+    variables = {}
+    for name, values in kept.items():
+        entry, values = FIELDS[name], np.asarray(values)
+        dims = entry.axes
+        if len(dims) > values.ndim:
+            dims = tuple(axis for axis in dims if axis != "y")
+        agree = len(dims) == values.ndim and all(
+            lengths.setdefault(axis, size) == size for axis, size in zip(dims, values.shape, strict=True)
+        )
+        if not agree:
+            dims = tuple(f"{name}_{axis}" for axis in range(values.ndim))
+        plain = name.replace("_", " ")
+        said = {"units": entry.unit_under(indenter), "long_name": plain, "comment": entry.text}
+        variables[name] = dims, values, said if agree else {"long_name": plain}
+    return xarray.Dataset(variables)
 
 
 def _times(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:

@@ -14,13 +14,11 @@ import pytest
 from pydantic.dataclasses import dataclass
 
 from compare.outcome import Outcome, Row
-from compare.pools.local import ONE_THREAD, STILLBORN, Local
-from compare.progress import Bar, Lines, duration, watch
-from compare.runner import TRIES, sweep
-from compare.sharing import Sharing
+from compare.progress import Watched, duration
+from compare.runner import Progress, sweep
 from compare.store import Store
 from compare.task import SceneTask as Task
-from compare.timeleft import TimeLeft
+from compare.workers import ONE_THREAD, STILLBORN, Processes
 from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
@@ -66,7 +64,7 @@ def loads(*values, solver=None):
     return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
 
 
-class Heard:
+class Heard(Progress):
     def __init__(self):
         self.said_lines = []
         self.heard = []
@@ -79,9 +77,6 @@ class Heard:
 
     def finished(self, task, outcome):
         self.heard.append(("finished", task.work))
-
-    def found(self, task):
-        self.heard.append(("found", task.work))
 
     def said(self, line):
         self.said_lines.append(line)
@@ -137,7 +132,7 @@ def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_
 
 
 def test_a_mended_task_takes_the_note_of_its_fault_away(tmp_path, monkeypatch):
-    (task,) = loads(20000.0, solver=Stand(marks=str(tmp_path), dies=TRIES))
+    (task,) = loads(20000.0, solver=Stand(marks=str(tmp_path), dies=Processes.tries))
     assert task in sweep([task], Store(tmp_path / "solved"), workers=1).faults
     assert len(list((tmp_path / "solved").glob("*.fault.txt"))) == 1
     swept = sweep([task], Store(tmp_path / "solved"), workers=1)
@@ -197,40 +192,48 @@ def test_a_task_may_fail_in_any_way(tmp_path):
     assert (len(swept.faults), Store(tmp_path).get(tasks[-1]) is not None) == (len(ways), True)
 
 
-@pytest.mark.parametrize("deaths", [1, TRIES])
-def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_handed_out_again(tmp_path, deaths):
+@pytest.mark.parametrize("deaths", [1, pytest.param(Processes.tries, marks=pytest.mark.slow)])
+def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_alone(tmp_path, deaths):
     solver = Stand(marks=str(tmp_path), dies=deaths, seconds=0.1)
     tasks = loads(20000.0, 4.0, 3.0, 2.0, 1.0, solver=solver)
     heard = Heard()
     swept = sweep(tasks, Store(tmp_path / "solved"), workers=2, progress=heard)
     assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [4.0, 3.0, 2.0, 1.0]
-    assert all(len(list(tmp_path.glob(f"{load}-*"))) == 1 for load in (4, 3, 2, 1))
-    assert len(list(tmp_path.glob("20000-*"))) == min(deaths + 1, TRIES)
+    assert all(len(list(tmp_path.glob(f"{load}-*"))) == 1 for load in (3, 2, 1))
+    assert 1 <= len(list(tmp_path.glob("4-*"))) <= 2  # it ran beside the death
+    assert len(list(tmp_path.glob("20000-*"))) == min(deaths + 1, Processes.tries)
     assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
-    assert len(heard.said_lines) == min(deaths, TRIES - 1)
-    assert "SIGKILL" in heard.said_lines[0]
+    again = [line for line in heard.said_lines if line.startswith(tasks[0].label)]
+    assert len(again) == min(deaths, Processes.tries - 1)
+    assert again[0].endswith("a worker died as it solved this or beside it; tried again alone")
     (row,) = swept.outcomes[tasks[0]].rows
-    if deaths < TRIES:
+    if deaths < Processes.tries:
         assert row.normal_force == 100.0
     else:
-        assert row.reason == "handed out 3 times; its worker ended by SIGKILL, as when memory runs out"
+        assert row.reason == "its worker died 3 times, the last time alone, as when memory runs out"
         assert swept.faults == {tasks[0]: row.reason}
 
 
 def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypatch):
-    monkeypatch.setattr("compare.pools.local._work", id)  # what a worker does fails
-    started = []
-    start = Local._start
-    monkeypatch.setattr(Local, "_start", lambda self: started.append(0) or start(self))
-    with pytest.raises(ChildProcessError, match="3 worker processes ended as they started, the last by status 1"):
+    monkeypatch.setattr("compare.workers._begin", float)  # what a worker begins with fails
+    died = []
+    lost = Processes.lost
+    monkeypatch.setattr(Processes, "lost", lambda self: died.append(0) or lost(self))
+    with pytest.raises(ChildProcessError, match="worker processes ended as they started, 3 times"):
         sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
-    assert len(started) == STILLBORN
+    assert len(died) == STILLBORN
+
+
+def test_a_fresh_process_solves_each_task_where_that_is_asked_for(tmp_path):
+    tasks = loads(1.0, 2.0)
+    swept = sweep(tasks, Store(tmp_path), fresh=True)
+    assert len({swept.outcomes[task].rows[0].measures["process"] for task in tasks}) == 2
 
 
 TWIN = """
 import sys
 from pathlib import Path
-from test_compare_sweep import Stand, loads
+from test_compare_runner import Stand, loads
 from compare.store import Store
 from compare.runner import sweep
 
@@ -242,11 +245,15 @@ if __name__ == "__main__":
 """
 
 
-def test_two_sweeps_at_once_share_the_work(tmp_path):
-    (tmp_path / "twin.py").write_text(TWIN)
-    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
-    command = [sys.executable, str(tmp_path / "twin.py"), str(tmp_path)]
-    both = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) for _ in range(2)]
+def twin(folder):
+    (folder / "twin.py").write_text(TWIN)
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])}
+    command = [sys.executable, str(folder / "twin.py"), str(folder)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+
+
+def test_of_two_sweeps_at_once_one_waits_and_nothing_is_solved_twice(tmp_path):
+    both = [twin(tmp_path) for _ in range(2)]
     said = [list(map(float, process.communicate(timeout=120)[0].split())) for process in both]
     (solved, reused, *first), (solved_too, reused_too, *second) = said
     assert first == second == [float(load) for load in range(1, 13)]
@@ -255,39 +262,32 @@ def test_two_sweeps_at_once_share_the_work(tmp_path):
     assert len(list(tmp_path.glob("*-*"))) == 12  # a mark a solve
 
 
-def test_what_another_sweep_stores_meanwhile_is_not_solved_again(tmp_path):
-    store = Store(tmp_path)
+def test_a_folder_is_free_again_when_the_run_that_had_it_is_killed(tmp_path):
+    other, store = twin(tmp_path), Store(tmp_path / "solved")
+    deadline = time.monotonic() + 60
+    while not len(store) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    waited = []
+    with store.writing(lambda: bool(waited.append(0)), waited.append) as had:
+        assert not had
+    assert waited == ["another run solves in this folder: waiting for it", 0]
+    os.killpg(other.pid, signal.SIGKILL)
+    other.communicate()
+    with store.writing() as had:
+        assert had
+    tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
+    swept = sweep(tasks, store, workers=1)
+    assert swept.reused >= 1
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [task.work for task in tasks]
 
-    class Helped(Heard):
-        """Somebody else solves the shortest while the longest is under way."""
 
-        def started(self, task):
-            super().started(task)
-            if task.work == 3.0:
-                store.put(loads(1.0)[0], Outcome((Row(77.0),)))
-
-    heard = Helped()
-    swept = sweep(loads(1.0, 3.0, 2.0), store, workers=1, progress=heard)
-    assert (swept.solved, swept.reused) == (2, 1)
-    assert heard.heard[-1] == ("found", 1.0)
-    assert swept.outcomes[loads(1.0)[0]].rows[0].normal_force == 77.0
-
-
-def test_what_is_taken_is_given_back_when_its_process_ends(tmp_path):
-    code = (
-        "import sys; from pathlib import Path; from compare.sharing import Sharing; "
-        "s = Sharing(Path(sys.argv[1])); s.__enter__(); print(s.take('a'), flush=True); sys.stdin.read()"
-    )
-    other = subprocess.Popen(
-        [sys.executable, "-c", code, str(tmp_path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-    with other, Sharing(tmp_path) as sharing:
-        assert other.stdout.readline() == "True\n"
-        assert not sharing.take("a")
-        assert sharing.take("b")
-        other.kill()
-        other.wait()
-        assert sharing.take("a")
+def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, monkeypatch):
+    monkeypatch.setattr("compare.store._code_digest", lambda _: "0" * 32)
+    sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
+    monkeypatch.undo()
+    heard = Heard()
+    assert sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1, progress=heard).solved == 3
+    assert heard.said_lines == ["2 tasks are stored as other code solved them: they are solved again"]
 
 
 def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, monkeypatch):
@@ -373,62 +373,6 @@ class Clock:
         return self.now
 
 
-def play(tasks, seconds_of, workers, clock, left):
-    """Tasks solved by workers in the time that each takes; when each ended, and how long was left then."""
-    queue, running, told = list(tasks), {}, []
-    while queue or running:
-        while queue and len(running) < workers:
-            task = queue.pop(0)
-            running[task] = clock.now + seconds_of(task)
-            left.started(task)
-        task = min(running, key=running.get)
-        clock.now = running.pop(task)
-        left.finished(task)
-        told.append((clock.now, left.seconds()))
-    return told
-
-
-def test_the_time_left_is_known_once_something_has_ended_however_unequal_the_tasks():
-    # A tenth: of the whole, between the sum of the rest shared evenly, and how the last tasks really fall.
-    tasks = loads(*(1.5**k for k in range(20, 0, -1)))
-    for workers in (1, 2, 4):
-        clock = Clock()
-        left = TimeLeft(tasks, clock)
-        assert left.seconds() is None
-        told = play(tasks, lambda task: 3 * task.work, workers, clock, left)
-        assert max(abs(now + seconds - clock.now) for now, seconds in told) < 0.1 * clock.now
-        assert told[-1] == (clock.now, 0.0)
-
-
-def test_the_time_left_knows_that_kinds_of_tasks_take_different_times_for_the_same_work():
-    slow, quick = loads(8.0, 4.0), loads(6.0, 5.0, solver=Stand(name="quick"))
-    clock = Clock()
-    left = TimeLeft([*slow, *quick], clock)
-    for task, seconds in ((slow[0], 80.0), (quick[0], 6.0)):
-        left.started(task)
-        clock.now += seconds
-        left.finished(task)
-    assert left.seconds() == pytest.approx(4.0 * 10 + 5.0 * 1)
-    left.started(slow[1])
-    clock.now += 30.0
-    assert left.seconds() == pytest.approx(10.0 + 5.0)
-    clock.now += 30.0  # longer than expected: it is about to end
-    assert left.seconds() == pytest.approx(5.0)
-    left.found(quick[1])
-    assert left.seconds() == 0.0
-
-
-def test_many_workers_do_not_make_the_longest_task_shorter():
-    tasks = loads(1.0, 100.0, 1.0001, 1.0002)
-    clock = Clock()
-    left = TimeLeft(tasks, clock)
-    for task in tasks[:3]:
-        left.started(task)
-    clock.now = 2.0
-    left.finished(tasks[0])
-    assert left.seconds() == pytest.approx(198.0)
-
-
 def lines(terminal=False):
     from rich.console import Console
 
@@ -438,25 +382,26 @@ def lines(terminal=False):
 def test_lines_tell_time_left_failures_and_what_was_reused():
     console, clock = lines(), Clock()
     tasks = loads(4.0, 2.0, 1.0)
-    with Lines(console, clock) as told:
+    with Watched(console, clock=clock) as told:
         told.planned(tasks, 5)
         for task, row in zip(tasks[:2], (Row(1.0), Row(reason="too much")), strict=True):
             told.started(task)
             clock.now += 2 * task.work
             told.finished(task, Outcome((row,)))
         told.said("a worker ended")
-        told.found(tasks[2])
+        told.interrupted()
     assert console.file.getvalue().splitlines() == [
         "3 tasks to solve, 5 reused",
         f"1/3, 6 s left, solved {tasks[0].label}",
         "a worker ended",
-        "2 tasks solved, 6 reused, 1 failed, 12 s",
+        "finishing what is being solved",
+        "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
     ]
 
 
-def test_a_sweep_that_has_nothing_to_solve_tells_nothing(tmp_path):
+def test_a_sweep_that_has_nothing_to_solve_tells_nothing():
     console = lines()
-    with Lines(console) as told:
+    with Watched(console) as told:
         told.planned([], 5)
     assert console.file.getvalue() == ""
 
@@ -464,9 +409,7 @@ def test_a_sweep_that_has_nothing_to_solve_tells_nothing(tmp_path):
 def test_a_bar_tells_the_same_on_a_terminal():
     console, clock = lines(terminal=True), Clock()
     tasks = loads(4.0, 2.0)
-    assert isinstance(watch(console), Bar)
-    assert isinstance(watch(lines()), Lines)
-    with Bar(console, clock) as told:
+    with Watched(console, clock=clock) as told:
         told.planned(tasks, 5)
         told.started(tasks[0])
         clock.now = 400.0
@@ -474,9 +417,8 @@ def test_a_bar_tells_the_same_on_a_terminal():
         told.started(tasks[1])
         told.bar.refresh()
     said = console.file.getvalue()
-    assert "1/2, 1 failed" in said
-    assert "3 min 20 s left" in said
-    assert "67 %" in said
+    for part in ("1/2, 1 failed", "3 min 20 s left", "67 %"):
+        assert part in said
     assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
 
 

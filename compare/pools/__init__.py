@@ -1,1 +1,0 @@
-"""Where tasks are solved: processes of this machine, or the workers of a cluster."""
