@@ -199,7 +199,9 @@ class _Course:
             if self.interrupts:
                 return
             if self.deaths[task] < self.workers.tries:
-                self.progress.said(f"{task.label}: a worker died as it solved this or beside it; tried again alone")
+                self.progress.said(
+                    f"{task.label}: a worker died as it solved this or beside it; tried again alone"
+                )
                 self.suspects.append(task)
                 return
             times = f"{self.deaths[task]} times, the last time alone"
@@ -227,6 +229,6 @@ class _Course:
             self.faults[task] = answer.reason
             text = f"{task.label}\n{answer.reason}\n\n{answer.trace}"
             write(note, lambda file: file.write(text.encode()))
-            answer = task.failed(answer.reason)
-        self.progress.finished(task, answer)
-        return task, answer
+        outcome = task.failed(answer.reason) if isinstance(answer, Fault) else answer
+        self.progress.finished(task, outcome)
+        return task, outcome

@@ -134,7 +134,7 @@ class Processes:
             return self.submit(packed)
 
     def lost(self) -> None:
-        """Give up the pool, of which a process died. Raises ChildProcessError where processes end as they start."""
+        """Give up a pool in which a process died. Raises ChildProcessError where all end as they start."""
         if self.pool is not None:
             self.stillborn = 0 if self.ready.value else self.stillborn + 1
             self._end()

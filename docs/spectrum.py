@@ -42,7 +42,7 @@ def main() -> None:
     first = replace(scene, roughness=replace(scene.roughness, seed=1))
     tasks = [SceneTask(BEM(points=points), (scene,)) for points in FINER]
     tasks.append(SceneTask(MDR(points=ONE), draws_of(first, PROFILES)))
-    with watch(Console()) as progress:
+    with Watched(Console()) as progress:
         # The finest takes 10 GB: one at a time.
         swept = sweep(tasks, Store(PAGE.with_suffix("") / "solved"), workers=1, progress=progress)
     rows = [_row(task, swept.outcomes[task].rows) for task in tasks]

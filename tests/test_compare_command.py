@@ -13,10 +13,10 @@ import pytest
 from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
-from compare.store import Store
 from compare.cli import app
 from compare.finding import COLUMNS
 from compare.library import ready
+from compare.store import Store
 
 TINY = (
     SCENE

@@ -222,13 +222,15 @@ def test_ten_workers_killed_at_random_moments_cost_what_they_solved_and_nothing_
             if workers and process.poll() is None:
                 os.kill(draw.choice(workers), signal.SIGKILL)
                 kills += 1
-        said, complained = process.communicate(timeout=PATIENCE)
+        _, complained = process.communicate(timeout=PATIENCE)
         assert (process.returncode, complained) == (0, "")
         assert study.stored() == study.tasks
         for task in study.tasks:
             assert exactly(study.store.get(task)) == expected[task]
         begun = study.begun_of(study.tasks, study.begun())
-        assert sum(sum(counts) - len(counts) for counts in begun.values()) <= 2 * 2 * 2  # two ran, twice, of two scenes
+        assert (
+            sum(sum(counts) - len(counts) for counts in begun.values()) <= 2 * 2 * 2
+        )  # two ran, twice, of two scenes
     print(f"{kills} workers killed in {studies} studies of {len(study.tasks)} tasks")
 
 

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from scene import Refused, Scene, SolveError
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
+from scene.vocabulary import FIELDS as DEFINED
 
 from .. import finding, rectangle
 from ..cases import Case
@@ -27,7 +28,7 @@ from ..plots import contact, contact_maps, force_depth, friction_curves, shifted
 from ..rectangle import Rectangle
 from ..task import SceneTask, Task
 from ..views import view
-from ..vocabulary import FIELDS, attributes
+from ..vocabulary import attributes
 from ..written import as_json
 from .casecurves import (
     CURVES,
@@ -252,11 +253,11 @@ def _smooth_limit(found: CaseFindings) -> Plot | None:
 def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
     """Fields of one contact along the axes of the vocabulary, where all of them agree on how long those are."""
     # A field that is called like an axis is that axis, or there is none.
-    axes = {name: np.asarray(values) for name, values in kept.items() if FIELDS[name].axes == (name,)}
+    axes = {name: np.asarray(values) for name, values in kept.items() if DEFINED[name].axes == (name,)}
     lengths = {name: values.size if values.ndim == 1 else -1 for name, values in axes.items()}
     variables = {}
     for name, values in kept.items():
-        entry, values = FIELDS[name], np.asarray(values)
+        entry, values = DEFINED[name], np.asarray(values)
         dims = entry.axes
         if len(dims) > values.ndim:
             dims = tuple(axis for axis in dims if axis != "y")
