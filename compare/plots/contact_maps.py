@@ -12,7 +12,7 @@ from scene import Cylinder, Plane, Program
 
 from ..page import Plot, Tables
 from ..views import Section, View
-from . import style, touching
+from . import shades, style, touching
 from .prefixes import prefixed
 
 NAME = "contact-maps"
@@ -29,25 +29,26 @@ def plot(view: View | None, folder: str = "") -> Plot | None:
     """Plot of a view, of whichever of the two dimensionalities it has; None without a view."""
     if view is None:
         return None
-    found = {} if view.space is None else {"BEM": view.space.section}
-    found = found if view.line is None else {**found, "MDR": view.line}
-    tables = {SECTIONS[solver]: _section(each, view.span) for solver, each in found.items()}
     options: dict[str, Any] = {
         "span": list(view.span),
         "aside": view.aside,
         "radius": view.radius,
         "flow": _flow(view),
     }
+    tables = {}
     if view.space is not None:
-        around, pressure = view.space.around, view.space.pressure
+        around, pressure, alike = view.space.around, view.space.pressure, len(view.space.around.y) == 1
         y, x = np.meshgrid(around.y, around.x, indexing="ij")
-        pressed = (pressure > 0) | (len(around.y) == 1)
+        pressed = (pressure > 0) | alike
+        tables[SECTIONS["BEM"]] = _section(view.space.section, view.span)
         tables[PRESSURE] = DataFrame({"x": x[pressed], "y": y[pressed], "pressure": pressure[pressed]})
-        options |= {"pixel": float(around.x[1] - around.x[0]), "alike": len(around.y) == 1}
+        options |= {"pixel": float(around.x[1] - around.x[0]), "alike": alike}
         options |= {"line_contact": isinstance(view.scene.indenter, Cylinder)}
         options |= {"deepest": _deepest(view), "highest_gap": _highest_gap(view)}
-        if len(around.y) > 1:
+        if not alike:
             tables[SURFACE] = _surface(view, x, y)
+    if view.line is not None:
+        tables[SECTIONS["MDR"]] = _section(view.line, view.span)
     alternative = "Maps of pressure, gap and real contact above; below, sections through indenter and elastomer."
     return Plot(f"{folder}{NAME}", figure, tables, _caption(view), alternative, options)
 
@@ -118,24 +119,31 @@ def _maps(
     scale, unit = prefixed([*span, aside], "m")
     panels = drawing.subplots(1, 3, sharex=True, sharey=True)
     x, y, pressure = touching.gridded(tables[PRESSURE], "pressure", pixel)
-    surface = {
-        name: tables[SURFACE].pivot(index="y", columns="x", values=name) for name in ("gap", "displacement")
-    }
-    at = scale * surface["gap"].columns.to_numpy(), scale * surface["gap"].index.to_numpy()
+    gap, lowered = (tables[SURFACE].pivot(index="y", columns="x", values=name) for name in ("gap", "displacement"))
+    x, y, at = scale * x, scale * y, (scale * gap.columns.to_numpy(), scale * gap.index.to_numpy())
     highest = touching.highest_pressure(pressure)
-    up, name = prefixed(highest, "Pa")
-    image = touching.pressure_map(panels[0], scale * x, scale * y, up * pressure, up * highest)
-    _bar(drawing, image, panels[0], f"pressure [{name}]")
-    up, name = prefixed(highest_gap, "m")
-    image = touching.gap_map(panels[1], *at, up * np.maximum(surface["gap"], 0.0), up * highest_gap)
-    _bar(drawing, image, panels[1], f"gap [{name}]")
-    up, name = prefixed(deepest, "m")
-    pairs = (scale * x, at[0]), (scale * y, at[1])
-    lowered = up * surface["displacement"].to_numpy()
-    image = touching.contact_map(panels[2], *pairs, pressure > 0, lowered, up * deepest, style.COLOUR["BEM"])
-    _bar(drawing, image, panels[2], f"displacement [{name}]", extend="neither")
-    titles, inks = ("3D: pressure", "3D: gap", "3D: real contact"), (style.ink(), style.paper(), style.ink())
-    for axes, title, ink in zip(panels, titles, inks, strict=True):
+    (up, pascal), (high, of_gap), (deep, of_depth) = (
+        prefixed(highest, "Pa"),
+        prefixed(highest_gap, "m"),
+        prefixed(deepest, "m"),
+    )
+    pairs, lowered = ((x, at[0]), (y, at[1])), deep * lowered.to_numpy()
+    colour = style.COLOUR["BEM"]
+    images = (
+        touching.pressure_map(panels[0], x, y, up * pressure, up * highest),
+        touching.gap_map(panels[1], *at, high * np.maximum(gap, 0.0), high * highest_gap),
+        touching.contact_map(panels[2], *pairs, pressure > 0, lowered, deep * deepest, colour),
+    )
+    for axes, image, title, label, ink, extend in zip(
+        panels,
+        images,
+        ("3D: pressure", "3D: gap", "3D: real contact"),
+        (f"pressure [{pascal}]", f"gap [{of_gap}]", f"displacement [{of_depth}]"),
+        (style.ink(), style.paper(), style.ink()),
+        ("max", "max", "neither"),
+        strict=True,
+    ):
+        shades.colours(drawing, image, label, ax=axes, location="bottom", extend=extend, shrink=0.9, aspect=28)
         touching.edge(axes, radius and scale * radius, ink)
         axes.set(title=title, xlabel=f"x [{unit}]")
         axes.set(xlim=[scale * end for end in span], ylim=(-scale * aside, scale * aside))
@@ -143,12 +151,6 @@ def _maps(
             axes.text(0.5, 0.5, "nothing touches", transform=axes.transAxes, ha="center", fontsize=style.small())
     panels[0].set_ylabel(f"y [{unit}]")
     touching.remark(panels[0], flow)
-
-
-def _bar(drawing, image, axes, label, extend="max"):
-    bar = drawing.colorbar(image, ax=axes, location="bottom", extend=extend, shrink=0.9, aspect=28)
-    bar.set_label(label)
-    bar.outline.set_linewidth(style.width(0.45))
 
 
 def _pressure(axes, pressed: DataFrame, span, half_width) -> None:
@@ -178,25 +180,20 @@ def _highest_gap(view) -> float:
 
 
 def _flow(view) -> str:
-    """Which way the elastomer passes, seen from the indenter."""
     motion = view.scene.motion
-    speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
-    return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"
+    return touching.flow(motion.stages[-1].speed if isinstance(motion, Program) else motion.speed)
 
 
 def _caption(view) -> str:
-    told, plane = [], isinstance(view.scene.indenter, Plane)
-    if view.space is not None and len(view.space.around.y) > 1:
-        told.append(
-            "Pressure, colours cut at the 99th percentile; gap; and real contact, the surface darker where deeper."
-        )
-    elif view.space is not None:
-        told.append("Left: contact pressure.")
-    told.append("Sections: rigid indenter and elastomer, real contact in bold; heights are exaggerated.")
-    if view.radius is not None:
-        told.append("Dashed: the smooth relaxed contact.")
-    if view.line is not None:
-        told.append("In 1D some of the independent elements are drawn.")
-    if _flow(view) != "at rest" and view.space is not None and not plane:
-        told.append("Behind the contact is the wake.")
-    return " ".join([*told, *(["One cell, which repeats."] if plane else [])])
+    plane, maps = isinstance(view.scene.indenter, Plane), view.space is not None and len(view.space.around.y) > 1
+    told = {
+        "Pressure, colours cut at the 99th percentile; gap; and real contact, the surface darker where "
+        "deeper.": maps,
+        "Left: contact pressure.": view.space is not None and not maps,
+        "Sections: rigid indenter and elastomer, real contact in bold; heights are exaggerated.": True,
+        "Dashed: the smooth relaxed contact.": view.radius is not None,
+        "In 1D some of the independent elements are drawn.": view.line is not None,
+        "Behind the contact is the wake.": _flow(view) != "at rest" and view.space is not None and not plane,
+        "One cell, which repeats.": plane,
+    }
+    return " ".join(sentence for sentence, holds in told.items() if holds)

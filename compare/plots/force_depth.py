@@ -11,7 +11,7 @@ from pandas import DataFrame
 from ..finding import Finding
 from ..page import Plot, Tables
 from . import style
-from .means import averaged, line, of_curves
+from .curves import averaged, banded, intervals, of_curves
 
 NAME = "force-depth"
 DEVIATIONS = f"{NAME}-deviations"
@@ -50,56 +50,42 @@ def figure(tables: Tables) -> Figure:
     style.span(above, MICRONS * points["depth"])
     exact = points[points["solver"] == "exact"]
     if len(exact):
-        known = {"color": style.grey(0.45), "linewidth": style.width(0.8), "label": "smooth, closed form"}
+        known = style.line(0.45, 0.8, label="smooth, closed form")
         above.plot(MICRONS * exact["depth"], exact["normal_force"], "-", **known)
+    hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
     for solver in ("MDR", "BEM"):
-        for body in ("smooth", "rough"):
+        behind = {"markersize": style.mark(1.6), "zorder": 1} if solver == "BEM" else {}
+        for body, look in (("smooth", hollow | behind), ("rough", {})):
             curve = points[(points["solver"] == solver) & (points["body"] == body)]
-            if curve.empty:
-                continue
-            look: dict[str, Any] = (
-                {"markerfacecolor": style.paper(), "linestyle": "none"} if body == "smooth" else {}
-            )
-            if body == "smooth" and solver == "BEM":
-                look |= {"markersize": style.mark(1.6), "zorder": 1}
-            label = f"{style.LABEL[solver]}, {body}"
-            line(above, curve, "depth", "normal_force", solver, MICRONS, label=label, **look)
+            if len(curve):
+                label = f"{style.LABEL[solver]}, {body}"
+                banded(above, curve, "depth", "normal_force", solver, MICRONS, label=label, **look)
     _deviations(below, tables[DEVIATIONS])
     below.set(xlabel="depth [µm]", ylabel="1D / 3D - 1 [%]")
     style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 2)
-    for axes in (above, below):
-        style.decades(axes)
+    style.decades(above, below)
     return drawing
 
 
 def _deviations(axes: Axes, found: DataFrame) -> None:
-    axes.axhline(0, color=style.grey(0.6), linewidth=style.width(0.55))
+    axes.axhline(0, **style.line(0.6, 0.55))
     looks: dict[str, dict[str, Any]] = {
         "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
         "smooth": {"color": style.grey(0.45), "marker": "D", "linestyle": ":"},
     }
     for body, look in looks.items():
         curve = found[found["body"] == body]
-        if curve.empty:
-            continue
-        depth, value, low, high = (
-            curve[name].to_numpy(float) * times
-            for name, times in (
-                ("depth", MICRONS),
-                ("deviation", 100),
-                ("deviation_low", 100),
-                ("deviation_high", 100),
-            )
-        )
-        axes.errorbar(depth, value, yerr=style.bars(value, low, high), label=body, **look)
-        if body == "rough" and np.isfinite(high - low).any():
-            _limit(axes, depth, value, low, high)
+        if len(curve):
+            intervals(axes, MICRONS * curve["depth"], curve, "deviation", 100, label=body, **look)
+        if body == "rough" and np.isfinite(curve["deviation_high"] - curve["deviation_low"]).any():
+            _limit(axes, MICRONS * curve["depth"].to_numpy(float), 100 * curve.drop(columns="body"))
     if len(found):
         axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
 
 
-def _limit(axes, depths, values, low, high):
+def _limit(axes, depths, percent):
     """Limits from all values and the shorter half of the bars; an arrow where a bar goes on beyond them."""
+    values, low, high = (percent[f"deviation{end}"].to_numpy(float) for end in ("", "_low", "_high"))
     short = (high - low) <= np.nanmedian(high - low)
     bottom = min(0, np.nanmin(np.where(short, low, values)))
     top = max(0, np.nanmax(np.where(short, high, values)))

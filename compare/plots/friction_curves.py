@@ -11,8 +11,8 @@ from pandas import DataFrame
 from ..finding import Finding
 from ..page import Plot, Tables
 from . import style
+from .curves import averaged, banded, intervals, of_curves
 from .lettering import clear
-from .means import averaged, line, of_curves
 
 SPEED, LOAD = "friction-speed", "friction-load"
 RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
@@ -52,20 +52,18 @@ def speed_figure(tables: Tables) -> Figure:
     above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     style.span(above, points["speed"])
     for solver, curve in points.groupby("solver", sort=False):
-        line(above, curve.sort_values("speed"), "speed", "friction_coefficient", str(solver))
+        banded(above, curve.sort_values("speed"), "speed", "friction_coefficient", str(solver))
     lowest = above.get_ylim()[0]
     if len(law):
-        look = {"color": style.grey(0.3), "linewidth": style.width(0.9), "label": "Eq. 19, roughness alone"}
+        look = style.line(0.3, 0.9, label="Eq. 19, roughness alone")
         above.plot(law["speed"], law["friction_coefficient"], ":", **look)
     # Where the smooth shape rules, Eq. 19 lies decades below: it must not press the curves together.
     above.set_ylim(bottom=max(above.get_ylim()[0], lowest / 3))
     above.legend()
-    below.axhline(1, color=style.grey(0.6), linewidth=style.width(0.55))
-    bars = style.bars(ratios["ratio"], ratios["ratio_low"], ratios["ratio_high"])
-    below.errorbar(ratios["speed"], ratios["ratio"], yerr=bars, color=style.ink(), marker="o")
+    below.axhline(1, **style.line(0.6, 0.55))
+    intervals(below, ratios["speed"], ratios, "ratio", color=style.ink(), marker="o")
     below.set(xlabel="speed [m/s]", ylabel="1D / 3D [1]", ylim=(0, None))
-    for axes in (above, below):
-        style.decades(axes)
+    style.decades(above, below)
     clear(drawing, (above,))
     return drawing
 
@@ -97,20 +95,15 @@ def load_figure(tables: Tables) -> Figure:
     for axes, solver in zip(panels, ("MDR", "BEM"), strict=True):
         axes.set(xlabel="normal force [N]", title=style.LABEL[solver])
         curves = list(points[points["solver"] == solver].groupby("speed"))
-        for index, (shade, (speed, curve)) in enumerate(
-            zip(style.shades(solver, len(curves)), curves, strict=True)
+        for shade, form, (speed, curve) in zip(
+            style.shades(solver, len(curves)), style.forms(), curves, strict=False
         ):
-            look: dict[str, Any] = {
-                "color": shade,
-                "marker": style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
-                "linestyle": style.SERIES_LINES[index % len(style.SERIES_LINES)],
-                "label": f"{speed:.3g} m/s",
-            }
-            line(axes, curve.sort_values("normal_force"), "normal_force", "friction_coefficient", solver, **look)
+            look = {"color": shade, **form, "label": f"{speed:.3g} m/s"}
+            banded(axes, curve.sort_values("normal_force"), "normal_force", "friction_coefficient", solver, **look)
     _eq_19(panels[0], points[points["eq_19"].notna()])
     for axes in panels:
         axes.legend()
-        style.decades(axes)
+    style.decades(*panels)
     panels[0].set_ylabel("coefficient of friction [1]")
     clear(drawing, panels)
     return drawing
@@ -125,8 +118,7 @@ def _eq_19(axes, points):
     axes.set_ylim(bottom=max(axes.get_ylim()[0], lowest / 3))
     if curves:  # one entry for the lines of all speeds
         seen = "" if points["eq_19"].max() > axes.get_ylim()[0] else ": below"
-        look = {"color": style.grey(0.3), "linewidth": style.width(1.1), "label": f"Eq. 19 at each speed{seen}"}
-        axes.plot([], [], ":", **look)
+        axes.plot([], [], ":", **style.line(0.3, 1.1, label=f"Eq. 19 at each speed{seen}"))
 
 
 def _slope(points) -> float:

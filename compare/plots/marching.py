@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from scene import Cylinder
 
 from ..film import Film
-from . import style, touching
+from . import shades, style, touching
 from .contact_maps import TITLES
 from .prefixes import prefixed
 
@@ -69,9 +69,8 @@ class MarchFigure:
         (along, unit), (up, name) = prefixed(film.span, "m"), prefixed(self._highest, "Pa")
         if len(y) > 1:
             image = touching.pressure_map(axes, y, y, np.zeros((len(y), len(y))), up * self._highest)
-            bar = drawing.colorbar(image, ax=axes, location="bottom", extend="max", aspect=30)
-            bar.set_label(f"pressure [{name}]")
-            bar.outline.set_linewidth(style.width(0.45))
+            place = {"ax": axes, "location": "bottom", "extend": "max", "aspect": 30}
+            shades.colours(drawing, image, f"pressure [{name}]", **place)
             half = (y[1] - y[0]) / 2
             axes.set(ylim=(along * (y[0] - half), along * (y[-1] + half)), ylabel=f"y [{unit}]")
         else:
@@ -120,7 +119,7 @@ class MarchFigure:
 
 
 def _look(solver):
-    return {"color": style.COLOUR[solver], "linestyle": style.LINE[solver], "label": style.LABEL[solver]}
+    return style.look(solver, marker="")
 
 
 def _clear(axes):
@@ -138,7 +137,6 @@ def _section(film, solver, k):
 
 
 def _way(film, now):
-    """Which way the elastomer passes at a time [s], seen from the indenter."""
+    """Which way the elastomer passes at a time [s]."""
     ends = np.cumsum([stage.duration for stage in film.scene.motion.stages])
-    speed = film.scene.motion.stages[min(int(np.searchsorted(ends, now)), len(ends) - 1)].speed
-    return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"
+    return touching.flow(film.scene.motion.stages[min(int(np.searchsorted(ends, now)), len(ends) - 1)].speed)

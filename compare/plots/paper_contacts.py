@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 from pandas import DataFrame
 
 from ..page import Plot, Tables
-from . import materials, style
+from . import style, touching
 
 NAME = "paper-contacts"
 # Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].
@@ -52,22 +52,15 @@ def figure(tables: Tables) -> Figure:
     panels = drawing.subplots(2, len(contacts), squeeze=False)
     for (above, below), letter, row in zip(panels.T, "ab", contacts.itertuples(), strict=False):
         line = tables[f"{NAME}-{row.shape}"]
-        x, body, surface = (line[name].to_numpy() for name in ("x", "indenter", "surface"))
-        heights = x, body, surface, line["contact"].to_numpy() == 1
         whole = SHOWN * row.smooth_half_width * np.array([-1, 1])
-        for axes, limits, name, width in (
-            (above, whole, f"({letter}) rough {row.shape}", 0.8),
-            (below, _close_up(heights[0], heights[3]), "close-up", 1.3),
-        ):
-            _frame(axes, limits, *heights)
-            _bodies(axes, *heights, width)
-            _scale(axes)
-            axes.set_title(name)
-        above.axhline(0, color=style.grey(0.3), linewidth=style.width(0.65), linestyle=(0, (5, 3)), zorder=1)
+        _panel(above, line, whole, 0.8, f"({letter}) rough {row.shape}")
+        _panel(below, line, _close_up(line["x"].to_numpy(), line["contact"].to_numpy()), 1.3, "close-up")
+        above.axhline(0, **style.line(0.3, 0.65, linestyle=(0, (5, 3)), zorder=1))
         (left, right), (bottom, top) = below.get_xlim(), below.get_ylim()
-        above.add_patch(
-            Rectangle((left, bottom), right - left, top - bottom, fill=False, linewidth=style.width(0.8), zorder=5)
+        box = Rectangle(
+            (left, bottom), right - left, top - bottom, fill=False, linewidth=style.width(0.8), zorder=5
         )
+        above.add_patch(box)
         above.text(0.5, 0.9, "rigid indenter", transform=above.transAxes, ha="center", fontsize=style.small())
         above.text(0.03, 0.05, "elastomer flows →", transform=above.transAxes, fontsize=style.small())
     style.legend(drawing, panels[0, 0].get_legend_handles_labels()[0], "outside lower center", 3)
@@ -82,17 +75,24 @@ def _close_up(x, contact):
     return np.array([x[first], x[first] + CLOSE])
 
 
-def _frame(axes: Axes, limits, x, body, surface, contact) -> None:
-    """Limits around what touches, with heights exaggerated a round number of times."""
-    seen = (limits[0] <= x) & (x <= limits[1])
+def _panel(axes: Axes, line, limits, width, title) -> None:
+    """Both bodies around what touches, with heights exaggerated a round number of times."""
+    x, body, surface = (line[name].to_numpy() for name in ("x", "indenter", "surface"))
+    contact, seen = line["contact"].to_numpy() == 1, (limits[0] <= x) & (x <= limits[1])
     low, high = min(surface[seen].min(), body[seen].min()), max(surface[seen].max(), body[seen & contact].max())
-    width = np.ptp(limits)
-    times = max(times for times in EXAGGERATIONS if times * ROOM * (high - low) <= TALL * width)
-    height = TALL * width / times
+    span = np.ptp(limits)
+    times = max(times for times in EXAGGERATIONS if times * ROOM * (high - low) <= TALL * span)
+    height = TALL * span / times
     bottom = low - (height - (high - low)) / 3
     axes.set(xlim=limits * 1e3, ylim=(bottom * 1e6, (bottom + height) * 1e6), aspect=times * 1e-3)
-    axes.set(xlabel="x [mm]", ylabel="height [µm]")
+    axes.set(xlabel="x [mm]", ylabel="height [µm]", title=title)
     axes.xaxis.set_major_locator(MaxNLocator(5))
+    axes.plot(x * 1e3, body * 1e6, color=style.ink(), linewidth=style.width(0.45), label="rigid profile")
+    # A marker, too, since contact may be at one node.
+    bold = {"linewidth": style.width(width), "markersize": style.width(width), "solid_capstyle": "round"}
+    bold |= {"marker": "o", "markeredgewidth": 0}
+    touching.bodies(axes, x * 1e3, body * 1e6, surface * 1e6, contact, axes.get_ylim(), **bold)
+    _scale(axes)
 
 
 def _scale(axes):
@@ -107,25 +107,4 @@ def _scale(axes):
     said = f"{length * 1e6:g} µm"
     axes.text(
         x[0] - 0.012 * (right - left), corner[1], said, ha="right", va="center", fontsize=style.small(), zorder=5
-    )
-
-
-def _bodies(axes, x, body, surface, contact, width):
-    x, body, surface = x * 1e3, body * 1e6, surface * 1e6
-    bottom, top = axes.get_ylim()
-    axes.fill_between(x, np.maximum(surface, bottom), bottom, color=materials.elastomer(), linewidth=0)
-    axes.fill_between(x, np.minimum(body, top), top, color=materials.indenter(), linewidth=0)
-    axes.plot(x, body, color=style.ink(), linewidth=style.width(0.45), label="rigid profile")
-    axes.plot(x, surface, color=materials.surface(), linewidth=style.width(0.7), label="surface of the elastomer")
-    # A marker, too, since contact may be at one node.
-    axes.plot(
-        x,
-        np.where(contact, surface, np.nan),
-        color=style.COLOUR["MDR"],
-        linewidth=style.width(width),
-        marker="o",
-        markersize=style.width(width),
-        markeredgewidth=0,
-        label="real contact",
-        solid_capstyle="round",
     )

@@ -10,6 +10,7 @@ from mdr1d.equations import interpolation
 
 from ..page import Plot, Tables
 from . import style
+from .curves import intervals
 from .lettering import clear
 
 NAME = "paper-law"
@@ -48,15 +49,12 @@ def figure(tables: Tables) -> Figure:
     drawing = style.canvas("single", 5.0)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
     xi = np.geomspace(points["xi"].min(), points["xi"].max(), 201)
-    above.plot(
-        xi, interpolation(xi), color=style.grey(0.5), linewidth=style.width(0.8), label="Eq. 19, α = 1.5", zorder=1
-    )
-    below.axhline(0, color=style.grey(0.6), linewidth=style.width(0.45), zorder=0)
+    above.plot(xi, interpolation(xi), **style.line(0.5, 0.8, label="Eq. 19, α = 1.5", zorder=1))
+    below.axhline(0, **style.line(0.6, 0.45, zorder=0))
     for fit, (colour, tint), (marker, size, line) in zip(fits.itertuples(), _colours(), LOOKS, strict=False):
         own = points[points["shape"] == fit.shape]
         own = own[np.isfinite(own["normalised_friction"])]
         unit = interpolation(own["xi"].to_numpy())
-        ends = [own["normalised_friction" + end].to_numpy() for end in ("", "_low", "_high")]
         look = {
             "color": colour,
             "marker": marker,
@@ -68,22 +66,14 @@ def figure(tables: Tables) -> Figure:
             "zorder": 3 - size / 2,
         }
         label = f"{fit.shape}: best α = {fit.alpha:.2f} ({fit.alpha_low:.2f} to {fit.alpha_high:.2f})"
-        above.errorbar(own["xi"], ends[0], yerr=style.bars(*ends), label=label, **look)
-        off = [100 * (end / unit - 1) for end in ends]
-        below.errorbar(own["xi"], off[0], yerr=style.bars(*off), **look)
+        intervals(above, own["xi"], own, "normalised_friction", label=label, **look)
+        off = own[[name for name in own if name.startswith("normalised_friction")]].div(unit, axis=0) - 1
+        intervals(below, own["xi"], off, "normalised_friction", 100, **look)
         best = interpolation(xi, fit.alpha) / interpolation(xi) - 1
-        below.plot(
-            xi, 100 * best, line, color=colour, linewidth=style.width(0.8), zorder=1, label=f"{fit.shape}, best α"
-        )
-        below.plot(
-            own["xi"],
-            100 * (own["normalised_friction_of_planes"] / unit - 1),
-            ":",
-            color=colour,
-            linewidth=style.width(),
-            zorder=1,
-            label=f"{fit.shape}, planes",
-        )
+        thin = {"color": colour, "linewidth": style.width(0.8), "zorder": 1}
+        below.plot(xi, 100 * best, line, label=f"{fit.shape}, best α", **thin)
+        planes, thin["linewidth"] = 100 * off["normalised_friction_of_planes"], style.width()
+        below.plot(own["xi"], planes, ":", label=f"{fit.shape}, planes", **thin)
     style.span(above, xi)
     above.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}$ [1]")
     above.legend(loc="lower right")
@@ -93,8 +83,7 @@ def figure(tables: Tables) -> Figure:
     labels = below.get_legend_handles_labels()[1]
     columns = style.columns(labels, 0.8 * drawing.get_figwidth(), 2)
     below.legend(ncols=columns, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
-    for axes in (above, below):
-        style.decades(axes)
+    style.decades(above, below)
     clear(drawing, (above,))
     return drawing
 

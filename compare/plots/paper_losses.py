@@ -9,6 +9,7 @@ from pandas import DataFrame, concat
 
 from ..page import Plot, Tables
 from . import style
+from .curves import scatter
 
 NAME = "paper-losses"
 # Markers of the forms of Eq. 22.
@@ -55,18 +56,8 @@ def figure(tables: Tables) -> Figure:
                 own = points[points["speed"] == speed]
                 load, off = own["normal_force"], 100 * (own[name] / own["simulated"] - 1)
                 axes.plot(load, off, line, color=colour, linewidth=style.width(0.8))
-                for at, inside in ((own["holds"] == 1, colour), (own["holds"] != 1, style.paper())):
-                    axes.scatter(
-                        load[at],
-                        off[at],
-                        s=style.mark(0.8) ** 2,
-                        marker=marker,
-                        facecolors=inside,
-                        edgecolors=colour,
-                        linewidths=style.width(0.7),
-                        zorder=2.5,
-                    )
-        axes.axhline(0, color=style.grey(0.3), linewidth=style.width(0.65), zorder=0)
+                scatter(axes, load, off, own["holds"] == 1, colour, 0.8, 0.7, marker=marker, zorder=2.5)
+        axes.axhline(0, **style.line(0.3, 0.65, zorder=0))
         axes.set(xscale="log", title=_title(points))
         style.span(axes, points["normal_force"])
         style.decades(axes)

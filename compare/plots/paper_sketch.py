@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..page import Plot, Tables
-from . import materials, style
+from . import style, touching
 
 NAME = "paper-sketch"
 # The cone g = SLOPE |x| at the depth 1 in units of the depth, and the memory of the elastomer, l = v tau.
@@ -50,40 +50,24 @@ def displacement(x):
 
 def _indenter(axes: Axes):
     x = np.array([-(1 + TOP), 0, 1 + TOP]) / SLOPE
-    axes.fill_between(x, SLOPE * np.abs(x) - 1, TOP, color=materials.indenter(), linewidth=0)
-    axes.plot(x, SLOPE * np.abs(x) - 1, color=style.grey(0.25), linewidth=style.width())
+    axes.fill_between(x, SLOPE * np.abs(x) - 1, TOP, color=touching.rigid(), linewidth=0)
+    axes.plot(x, SLOPE * np.abs(x) - 1, **style.line(0.25))
     axes.text(0, 0.55, "rigid indenter", ha="center", fontsize=style.small())
     _arrow(axes, (0.5, 0.33), (-0.5, 0.33), "->")
     axes.text(0, 0.05, "$v$", ha="center", fontsize=style.size())
 
 
 def _large_scale(axes):
-    x = np.linspace(-3.6, 5.1, 871)
-    axes.fill_between(x, -displacement(x), FLOOR, color=materials.elastomer(), linewidth=0)
-    axes.plot(x, -displacement(x), color=materials.surface(), linewidth=style.width())
-    touched = np.linspace(LEADING, TRAILING, 101)
-    axes.plot(
-        touched,
-        -displacement(touched),
-        color=style.COLOUR["MDR"],
-        linewidth=style.width(2.2),
-        solid_capstyle="butt",
-    )
-    axes.axhline(0, color=style.grey(0.3), linewidth=style.width(0.65), linestyle=(0, (5, 3)), zorder=1)
-    for end, name in ((LEADING, r"$-a_{\mathrm{1}}$"), (TRAILING, r"$a_{\mathrm{2}}$")):
-        axes.plot(
-            [end, end],
-            [-displacement(end), -1.55],
-            color=style.grey(0.3),
-            linewidth=style.width(0.55),
-            linestyle=":",
-        )
+    x, thin = np.linspace(-3.6, 5.1, 871), style.line(0.3, 0.55, linestyle=":")
+    inside = (x >= LEADING) & (x <= TRAILING)
+    touching.bodies(axes, x, np.full(x.size, TOP), -displacement(x), inside, (FLOOR, TOP))
+    axes.axhline(0, **style.line(0.3, 0.65, linestyle=(0, (5, 3)), zorder=1))
+    for end, name in ((LEADING, r"$-a_{\mathrm{1}}$"), (TRAILING, r"$a_{\mathrm{2}}$"), (0, "0")):
+        axes.plot([end, end], [-displacement(end), -1.55], **thin)
         axes.text(end, -1.62, name, ha="center", va="top", fontsize=style.size())
-    axes.text(0, -1.62, "0", ha="center", va="top", fontsize=style.size())
-    axes.plot([0, 0], [-1, -1.55], color=style.grey(0.3), linewidth=style.width(0.55), linestyle=":")
     _arrow(axes, (LEADING, -1.5), (TRAILING, -1.5), "<->")
     axes.text(LEADING / 2, -1.47, "contact", ha="center", va="bottom", fontsize=style.small())
-    axes.plot([0, 4.1], [-1, -1], color=style.grey(0.3), linewidth=style.width(0.55), linestyle=":")
+    axes.plot([0, 4.1], [-1, -1], **thin)
     _arrow(axes, (3.9, 0), (3.9, -1), "<->")
     axes.text(4.05, -0.5, "$d$", va="center", fontsize=style.size())
     axes.text(-3.2, -2.25, "elastomer flows →", fontsize=style.small())
@@ -93,25 +77,16 @@ def _elements(axes):
     touched = (LEADING < ELEMENTS) & (ELEMENTS <= TRAILING)
     for x, held in zip(ELEMENTS, touched, strict=True):
         _element(axes, x, -float(displacement(x)), style.ink() if held else style.grey(0.62))
-    axes.fill_between(
-        [ELEMENTS[0] - 0.3, ELEMENTS[-1] + 0.3],
-        FLOOR,
-        FLOOR - 0.18,
-        facecolor=style.paper(),
-        edgecolor=style.grey(0.3),
-        hatch="/////",
-        linewidth=style.width(0.55),
-    )
-    for x, name, side in (
-        (ELEMENTS[0] - 0.25, r"$4G\Delta x$", "right"),
-        (ELEMENTS[-1] + 0.25, r"$4\eta\Delta x$", "left"),
-    ):
-        axes.text(x, FLOOR + 0.45 * -FLOOR, name, ha=side, va="center", fontsize=style.size())
+    ground = {"facecolor": style.paper(), "edgecolor": style.grey(0.3), "linewidth": style.width(0.55)}
+    ends = [ELEMENTS[0] - 0.3, ELEMENTS[-1] + 0.3]
+    axes.fill_between(ends, FLOOR, FLOOR - 0.18, hatch="/////", **ground)
+    look = {"va": "center", "fontsize": style.size()}
+    axes.text(ELEMENTS[0] - 0.25, 0.55 * FLOOR, r"$4G\Delta x$", ha="right", **look)
+    axes.text(ELEMENTS[-1] + 0.25, 0.55 * FLOOR, r"$4\eta\Delta x$", ha="left", **look)
     first, second = ELEMENTS[-3], ELEMENTS[-2]
-    for x in (first, second):
-        axes.plot([x, x], [0.05, 0.34], color=style.grey(0.3), linewidth=style.width(0.55))
-    _arrow(axes, (first - 0.35, 0.24), (first, 0.24), "->")
-    _arrow(axes, (second + 0.35, 0.24), (second, 0.24), "->")
+    for x, side in ((first, -1), (second, 1)):
+        axes.plot([x, x], [0.05, 0.34], **style.line(0.3, 0.55))
+        _arrow(axes, (x + side * 0.35, 0.24), (x, 0.24), "->")
     axes.text((first + second) / 2, 0.4, r"$\Delta x$", ha="center", fontsize=style.size())
 
 
@@ -132,6 +107,5 @@ def _element(axes, x, top, colour):
 
 def _arrow(axes, start, end, kind):
     """An arrow with its tip at the end; <-> has two."""
-    axes.annotate(
-        "", end, start, arrowprops={"arrowstyle": kind, "linewidth": style.width(0.7), "shrinkA": 0, "shrinkB": 0}
-    )
+    look = {"arrowstyle": kind, "linewidth": style.width(0.7), "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", end, start, arrowprops=look)

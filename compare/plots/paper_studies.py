@@ -1,10 +1,9 @@
 """Slow friction on a rough cone in six studies against Eq. 17, and what parts them from it (paper, Fig. 3)."""
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from pandas import DataFrame
@@ -13,14 +12,13 @@ from mdr1d.equations import interpolation
 from scene.regime import MUCH_LESS_HEIGHT
 
 from ..page import Plot, Tables
-from . import style
+from . import shades, style
+from .curves import scatter
 from .lettering import clear
 
 NAME = "paper-studies"
 LINES = f"{NAME}-lines"
-# Of the Hurst exponent; without the yellow end, which is lost on white.
-SHADES = LinearSegmentedColormap.from_list("hurst", colormaps["viridis"](np.linspace(0, 0.88, 256)))
-BETWEEN = Normalize(0, 1)
+BETWEEN = Normalize(0, 1)  # of the Hurst exponent
 MARKERS = ("o", "s", "^", "D", "v", "P")
 # What may break in the last panel, where the macroscopic slope is divided out: name, colour, marker, filled. What
 # breaks both is drawn in ink.
@@ -65,13 +63,11 @@ def figure(tables: Tables) -> Figure:
     _law(axes["law"], points, lines)
     _slope(axes["slope"], points)
     _rest(axes["rest"], points)
-    for panel in axes.values():
-        style.decades(panel)
+    style.decades(*axes.values())
     inside = axes["law"].inset_axes((0.53, 0.14, 0.43, 0.022))
-    bar = drawing.colorbar(ScalarMappable(BETWEEN, SHADES), cax=inside, orientation="horizontal")
+    bar = shades.colours(drawing, ScalarMappable(BETWEEN, shades.PRESS), "", cax=inside, orientation="horizontal")
     bar.set_label("Hurst exponent [1], also of (b)", labelpad=1, fontsize=style.small())
     bar.ax.tick_params(labelsize=style.tiny(), length=2, pad=1)
-    bar.outline.set_linewidth(style.width(0.45))
     _legend(drawing, points["study"].unique())
     clear(drawing, list(axes.values()))
     return drawing
@@ -79,22 +75,11 @@ def figure(tables: Tables) -> Figure:
 
 def _scatter(axes: Axes, points: DataFrame, x, y):
     """One set of markers a study, coloured by the Hurst exponent, filled where all conditions hold."""
-    holds = points["holds"].to_numpy(bool)
     for study, marker in zip(points["study"].unique(), MARKERS, strict=False):
-        for filled in (False, True):
-            at = (points["study"] == study).to_numpy() & (holds == filled)
-            colours = SHADES(BETWEEN(points["hurst"][at]))
-            axes.scatter(
-                x[at],
-                y[at],
-                s=style.mark(0.75) ** 2,
-                marker=marker,
-                facecolors=colours if filled else "none",
-                edgecolors=colours,
-                linewidths=style.width(0.3),
-                rasterized=True,
-                zorder=3 if filled else 2,
-            )
+        at = (points["study"] == study).to_numpy()
+        colours = shades.PRESS(BETWEEN(points["hurst"][at]))
+        look = {"marker": marker, "empty": "none", "rasterized": True, "zorder": 2}
+        scatter(axes, x[at], y[at], points["holds"][at].astype(bool), colours, 0.75, 0.3, **look)
 
 
 def _law(axes, points, lines):
@@ -104,7 +89,7 @@ def _law(axes, points, lines):
         (xi, r"Eq. 17, $\tilde{\mu} = \xi$", "-", 0.0),
         (interpolation(xi), "Eq. 19, α = 1.5", "--", 0.35),
     ):
-        axes.plot(xi, law, line, color=style.grey(shade), linewidth=style.width(0.55), zorder=1, label=name)
+        axes.plot(xi, law, line, zorder=1, label=name, **style.line(shade, 0.55))
     axes.set(xscale="log", yscale="log", xlabel=r"$\xi$ [1]", ylabel=r"$\tilde{\mu}$ [1]", title="(a)")
     style.span(axes, points["xi"])
     axes.legend(loc="upper left", bbox_to_anchor=(0, 0.99))
@@ -117,7 +102,7 @@ def _slope(axes, points):
     ratio = points["macro_over_rough"]
     _scatter(axes, points, ratio, points["normalised_friction"] / points["xi"])
     r = np.geomspace(ratio.min(), ratio.max(), 201)
-    axes.plot(r, 1 + r**2, color=style.ink(), linewidth=style.width(0.7), zorder=4, label="1 + r²")
+    axes.plot(r, 1 + r**2, **style.line(0, 0.7, zorder=4, label="1 + r²"))
     axes.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}/\xi$ [1]", title="(b)")
     axes.set_xlabel("rms slope, smooth over rough, r [1]")
     style.span(axes, ratio)
@@ -131,24 +116,12 @@ def _rest(axes, points):
     kind = np.select([~narrow & ~slow, ~slow, ~narrow, ~low], [4, 3, 2, 1], 0)
     for number, (name, colour, marker, filled) in enumerate(BROKEN):
         at = kind == number
-        if at.any():
-            colour = colour or style.ink()
-            axes.scatter(
-                ratio[at],
-                rest[at],
-                s=style.mark(0.75) ** 2,
-                marker=marker,
-                label=name,
-                rasterized=True,
-                facecolors=colour if filled else "none",
-                edgecolors=colour,
-                linewidths=style.width(0.45),
-            )
-    axes.axhline(1, color=style.ink(), linewidth=style.width(0.7), zorder=0)
-    axes.axvline(MUCH_LESS_HEIGHT, color=style.grey(0.4), linewidth=style.width(0.7), linestyle=":", zorder=0)
-    axes.set(
-        xscale="log", xlabel="rms height / depth [1]", ylabel=r"$\tilde{\mu}/(\xi\,(1 + r^2))$ [1]", title="(c)"
-    )
+        look = {"marker": marker, "label": name, "empty": "none", "rasterized": True}
+        scatter(axes, ratio[at], rest[at], np.full(at.sum(), filled), colour or style.ink(), 0.75, 0.45, **look)
+    axes.axhline(1, **style.line(0, 0.7, zorder=0))
+    axes.axvline(MUCH_LESS_HEIGHT, **style.line(0.4, 0.7, linestyle=":", zorder=0))
+    axes.set(xscale="log", xlabel="rms height / depth [1]", title="(c)")
+    axes.set_ylabel(r"$\tilde{\mu}/(\xi\,(1 + r^2))$ [1]")
     style.span(axes, ratio)
     axes.legend(
         loc="lower left", handletextpad=0.2, title="broken", title_fontsize=style.small(), alignment="left"

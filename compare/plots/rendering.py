@@ -45,7 +45,9 @@ def rendered(drawing: Figure, forms: Sequence[str] = FORMS) -> Picture:
     files = {}
     drawing.set_dpi(DOTS_PER_INCH)
     style.lay_out(drawing)
-    with rc_context({"savefig.bbox": None}):  # as wide as the journal says, whatever a style of one's own says
+    # As wide as the journal says, whatever a style of one's own says; a figure with any engine is drawn twice.
+    with rc_context({"savefig.bbox": None, "figure.constrained_layout.use": False}):
+        drawing.set_layout_engine(None)
         for form in forms:
             file = io.BytesIO()
             drawing.savefig(file, format=form, dpi=DOTS_PER_INCH, metadata=dict(METADATA[form]))

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap, LinearSegmentedColormap, LogNorm
 from matplotlib.figure import Figure, SubFigure
 
@@ -32,7 +33,12 @@ def bar(
     **place: Any,
 ) -> None:
     """Beside or below some panels."""
-    drawn = drawing.colorbar(ScalarMappable(scale, shades), ax=panels, **place)
-    style.decades(drawn.ax)
+    style.decades(colours(drawing, ScalarMappable(scale, shades), label, ax=panels, **place).ax)
+
+
+def colours(drawing: Figure | SubFigure, image: ScalarMappable, label: str, **place: Any) -> Colorbar:
+    """Bar of the colours of an image, with a thin frame."""
+    drawn = drawing.colorbar(image, **place)
     drawn.set_label(label)
     drawn.outline.set_linewidth(style.width(0.45))
+    return drawn

@@ -15,6 +15,7 @@ from ..finding import FAILS, Finding
 from ..page import Plot, Tables
 from ..statistics.collapse import Collapse
 from . import shades, style
+from .curves import intervals, scatter
 from .lettering import clear
 
 NAME = "shifted-curves"
@@ -91,8 +92,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]")
         row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
-        for axes in row:
-            style.decades(axes)
+        style.decades(*row)
         for axis in (row[0].yaxis, row[1].yaxis, row[1].xaxis):
             axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
@@ -127,11 +127,7 @@ def _tables(each):
         NAME: points,
         SHIFTS: found.shifts,
         POWERS: DataFrame(
-            [
-                {"power": name, "exponent": value, "exponent_low": low, "exponent_high": high}
-                for name, (value, low, high) in powers.items()
-                if np.isfinite(value)
-            ],
+            [(name, *found) for name, found in powers.items() if np.isfinite(found[0])],
             columns=["power", "exponent", "exponent_low", "exponent_high"],
         ),
         FITS: DataFrame([fit]),
@@ -153,25 +149,18 @@ def _curves(axes: Axes, points: DataFrame, across: str, colours: Any) -> None:
     lines = [np.column_stack([x[each], mu[each]]) for each in at]
     shade = [colours[each[0]] for each in at]
     axes.add_collection(LineCollection(lines, colors=shade, linewidths=style.width(0.45), zorder=2))
-    ends = style.bars(mu, points["friction_coefficient_low"], points["friction_coefficient_high"])
-    axes.errorbar(x, mu, yerr=ends, fmt="none", ecolor=colours, elinewidth=style.width(0.45), capsize=0)
+    bars = {"fmt": "none", "ecolor": colours, "elinewidth": style.width(0.45), "capsize": 0}
+    intervals(axes, x, points, "friction_coefficient", **bars)
     holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
-    look: dict[str, Any] = {"s": style.mark(0.5) ** 2, "linewidths": style.width(0.35), "zorder": 2.5}
-    for where, inside in ((holds, colours[holds]), (~holds, style.paper())):
-        if where.any():
-            axes.scatter(x[where], mu[where], facecolors=inside, edgecolors=colours[where], **look)
+    scatter(axes, x, mu, holds, colours, 0.5, 0.35, zorder=2.5)
 
 
 def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any) -> None:
     """Shifts with intervals, hollow where curves do not collapse, and powers of the speed."""
-    speed, shift = shifts["speed"].to_numpy(), shifts["log_shift"] / LOG10
-    known = np.isfinite(shift)
-    ends = style.bars(shift, shifts["log_shift_low"] / LOG10, shifts["log_shift_high"] / LOG10)
-    if known.any():
-        axes.errorbar(speed, shift, yerr=ends, fmt="none", ecolor=colours, capsize=0)
-        inside = colours if fit["decided"] else style.paper()
-        look: dict[str, Any] = {"facecolors": inside, "edgecolors": colours, "linewidths": style.width(0.8)}
-        axes.scatter(speed, shift, s=style.mark(0.8) ** 2, zorder=2, **look)
+    speed, shift = shifts["speed"].to_numpy(), shifts["log_shift"].to_numpy() / LOG10
+    if np.isfinite(shift).any():
+        intervals(axes, speed, shifts, "log_shift", 1 / LOG10, fmt="none", ecolor=colours, capsize=0)
+        scatter(axes, speed, shift, np.full(len(speed), bool(fit["decided"])), colours, 0.8, 0.8, zorder=2)
     colour: Any
     decades, others = np.log10(speed / fit["reference_speed"]), iter(OTHERS)
     for power in powers.itertuples():

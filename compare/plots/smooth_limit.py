@@ -48,23 +48,22 @@ def figure(tables: Tables) -> Figure:
         str(solver): curve.sort_values("v_tau_over_a") for solver, curve in points.groupby("solver", sort=False)
     }
     for solver, curve in curves.items():
-        look = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "label": style.LABEL[solver]}
-        above.plot(curve["v_tau_over_a"], curve["friction_over_slope"], linestyle="none", **look)
+        look = style.look(solver, linestyle="none")
+        above.plot(curve["v_tau_over_a"], curve["friction_over_slope"], **look)
     for solver, curve in curves.items():
         slowest = curve.iloc[0]
         # Straight through the slow half, where the first order in the speed is meant to hold.
         slow = np.array([slowest["v_tau_over_a"], SLOW])
         limit = slowest["friction_over_slope_low_speed"] / slowest["v_tau_over_a"]
-        thin = {"color": style.COLOUR[solver], "linewidth": style.width(0.7), "linestyle": style.LINE[solver]}
-        above.plot(slow, limit * slow, label=f"{style.LABEL[solver][:2]} limit", **thin)
-    below.axhline(2, color=style.grey(0.45), linewidth=style.width(0.8), linestyle="-")
+        label = f"{style.LABEL[solver][:2]} limit"
+        above.plot(slow, limit * slow, **style.look(solver, marker="", label=label, linewidth=style.width(0.7)))
+    below.axhline(2, **style.line(0.45, 0.8))
     place = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": style.small()}
     below.annotate("2, derived", (points["v_tau_over_a"].max(), 2), **place)
     below.plot(ratios["v_tau_over_a"], ratios["ratio"], color=style.ink(), marker="o")
     ends = min(0.9, ratios["ratio"].min()) - 0.1, max(2.2, ratios["ratio"].max()) + 0.1
     below.set(xlabel=r"$v\tau / a$ [1]", ylabel="1D / 3D [1]", ylim=ends)
     above.legend()
-    for axes in (above, below):
-        style.decades(axes)
+    style.decades(above, below)
     clear(drawing, (above,))
     return drawing

@@ -6,66 +6,56 @@ from matplotlib.figure import Figure
 
 from ..page import Tables
 from . import shades, style
+from .curves import intervals
 from .lettering import clear
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 CLOSED = "closed form"
 # Neighbouring markers are drawn apart by this factor of the load or depth, either way.
 APART = 1.02
-# Where the load is prescribed the depth is measured, in µm and in rms heights; else the force.
+# Where the load is prescribed the depth is measured, in µm and in rms heights; else the force: labels of what is
+# measured, of it less the smooth closed form and of 1D less 3D, and factors of the first two.
 LABELS = {
-    "load": (
-        "depth [µm]",
-        1e6,
-        "depth less the smooth one [$h_0$]",
-        "depth 1D - 3D [% of smooth]",
-        1.0,
-        "normal force [N]",
-    ),
-    "depth": (
-        "normal force [N]",
-        1.0,
-        "force less the smooth one [%]",
-        "force 1D / 3D - 1 [%]",
-        1e6,
-        "depth [µm]",
-    ),
+    "load": ("depth [µm]", "depth less the smooth one [$h_0$]", "depth 1D - 3D [% of smooth]", 1e6, 1.0),
+    "depth": ("normal force [N]", "force less the smooth one [%]", "force 1D / 3D - 1 [%]", 1.0, 100.0),
 }
+PRESCRIBED = {"load": ("normal force [N]", 1.0), "depth": ("depth [µm]", 1e6)}
 
 
 def depth(tables: Tables) -> Figure:
     """All, less the smooth closed form, 1D less 3D, and stiffness."""
     points, differences, stiffness = tables["depth"], tables["depth-differences"], tables["depth-stiffness"]
     prescribed = "load" if "load" in points else "depth"
-    label, factor, less, apart, scale, across = LABELS[prescribed]
+    label, less, apart, factor, unit = LABELS[prescribed]
+    across, scale = PRESCRIBED[prescribed]
     drawing = style.canvas("double", 4.9)
     panels = drawing.subplots(2, 2)
     whole, deviation, difference, stiff = panels.flat
     closed = points.drop_duplicates(prescribed)
-    grey = {"color": style.grey(0.45), "linewidth": style.width(0.8), "zorder": 1}
+    grey = style.line(0.45, 0.8, zorder=1)
     whole.plot(scale * closed[prescribed], factor * closed["closed_form"], label="smooth, closed form", **grey)
     for axes in (deviation, difference):
         axes.axhline(0, **grey)
+    hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
     for index, (dimension, own) in enumerate(points.groupby("dimension")):
         solver, x = SOLVER[dimension], scale * own[prescribed] * APART ** (2 * index - 1)
-        _bars(whole, x, own, "rough", solver, factor, label=f"{dimension}, rough")
-        unit = 1.0 if prescribed == "load" else 100.0
-        hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
-        _bars(deviation, x, own, "smooth_deviation", solver, unit, label=f"{dimension}, smooth", **hollow)
-        _bars(deviation, x, own, "rough_deviation", solver, unit, label=f"{dimension}, rough")
+        rough, smooth = _look(solver, label=f"{dimension}, rough"), _look(solver, label=f"{dimension}, smooth")
+        intervals(whole, x, own, "rough", factor, **rough)
+        intervals(deviation, x, own, "smooth_deviation", unit, **smooth | hollow)
+        intervals(deviation, x, own, "rough_deviation", unit, **rough)
     looks: dict[str, dict[str, Any]] = {
         "smooth": {"color": style.grey(0.5), "marker": "D", "linestyle": ":", "markerfacecolor": style.paper()},
-        "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
+        "rough": {"color": style.ink(), "marker": "o"},
     }
     for body, own in differences.groupby("body"):
-        _bars(difference, scale * own[prescribed], own, "difference", "exact", 100.0, label=body, **looks[body])
+        look = _look("exact", **looks[body], label=body)
+        intervals(difference, scale * own[prescribed], own, "difference", 100.0, **look)
     for dimension, own in stiffness.groupby("dimension"):
         if dimension == CLOSED:
             stiff.plot(own["normal_force"], 1e-3 * own["stiffness"], label="smooth, closed form", **grey)
         else:
-            _bars(
-                stiff, own["normal_force"], own, "stiffness", SOLVER[dimension], 1e-3, label=f"{dimension}, rough"
-            )
+            look = _look(SOLVER[dimension], label=f"{dimension}, rough")
+            intervals(stiff, own["normal_force"], own, "stiffness", 1e-3, **look)
     for axes, name in ((whole, label), (deviation, less), (difference, apart)):
         axes.set(xscale="log", xlabel=across, ylabel=name)
         style.span(axes, scale * points[prescribed])
@@ -77,7 +67,7 @@ def depth(tables: Tables) -> Figure:
         stiff.legend()
     for axes, letter in zip(panels.flat, "abcd", strict=True):
         axes.set_title(f"({letter})")
-        style.decades(axes)
+    style.decades(*panels.flat)
     clear(drawing, panels.flat)
     return drawing
 
@@ -89,31 +79,30 @@ def pressed_in(tables: Tables) -> Figure:
     one, three, ratio = panels = drawing.subplots(1, 3)
     three.sharey(one)
     scale = shades.between(every["rate"])
-    ratio.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
+    ratio.axhline(0, **style.line(0.45, 0.8, zorder=1))
+    cross = {"color": style.COLOUR["exact"], "markersize": style.mark(1.25)}
     rates = sorted(set(every["rate"]))
     for k, rate in enumerate(rates):
         colour, apart = shades.SPEED(scale(rate)), APART ** (k - (len(rates) - 1) / 2)
+        thin = {"color": colour, "linewidth": style.width(0.55)}
+        rough, smooth, closed = ("rough", "smooth", "smooth, closed form") if k == 0 else (None,) * 3
         for axes, (dimension, solver) in zip((one, three), SOLVER.items(), strict=True):
             own = every[(every["rate"] == rate) & (every["dimension"] == dimension)]
-            depths, first = 1e6 * own["depth"], k == 0
-            look = {"color": colour, "label": "rough" if first else None}
-            _bars(axes, depths * apart, own, "normal_force", solver, **look)
-            thin = {"color": colour, "linewidth": style.width(0.55)}
-            axes.plot(depths, own["smooth_normal_force"], label="smooth" if first else None, **thin)
-            cross = {"color": style.COLOUR["exact"], "markersize": style.mark(1.25)}
-            axes.plot(
-                depths, own[CLOSED.replace(" ", "_")], "+", label="smooth, closed form" if first else None, **cross
-            )
+            depths = 1e6 * own["depth"]
+            intervals(axes, depths * apart, own, "normal_force", **_look(solver, color=colour, label=rough))
+            axes.plot(depths, own["smooth_normal_force"], label=smooth, **thin)
+            axes.plot(depths, own[CLOSED.replace(" ", "_")], "+", label=closed, **cross)
         own = ratios[ratios["rate"] == rate]
-        _bars(ratio, 1e6 * own["depth"] * apart, own, "rough_difference", "exact", 100.0, color=colour, marker="D")
-        ratio.plot(1e6 * own["depth"], 100 * own["smooth_difference"], color=colour, linewidth=style.width(0.55))
+        look = _look("exact", color=colour, marker="D", label=None)
+        intervals(ratio, 1e6 * own["depth"] * apart, own, "rough_difference", 100.0, **look)
+        ratio.plot(1e6 * own["depth"], 100 * own["smooth_difference"], **thin)
     for axes, solver in ((one, "MDR"), (three, "BEM")):
         axes.set(yscale="log", title=style.LABEL[solver])
     ratio.set(ylabel="force 1D / 3D - 1 [%]", title="1D over 3D")
     for axes in panels:
         axes.set(xscale="log", xlabel="depth [µm]")
         style.span(axes, 1e6 * every["depth"])
-        style.decades(axes)
+    style.decades(*panels)
     one.set_ylabel("normal force [N]")
     one.legend()
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.05, "pad": 0.02}
@@ -122,11 +111,5 @@ def pressed_in(tables: Tables) -> Figure:
     return drawing
 
 
-def _bars(axes, x, points, name, solver, factor=1.0, **look):
-    """Points with intervals of 95 %; a bar that would cross zero on a logarithmic axis ends at it."""
-    values = factor * points[name]
-    ends = style.bars(values, factor * points[f"{name}_low"], factor * points[f"{name}_high"])
-    kept = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": style.LINE[solver]}
-    axes.errorbar(
-        x, values, yerr=ends, **kept | {"linewidth": style.width(0.7), "markersize": style.mark(0.9)} | look
-    )
+def _look(solver, **other):
+    return style.look(solver, linewidth=style.width(0.7), markersize=style.mark(0.9)) | other

@@ -1,6 +1,7 @@
 """Friction of one series: curves shifted onto one, shifts, level against speed; and several series at once."""
 
-from collections.abc import Mapping
+from itertools import cycle
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,6 +11,7 @@ from pandas import DataFrame
 
 from ..page import Tables
 from . import shades, style
+from .curves import intervals
 from .lettering import clear
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
@@ -33,83 +35,49 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
     scale = shades.between(points["speed"])
     for column, (dimension, solver) in zip(panels.T, SOLVER.items(), strict=True):
         own = points[points["dimension"] == dimension]
-        _curves(column[0], own, "normal_force", solver, scale)
         column[0].set(title=style.LABEL[solver], xlabel="normal force [N]", xscale="log", yscale="log")
         column[1].set(xlabel="shifted normal force [N]", xscale="log", yscale="log")
-        _curves(
-            column[1], own, "shifted_force", solver, scale, {"linestyle": "none"} if dimension in fitted else {}
-        )
-        _lines(column[1], curves[curves["dimension"] == dimension])
+        _curves(column[0], own, "normal_force", "friction_coefficient", solver, scale)
+        marks: Any = {"linestyle": "none"} if dimension in fitted else {}
+        _curves(column[1], own, "shifted_force", "friction_coefficient", solver, scale, **marks)
+        for name, curve in curves[curves["dimension"] == dimension].groupby("curve", sort=False):
+            line, look = ("-", style.line(0, 0.8)) if name == COMMON else ("--", style.line(0.5))
+            mu = curve["friction_coefficient"]
+            column[1].plot(curve["shifted_force"], mu, line, zorder=1, label=name, **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
         if dimension in fitted:
             column[1].legend(loc="lower left")
-            _left(column[2], column[1], own[own["shifted_as"] == FITTED], solver, scale, tolerance)
-            column[2].set_title(_misfit(fit), loc="right", fontsize=style.small(), fontweight="normal")
+            left = column[2]
+            left.set(xlabel="shifted normal force [N]", xscale="log")
+            left.sharex(column[1])
+            left.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
+            left.axhline(0, **style.line(0, 0.65))
+            kept = own[own["shifted_as"] == FITTED]
+            _curves(left, kept, "shifted_force", "off_curve", solver, scale, 100, linewidth=style.width(0.55))
+            left.set_title(_misfit(fit), loc="right", fontsize=style.small(), fontweight="normal")
         else:
-            said = style.fill(
-                f"Shifted by p(v), as no shifts are fitted: {fit['reason']}.",
-                0.38 * style.across("double"),
-                style.small(),
-            )
+            said = f"Shifted by p(v), as no shifts are fitted: {fit['reason']}."
+            said = style.fill(said, 0.38 * style.across("double"), style.small())
             column[1].legend(loc="lower left", title=said, title_fontsize=style.small(), alignment="left")
             for axes in column[2:]:
                 axes.set_axis_off()
     labels = ("friction coefficient [1]", "friction coefficient [1]", "off the curve [%]")
     for axes, label in zip(panels[:, 0], labels, strict=False):
         axes.set_ylabel(label)
-    for axes in panels.flat:
-        style.decades(axes)
+    style.decades(*panels.flat)
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.02}
     shades.bar(drawing, panels, shades.SPEED, scale, "speed [m/s]", **place)
     clear(drawing, panels[1])
     return drawing
 
 
-def _curves(axes: Axes, points: DataFrame, across: str, solver: str, scale, look: Mapping = {}) -> None:
-    """Friction with its intervals, a curve for each speed."""
+def _curves(axes: Axes, points: DataFrame, across: str, name: str, solver: str, scale, times=1.0, **other) -> None:
+    """A curve for each speed, with its intervals."""
+    look = style.look(solver, label=None, linewidth=style.width(0.7), markersize=style.mark(0.75))
+    look |= {"elinewidth": style.width(0.65), "capsize": 0} | other
     for speed, curve in points.groupby("speed"):
-        _curve(axes, curve, across, "friction_coefficient", solver, shades.SPEED(scale(speed)), **look)
-
-
-def _curve(axes, curve, across, name, solver, colour, factor=1.0, **other):
-    values = factor * curve[name]
-    ends = style.bars(values, factor * curve[f"{name}_low"], factor * curve[f"{name}_high"])
-    look = {
-        "marker": style.MARKER[solver],
-        "linestyle": style.LINE[solver],
-        "linewidth": style.width(0.7),
-        "markersize": style.mark(0.75),
-        "elinewidth": style.width(0.65),
-        "capsize": 0,
-    }
-    axes.errorbar(curve[across], values, yerr=ends, color=colour, **look | other)
-
-
-def _lines(axes, curves):
-    """Common curve and the law of the paper."""
-    looks = {COMMON: ("-", style.ink(), 0.8), LAW: ("--", style.grey(0.5), 1.0)}
-    for name, curve in curves.groupby("curve", sort=False):
-        line, colour, width = looks[name]
-        axes.plot(
-            curve["shifted_force"],
-            curve["friction_coefficient"],
-            line,
-            color=colour,
-            linewidth=style.width(width),
-            zorder=1,
-            label=name,
-        )
-
-
-def _left(axes, above, points, solver, scale, tolerance):
-    """What the means miss the common curve by."""
-    axes.set(xlabel="shifted normal force [N]", xscale="log")
-    axes.sharex(above)
-    axes.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
-    axes.axhline(0, color=style.ink(), linewidth=style.width(0.65))
-    for speed, curve in points.groupby("speed"):
-        colour = shades.SPEED(scale(speed))
-        _curve(axes, curve, "shifted_force", "off_curve", solver, colour, 100, linewidth=style.width(0.55))
+        look["color"] = shades.SPEED(scale(speed))
+        intervals(axes, curve[across], curve, name, times, **look)
 
 
 def _misfit(fit):
@@ -127,29 +95,20 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
     left, middle, right = panels = drawing.subplots(1, 3)
     for index, (dimension, own) in enumerate(every.groupby("dimension")):
         solver, apart = SOLVER[dimension], APART ** (2 * index - 1)
+        look = style.look(solver, label=None, linestyle="none")
         for axes, name, less in (
             (left, "log_shift", 0.0),
             (middle, "log_shift", own["theory"]),
             (right, "log_lift", 0.0),
         ):
-            value = own[name] - less
-            ends = style.bars(value, own[f"{name}_low"] - less, own[f"{name}_high"] - less)
-            look = {"color": style.COLOUR[solver], "marker": style.MARKER[solver], "linestyle": "none"}
-            axes.errorbar(own["speed"] * apart, value, yerr=ends, **look)
+            intervals(axes, own["speed"] * apart, own, name, less=less, **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
         power = f"$v^{{{fit['exponent']:.2f}}}$" if np.isfinite(fit["exponent"]) else "undecided"
-        left.plot([], [], label=f"{dimension}, {power}", **look)
-    left.plot(
-        own["speed"],
-        own["theory"],
-        "-",
-        color=style.grey(0.45),
-        linewidth=style.width(0.8),
-        zorder=1,
-        label="theory, ln p(v)",
-    )
+        left.plot([], [], **look | {"label": f"{dimension}, {power}"})
+    grey = style.line(0.45, 0.8, zorder=1)
+    left.plot(own["speed"], own["theory"], "-", label="theory, ln p(v)", **grey)
     for axes in (middle, right):
-        axes.axhline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
+        axes.axhline(0, **grey)
     right.axhspan(-tolerance, tolerance, color=style.grey(0.9), linewidth=0, zorder=0)
     left.set(ylabel="horizontal shift $b_v$ [1]", title="(a)")
     middle.set(ylabel="$b_v$ less ln p(v) [1]", title="(b)")
@@ -158,7 +117,7 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
     for axes in panels:
         axes.set(xscale="log", xlabel="speed [m/s]")
         style.span(axes, every["speed"])
-        style.decades(axes)
+    style.decades(*panels)
     clear(drawing, (left,))
     return drawing
 
@@ -184,8 +143,7 @@ def levels(tables: Tables) -> Figure:
     style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 5)
     lower = below.subplots(1, 2, sharey=True)
     _ratios(below, lower, ratios, prescribed)
-    for axes in (*panels, *lower):
-        style.decades(axes)
+    style.decades(*panels, *lower)
     return drawing
 
 
@@ -198,17 +156,8 @@ def _level(axes, curve, dimension, index):
     axes.plot(speeds, curve["eq_19"], linestyle=(6 * index, (6, 6)), zorder=1, label=f"{dimension}, Eq. 19", **law)
     plateau = curve["plateau"].iloc[0]
     axes.axhline(plateau, linestyle=(2 * index, (2, 2)), zorder=0, label=f"{dimension}, Eq. 14", **law)
-    mu = curve["friction_coefficient"]
-    axes.errorbar(
-        speeds,
-        mu,
-        yerr=style.bars(mu, curve["friction_coefficient_low"], curve["friction_coefficient_high"]),
-        color=colour,
-        marker=style.MARKER[solver],
-        linestyle=style.LINE[solver],
-        markersize=style.mark(0.9),
-        label=f"{dimension}, rough",
-    )
+    look = style.look(solver, label=f"{dimension}, rough", markersize=style.mark(0.9))
+    intervals(axes, speeds, curve, "friction_coefficient", **look)
     thin = {"linestyle": style.LINE[solver], "linewidth": style.width(0.55), "alpha": 0.8}
     axes.plot(speeds, curve["smooth"], color=colour, label=f"{dimension}, smooth", **thin)
     dots = {"linestyle": (0, (1, 1.6 + 1.6 * index)), "linewidth": style.width(1.1)}
@@ -221,19 +170,12 @@ def _ratios(drawing, panels, ratios, prescribed):
     scale = shades.between(unit * ratios[prescribed])
     for axes, (body, (memory, name)) in zip(panels, MEMORIES.items(), strict=True):
         for level, line in ((1, "-"), (2, ":")):
-            axes.axhline(level, color=style.grey(0.6), linewidth=style.width(0.65), linestyle=line, zorder=0)
-        for j, (value, curve) in enumerate(ratios[ratios["body"] == body].groupby(prescribed)):
-            ratio = curve["friction_1d_over_3d"]
-            axes.errorbar(
-                curve[memory],
-                ratio,
-                yerr=style.bars(ratio, curve["friction_1d_over_3d_low"], curve["friction_1d_over_3d_high"]),
-                color=shades.PRESS(scale(unit * value)),
-                marker=style.SERIES_MARKERS[j % len(style.SERIES_MARKERS)],
-                markersize=style.mark(0.75),
-                linewidth=style.width(0.65),
-                elinewidth=style.width(0.65),
-            )
+            axes.axhline(level, **style.line(0.6, 0.65, linestyle=line, zorder=0))
+        own = ratios[ratios["body"] == body].groupby(prescribed)
+        for (value, curve), marker in zip(own, cycle(style.SERIES_MARKERS), strict=False):
+            thin = {"linewidth": style.width(0.65), "elinewidth": style.width(0.65)}
+            look = {"color": shades.PRESS(scale(unit * value)), "marker": marker, "markersize": style.mark(0.75)}
+            intervals(axes, curve[memory], curve, "friction_1d_over_3d", **look, **thin)
         axes.set(xscale="log", xlabel=name, title=body)
         axes.set_ylim(bottom=0)
     panels[0].set_ylabel("friction 1D / 3D [1]")
@@ -242,7 +184,7 @@ def _ratios(drawing, panels, ratios, prescribed):
 
 def family(tables: Tables) -> Figure:
     """Friction over its plateau against xi. Rows: shapes. Columns: 1D, 3D. A marker for each series."""
-    every, law = tables["family"], tables["family-law"]
+    every, laws = tables["family"], tables["family-law"]
     shapes = list(dict.fromkeys(every["shape"]))
     most = max(every.groupby("shape")["series"].nunique())
     drawing = style.canvas("double", 0.3 + len(shapes) * (2.6 + 0.16 * -(-most // 2)))
@@ -251,18 +193,11 @@ def family(tables: Tables) -> Figure:
         panels = band.subplots(1, 2, sharex=True, sharey=True)
         for axes, (dimension, solver) in zip(panels, SOLVER.items(), strict=True):
             own, line = (
-                frame[(frame["shape"] == shape) & (frame["dimension"] == dimension)] for frame in (every, law)
+                frame[(frame["shape"] == shape) & (frame["dimension"] == dimension)] for frame in (every, laws)
             )
             _markers(axes, own)
-            axes.plot(
-                line["xi"],
-                line["friction_over_plateau"],
-                "-",
-                color=style.ink(),
-                linewidth=style.width(0.8),
-                zorder=1,
-                label="Eq. 19",
-            )
+            law = style.line(0, 0.8, zorder=1, label="Eq. 19")
+            axes.plot(line["xi"], line["friction_over_plateau"], **law)
             axes.set(xscale="log", yscale="log", xlabel=r"$\xi$ [1]", title=f"{style.LABEL[solver]}, {shape}")
             style.decades(axes)
         panels[0].set_ylabel("friction over its plateau [1]")
@@ -271,20 +206,16 @@ def family(tables: Tables) -> Figure:
 
 
 def _markers(axes, points):
-    names = list(dict.fromkeys(points["series"]))
+    names, known = list(dict.fromkeys(points["series"])), len(style.SERIES_MARKERS)
     for index, name in enumerate(names):
-        own = points[points["series"] == name]
-        value = own["friction_over_plateau"]
-        axes.errorbar(
-            own["xi"],
-            value,
-            yerr=style.bars(value, own["friction_over_plateau_low"], own["friction_over_plateau_high"]),
-            color=shades.PRESS(index / max(1, len(names) - 1)),
-            marker=style.SERIES_MARKERS[index % len(style.SERIES_MARKERS)],
-            markersize=style.mark(0.75),
-            markerfacecolor="none" if index >= len(style.SERIES_MARKERS) else None,
-            linestyle="none",
-            elinewidth=style.width(0.55),
-            capsize=0,
-            label=name,
-        )
+        own, colour = points[points["series"] == name], shades.PRESS(index / max(1, len(names) - 1))
+        look = {
+            "color": colour,
+            "marker": style.SERIES_MARKERS[index % known],
+            "markersize": style.mark(0.75),
+            "markerfacecolor": "none" if index >= known else None,
+            "linestyle": "none",
+            "elinewidth": style.width(0.55),
+            "capsize": 0,
+        }
+        intervals(axes, own["xi"], own, "friction_over_plateau", label=name, **look)

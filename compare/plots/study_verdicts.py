@@ -61,14 +61,9 @@ def verdicts(tables: Tables, titles: Sequence[tuple[str, str]] = ()) -> Figure:
     if len(places) > FEW:
         heads = [str(number) for number in range(1, len(places) + 1)]
     axes.set_xticks(range(len(places)), heads, fontsize=style.small())
-    handles = [
-        Line2D([], [], linestyle="none", color=style.grey(0.3), label=verdict, **look)
-        for verdict, look in _marks().items()
-    ]
-    handles += [
-        Line2D([], [], linestyle="none", marker=SIDE[name], color=style.COLOUR[solver], label=name)
-        for name, solver in SOLVER.items()
-    ]
+    looks = {verdict: {"color": style.grey(0.3), **look} for verdict, look in _marks().items()}
+    looks |= {name: {"marker": SIDE[name], "color": style.COLOUR[solver]} for name, solver in SOLVER.items()}
+    handles = [Line2D([], [], linestyle="none", label=name, **look) for name, look in looks.items()]
     style.legend(drawing, handles, "outside lower right", len(handles), handletextpad=0.2)
     return drawing
 
@@ -105,7 +100,7 @@ def effects(tables: Tables) -> Figure:
     drawing = style.canvas("double", 0.9 + ROW * len(claims))
     axes = drawing.subplots()
     axes.axvspan(-1, 1, color=style.grey(0.9), linewidth=0, zorder=0)
-    axes.axvline(0, color=style.grey(0.45), linewidth=style.width(0.8), zorder=1)
+    axes.axvline(0, **style.line(0.45, 0.8, zorder=1))
     if 0 < alone < len(claims):
         axes.axhline(alone - 0.5, color=style.ink(), linewidth=style.width(0.45))
     for each in found.to_dict("records"):
@@ -146,10 +141,5 @@ def _effect(axes, y, found):
     elif isfinite(effect):
         arrow = look | {"marker": ">" if effect > 0 else "<", "markersize": style.mark(1.25), "clip_on": False}
         axes.plot(np.sign(effect) * END, y, markerfacecolor=inside, zorder=3, **arrow)
-    place = {
-        "xycoords": ("axes fraction", "data"),
-        "va": "center",
-        "fontsize": style.tiny(),
-        "color": look["color"],
-    }
-    axes.annotate(found["verdict"], (1.02, y), **place)
+    said = {"va": "center", "fontsize": style.tiny(), "color": look["color"]}
+    axes.annotate(found["verdict"], (1.02, y), xycoords=("axes fraction", "data"), **said)

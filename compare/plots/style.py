@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from itertools import cycle
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -238,6 +239,17 @@ def mark(times: float = 1.0) -> float:
     return times * rcParams["lines.markersize"]
 
 
+def look(solver: str, **other: Any) -> dict[str, Any]:
+    """Colour, marker, line and label of a solver, with other settings of a curve."""
+    known = {"color": COLOUR[solver], "marker": MARKER[solver], "linestyle": LINE[solver], "label": LABEL[solver]}
+    return known | other
+
+
+def line(level: float, times: float = 1.0, **other: Any) -> dict[str, Any]:
+    """Colour and width of a line between ink (0) and paper (1), with other settings."""
+    return {"color": grey(level), "linewidth": width(times)} | other
+
+
 def across(column: Literal["single", "double"]) -> float:
     """The width of a figure in the journal [inch]."""
     return {"single": current().journal.single, "double": current().journal.double}[column]
@@ -361,16 +373,22 @@ def span(axes: Axes, values) -> None:
     axes.set_xlim(low / room, high * room)
 
 
-def decades(axes: Axes) -> None:
+def decades(*panels: Axes) -> None:
     """Readable ticks on logarithmic axes: 1, 2, 5 within two decades, plain numbers where they are short."""
-    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
-        if axis.get_scale() != "log":
-            continue
-        steps = (1, 2, 5) if high / low < 100 else (1,)
-        axis.set_major_locator(LogLocator(subs=steps))
+    for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
+        low, high = axis.get_view_interval()
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 100 else (1,)))
         axis.set_minor_formatter(NullFormatter())
+        axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
         if low >= 1e-4 and high <= 1e4:
             axis.set_major_formatter(lambda value, _: f"{value:g}")
+
+
+def forms() -> Iterator[dict[str, Any]]:
+    """Marker and line of one curve after another, without end."""
+    return (
+        {"marker": marker, "linestyle": line} for marker, line in zip(cycle(SERIES_MARKERS), cycle(SERIES_LINES))
+    )
 
 
 def shades(solver: str, count: int) -> list[tuple[float, float, float]]:

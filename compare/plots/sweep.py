@@ -5,6 +5,7 @@ from pandas import DataFrame
 
 from ..page import Plot, Tables
 from . import style
+from .curves import intervals
 
 UNITS = {"speed": "m/s", "load": "N", "depth": "m"}
 WORDS = {"speed": "speed", "load": "normal force", "depth": "depth"}
@@ -35,22 +36,10 @@ def figure(tables: Tables) -> Figure:
             label = style.LABEL[solver]
             if of_solver[other].nunique() > 1:
                 label += f", {value:.3g} {UNITS[other]}"
-            ends = [curve["friction"] - curve["friction_low"], curve["friction_high"] - curve["friction"]]
-            axes.errorbar(
-                curve[across],
-                curve["friction"],
-                yerr=[each.clip(lower=0) for each in ends],
-                color=style.COLOUR[solver],
-                marker=style.MARKER[solver],
-                linestyle=style.SERIES_LINES[index % len(style.SERIES_LINES)],
-                capsize=2,
-                label=label,
-            )
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel=f"{WORDS[across]} [{UNITS[across]}]",
-        ylabel="coefficient of friction [1]",
-    )
+            line = style.SERIES_LINES[index % len(style.SERIES_LINES)]
+            look = style.look(solver, label=label, linestyle=line, capsize=2)
+            intervals(axes, curve[across], curve, "friction", **look)
+    axes.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
+    axes.set_xlabel(f"{WORDS[across]} [{UNITS[across]}]")
     axes.legend()
     return drawing

@@ -50,23 +50,22 @@ def figure(tables: Tables, hurst: float | None = None) -> Figure:
     rings, rows, law = (tables[name] for name in (NAME, f"{NAME}-rows", f"{NAME}-law"))
     drawing = style.canvas("double", 2.8)
     left, right = drawing.subplots(1, 2)
-    points = {"linestyle": "none", "marker": "o"}
-    dots = {**points, "color": style.ink(), "markersize": style.mark(0.9)}
-    left.plot(rings["q"], rings["density_2d"], label="map, mean over directions", **dots)
+    dots = {"linestyle": "none", "marker": "o"}
+    own = {**dots, "color": style.ink(), "markersize": style.mark(0.9)}
+    left.plot(rings["q"], rings["density_2d"], label="map, mean over directions", **own)
     if len(law):
         band = law["q"][law["in_band"].astype(bool)]
         left.plot(law["q"], law["density_2d"], color=style.COLOUR["BEM"], label=f"H = {hurst:.2f}")
         left.axvspan(band.min(), band.max(), color=style.grey(0.93), zorder=0)
     left.set(ylabel=r"$C_{2D}$ [m$^4$]", title="(a)")
-    light = {"color": style.grey(0.5), "linewidth": style.width(0.8)}
-    right.plot(rows["q"], rows["density_1d"], label="rows of the map", **light)
-    of_mdr = {**points, "color": style.COLOUR["MDR"]}
-    right.plot(rings["q"], rings["density_1d_mapped"], label=r"$\pi q\, C_{2D}$", **of_mdr)
+    right.plot(rows["q"], rows["density_1d"], label="rows of the map", **style.line(0.5, 0.8))
+    by_mdr = {**dots, "color": style.COLOUR["MDR"], "label": r"$\pi q\, C_{2D}$"}
+    right.plot(rings["q"], rings["density_1d_mapped"], **by_mdr)
     right.set(ylabel=r"$C_{1D}$ [m$^3$]", title="(b)")
     for axes in (left, right):
         axes.set(xscale="log", yscale="log", xlabel="wave number q [rad/m]")
         axes.legend(loc="lower left")
-        style.decades(axes)
+    style.decades(left, right)
     left.set_ylim(bottom=rings["density_2d"].min() / 3)
     right.set_ylim(bottom=rings["density_1d_mapped"].min() / 3)
     clear(drawing, (left, right))

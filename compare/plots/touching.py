@@ -1,24 +1,45 @@
 """Panels of a contact: sections through both bodies, and maps of it seen from above."""
 
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap, to_rgb
 from matplotlib.image import AxesImage
 from matplotlib.typing import ColorType
 from pandas import DataFrame
 
 from ..views import Section
-from . import materials, style
+from . import style
 from .prefixes import prefixed
 
 # Elements that are drawn of a row; heights above and below what is shown of the surfaces, of their range.
 ELEMENTS, ABOVE, BELOW = 48, 0.45, 0.35
 HIGHEST = 99  # percentile of the pressures in contact at which colours end
+# Sand, of which the elastomer is a tint.
+SAND = "#8A7A45"
 
 Fields: TypeAlias = Mapping[str, np.ndarray]
+
+
+def elastomer() -> tuple[float, float, float]:
+    """Colour of the inside of the elastomer, light on paper that is light and dark on dark."""
+    return _tint(0.25, style.paper())
+
+
+def skin() -> tuple[float, float, float]:
+    """Colour of the line where the elastomer ends."""
+    return _tint(0.75, style.ink())
+
+
+def rigid() -> tuple[float, float, float]:
+    """Colour of the inside of what is rigid."""
+    return style.grey(0.7)
+
+
+def _tint(share, ground):
+    return tuple((share * np.array(to_rgb(SAND)) + (1 - share) * np.array(to_rgb(ground))).tolist())
 
 
 def section_of(table: DataFrame) -> Section:
@@ -58,6 +79,16 @@ def heights(sections: Sequence[Section], span: tuple[float, float]) -> tuple[flo
     return float(low - BELOW * room), float(high + ABOVE * room)
 
 
+def bodies(axes: Axes, x, indenter, surface, touching, ends: Sequence[float], **look: Any) -> None:
+    """Elastomer and rigid indenter between two heights, real contact in bold, all in the units of the axes."""
+    bottom, top = ends
+    axes.fill_between(x, np.maximum(surface, bottom), bottom, color=elastomer(), linewidth=0)
+    axes.fill_between(x, np.minimum(indenter, top), top, color=rigid(), linewidth=0)
+    axes.plot(x, surface, color=skin(), linewidth=style.width(0.65), label="surface of the elastomer")
+    bold: dict[str, Any] = {"color": style.COLOUR["MDR"], "linewidth": style.width(2.2), "solid_capstyle": "butt"}
+    axes.plot(x, np.where(touching, surface, np.nan), label="real contact", **bold | look)
+
+
 def section(
     axes: Axes,
     seen: Section,
@@ -71,26 +102,25 @@ def section(
     row : by how much the elastomer has passed [m], where it is drawn as the row of elements that stands for it
     """
     (along, x_unit), (up, unit) = prefixed(span, "m"), prefixed(limits, "m")
-    x, surface, body = along * seen.x, up * seen.surface, up * seen.indenter
-    bottom, top = (up * limit for limit in limits)
-    axes.fill_between(x, surface, bottom, color=materials.elastomer(), linewidth=0)
+    x, surface, ends = along * seen.x, up * seen.surface, [up * limit for limit in limits]
+    colour = style.COLOUR[solver]
     if row is not None:
-        places = along * _elements(span, row)
-        _draw_elements(axes, places, x, surface, seen.touching, bottom, style.COLOUR[solver])
-    axes.axhline(0.0, color=style.grey(0.35), linewidth=style.width(0.5), linestyle=(0, (5, 3)), zorder=1.5)
-    axes.fill_between(x, body, top, where=body < top, color=materials.indenter(), linewidth=0)
-    axes.plot(x, surface, color=materials.surface(), linewidth=style.width(0.65))
-    touched = np.where(seen.touching, surface, np.nan)
-    axes.plot(
-        x,
-        touched,
-        color=style.COLOUR[solver],
-        linewidth=style.width(2.2),
-        solid_capstyle="butt",
-        marker="." if _single(seen.touching) else "",
-    )
-    axes.set(xlim=[along * end for end in span], ylim=(bottom, top))
+        _elements(axes, along * _places(span, row), x, surface, seen.touching, ends[0], colour)
+    level(axes)
+    marker = "." if _single(seen.touching) else ""
+    bodies(axes, x, up * seen.indenter, surface, seen.touching, ends, color=colour, marker=marker)
+    axes.set(xlim=[along * end for end in span], ylim=ends)
     axes.set(xlabel=f"x [{x_unit}]", ylabel=f"height [{unit}]")
+
+
+def level(axes: Axes) -> None:
+    """The undeformed surface, dashed."""
+    axes.axhline(0.0, **style.line(0.35, 0.5, linestyle=(0, (5, 3)), zorder=1.5))
+
+
+def flow(speed: float) -> str:
+    """Which way the elastomer passes, seen from the indenter."""
+    return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"
 
 
 def pressure_map(axes: Axes, x, y, pressure, highest: float) -> AxesImage:
@@ -109,7 +139,7 @@ def contact_map(axes: Axes, x, y, touching, displacement, deepest: float, colour
 
     x, y : pairs, of what touches and of the displacement
     """
-    ends: list[ColorType] = [style.paper(), materials.surface()]
+    ends: list[ColorType] = [style.paper(), skin()]
     whole = LinearSegmentedColormap.from_list("surface", ends)
     shades = ListedColormap(whole(np.linspace(0.0, 0.6, 256)))
     (x, x_surface), (y, y_surface) = x, y
@@ -128,8 +158,7 @@ def edge(axes: Axes, radius: float | None, colour) -> None:
     """A dashed circle, the edge of a smooth relaxed contact in the units of the axes, if there is one."""
     if radius is not None:
         angle = np.linspace(0, 2 * np.pi, 181)
-        look = {"color": colour, "linewidth": style.width(0.65), "linestyle": "--"}
-        axes.plot(radius * np.cos(angle), radius * np.sin(angle), **look)
+        axes.plot(radius * np.cos(angle), radius * np.sin(angle), "--", color=colour, linewidth=style.width(0.65))
 
 
 def sides(axes: Axes, half_width: float | None) -> None:
@@ -151,17 +180,17 @@ def _image(axes, x, y, values, **look):
     return axes.imshow(values, origin="lower", extent=extent, interpolation="nearest", aspect="equal", **look)
 
 
-def _elements(span, passed):
-    """Where some of the row are, alike apart, after it has passed by a length [m]."""
+def _places(span, passed):
+    """Where some of the row of elements are, alike apart, after it has passed by a length [m]."""
     pitch = (span[1] - span[0]) / ELEMENTS
     return span[0] + (passed - span[0]) % pitch + pitch * np.arange(ELEMENTS)
 
 
-def _draw_elements(axes, places, x, surface, touching, bottom, colour):
-    """Elements that touch, in the colour of the solver."""
+def _elements(axes, places, x, surface, touching, bottom, colour):
+    """Elements that touch in the colour of the solver, the others in that of the surface."""
     places = places[(x[0] <= places) & (places <= x[-1])]
     nearest = np.unique(np.clip(np.searchsorted(x, places), 0, len(x) - 1))
-    for chosen, shade, times in ((~touching, materials.surface(), 0.5), (touching, colour, 0.8)):
+    for chosen, shade, times in ((~touching, skin(), 0.5), (touching, colour, 0.8)):
         drawn = nearest[chosen[nearest]]
         axes.vlines(x[drawn], bottom, surface[drawn], color=shade, linewidth=style.width(times))
 

@@ -1,0 +1,76 @@
+"""Points of curves: intervals of 95 %, bands of one surface, and markers hollow where a condition breaks."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from pandas import DataFrame
+
+from . import style
+
+
+def intervals(
+    axes: Axes, x: Any, points: DataFrame, name: str, times: float = 1.0, less: Any = 0.0, **look: Any
+) -> None:
+    """Points with intervals of 95 %, of the columns `name`, `name`_low and `name`_high.
+
+    times, less : factor on all three, after `less` is taken from them; look : of `errorbar`
+    """
+    value, low, high = (
+        times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in ("", "_low", "_high")
+    )
+    axes.errorbar(x, value, yerr=style.bars(value, low, high), **look)
+
+
+def banded(
+    axes: Axes, points: DataFrame, across: str, name: str, solver: str, times: float = 1.0, **other: Any
+) -> None:
+    """One curve with intervals, and a band of the standard deviation of one surface if `name`_deviation is there.
+
+    times : factor on the abscissa
+    """
+    look, x = style.look(solver, **other), times * points[across].to_numpy(float)
+    intervals(axes, x, points, name, **look)
+    value = points[name].to_numpy(float)
+    deviation = np.nan_to_num(points[f"{name}_deviation"]) if f"{name}_deviation" in points else np.zeros(0)
+    if deviation.any():
+        below = value - deviation
+        if axes.get_yscale() == "log":
+            below = np.maximum(below, 1e-2 * value)
+        axes.fill_between(x, below, value + deviation, color=look["color"], alpha=0.13, linewidth=0)
+
+
+def scatter(
+    axes: Axes, x: Any, y: Any, filled: Any, colours: Any, size: float, edge: float, empty: Any = None, **look: Any
+) -> None:
+    """Markers, hollow where they are not `filled`; those filled lie above.
+
+    colours : one, or one of each point; size, edge : in multiples of the marker and the line of curves
+    empty : colour inside of hollow ones, that of the paper by default
+    """
+    x, y, filled = (np.asarray(each) for each in (x, y, filled))
+    look = {"s": style.mark(size) ** 2, "linewidths": style.width(edge), "zorder": 1} | look
+    for where, above in ((filled, 0.1), (~filled, 0.0)):
+        if where.any():
+            own = colours if isinstance(colours, str | tuple) else colours[where]
+            look |= {"facecolors": own if above else empty or style.paper(), "edgecolors": own}
+            axes.scatter(x[where], y[where], **look | {"zorder": look["zorder"] + above})
+
+
+def of_curves(points: DataFrame, chosen: Any) -> DataFrame:
+    """Some of the points, with load or depth as it is prescribed to them."""
+    own = points[chosen]
+    absent = [name for name in ("load", "depth") if name in own and own[name].isna().all()]
+    return own.drop(columns=absent)
+
+
+def averaged(points: DataFrame) -> str:
+    """Number of surfaces behind means, and what bars and bands are: sentences of a caption."""
+    rough = points[points["body"] == "rough"]
+    if rough.empty:
+        return "The body is smooth: bars are the change on halving the grid."
+    count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
+    return (
+        f"Means over {count.get('MDR', 0)} profiles (1D) and {count.get('BEM', 0)} surfaces (3D); bars are "
+        "intervals of 95 %, bands the standard deviation of one surface."
+    )
