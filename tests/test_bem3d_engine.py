@@ -30,25 +30,18 @@ def products(engine):
     [
         (Engine("fftw"), ROUNDING),
         (Engine("ducc0", threads=2), ROUNDING),
-        (Engine("fftw", threads=2), ROUNDING),
         (Engine("ducc0", precision="single"), SINGLE),
-        (Engine("fftw", precision="single"), SINGLE),
+        (Engine("fftw", threads=2, precision="single"), SINGLE),
     ],
 )
 def test_every_library_gives_the_same_products(other, accuracy):
     rng = np.random.default_rng(0)
     for (shape, product), (_, another) in zip(products(Engine()), products(other), strict=True):
-        plane = rng.standard_normal(shape)
+        plane, out = rng.standard_normal(shape), np.empty(shape)
         expected = product(plane)
         np.testing.assert_allclose(another(plane), expected, rtol=0, atol=accuracy * np.abs(expected).max())
-
-
-def test_what_is_written_into_is_what_is_returned():
-    plane, out = np.random.default_rng(0).random((16, 16)), np.empty((16, 16))
-    for shape, product in products(Engine()):
-        if shape == (16, 16):
-            assert product(plane, out) is out
-            np.testing.assert_array_equal(out, product(plane))
+        assert product(plane, out) is out
+        np.testing.assert_array_equal(out, expected)
 
 
 def test_padded_sizes_are_even_products_of_small_primes_and_close():
@@ -88,16 +81,14 @@ def test_fused_loops_are_their_plain_twins():
 
 @pytest.mark.parametrize("scene", [CELL, BODY], ids=["cell", "body"])
 def test_single_precision_keeps_five_digits_of_friction(scene):
-    double, single = (BEM(points=128, precision=precision).solve(scene) for precision in ("double", "single"))
+    double, single = (BEM(points=64, precision=precision).solve(scene) for precision in ("double", "single"))
     assert single.friction_coefficient == pytest.approx(double.friction_coefficient, rel=1e-4)
     assert single.depth == pytest.approx(double.depth, rel=1e-5)
     assert single.friction_coefficient != double.friction_coefficient
 
 
 def test_single_precision_cannot_be_asked_for_more_than_it_has():
-    with pytest.raises(
-        ValueError, match="tolerance = 1e-07 cannot be reached in single precision: at least 1e-05"
-    ):
+    with pytest.raises(ValueError, match="1e-07 cannot be reached in single precision: at least 1e-05"):
         BEM(precision="single", tolerance=1e-7)
 
 
@@ -114,7 +105,7 @@ def test_without_a_gpu_it_is_refused_by_name():
         BEM(transforms="cupy").solve(BODY)
 
 
-@pytest.mark.parametrize("scene", [CELL, BODY, replace(CELL, motion=Indent(pressure=2e4))])
+@pytest.mark.parametrize("scene", [BODY, replace(CELL, motion=Indent(pressure=2e4))])
 def test_the_way_over_a_gpu_gives_the_same_answer(scene, monkeypatch):
     # with a GPU on it; without one numpy stands in for cupy, whose arrays and functions have the same names
     if not has_gpu():
