@@ -1,14 +1,15 @@
 """Convergence: one contact answered along ladders of settings, its errors and costs as a Dataset."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import nan
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import xarray
 from pandas import DataFrame, concat, factorize
 
+from bem3d import BEM
 from scene import Scene
 
 from ...rectangle import FAILED, SOLVED
@@ -44,18 +45,28 @@ class Ladder:
     solves: tuple[TimedSolve, ...]
 
     @classmethod
-    def of(cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence, **others: Any):
-        """Steps that differ in one setting. others : of the solves, see TimedSolve"""
-        solvers = [replace(solver, **{setting: value}) for value in values]
-        return cls.through(label, scene, solvers, setting, values, **others)
+    def of(cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence, **others: Any) -> Self:
+        """Steps that differ in one setting of the solver. others : of the solves, see TimedSolve"""
+
+        def solve(value):
+            return TimedSolve.of(replace(solver, **{setting: value}), scene, **others)
+
+        return cls.over(label, setting, values, solve)
 
     @classmethod
-    def through(
-        cls, label: str, scene: Scene, solvers: Sequence[OnGrid], setting: str, values: Sequence, **others: Any
-    ):
-        """Steps of any settings."""
-        solves = tuple(TimedSolve.of(solver, scene, **others) for solver in solvers)
-        return cls(label, setting, tuple(values), solves)
+    def over(cls, label: str, setting: str, values: Sequence, solve: Callable[[Any], TimedSolve]) -> Self:
+        """Steps that differ in anything. solve : function of a value"""
+        return cls(label, setting, tuple(values), tuple(map(solve, values)))
+
+
+def points_and_tolerances(
+    scene: Scene, tight: BEM, points: Sequence[int], grid: int, tolerances: Sequence[float], **others: Any
+) -> tuple[Ladder, ...]:
+    """Ladders of BEM: points at a tight tolerance, tolerances on one grid. others : see TimedSolve"""
+    return (
+        Ladder.of("BEM, by points", scene, tight, "points", points, **others),
+        Ladder.of(f"BEM, by tolerance at {grid}²", scene, BEM(points=grid), "tolerance", tolerances, **others),
+    )
 
 
 @dataclass(frozen=True)

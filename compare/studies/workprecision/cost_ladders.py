@@ -3,7 +3,7 @@
 There is no truth here and no error: the tolerance stays, and time, memory and operator applications are counted.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,6 +31,8 @@ GRIDS = {
     "standard": (64, 128, 192, 256, 384, 512),
     "full": (64, 128, 256, 384, 512, 768, 1024, 1536, 2048),
 }
+# Ladders of the size "quick".
+QUICKLY = ("plane", "slide", "mdr-rough", "steps-march", "speed", "contact")
 LARGEST_ROUGH, LARGEST_SLIDING = 1024, 1536  # points a side that are solved within a minute
 LINES = {
     "quick": (1000, 5000, 20000, 10**5),
@@ -58,7 +60,50 @@ AXES: Mapping[str, Axis] = {
 
 def ladders(size: str) -> dict[str, Ladder]:
     """Everything that is measured, by name."""
-    return _points_3d(size) | _points_1d(size) | _modes(size) | _steps(size) | _speeds(size) | _contact(size)
+    quick, grids, lines = size == QUICK, GRIDS[size], LINES[size]
+    coarse, moving = (tuple(n for n in grids if n <= most) for most in (LARGEST_ROUGH, LARGEST_SLIDING))
+    rest, slide = Scene(SPHERE, KELVIN, Indent(load=LOAD)), slid(1.0)
+    rough_rest, rough_slide = replace(rest, roughness=ROUGH), slid(1.0, ROUGH)
+    steps = (25, 100, 400) if quick else (25, 50, 100, 200, 400, 800)
+    ratios = tuple(10.0**k for k in ((-3, 0, 3) if quick else range(-4, 5)))
+    pressures = (5e-3, 0.282, 1.23) if quick else (5e-4, 5e-3, PRESSURE, 0.12, 0.282, 0.5, 0.749, 1.23, 1.61)
+    grid = 512 if size == FULL else 256
+    moved, plain = BEM(points=128 if quick else 256), BEM(points=grid)
+    march = _modes(pressed(MEMORY))
+    found = {
+        "plane": _by_grid("rough plane, at rest", grids, lambda n: plane(n, PRESSURE)),
+        "rest": _by_grid("smooth sphere, at rest", grids, lambda n: rest),
+        "rest-rough": _by_grid("rough sphere, at rest", coarse, lambda n: rough_rest),
+        "slide": _by_grid("smooth sphere, sliding", moving, lambda n: slide),
+        "slide-rough": _by_grid("rough sphere, sliding", coarse, lambda n: rough_slide),
+        "mdr-rough": Ladder.of("rough sphere, sliding", rough_slide, MDR(), "points", lines),
+        "mdr": Ladder.of("smooth sphere, sliding", slide, MDR(), "points", lines),
+        # Steady solves and marches of solids with more and more modes over the same decades.
+        "modes-march": _by_scene("3D, marched", "modes", MODES, BEM(points=256, steps=20), march),
+        "modes-slide": _by_scene("3D, steady sliding", "modes", MODES, BEM(points=128), _modes(slide.motion)),
+        "modes-mdr-slide": _by_scene(
+            "1D, steady sliding", "modes", MODES, MDR(points=10**5), _modes(slide.motion)
+        ),
+        "modes-mdr-march": _by_scene("1D, marched", "modes", MODES, MDR(points=1000, steps=100), march),
+        "steps-march": Ladder.of("3D, marched", march(1), BEM(points=64), "steps", steps),
+        "steps-mdr": Ladder.of("1D, marched", march(1), MDR(points=1000), "steps", steps),
+        "speed": _by_scene("3D, smooth", "speed", ratios, moved, slid),
+        "speed-rough": _by_scene("3D, rough", "speed", ratios, moved, lambda r: slid(r, ROUGH)),
+        "speed-mdr": _by_scene("1D, rough", "speed", ratios[::2], MDR(points=10**4), lambda r: slid(r, ROUGH)),
+        # The one that the ladder of points has too is the same task.
+        "contact": Ladder.over(
+            "rough plane, at rest",
+            "contact",
+            pressures,
+            lambda each: TimedSolve.of(plain, plane(grid, each), products=each == PRESSURE),
+        ),
+    }
+    return {name: each for name, each in found.items() if not quick or name in QUICKLY}
+
+
+def slid(ratio: float, roughness: SelfAffine | None = None) -> Scene:
+    """The sphere under LOAD, sliding at a ratio v tau / a."""
+    return Scene(SPHERE, KELVIN, Slide(speed=ratio * REACH / MEMORY, load=LOAD), roughness)
 
 
 def plane(points: int, pressure: float) -> Scene:
@@ -67,61 +112,6 @@ def plane(points: int, pressure: float) -> Scene:
     unit = SelfAffine(hurst=0.8, rms_height=1.0, longest=1.0, rolloff=0.25, shortest=shortest, seed=1)
     rough = replace(unit, rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / points)))
     return Scene(Plane(), Elastic(0.25), Indent(pressure=pressure * SLOPE), rough)  # E* = 4 G = 1
-
-
-def _points_3d(size):
-    grids = GRIDS[size]
-    rough, moving = (tuple(n for n in grids if n <= most) for most in (LARGEST_ROUGH, LARGEST_SLIDING))
-    at_rest, sliding = (
-        Scene(SPHERE, KELVIN, motion) for motion in (Indent(load=LOAD), Slide(speed=REACH / MEMORY, load=LOAD))
-    )
-    found = {"plane": _with_products("rough plane, at rest", grids, [plane(n, PRESSURE) for n in grids])}
-    if size != QUICK:
-        found["rest"] = _same("smooth sphere, at rest", grids, at_rest)
-        found["rest-rough"] = _same("rough sphere, at rest", rough, replace(at_rest, roughness=ROUGH))
-    found["slide"] = _same("smooth sphere, sliding", moving, sliding)
-    if size != QUICK:
-        found["slide-rough"] = _same("rough sphere, sliding", rough, replace(sliding, roughness=ROUGH))
-    return found
-
-
-def _same(label, grids, scene):
-    return _with_products(label, grids, [scene] * len(grids))
-
-
-def _with_products(label, grids: Sequence[int], scenes: Sequence[Scene]):
-    each = zip(grids, scenes, strict=True)
-    solves = tuple(TimedSolve.of(BEM(points=n), scene, products=True) for n, scene in each)
-    return Ladder(label, "points", tuple(map(float, grids)), solves)
-
-
-def _points_1d(size):
-    solvers = [MDR(points=n) for n in LINES[size]]
-    scene = Scene(SPHERE, KELVIN, Slide(speed=REACH / MEMORY, load=LOAD))
-    bodies = {"mdr-rough": ("rough sphere, sliding", replace(scene, roughness=ROUGH))}
-    if size != QUICK:
-        bodies["mdr"] = "smooth sphere, sliding", scene
-    return {
-        name: Ladder.through(label, body, solvers, "points", LINES[size]) for name, (label, body) in bodies.items()
-    }
-
-
-def _modes(size):
-    """Steady solves and marches of solids with more and more modes over the same decades."""
-    if size == QUICK:
-        return {}
-    sliding, pressing = Slide(speed=REACH / MEMORY, load=LOAD), pressed(MEMORY)
-    return {
-        "modes-march": _series("3D, marched", BEM(points=256, steps=20), pressing),
-        "modes-slide": _series("3D, steady sliding", BEM(points=128), sliding),
-        "modes-mdr-slide": _series("1D, steady sliding", MDR(points=10**5), sliding),
-        "modes-mdr-march": _series("1D, marched", MDR(points=1000, steps=100), pressing),
-    }
-
-
-def _series(label, solver, motion):
-    solves = tuple(TimedSolve.of(solver, Scene(SPHERE, prony(count), motion)) for count in MODES)
-    return Ladder(label, "modes", tuple(map(float, MODES)), solves)
 
 
 def prony(count: int) -> Prony:
@@ -136,37 +126,13 @@ def pressed(duration: float) -> Program:
     return Program(stages=(Stage(duration=duration, load=LOAD),))
 
 
-def _steps(size):
-    counts = (25, 100, 400) if size == QUICK else (25, 50, 100, 200, 400, 800)
-    scene = Scene(SPHERE, prony(1), pressed(MEMORY))
-    found = {"steps-march": Ladder.of("3D, marched", scene, BEM(points=64), "steps", counts)}
-    if size != QUICK:
-        found["steps-mdr"] = Ladder.of("1D, marched", scene, MDR(points=1000), "steps", counts)
-    return found
+def _by_grid(label, grids, scene):
+    return Ladder.over(label, "points", grids, lambda n: TimedSolve.of(BEM(points=n), scene(n), products=True))
 
 
-def _speeds(size):
-    quick = size == QUICK
-    ratios = tuple(10.0**k for k in ((-3, 0, 3) if quick else range(-4, 5)))
-    found = {"speed": _moved("3D, smooth", ratios, BEM(points=128 if quick else 256), None)}
-    if not quick:
-        found["speed-rough"] = _moved("3D, rough", ratios, BEM(points=256), ROUGH)
-        found["speed-mdr"] = _moved("1D, rough", ratios[::2], MDR(points=10**4), ROUGH)
-    return found
+def _by_scene(label, setting, values, solver, scene):
+    return Ladder.over(label, setting, values, lambda value: TimedSolve.of(solver, scene(value)))
 
 
-def _moved(label, ratios, solver, rough):
-    scenes = [Scene(SPHERE, KELVIN, Slide(speed=r * REACH / MEMORY, load=LOAD), rough) for r in ratios]
-    return Ladder(label, "speed", ratios, tuple(TimedSolve.of(solver, scene) for scene in scenes))
-
-
-def _contact(size):
-    pressures = (5e-3, 0.282, 1.23)
-    if size != QUICK:
-        pressures = (5e-4, 5e-3, PRESSURE, 0.12, 0.282, 0.5, 0.749, 1.23, 1.61)
-    grid = 512 if size == FULL else 256
-    # The one that the ladder of points has too is the same task.
-    solves = tuple(
-        TimedSolve.of(BEM(points=grid), plane(grid, each), products=each == PRESSURE) for each in pressures
-    )
-    return {"contact": Ladder("rough plane, at rest", "contact", pressures, solves)}
+def _modes(motion):
+    return lambda count: Scene(SPHERE, prony(count), motion)

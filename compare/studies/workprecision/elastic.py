@@ -11,7 +11,7 @@ from bem3d import BEM
 from scene import Indent, Plane, Scene, SelfAffine
 from scene.scales import elastic_contact
 
-from .convergence import Convergence, Ladder
+from .convergence import Convergence, points_and_tolerances
 from .diagram import convergence
 from .reference import DEPTH, FORCE, Known, Quantity, closed_form, finer
 from .scenes import CONE, KELVIN, QUICK, SPHERE, at, powers, pressed, rough
@@ -75,17 +75,13 @@ def _cone(size):
 
 
 def _refined(name, title, scene, quantities, size):
-    solver = replace(TIGHT, points=REFERENCE, tolerance=1e-8)
-    truth = finer(scene, solver, f"{solver.points} points on the same surface")
+    truth = finer(scene, BEM(points=REFERENCE, tolerance=1e-8), "{} points on the same surface")
     return Convergence(name, title, truth, quantities, _ladders(scene, size, REFINED_POINTS))
 
 
 def _ladders(scene, size, points=POINTS, **others):
-    grid, tolerances = at(AT, size), at(TOLERANCES, size)
-    return (
-        Ladder.of("BEM, by points", scene, TIGHT, "points", at(points, size), **others),
-        Ladder.of(f"BEM, by tolerance at {grid}²", scene, BEM(points=grid), "tolerance", tolerances, **others),
-    )
+    settings = at(points, size), at(AT, size), at(TOLERANCES, size)
+    return points_and_tolerances(scene, TIGHT, *settings, **others)
 
 
 DIAGRAM = convergence(

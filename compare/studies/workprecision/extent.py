@@ -124,7 +124,7 @@ def _at_rest(size):
 def _sliding(flow, size):
     motion = Slide(speed=flow * CONTACT / TIME, load=LOAD)
     reference = BEM(points=at(REFERENCE, size), tolerance=1e-7)
-    truth = finer(Scene(SPHERE, KELVIN, motion), reference, f"the free sphere, {reference.points} points")
+    truth = finer(Scene(SPHERE, KELVIN, motion), reference, "the free sphere, {} points")
     quantities = (SLOW, SHAPED_SLOW) if flow <= FLOWS["quick"][0] else (FRICTION,)
     return Convergence(
         f"sliding-{flow:g}", f"tip, Kelvin, v τ = {flow:g} a", truth, quantities, _ladders(motion, size, ())
@@ -134,11 +134,16 @@ def _sliding(flow, size):
 def _ladders(motion, size, keeps):
     periods, extents, across = at(PERIODS, size), at(EXTENTS, size), at(ACROSS, size)
     free = Scene(SPHERE, KELVIN, motion)
-    cells = (TimedSolve.of(BEM(points=across * k), cell(k, motion), keeps) for k in periods)
-    windows = [BEM(points=round(across * k), extent=2 * CONTACT * k) for k in extents]
+
+    def repeating(period):
+        return TimedSolve.of(BEM(points=across * period), cell(period, motion), keeps)
+
+    def window(over):
+        return TimedSolve.of(BEM(points=round(across * over), extent=2 * CONTACT * over), free, keeps)
+
     return (
-        Ladder("cell that repeats, by period over 2 a", "period over 2 a", periods, tuple(cells)),
-        Ladder.through("free, by extent over 2 a", free, windows, "extent over 2 a", extents, keeps=keeps),
+        Ladder.over("cell that repeats, by period over 2 a", "period over 2 a", periods, repeating),
+        Ladder.over("free, by extent over 2 a", "extent over 2 a", extents, window),
         Ladder.of(
             "free, extent fitted, by points", free, BEM(), "points", (across, 2 * across, 4 * across), keeps=keeps
         ),

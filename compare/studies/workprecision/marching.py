@@ -8,14 +8,14 @@ from math import nan
 import numpy as np
 
 from bem3d import BEM
-from scene import Program, Scene, Stage
+from scene import Program, Stage
 
 from ...exact import indentation
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
 from .diagram import convergence, reported
 from .reference import FORCE, FRICTION, Known, Quantity, closed_form, finer
-from .scenes import CONTACT, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, slid
+from .scenes import CONTACT, SPHERE, STANDARD_LINEAR, TIME, at, powers, slid, withdrawal
 from .timed_solve import TimedSolve
 
 POINTS = {"quick": (32, 64, 128), "full": powers(32, 256)}
@@ -24,8 +24,7 @@ SLID = {"quick": (32, 64), "full": (32, 64, 128)}
 PATHS = {"quick": (2, 8, 16), "full": (1, 2, 4, 8, 16, 32)}  # over the radius of contact, at the least points
 REFERENCE = {"quick": 256, "full": 1024}
 # Pressed in for two relaxation times and drawn back for less than one.
-TOP, IN, BACK = depth(SPHERE), 2 * TIME, 0.5 * TIME
-TIMES, DEPTHS = (0.0, IN, IN + BACK), (0.0, TOP, TOP * (1 - BACK / IN))
+SCENE, TIMES, DEPTHS = withdrawal(2 * TIME, 0.5 * TIME)
 # Of v tau / a; the solid creeps for ten times as long.
 FLOW = 0.1
 
@@ -47,15 +46,18 @@ HISTORY = Quantity("history", "normal force, all history", _off_ting)
 
 
 def _withdrawal(size):
-    stages = Stage(duration=IN, depth=TOP), Stage(duration=BACK, depth=DEPTHS[-1])
-    scene = Scene(SPHERE, STANDARD_LINEAR, Program(stages=stages))
     points, steps, keeps = at(POINTS, size), at(STEPS, size), ("time", "normal_force")
-    made = partial(Ladder.of, scene=scene, keeps=keeps)
-    both = [BEM(points=n, steps=s) for n, s in zip(points, steps, strict=True)]
+    made = partial(Ladder.of, scene=SCENE, keeps=keeps)
+    both = dict(zip(points, steps, strict=True))
     ladders = (
         made(f"BEM, by points at {steps[-1]} steps", solver=BEM(steps=steps[-1]), setting="points", values=points),
         made(f"BEM, by steps at {points[-1]}²", solver=BEM(points=points[-1]), setting="steps", values=steps),
-        Ladder.through("BEM, points and steps together", scene, both, "points", points, keeps=keeps),
+        Ladder.over(
+            "BEM, points and steps together",
+            "points",
+            points,
+            lambda n: TimedSolve.of(BEM(points=n, steps=both[n]), SCENE, keeps),
+        ),
     )
     truth = closed_form("Lee and Radok, Ting", {HISTORY.name: Known(0.0, scale=1.0)})
     return Convergence("withdrawal", "sphere pressed in and drawn back", truth, (HISTORY,), ladders)
@@ -64,17 +66,17 @@ def _withdrawal(size):
 def _started(size):
     steady = slid(SPHERE, STANDARD_LINEAR, FLOW)
     reference = BEM(points=at(REFERENCE, size), tolerance=1e-7)
-    truth = finer(steady, reference, f"the steady solver, {reference.points} points")
+    truth = finer(steady, reference, "the steady solver, {} points")
     paths, slides = at(PATHS, size), at(SLID, size)
     few, longest = BEM(points=slides[0], steps=20), paths[-1]
     ladders = (
         Ladder.of("BEM, steady, by points", steady, BEM(), "points", (*slides, 2 * slides[-1])),
         Ladder.of(f"BEM, marched {longest} a, by points", _set_in_motion(longest), few, "points", slides),
-        Ladder(
+        Ladder.over(
             f"BEM, marched, by path over a at {few.points}²",
             "path over a",
             paths,
-            tuple(TimedSolve.of(few, _set_in_motion(path)) for path in paths),
+            lambda path: TimedSolve.of(few, _set_in_motion(path)),
         ),
     )
     return Convergence("started", "sphere set in motion", truth, (FORCE, FRICTION), ladders)
@@ -83,7 +85,7 @@ def _started(size):
 def _set_in_motion(path):
     """Pressed in at once and slid along so many radii of contact."""
     speed = FLOW * CONTACT / TIME
-    pressed, moving = Stage(duration=TIME, depth=TOP), Stage(duration=path * CONTACT / speed, speed=speed)
+    pressed, moving = Stage(duration=TIME, depth=DEPTHS[1]), Stage(duration=path * CONTACT / speed, speed=speed)
     return replace(slid(SPHERE, STANDARD_LINEAR, FLOW), motion=Program(stages=(pressed, moving)))
 
 

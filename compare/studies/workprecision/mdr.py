@@ -3,14 +3,13 @@
 from collections.abc import Sequence
 
 from mdr1d import MDR
-from scene import Program, Scene, Stage
 from scene.scales import elastic_contact
 
 from ...exact import foundation, indentation
 from .convergence import Convergence, Ladder
 from .diagram import convergence
 from .reference import FORCE, FRICTION, Known, closed_form, finer
-from .scenes import CONE, KELVIN, SPHERE, STANDARD_LINEAR, TIME, at, depth, powers, pressed, rough, slid, some
+from .scenes import CONE, KELVIN, SPHERE, STANDARD_LINEAR, TIME, at, powers, pressed, rough, slid, some, withdrawal
 
 POINTS = {"quick": (32, 512, 8192), "full": powers(16, 65536, 4)}
 ROUGH_POINTS = {"quick": (256, 1024, 8192), "full": powers(256, 65536, 4)}
@@ -60,18 +59,14 @@ def _sliding(contact, size):
 
 def _rough(size):
     scene = rough(0.1)
-    truth = finer(scene, REFERENCE, f"{REFERENCE.points} points on the same profile")
+    truth = finer(scene, REFERENCE, "{} points on the same profile")
     ladders = (_points(scene, at(ROUGH_POINTS, size)),)
     return Convergence("rough-sphere", "rough sphere, 0.1 m/s", truth, (FRICTION,), ladders)
 
 
 def _withdrawal(size):
-    top = depth(SPHERE)
-    end = top * (1 - BACK / IN)
-    stages = Stage(duration=IN, depth=top), Stage(duration=BACK, depth=end)
-    scene = Scene(SPHERE, STANDARD_LINEAR, Program(stages=stages))
-    times, depths = (0.0, IN, IN + BACK), (0.0, top, end)
-    (force,), _ = indentation.force_of_depth(SPHERE, STANDARD_LINEAR, times, depths, IN + BACK)
+    scene, times, depths = withdrawal(IN, BACK)
+    (force,), _ = indentation.force_of_depth(SPHERE, STANDARD_LINEAR, times, depths, times[-1])
     truth = closed_form("Ting", {FORCE.name: Known(float(force))})
     by_points = Ladder.of("MDR, by points", scene, MDR(steps=50), "points", at(HISTORY_POINTS, size))
     by_steps = Ladder.of("MDR, by steps", scene, MDR(points=512), "steps", at(STEPS, size))

@@ -93,6 +93,7 @@ def finer(
 ) -> Reference:
     """Reference by the scene solved far finer; its error is the change from the next coarser grid or setting.
 
+    source : for people, with {} for the points
     scale : by the quantity's name, see Known
     coarser : settings of the next, if it is not on half the points
     """
@@ -106,7 +107,7 @@ def finer(
             found[each.name] = Known(value, abs(value - other), (scale or {}).get(each.name))
         return found
 
-    return Reference(source, HALVED, known, tasks)
+    return Reference(source.format(solver.points), HALVED, known, tasks)
 
 
 def slow_limit(scene: Scene, solver: BEM) -> Reference:

@@ -95,8 +95,7 @@ def _sliding(name, title, body, speed, size):
     contact = elastic_contact(replace(body, motion=Indent(load=LOAD)))
     velocity = SMOOTH_SPEEDS[speed] * contact.radius / contacts.kelvin("sphere").elastomer.relaxation_time
     scene = replace(body, motion=Slide(speed=velocity, load=LOAD))
-    truth = BEM(points=at(SMOOTH, size)["truth"])
-    known = finer(scene, truth, f"3D, {truth.points} points", {"depth": contact.depth})
+    known = finer(scene, BEM(points=at(SMOOTH, size)["truth"]), "3D, {} points", {"depth": contact.depth})
     return Convergence(name, title, known, (FRICTION, DEPTH), _ladders(scene, size))
 
 

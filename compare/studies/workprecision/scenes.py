@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import radians
 from typing import TypeVar
 
-from scene import Cone, Indent, Kelvin, Scene, Slide, Sphere, StandardLinearSolid
+from scene import Cone, Indent, Kelvin, Program, Scene, Slide, Sphere, Stage, StandardLinearSolid
 
 from .. import contacts
 
@@ -45,6 +45,16 @@ def pressed(shape) -> Scene:
 def slid(shape, solid, flow: float) -> Scene:
     """A body sliding at that depth; flow : v tau / a of the speed, the relaxation time and the contact at rest"""
     return Scene(shape, solid, Slide(speed=flow * CONTACT / TIME, depth=depth(shape)))
+
+
+def withdrawal(pressed: float, back: float) -> tuple[Scene, tuple[float, ...], tuple[float, ...]]:
+    """The sphere pressed in to that depth in a time [s], and drawn back as fast for a shorter one.
+
+    With the times [s] of its corners and their depths [m].
+    """
+    depths = 0.0, depth(SPHERE), depth(SPHERE) * (1 - back / pressed)
+    stages = Stage(duration=pressed, depth=depths[1]), Stage(duration=back, depth=depths[2])
+    return Scene(SPHERE, STANDARD_LINEAR, Program(stages=stages)), (0.0, pressed, pressed + back), depths
 
 
 def rough(speed: float, load: float = 1.0) -> Scene:

@@ -11,7 +11,7 @@ from bem3d import BEM
 from scene import Scene, Slide, Sphere, StandardLinearSolid
 
 from ...statistics.convergence import MeasuredLadder
-from .convergence import Convergence, Ladder
+from .convergence import Convergence, points_and_tolerances
 from .diagram import convergence, reported
 from .reference import DEPTH, FORCE, FRICTION, Known, Quantity, Reference, closed_form, finer, slow_limit
 from .scenes import FULL, KELVIN, QUICK, SPHERE, at, powers, rough, slid, some
@@ -72,8 +72,7 @@ def contacts(size: str) -> Sequence[Convergence]:
 
 def _smooth(flow, size):
     scene = slid(SPHERE, KELVIN, flow)
-    reference = replace(TIGHT, points=at(REFERENCE, size))
-    truth = estimates_of(finer(scene, reference, f"{reference.points} points"))
+    truth = estimates_of(finer(scene, replace(TIGHT, points=at(REFERENCE, size)), "{} points"))
     title = f"sphere, Kelvin, v τ = {_times(flow)}a"
     return Convergence(f"kelvin-{flow:g}", title, truth, (FORCE, *ESTIMATES), _ladders(scene, POINTS, size))
 
@@ -97,28 +96,20 @@ def _slow(size):
     scene = rough(SLOW)
     truth = estimates_of(slow_limit(scene, replace(TIGHT, points=ROUGH_REFERENCE)))
     title = f"rough sphere, {1e3 * SLOW:g} mm/s"
-    return Convergence("rough-slow", title, truth, ESTIMATES, _by_points(scene, ROUGH_POINTS, size))
+    return Convergence("rough-slow", title, truth, ESTIMATES, _ladders(scene, ROUGH_POINTS, size)[:1])
 
 
 def _rough(speed, size):
     scene = rough(speed)
     reference = replace(TIGHT, points=ROUGH_REFERENCE)
-    truth = estimates_of(finer(scene, reference, f"{reference.points} points on the same surface"))
-    ladders = (_ladders if size == FULL else _by_points)(scene, ROUGH_POINTS, size)
+    truth = estimates_of(finer(scene, reference, "{} points on the same surface"))
+    ladders = _ladders(scene, ROUGH_POINTS, size)[: None if size == FULL else 1]
     return Convergence(f"rough-{speed:g}", f"rough sphere, {speed:g} m/s", truth, ESTIMATES, ladders)
 
 
-def _by_points(scene, points, size):
-    return (Ladder.of("BEM, by points", scene, TIGHT, "points", at(points, size)),)
-
-
 def _ladders(scene, points, size):
-    grid = at(AT, size)
-    label, solver = f"BEM, by tolerance at {grid}²", BEM(points=grid)
-    return (
-        *_by_points(scene, points, size),
-        Ladder.of(label, scene, solver, "tolerance", at(TOLERANCES, size)),
-    )
+    settings = at(points, size), at(AT, size), at(TOLERANCES, size)
+    return points_and_tolerances(scene, TIGHT, *settings)
 
 
 def estimates(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
