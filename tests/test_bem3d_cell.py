@@ -43,11 +43,11 @@ def pressed(roughness, motion, elastomer=SOFT):
     return Scene(Plane(), elastomer, motion, roughness)
 
 
-@pytest.mark.parametrize("fraction", [0.02, 0.1, 0.5, 0.9, 0.98])
+@pytest.mark.parametrize("fraction", [0.02, 0.5, 0.98])
 def test_one_wave_is_westergaards(fraction):
     closure = waves.wave_closure(MODULUS, WAVE.amplitude, WAVE.wavelength)
     scene = pressed(WAVE, Indent(pressure=fraction * closure))
-    for points in (128, 512, 2048):
+    for points in (128, 512):
         result = BEM(points=points, tolerance=1e-7).solve(scene)
         assert result.fields["pressure"].shape == (1, points)  # nothing varies along y: one row stands for all
         assert result.normal_force == pytest.approx(fraction * closure * WAVE.wavelength**2, rel=ROUNDING)
@@ -70,8 +70,7 @@ def test_crossed_waves_touch_as_published(fraction, contact):
     assert result.measures["contact_fraction"] == pytest.approx(contact, abs=5e-4)  # some pixels of the rim
 
 
-@pytest.mark.parametrize("roughness", [CROSSED, ROUGH], ids=["crossed", "rough"])
-@pytest.mark.parametrize("pressure", [2e2, 2e4, 1e5])
+@pytest.mark.parametrize(("roughness", "pressure"), [(ROUGH, 2e2), (ROUGH, 1e5), (CROSSED, 2e4)], ids=str)
 def test_the_gap_of_a_pressure_asks_for_that_pressure(roughness, pressure):
     solver = BEM(points=128, tolerance=1e-7)
     by_pressure = solver.solve(pressed(roughness, Indent(pressure=pressure)))
@@ -83,7 +82,7 @@ def test_the_gap_of_a_pressure_asks_for_that_pressure(roughness, pressure):
     )
 
 
-@pytest.mark.parametrize("speed", [0.0, 1e-6, 1e-2, 1.0, 1e4])
+@pytest.mark.parametrize("speed", [0.0, 1e-2, 1e4])
 @pytest.mark.parametrize("elastomer", SOLIDS, ids=lambda solid: solid.type)
 @pytest.mark.parametrize("wave", [WAVE, CROSSED], ids=["one", "crossed"])
 def test_full_contact_is_exact(elastomer, speed, wave):
@@ -101,17 +100,15 @@ def test_full_contact_is_exact(elastomer, speed, wave):
     assert result.friction_force == pytest.approx(expected, rel=1e-6, abs=1e-12 * result.normal_force)
 
 
-@pytest.mark.parametrize("speed", [1e-3, 1e-1, 10.0])
-def test_a_rough_plane_in_full_contact_is_the_sum_of_its_waves(speed):
-    elastomer, points = SOLIDS[1], 64
-    surface = RoughSurface.of(ROUGH, ROUGH.q_max(0.0))
+def test_a_rough_plane_in_full_contact_is_the_sum_of_its_waves():
+    elastomer, points, speed = SOLIDS[1], 64, 0.1
+    surface, sides = RoughSurface.of(ROUGH, ROUGH.q_max(0.0)), (ROUGH.longest, ROUGH.longest)
     along = (np.arange(points) - (points - 1) / 2) * ROUGH.longest / points
-    heights, sides = surface.heights(along, along), (ROUGH.longest, ROUGH.longest)
+    heights = surface.heights(along, along)
     expected = full_contact.pressure(-heights, sides, elastomer, speed)
     pressure = -1.1 * min(expected.min(), -expected.max())
-    result = BEM(points=points, tolerance=1e-11).solve(
-        pressed(ROUGH, Slide(speed=speed, pressure=pressure), elastomer)
-    )
+    scene = pressed(ROUGH, Slide(speed=speed, pressure=pressure), elastomer)
+    result = BEM(points=points, tolerance=1e-11).solve(scene)
     np.testing.assert_allclose(result.fields["pressure"] - pressure, -expected, atol=1e-6 * np.abs(expected).max())
     friction = full_contact.friction(heights, sides, elastomer, speed) * ROUGH.longest**2
     assert result.friction_force == pytest.approx(friction, rel=1e-6)
@@ -120,15 +117,14 @@ def test_a_rough_plane_in_full_contact_is_the_sum_of_its_waves(speed):
 def test_the_wake_of_a_repeated_surface_lowers_what_touches():
     # slow, every asperity meets a relaxed surface; fast, it runs in the dent of the one before it
     fractions = [
-        BEM(points=128).solve(pressed(ROUGH, Slide(speed=v, pressure=2e4), SOLIDS[0])).measures["contact_fraction"]
-        for v in (0.0, 1e-3, 1e-2, 1e-1, 1.0)
+        BEM(points=64).solve(pressed(ROUGH, Slide(speed=v, pressure=2e4), SOLIDS[0])).measures["contact_fraction"]
+        for v in (0.0, 1e-2, 1.0)
     ]
     assert np.all(np.diff(fractions) < 0)
 
 
-@pytest.mark.parametrize("speed", [1e-3, 1e-1, 1.0])
-def test_friction_of_a_rough_plane_converges_and_its_disagreement_says_how_far(speed):
-    scene = pressed(ROUGH, Slide(speed=speed, pressure=1e5), SOLIDS[1])
+def test_friction_of_a_rough_plane_converges_and_its_disagreement_says_how_far():
+    scene = pressed(ROUGH, Slide(speed=1e-1, pressure=1e5), SOLIDS[1])
     coarse, middle, fine = (BEM(points=n).solve(scene) for n in (64, 128, 512))
     for result in (coarse, middle):
         error = abs(result.friction_coefficient - fine.friction_coefficient)
@@ -155,19 +151,17 @@ def test_one_transform_over_a_period_is_the_sum_of_its_waves():
     )
 
 
-def test_a_gap_wider_than_the_roughness_leaves_the_contact_empty():
-    with pytest.raises(EmptyContact, match=r"motion.gap = 0.001 m leaves the contact empty.*take a gap below"):
-        BEM(points=64).solve(pressed(ROUGH, Indent(gap=1e-3)))
-
-
-def test_a_gap_too_narrow_for_the_tolerance_is_an_error():
-    with pytest.raises(SolveError, match=r"motion.gap = 1e-10 m .* prescribe the pressure"):
-        BEM(points=64, tolerance=1e-2).solve(pressed(ROUGH, Indent(gap=1e-10)))
-
-
-def test_a_touch_on_next_to_no_pixels_is_an_error():
-    with pytest.raises(SolveError, match="take more points"):
-        BEM(points=64).solve(pressed(ROUGH, Indent(pressure=1e-3)))
+@pytest.mark.parametrize(
+    ("motion", "error", "said"),
+    [
+        (Indent(gap=1e-3), EmptyContact, r"motion.gap = 0.001 m leaves the contact empty.*take a gap below"),
+        (Indent(gap=1e-10), SolveError, r"motion.gap = 1e-10 m .* prescribe the pressure"),
+        (Indent(pressure=1e-3), SolveError, "take more points"),
+    ],
+)
+def test_a_gap_too_wide_or_too_narrow_and_a_touch_on_next_to_no_pixels_are_errors(motion, error, said):
+    with pytest.raises(error, match=said):
+        BEM(points=64, tolerance=1e-2).solve(pressed(ROUGH, motion))
 
 
 def test_without_a_shortest_wave_the_grid_cuts_off():

@@ -9,7 +9,6 @@ from scene import (
     Elastic,
     EmptyContact,
     Indent,
-    Kelvin,
     PowerLaw,
     Prony,
     Scene,
@@ -17,7 +16,6 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    StandardLinearSolid,
 )
 
 G, R, THETA = 1e6, 10e-3, np.radians(10)
@@ -40,19 +38,15 @@ def pressed(indenter, points, a, **motion):
 
 
 @pytest.mark.parametrize("shape", CLOSED)
-def test_force_at_64_points_across_the_contact(shape):
+def test_force_depth_and_area_at_64_points_across_the_contact(shape):
     indenter, force, a = CLOSED[shape]
-    result = pressed(indenter, 64, a, depth=D)
-    assert result.normal_force == pytest.approx(force, rel=FORCE)
-    assert result.residual <= 1e-5
-
-
-@pytest.mark.parametrize("shape", CLOSED)
-def test_depth_under_a_load_at_64_points_across_the_contact(shape):
-    indenter, force, a = CLOSED[shape]
-    result = pressed(indenter, 64, a, load=force)
-    assert result.depth == pytest.approx(D, rel=FORCE)
-    assert result.normal_force == pytest.approx(force, rel=1e-12)
+    by_depth, by_load = pressed(indenter, 64, a, depth=D), pressed(indenter, 64, a, load=force)
+    assert by_depth.normal_force == pytest.approx(force, rel=FORCE)
+    assert by_depth.residual <= 1e-5
+    # the rim is known to a pixel: 4/64 of the area
+    assert by_depth.measures["contact_area"] == pytest.approx(np.pi * a**2, rel=0.04)
+    assert by_load.depth == pytest.approx(D, rel=FORCE)
+    assert by_load.normal_force == pytest.approx(force, rel=1e-12)
 
 
 @pytest.mark.parametrize("shape", ["sphere", "cone"])
@@ -74,14 +68,6 @@ def test_pressure_of_a_sphere_is_the_half_ellipse_of_hertz():
     np.testing.assert_allclose(result.fields["pressure"][inner], expected, rtol=0.01)
 
 
-@pytest.mark.parametrize("shape", CLOSED)
-def test_contact_area_is_that_of_the_closed_form(shape):
-    indenter, _, a = CLOSED[shape]
-    result = pressed(indenter, 128, a, depth=D)
-    # the rim is known to a pixel: 4/128 of the area
-    assert result.measures["contact_area"] == pytest.approx(np.pi * a**2, rel=0.04)
-
-
 def test_the_extent_follows_from_the_scene():
     indenter, force, _ = CLOSED["sphere"]
     result = BEM(points=96).solve(Scene(indenter, Elastic(G), Indent(depth=D)))
@@ -89,15 +75,7 @@ def test_the_extent_follows_from_the_scene():
     assert result.normal_force == pytest.approx(force, rel=FORCE)
 
 
-@pytest.mark.parametrize(
-    "solid",
-    [
-        Kelvin(G, 1e-3),
-        StandardLinearSolid(G, 1e3 * G, 1e-3),
-        Prony(G, (G, 3 * G), (1e-3, 1.0)),
-        Elastic(G / 2 * (1 - 0.3) * 2, poisson_ratio=0.3),
-    ],
-)
+@pytest.mark.parametrize("solid", [Prony(G, (G, 3 * G), (1e-3, 1.0)), Elastic(0.7 * G, poisson_ratio=0.3)])
 def test_at_rest_only_the_relaxed_plane_strain_modulus_counts(solid):
     elastic = BEM(points=48).solve(Scene(Sphere(R), Elastic(G), Indent(load=1.0)))
     other = BEM(points=48).solve(Scene(Sphere(R), solid, Slide(speed=0.0, load=1.0)))
@@ -105,22 +83,13 @@ def test_at_rest_only_the_relaxed_plane_strain_modulus_counts(solid):
     assert other.depth == pytest.approx(elastic.depth * (modulus / solid.indentation_modulus) ** (2 / 3), rel=1e-9)
 
 
-def test_load_and_depth_are_the_same_question():
-    rough = SelfAffine(hurst=0.3, rms_height=3e-5, longest=1e-2, shortest=6e-4, seed=4)
-    solver = BEM(points=64, extent=6e-3)
-    at_depth = solver.solve(Scene(Sphere(R), Elastic(G), Indent(depth=D), rough))
-    at_load = solver.solve(Scene(Sphere(R), Elastic(G), Indent(load=at_depth.normal_force), rough))
-    assert at_load.depth == pytest.approx(D, rel=1e-4)
-
-
-def test_force_rises_with_depth_on_a_rough_sphere():
-    rough = SelfAffine(hurst=0.3, rms_height=5e-5, longest=1e-2, shortest=6e-4, seed=4)
-    solver = BEM(points=64, extent=6e-3)
-    forces = [
-        solver.solve(Scene(Sphere(R), Elastic(G), Indent(depth=d), rough)).normal_force
-        for d in np.linspace(2e-5, 3e-4, 8)
-    ]
+def test_force_rises_with_depth_on_a_rough_sphere_and_under_that_load_the_depth_is_found_again():
+    rough, solver = SelfAffine(hurst=0.3, rms_height=5e-5, longest=1e-2, shortest=6e-4, seed=4), BEM(48, 6e-3)
+    depths = np.linspace(2e-5, 3e-4, 5)
+    forces = [solver.solve(Scene(Sphere(R), Elastic(G), Indent(depth=d), rough)).normal_force for d in depths]
     assert np.all(np.diff(forces) > 0)
+    at_load = solver.solve(Scene(Sphere(R), Elastic(G), Indent(load=forces[-1]), rough))
+    assert at_load.depth == pytest.approx(depths[-1], rel=1e-4)
 
 
 def test_a_smooth_contact_between_the_centres_of_pixels_is_an_error_and_not_an_empty_one():

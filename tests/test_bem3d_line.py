@@ -45,8 +45,8 @@ def test_at_rest_it_is_hertz_and_converges():
     assert errors[2] < 1e-6
 
 
-@pytest.mark.parametrize("ratio", [1e-3, 0.1, 1.0, 10.0, 1e3])
-@pytest.mark.parametrize("stiffening", [1.0, 9.0, 1e3, 1e6, np.inf])
+@pytest.mark.parametrize("ratio", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("stiffening", [1.0, 1e3, np.inf])
 def test_sliding_is_hunters(stiffening, ratio):
     scene = sliding(stiffening, ratio)
     glassy = np.inf if np.isinf(stiffening) else MODULUS * (1 + stiffening)
@@ -57,7 +57,7 @@ def test_sliding_is_hunters(stiffening, ratio):
     assert result.measures["contact_area"] / 2 == pytest.approx(exact.half_width, abs=2 * result.measures["pixel"])
 
 
-@pytest.mark.parametrize(("memory", "peak"), [(0.0, 60.32e6), (9e-3, 78.74e6), (45e-3, 84.72e6), (2.0, 85.31e6)])
+@pytest.mark.parametrize(("memory", "peak"), [(0.0, 60.32e6), (9e-3, 78.74e6), (2.0, 85.31e6)])
 def test_peak_pressures_of_the_published_program(memory, peak):
     # combined radius 50 mm, E_g = 1905 MPa, E_g/E_r = 2, 600 N/mm; memory is v tau_c
     elastomer = StandardLinearSolid(rubbery_modulus=1905e6 / 8, glassy_modulus=1905e6 / 4, relaxation_time=TAU / 2)
@@ -65,11 +65,9 @@ def test_peak_pressures_of_the_published_program(memory, peak):
     assert BEM(points=512).solve(scene).fields["pressure"].max() == pytest.approx(peak, rel=2e-4)
 
 
-@pytest.mark.parametrize("stiffening", [9.0, np.inf])
-def test_friction_converges_with_the_pixel(stiffening):
-    scene = sliding(stiffening, 1.0)
-    glassy = np.inf if np.isinf(stiffening) else MODULUS * (1 + stiffening)
-    exact = line_contact.sliding(R, MODULUS, glassy, TAU, scene.motion.speed, LOAD).friction_coefficient
+def test_friction_converges_with_the_pixel():
+    scene = sliding(9.0, 1.0)
+    exact = line_contact.sliding(R, MODULUS, 10 * MODULUS, TAU, scene.motion.speed, LOAD).friction_coefficient
     errors = [abs(BEM(points=n).solve(scene).friction_coefficient / exact - 1) for n in (32, 128, 512)]
     assert errors[2] < errors[0] / 8
     assert errors[2] < 1e-4
@@ -83,14 +81,11 @@ def test_the_three_estimates_of_friction_agree():
     assert one != two != three
 
 
-@pytest.mark.parametrize(("length", "force"), [(1e-6, 1e9), (1e6, 1e-3)])
-def test_answers_scale_exactly_with_the_units(length, force):
-    scene = sliding(9.0, 1.0)
-    scaled = StandardLinearSolid(
-        rubbery_modulus=scene.elastomer.rubbery_modulus * force / length**2,
-        glassy_modulus=scene.elastomer.glassy_modulus * force / length**2,
-        relaxation_time=scene.elastomer.relaxation_time,
-    )
+def test_answers_scale_exactly_with_the_units():
+    scene, length, force = sliding(9.0, 1.0), 1e-6, 1e9
+    soft, stiff = (getattr(scene.elastomer, f"{name}_modulus") for name in ("rubbery", "glassy"))
+    scale = force / length**2
+    scaled = replace(scene.elastomer, rubbery_modulus=soft * scale, glassy_modulus=stiff * scale)
     motion = replace(scene.motion, speed=scene.motion.speed * length, line_load=LOAD * force / length)
     other = BEM(points=64).solve(Scene(Cylinder(R * length), scaled, motion))
     one = BEM(points=64).solve(scene)

@@ -8,26 +8,13 @@ import pytest
 from bem3d import BEM
 from bem3d.surface import RoughSurface
 from mdr1d import draw
-from scene import (
-    Cylinder,
-    Elastic,
-    Indent,
-    Kelvin,
-    Plane,
-    Refused,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-    Sphere,
-)
+from scene import Cylinder, Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
 
 ROUGH = SelfAffine(hurst=0.2, rms_height=2e-4, longest=1e-2, shortest=5e-4, seed=2)
 LIGHT = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1e-2), ROUGH)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-@pytest.mark.parametrize("load", [1e-2, 0.1, 1.0])
+@pytest.mark.parametrize(("seed", "load"), [(1, 1e-2), (2, 0.1), (3, 1.0)])
 def test_fitted_window_leaves_no_asperity_out(seed, load):
     # the same pixels on a window far larger than any contact
     scene = replace(LIGHT, motion=Indent(load=load), roughness=replace(ROUGH, seed=seed))
@@ -55,9 +42,6 @@ def test_contact_at_the_edge_of_a_stated_extent_is_an_error():
 
 
 def test_a_depth_that_touches_nothing_is_an_error():
-    crater = replace(ROUGH, seed=5)
-    lowest = BEM(points=64).solve(replace(LIGHT, motion=Indent(load=1e-6), roughness=crater)).depth
-    assert lowest < 0  # peaks reach below the macroscopic tip, so any positive depth touches
     raised = Scene(Sphere(1e-6), Elastic(1e6), Indent(depth=1e-9), replace(ROUGH, longest=1e-2, shortest=1e-3))
     with pytest.raises(SolveError):
         BEM(points=32, extent=1e-8).solve(raised)
