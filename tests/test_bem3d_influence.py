@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import dblquad, quad
+from scipy.integrate import quad
 
 from bem3d import influence
 from compare.exact import line_contact
@@ -27,13 +27,10 @@ def test_elastic_kernel_is_the_integral_of_one_over_r():
     kernel = influence.elastic(6, 6)
     assert kernel[0, 6] == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=ROUNDING)
     for i, j in ((1, 1), (-3, 2), (5, 0)):
-        assert kernel[j, 6 + i] == pytest.approx(
-            dblquad(lambda v, u: 1 / np.hypot(u, v), i - 0.5, i + 0.5, j - 0.5, j + 0.5, epsabs=1e-12)[0] / np.pi,
-            rel=1e-9,
-        )
+        assert kernel[j, 6 + i] == pytest.approx(love(i, j), rel=1e-9)
 
 
-@pytest.mark.parametrize("length", [0.01, 0.3, 1.0, 10.0, 1e3, 1e5])
+@pytest.mark.parametrize("length", [0.01, 1.0, 1e3])
 def test_retarded_kernel_is_the_elastic_one_remembered_along_the_flow(length):
     shift = 0.5 * np.tanh(length)
     kernel = influence.retarded(16, 16, length, shift)
@@ -56,12 +53,6 @@ def test_retarded_kernel_tends_to_the_elastic_one_when_the_memory_is_short():
     elastic = influence.elastic(16, 16)
     retarded = influence.retarded(16, 16, 1e-8, 0.0)
     np.testing.assert_allclose(retarded, elastic, rtol=1e-6)
-
-
-def test_far_downstream_a_short_memory_only_delays_the_elastic_kernel_by_its_length():
-    length = 0.5
-    delayed = influence.retarded(40, 4, length, 0.0)[0, 40 + 30]
-    assert delayed == pytest.approx(1 / np.pi / (30 - length), rel=2e-3)
 
 
 LENGTHS = np.geomspace(1e-4, 1e7, 12)
@@ -94,8 +85,7 @@ def mean_log(x):
     return np.where(far, distant, primitive(safe + 0.5) - primitive(safe - 0.5) - 1)
 
 
-@pytest.mark.parametrize("length", [1e-9, 1e-3, 0.3, 1.0, 30.0, 1e5, 1e9])
-@pytest.mark.parametrize("shift", [0.0, 0.2, 0.5])
+@pytest.mark.parametrize(("length", "shift"), [(1e-9, 0.0), (0.3, 0.5), (30.0, 0.2), (1e9, 0.5)])
 def test_the_first_column_of_the_retarded_kernel_is_there_at_every_memory(length, shift):
     """Far upstream a pixel is a point: 1/r remembered, with the pixel's moment."""
     n = 24
@@ -132,8 +122,8 @@ def test_no_column_is_out_of_line_where_the_number_of_nodes_changes():
             assert jumps.max() < 30 / np.pi / row**5 * (1 + 1 / length) + 1e-11
 
 
-@pytest.mark.parametrize("length", [1e-9, 1e-3, 0.3, 1.0, 9.0, 11.0, 1e3, 1e6])
-@pytest.mark.parametrize("shift", [0.0, 0.3, 0.5])
+@pytest.mark.parametrize("length", [1e-9, 0.3, 9.0, 11.0, 1e6])
+@pytest.mark.parametrize("shift", [0.0, 0.3])
 def test_line_kernel_is_the_logarithm_remembered_along_the_flow(length, shift):
     n, datum = 12, 7.0
     elastic = influence.line(n, datum, shift)
@@ -155,17 +145,14 @@ def test_a_strip_is_a_row_of_pixels_without_end():
     np.testing.assert_allclose(strip - strip[0], line - line[0], atol=1e-6)
 
 
-@pytest.mark.parametrize("kernel", ["elastic", "line"])
+@pytest.mark.parametrize(
+    "kernel", [influence.elastic(150, 120), influence.line(150, 3.0)], ids=["elastic", "line"]
+)
 def test_kernels_without_memory_of_direction_are_even_to_the_last_digit(kernel):
-    n = 150
-    made = {
-        "elastic": lambda: influence.elastic(n, 120),
-        "line": lambda: influence.line(n, 3.0),
-    }[kernel]()
-    np.testing.assert_array_equal(made[:, n + 1 :], made[:, n - 1 : 0 : -1])
+    np.testing.assert_array_equal(kernel[:, 151:], kernel[:, 149:0:-1])
 
 
-@pytest.mark.parametrize("memory", [0.05, 1.0, 30.0])
+@pytest.mark.parametrize("memory", [0.05, 30.0])
 def test_line_kernels_hold_under_the_exact_pressure_of_a_sliding_cylinder(memory):
     """E_g = 4 E_r, a half-width of 200 pixels: one depth throughout, and its slope does the work of friction."""
     contact = line_contact.sliding(1.0, 1.0, 4.0, 1.0, memory * 0.01, np.pi / 4 * 1e-4)
@@ -178,13 +165,8 @@ def test_line_kernels_hold_under_the_exact_pressure_of_a_sliding_cylinder(memory
     def applied(kernel):
         return np.convolve(pressure, kernel[0, 1:])[n - 1 : 2 * n - 1] * pixel
 
-    lengths = [contact.memory / pixel]
-    depth = applied(influence.line_flowing(n, 0.25, [0.75], lengths, 0.0, 1 / pixel)) + x**2 / 2
+    displacement = applied(influence.line_flowing(n, 0.25, [0.75], [contact.memory / pixel], 0.0, 1 / pixel))
     inside = np.abs(x - contact.centre) < 0.95 * contact.half_width
-    assert np.ptp(depth[inside]) < 3e-5 * contact.half_width**2 / 2
-    friction = (
-        pressure
-        @ np.gradient(applied(influence.line_flowing(n, 0.25, [0.75], lengths, 0.0, 1 / pixel)), pixel)
-        * pixel
-    )
+    assert np.ptp((displacement + x**2 / 2)[inside]) < 3e-5 * contact.half_width**2 / 2
+    friction = pressure @ np.gradient(displacement, pixel) * pixel
     assert friction == pytest.approx(contact.friction_coefficient * contact.line_load, rel=2e-3)

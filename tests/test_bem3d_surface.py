@@ -27,7 +27,7 @@ def sampled(surface, n):
     return surface.heights(axis, axis)
 
 
-@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.5, 1.0])
+@pytest.mark.parametrize("hurst", [0.0, 1.0])
 def test_rms_height_over_a_period_is_exactly_that_of_the_spectrum(hurst):
     surface = draw(rough(hurst=hurst))
     heights = sampled(surface, 50)
@@ -36,7 +36,7 @@ def test_rms_height_over_a_period_is_exactly_that_of_the_spectrum(hurst):
     assert surface.rms_height == pytest.approx(5e-5, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("hurst", [0.0, 0.2, 0.5, 1.0])
+@pytest.mark.parametrize("hurst", [0.0, 0.5, 1.0])
 def test_rms_slope_follows_the_continuous_spectrum(hurst):
     r = rough(hurst=hurst, shortest=L / 60)
     assert draw(r).rms_slope == pytest.approx(r.rms_slope(r.q_max(0.0)), rel=LATTICE)
@@ -67,19 +67,6 @@ def test_surface_repeats_after_the_longest_wave():
     np.testing.assert_allclose(surface.heights(x + L, x - 2 * L), surface.heights(x, x), atol=5e-5 * ROUNDING)
 
 
-def test_a_higher_cut_off_adds_detail_to_the_same_surface():
-    coarse, fine = draw(rough()), draw(rough(shortest=L / 40))
-    top = coarse.amplitudes.shape[1] - 1
-    same = np.abs(coarse.amplitudes) > 0
-    inner = fine.amplitudes[top : 3 * top + 1, : top + 1]
-    np.testing.assert_allclose(np.angle(inner[same]), np.angle(coarse.amplitudes[same]), atol=ROUNDING)
-
-
-def test_another_seed_is_another_surface():
-    x = np.linspace(0, L, 5)
-    assert not np.allclose(draw(rough(seed=1)).heights(x, x), draw(rough(seed=2)).heights(x, x))
-
-
 def test_gaussian_waves_keep_the_phases_and_scatter_about_the_fixed_ones():
     fixed, gaussian = draw(rough(shortest=L / 40)), draw(rough(shortest=L / 40, amplitudes="gaussian"))
     there = np.abs(fixed.amplitudes) > 0
@@ -93,15 +80,15 @@ def test_gaussian_waves_keep_the_phases_and_scatter_about_the_fixed_ones():
     assert distance < KOLMOGOROV / np.sqrt(count)
 
 
-def test_a_higher_cut_off_adds_detail_to_the_same_gaussian_surface():
-    # Against surfaces of fixed amplitudes, as the rms height is that of the whole spectrum.
-    coarse, fine = (draw(rough(shortest=L / n, amplitudes="gaussian")) for n in (20, 40))
-    bare = [draw(rough(shortest=L / n)) for n in (20, 40)]
-    top = coarse.amplitudes.shape[1] - 1
-    same = np.abs(coarse.amplitudes) > 0
-    inner = [s.amplitudes[top : 3 * top + 1, : top + 1][same] for s in (fine, bare[1])]
+@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
+def test_a_higher_cut_off_adds_detail_to_the_same_surface(amplitudes):
+    # Of Gaussian waves over fixed ones, as the rms height is that of the whole spectrum.
+    coarse, fine = (draw(rough(shortest=L / n, amplitudes=amplitudes)).amplitudes for n in (20, 40))
+    bare = [np.abs(draw(rough(shortest=L / n)).amplitudes) for n in (20, 40)]
+    top = coarse.shape[1] - 1
+    same, inner = bare[0] > 0, np.s_[top : 3 * top + 1, : top + 1]
     np.testing.assert_allclose(
-        inner[0] / inner[1], coarse.amplitudes[same] / bare[0].amplitudes[same], atol=ROUNDING
+        fine[inner][same] / bare[1][inner][same], coarse[same] / bare[0][same], atol=ROUNDING
     )
 
 
@@ -116,23 +103,9 @@ def test_heights_over_many_gaussian_surfaces_are_gaussian():
     assert np.std([surface.rms_height for surface in surfaces]) > 0.05 * 5e-5
 
 
-@pytest.mark.parametrize("height", [1e-200, 1e-300])
-def test_heights_whose_square_is_no_number_are_drawn_in_proportion(height):
-    tiny, ordinary = draw(rough(rms_height=height)), draw(rough(rms_height=1.0))
-    np.testing.assert_allclose(tiny.amplitudes / height, ordinary.amplitudes, rtol=ROUNDING)
-
-
-@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
-def test_heights_and_slopes_are_to_the_digit_what_their_squares_say(amplitudes):
-    surface = draw(rough(amplitudes=amplitudes))
-    power = np.abs(surface.amplitudes) ** 2 / 2
-    q_y, q_x = surface.waves.along_y[:, None], surface.waves.along_x[None, :]
-    assert surface.rms_height == float(np.sqrt(np.sum(power)))
-    assert surface.rms_slope == float(np.sqrt(np.sum((q_y**2 + q_x**2) * power)))
-
-
-@pytest.mark.parametrize("height", [1e-180, 1e180])
-def test_heights_whose_squares_are_no_numbers_have_a_mean_square(height):
+@pytest.mark.parametrize("height", [1e-300, 1e180])
+def test_heights_whose_squares_are_no_numbers_are_drawn_in_proportion_and_have_a_mean_square(height):
     surface, one = draw(rough(rms_height=height)), draw(rough(rms_height=1.0))
+    np.testing.assert_allclose(surface.amplitudes / height, one.amplitudes, rtol=ROUNDING)
     assert surface.rms_height == pytest.approx(height, rel=1e-12)
     assert surface.rms_slope == pytest.approx(height * one.rms_slope, rel=1e-12)
