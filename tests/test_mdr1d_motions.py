@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from effects_page import closed_forms as motions
 from effects_page.track import harmonic
-from unit_solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
+from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
 from mdr1d import MDR, marching
 from mdr1d.timeline import timeline
-from scene import Elastic, Program, Prony, Scene, Slide, SolveError, Stage, StandardLinearSolid
+from scene import Program, Prony, Scene, Slide, SolveError, Stage
 
 DEPTH, SPEED = 0.1, 0.3
 A = np.sqrt(DEPTH)  # of the contact
@@ -172,18 +172,6 @@ def test_friction_over_the_path_is_the_work_forwards_and_backwards(solid):
     assert done > 0
 
 
-def test_a_cycle_of_fretting_encloses_what_it_loses():
-    cycles = [slid(0.05), *(slid(0.1 * (-1) ** (k + 1)) for k in range(20))]
-    fields = solved(program(pressed(), *cycles), KELVIN, points=400).fields
-    last = 1.0 + sum(stage["duration"] for stage in cycles) - np.array([0.2 / SPEED, 0.0])
-    work, lost, stored = (
-        np.diff(np.interp(last, fields["time"], fields[name]))[0] for name in ("work", "dissipated", "stored")
-    )
-    # what the first press has left behind fades as exp(-t), and 7 s have passed
-    assert work == pytest.approx(lost, rel=np.exp(-6))
-    assert abs(stored) < np.exp(-6) * work
-
-
 @pytest.mark.parametrize("solid", ["elastic", "series"])
 def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it(solid):
     lifted, again = [pressed(), {"duration": 0.3, "depth": 0.0}], {"duration": 1.0, "depth": DEPTH}
@@ -290,13 +278,3 @@ def test_a_reversal_within_the_first_pixels_is_followed_as_by_far_smaller_ones(s
     coarse, fine = (solved(motion, SOLIDS[solid], points=points) for points in (200, 800))
     assert coarse.normal_force == pytest.approx(fine.normal_force, rel=2 / 126)  # edges, known to an element
     assert coarse.fields["path"][-1] == pytest.approx(0.0, abs=1e-15)
-
-
-@pytest.mark.parametrize("time", [1e-9, 1e9])
-def test_reversal_of_the_shortest_and_longest_memories_loses_nothing(time):
-    solid = StandardLinearSolid(0.25, 1.25, time)
-    result = solved(program(pressed(), slid(0.7), slid(-1.1)), solid)
-    glassy = Elastic(1.25 if time > 1 else 0.25)
-    elastic = solved(program(pressed(), slid(0.7), slid(-1.1)), glassy)
-    assert result.normal_force == pytest.approx(elastic.normal_force, rel=2e-3)
-    assert abs(result.friction_coefficient) < 2e-3

@@ -1,7 +1,7 @@
 """Sliding on solids with a glassy modulus: against an ordinary differential equation, limits and laws of scale."""
 
 from dataclasses import replace
-from math import pi, sqrt, tan
+from math import sqrt
 
 import numpy as np
 import pytest
@@ -9,7 +9,6 @@ from scipy.integrate import solve_ivp
 
 from mdr1d import MDR, modes_of, sweep_modes
 from scene import (
-    Cone,
     Elastic,
     Indent,
     Kelvin,
@@ -129,17 +128,9 @@ def test_friction_of_the_sphere_has_its_peak_between_the_rubber_and_the_glass():
     assert mu[-1] / mu[-2] == pytest.approx(10**-0.25, rel=0.01)
 
 
-@pytest.mark.parametrize("scene", [SMOOTH, ROUGH])
-def test_a_stiff_glass_slides_as_kelvin_and_a_soft_one_as_an_elastic_solid(scene):
-    stiff = StandardLinearSolid(rubbery_modulus=RUBBERY, glassy_modulus=1e9 * RUBBERY, relaxation_time=1e-9 * TIME)
-    kelvin = MDR().solve(replace(scene, elastomer=Kelvin(modulus=RUBBERY, relaxation_time=TIME)))
-    result = MDR().solve(replace(scene, elastomer=stiff))
-    # The glass shows within m = 3e-13 m of each landing, a part in 1e6 of a pixel.
-    assert result.depth == pytest.approx(kelvin.depth, rel=1e-5)
-    assert result.friction_coefficient == pytest.approx(kelvin.friction_coefficient, rel=1e-5)
-    soft = replace(SOLID, glassy_modulus=(1 + 1e-9) * RUBBERY)
-    elastic = MDR().solve(replace(scene, elastomer=Elastic(modulus=RUBBERY)))
-    result = MDR().solve(replace(scene, elastomer=soft))
+def test_a_soft_glass_slides_as_an_elastic_solid():
+    elastic = MDR().solve(replace(ROUGH, elastomer=Elastic(modulus=RUBBERY)))
+    result = MDR().solve(replace(ROUGH, elastomer=replace(SOLID, glassy_modulus=(1 + 1e-9) * RUBBERY)))
     assert result.depth == pytest.approx(elastic.depth, rel=1e-8)
     assert 0 < result.friction_coefficient < 1e-9
 
@@ -148,13 +139,6 @@ def test_elements_that_amount_to_kelvin_take_its_sweep():
     chain = KelvinChain(instantaneous_compliance=0.0, compliances=(1 / RUBBERY,), retardation_times=(TIME,))
     kelvin = MDR().solve(replace(ROUGH, elastomer=Kelvin(modulus=RUBBERY, relaxation_time=TIME)))
     assert MDR().solve(replace(ROUGH, elastomer=chain)).depth == pytest.approx(kelvin.depth, rel=ROUNDING)
-
-
-def test_a_cone_slides_on_a_chain_of_two_elements_with_an_infinite_glassy_modulus():
-    # Far faster than both times only the dashpot counts: the leading flank carries, mu is its mapped slope.
-    motion = Slide(speed=1e9, load=1.0)
-    result = MDR().solve(Scene(Cone(angle=0.2), CHAIN, motion))
-    assert result.friction_coefficient == pytest.approx(pi / 2 * tan(0.2), rel=1e-4)
 
 
 def test_at_rest_the_relaxed_solid_alone_counts():

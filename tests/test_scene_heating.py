@@ -29,7 +29,6 @@ from scene import (
     StandardLinearSolid,
 )
 from scene.heated import Heated
-from scene.heating import temperature_rise
 from scene.settling import settled
 from scene.terms import Term, surrounded, terms_of
 
@@ -101,12 +100,9 @@ def test_the_estimates_are_those_of_the_paper():
         by_hand = 2 * friction * modulus * length * speed / conductivity
         assert result.measures[found] == pytest.approx(by_hand, rel=ROUNDING)
         assert estimate(friction, modulus, length, speed, conductivity) == pytest.approx(by_hand, rel=ROUNDING)
-        assert temperature_rise(friction, modulus, length, speed, conductivity) == pytest.approx(
-            by_hand, rel=ROUNDING
-        )
 
 
-@pytest.mark.parametrize("poisson_ratio", [-0.9, 0.0, 0.3, 0.5])
+@pytest.mark.parametrize("poisson_ratio", [-0.9, 0.3])
 def test_contacts_that_are_pressed_alike_are_heated_alike_whatever_the_poisson_ratio(poisson_ratio):
     # E* = 2G/(1 - nu) is kept: so are load, depth and radius, and the heat mu F v
     alike = (1 - poisson_ratio) / (1 - 0.5)
@@ -137,10 +133,11 @@ def test_what_has_no_estimate_is_not_a_number_or_infinite_and_what_has_no_length
     assert heated(kelvin, Fake(), conductivity=20.0).measures["flash_heating"] == 0.0
 
 
-@pytest.mark.parametrize("feedback", [None, "average", "flash"])
-@pytest.mark.parametrize("motion", [Indent(load=10.0), Slide(speed=0.0, load=10.0)])
+@pytest.mark.parametrize(
+    ("motion", "feedback"), [(Indent(load=10.0), None), (Slide(speed=0.0, load=10.0), "flash")]
+)
 def test_what_does_not_move_is_not_heated(motion, feedback):
-    solid = Kelvin(1e6, 1e-3) if feedback != "flash" else SOLID
+    solid = SOLID if feedback else Kelvin(1e6, 1e-3)
     scene = replace(SCENE, motion=motion, elastomer=solid)
     found = heated(scene, Fake(rms_height=1e-6), conductivity=1e-3, feedback=feedback).measures
     assert found["average_heating"] == found["flash_heating"] == 0.0
@@ -149,8 +146,7 @@ def test_what_does_not_move_is_not_heated(motion, feedback):
         assert found["temperature"] == 300.0
 
 
-@pytest.mark.parametrize("feedback", ["average", "flash"])
-@pytest.mark.parametrize("peak", [1e-3, 0.3, 1.0, 3.0, 1e3])
+@pytest.mark.parametrize(("feedback", "peak"), [("average", 1e-3), ("average", 1e3), ("flash", 1.0)])
 def test_with_feedback_temperature_and_heat_agree(peak, feedback):
     fake = Fake(peak=peak, rms_height=1e-7)
     answer = heated(SCENE, fake, conductivity=0.1, feedback=feedback)
@@ -162,31 +158,14 @@ def test_with_feedback_temperature_and_heat_agree(peak, feedback):
     assert found["temperature"] - 300.0 == pytest.approx(rise, rel=2 * AGREE, abs=1e-9)
     assert answer.scene == replace(SCENE, heating=Heating(conductivity=0.1, feedback=feedback))
     assert answer.settings == {"points": 3}
+    count = found["heating_solves"]
+    assert (answer.applications, answer.seconds) == (5.0 * count, 0.25 * count)
     # it matters
     cold = heated(SCENE, fake, conductivity=0.1)
     assert abs(answer.friction_coefficient / cold.friction_coefficient - 1) > 1e-3
 
 
-def test_the_cost_is_that_of_all_solves():
-    answer = heated(SCENE, conductivity=1.0, feedback="average")
-    count = answer.measures["heating_solves"]
-    assert count > 1
-    assert (answer.applications, answer.seconds) == (5.0 * count, 0.25 * count)
-
-
-def test_an_indenter_that_conducts_without_limit_keeps_the_contact_cold():
-    cold = Fake()(SCENE)
-    for conductivity in (1e12, 1e300):
-        answer = heated(SCENE, conductivity=conductivity, feedback="average")
-        assert answer.friction_coefficient == cold.friction_coefficient
-        assert answer.measures["heating_solves"] == 1
-        assert answer.measures["temperature"] == 300.0
-    rises = [heated(SCENE, conductivity=10.0**k, feedback="average").measures["average_heating"] for k in (4, 5)]
-    # weak: in proportion, but for the first order of the feedback
-    assert rises[0] / rises[1] == pytest.approx(10.0, rel=10 * rises[0] * 80e3 / 8.314 / 300**2)
-
-
-@pytest.mark.parametrize("conductivity", [1e-3, 1e-6, 1e-12])
+@pytest.mark.parametrize("conductivity", [1e-3, 1e-12])
 def test_an_indenter_that_hardly_conducts_is_as_hot_as_leaves_it_nearly_without_friction(conductivity):
     def miss(temperature):
         law = replace(COLD, temperature=temperature)
@@ -230,21 +209,6 @@ def test_the_coldest_of_several_temperatures_is_found():
     assert several >= 15
     assert np.median(trials) <= 5
     assert max(trials) <= 25
-
-
-def test_a_contact_ignites_where_the_heat_outgrows_what_is_conducted():
-    """Semenov: x = C exp(k x) has a solution up to C k = 1/e, where x = 1/k; with more, only a far hotter one."""
-    steepness, hump = 0.1, 1e6
-
-    def hottest(strength):
-        return settled(counted(lambda x: strength * hump * rubber(hump, steepness)(x) / 2)[0]).warmer
-
-    critical = 1 / (steepness * exp(1))
-    assert hottest(critical * 0.99) < 1 / steepness < hottest(critical * 1.01)
-    assert hottest(critical * 1.01) > 10 / steepness
-    # below, the lower branch of x = C exp(k x), in the limit of a hump far away
-    low = bisect(lambda x: 0.9 * critical * exp(steepness * x) - x, 0, 1 / steepness, xtol=1e-12)
-    assert hottest(0.9 * critical) == pytest.approx(low, rel=1e-5)
 
 
 def test_all_friction_heats_also_that_of_the_interface():
@@ -292,10 +256,7 @@ def test_without_an_agreement_there_is_no_answer():
 
 def test_a_scatter_in_the_rise_does_not_keep_from_an_answer():
     # a solver leaves 1e-5 of its friction undecided: more than both sides shall agree to
-    def rise(x):
-        return 10.0 * exp(-0.1 * x) * (1 + 1e-5 * np.sin(1e9 * x))
-
-    attempt, asked = counted(rise)
+    attempt, asked = counted(lambda x: 10.0 * exp(-0.1 * x) * (1 + 1e-5 * np.sin(1e9 * x)))
     exact = bisect(lambda x: 10.0 * exp(-0.1 * x) - x, 0, 10, xtol=1e-12)
     assert settled(attempt).warmer == pytest.approx(exact, rel=2e-5)
     assert len(asked) < 60
@@ -332,8 +293,6 @@ def test_scenes_without_an_estimate_are_refused_by_name():
 
 def test_mistakes_in_the_heating_are_named():
     for ask, message in (
-        (lambda: Heating(conductivity=0.0), "greater than 0"),
-        (lambda: Heating(conductivity=inf), "finite number"),
         (lambda: Heating(conductivity=1.0, feedback="both"), "'average' or 'flash'"),
         (
             lambda: replace(SCENE, temperature=None, heating=Heating(conductivity=1.0, feedback="flash")),

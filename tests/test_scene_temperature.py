@@ -7,21 +7,17 @@ from math import log, log10
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from solids import OF_EACH_TYPE
 
 from scene import (
     WLF,
     Arrhenius,
-    Elastic,
-    Fractional,
     Indent,
     Kelvin,
     KelvinChain,
     Prony,
     Scene,
     Sphere,
-    StandardLinearSolid,
-    Table,
-    Tabulated,
 )
 from scene.modes import Relaxation
 from scene.temperature import GAS_CONSTANT, UNIVERSAL, Shifted
@@ -32,27 +28,6 @@ ROUNDING = 1e-13
 # The zeros of a rational function are found anew from shifted poles, each to rounding.
 CONVERTED = 1e-11
 FACTORS = (1e-9, 7.0)
-
-
-def measured():
-    """A table of a solid with three times."""
-    omega = np.geomspace(1e-2, 1e4, 13)
-    modulus = Prony(1e6, (1e6, 2e6, 3e6), (1.0, 1e-1, 1e-3)).complex_modulus(omega)
-    return Table(tuple(omega), tuple(modulus.real), tuple(modulus.imag))
-
-
-SOLIDS = {
-    "elastic": Elastic(1e6, 0.3),
-    "kelvin": Kelvin(1e6, 1e-3, 0.3),
-    "standard": StandardLinearSolid(1e6, 1e7, 1e-3, 0.3),
-    "prony": Prony(1e6, (1e6, 3e7), (1e-3, 2e-6), 0.3),
-    "chain": KelvinChain(1e-9, (1e-6, 2e-7), (1e-3, 1e-5), 0.3),
-    "chain without a spring": KelvinChain(0.0, (1e-6, 2e-7), (1e-3, 1e-5), 0.3),
-    "fractional": Fractional(
-        modulus=1e6, relaxation_time=1e-3, exponent=0.4, lowest_frequency=1.0, highest_frequency=1e6
-    ),
-    "tabulated": Tabulated(table=measured(), frequency_unit="rad/s", kind="shear"),
-}
 
 
 def universal(above):
@@ -94,7 +69,7 @@ def test_the_law_of_arrhenius_is_straight_over_the_inverse_temperature():
 )
 def test_at_the_reference_nothing_is_shifted_not_even_by_rounding(law):
     assert law.shift == 1.0
-    for solid in SOLIDS.values():
+    for solid in OF_EACH_TYPE.values():
         scene = Scene(Sphere(radius=1e-2), solid, Indent(load=1.0), temperature=law)
         for form in ("relaxation", "retardation"):
             for stated, found in zip(getattr(solid, form)(), getattr(scene.solid, form)(), strict=True):
@@ -103,9 +78,9 @@ def test_at_the_reference_nothing_is_shifted_not_even_by_rounding(law):
 
 
 @pytest.mark.parametrize("factor", FACTORS)
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize("name", OF_EACH_TYPE)
 def test_all_times_are_longer_by_the_factor_and_no_modulus_is_another(name, factor):
-    solid, shifted = SOLIDS[name], Shifted(SOLIDS[name], factor)
+    solid, shifted = OF_EACH_TYPE[name], Shifted(OF_EACH_TYPE[name], factor)
     omega = np.geomspace(1e-3, 1e9, 25)
     np.testing.assert_allclose(
         shifted.complex_modulus(omega / factor), solid.complex_modulus(omega), rtol=ROUNDING
@@ -152,7 +127,7 @@ def test_times_that_rounding_makes_equal_are_one_mode():
 
 
 def test_shifted_solids_are_values_that_travel_between_processes():
-    scene = Scene(Sphere(radius=1e-2), SOLIDS["tabulated"], Indent(load=1.0), temperature=universal(60.0))
+    scene = Scene(Sphere(radius=1e-2), OF_EACH_TYPE["tabulated"], Indent(load=1.0), temperature=universal(60.0))
     back = pickle.loads(pickle.dumps(scene))
     assert (back, hash(back)) == (scene, hash(scene))
     assert (back.solid, hash(back.solid)) == (scene.solid, hash(scene.solid))

@@ -95,6 +95,8 @@ def test_the_last_term_is_outmost_around_a_solve():
 def test_shear_is_drawn_by_one_quantity(given):
     with pytest.raises(ValidationError, match="exactly one of displacement"):
         Shear(load=1.0, **given)
+    with pytest.raises(ValidationError, match=r"motion = Shear .* give interface"):
+        replace(PLAIN, motion=Shear(load=1.0, displacement=1e-6))
 
 
 def test_the_solid_is_the_elastomer_itself_without_a_temperature():

@@ -1,6 +1,31 @@
-"""Solids of a unit modulus of indentation at rest, E* = 4G, and a body and roughness to press into them."""
+"""Solids that tests share: one of each type, and some of a unit modulus of indentation at rest, E* = 4G."""
 
-from scene import Elastic, Kelvin, KelvinChain, Prony, SelfAffine, Sphere, StandardLinearSolid
+from scene import (
+    Elastic,
+    Fractional,
+    Kelvin,
+    KelvinChain,
+    Prony,
+    SelfAffine,
+    Sphere,
+    StandardLinearSolid,
+    Table,
+    Tabulated,
+)
+
+MEASURED = Table((1.0, 10.0, 100.0, 1e3, 1e4), (1e6, 1.1e6, 1.9e6, 3.3e6, 4.1e6), (5e4, 3.5e5, 9e5, 7.5e5, 2e5))
+OF_EACH_TYPE = {
+    "elastic": Elastic(1e6, 0.3),
+    "kelvin": Kelvin(1e6, 1e-3, 0.3),
+    "standard linear": StandardLinearSolid(1e6, 1e9, 1e-3),
+    "prony": Prony(1e6, (1e3, 3e9, 2e6), (1e-6, 1e2, 1e-4)),
+    "chain": KelvinChain(1e-9, (1e-6, 1e-8, 1e-7), (1e-2, 1e3, 1e-5)),
+    "chain without a spring": KelvinChain(0.0, (1e-6, 1e-8), (1e-2, 1e3)),
+    "fractional": Fractional(
+        modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-4, highest_frequency=1e6
+    ),
+    "tabulated": Tabulated(table=MEASURED, frequency_unit="Hz", kind="shear"),
+}
 
 ELASTIC = Elastic(0.25)
 KELVIN = Kelvin(modulus=0.25, relaxation_time=1.0)
