@@ -69,6 +69,7 @@ def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_t
     assert (again.solved, again.reused) == (0, len(tasks))
 
 
+@pytest.mark.slow
 def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_path):
     out = []
 
@@ -84,6 +85,7 @@ def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_
     assert (max(out), out[-1]) == (4 + 2, 0)
 
 
+@pytest.mark.slow
 def test_a_fault_on_the_cluster_is_recorded_as_here(cluster, tmp_path):
     tasks = loads(2000.0, 200.0, 5.0)
     swept = sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address)
@@ -94,6 +96,7 @@ def test_a_fault_on_the_cluster_is_recorded_as_here(cluster, tmp_path):
     assert 'raise ZeroDivisionError("a fault in the solver")' in note.read_text()
 
 
+@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(cluster, tmp_path):
     class Killing(Heard):
         def finished(self, task, outcome):
@@ -110,6 +113,7 @@ def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(clus
     assert len(tasks) <= marks <= len(tasks) + 2 * 2  # what its two threads had, and answers not yet fetched
 
 
+@pytest.mark.slow
 def test_a_task_that_kills_every_worker_fails_and_the_rest_is_solved(cluster, tmp_path):
     tasks = loads(20000.0, 2.0, 1.0, solver=Stand(marks=str(tmp_path)))
     swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address)
@@ -118,6 +122,7 @@ def test_a_task_that_kills_every_worker_fails_and_the_rest_is_solved(cluster, tm
     assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [2.0, 1.0]
 
 
+@pytest.mark.slow
 def test_an_interrupt_calls_back_what_has_not_started_and_waits_for_the_rest(cluster, tmp_path):
     class Impatient(Heard):
         def finished(self, task, outcome):
@@ -206,6 +211,7 @@ def join(address, folder, **environment):
     )
 
 
+@pytest.mark.slow
 def test_without_workers_it_says_so_and_waits_and_refuses_those_of_other_code_by_name(scheduler, tmp_path):
     copy = tmp_path / "other" / "scene"
     copy.parent.mkdir()
@@ -242,6 +248,7 @@ def test_without_workers_it_says_so_and_waits_and_refuses_those_of_other_code_by
     assert "may use more than a thread a task" in threads
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_is_lost_in_the_middle_is_an_error_and_what_is_solved_is_kept(scheduler, tmp_path):
     class Losing(Heard):
         def finished(self, task, outcome):
@@ -259,6 +266,7 @@ def test_a_scheduler_that_is_lost_in_the_middle_is_an_error_and_what_is_solved_i
     assert sum(Store(tmp_path / "solved").get(task) is not None for task in tasks) >= 1
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_cannot_be_reached_is_named_within_seconds(tmp_path):
     start = time.monotonic()
     with pytest.raises(ConnectionError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9 within"):
@@ -269,6 +277,7 @@ def test_a_scheduler_that_cannot_be_reached_is_named_within_seconds(tmp_path):
     assert not len(Store(tmp_path))
 
 
+@pytest.mark.slow
 def test_an_address_without_a_port_is_refused_and_leaves_no_client_that_hangs():
     code = (
         "from compare.cluster import _connected\nfrom scene import Refused\n"

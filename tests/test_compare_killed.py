@@ -200,6 +200,7 @@ def moment(draw, study):
     return due
 
 
+@pytest.mark.slow
 def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, marked, expected):
     study = Killed(tmp_path, marked)
     assert study.kill(lambda: study.count() >= 3)
@@ -258,6 +259,7 @@ def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, marke
     print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
 
 
+@pytest.mark.slow
 def test_what_the_marks_count_are_solves(tmp_path, marked, monkeypatch):
     study = Killed(tmp_path, marked)
     monkeypatch.setenv("MARKS", str(study.marks))

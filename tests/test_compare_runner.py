@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,12 +14,13 @@ import numpy as np
 import pytest
 from pydantic.dataclasses import dataclass
 
+from compare import runner
 from compare.outcome import Outcome, Row
 from compare.progress import Watched, duration
 from compare.runner import Progress, sweep
 from compare.store import Store
 from compare.task import SceneTask as Task
-from compare.workers import ONE_THREAD, STILLBORN, Processes
+from compare.workers import ONE_THREAD, STILLBORN, Processes, answered
 from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
@@ -85,6 +87,35 @@ class Heard(Progress):
         self.heard.append(("interrupted", None))
 
 
+class Here:
+    """Workers in this process, for laws that no process of another has a part in."""
+
+    died, tries = (), 3
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def room(self, out):
+        return 1 - out
+
+    def submit(self, packed):
+        future = Future()
+        future.set_result(answered(packed))
+        return future
+
+    def call_back(self):
+        pass
+
+
+@pytest.fixture
+def here(monkeypatch):
+    monkeypatch.setattr(runner, "_workers", lambda *_: Here())
+
+
+@pytest.mark.usefixtures("here")
 def test_what_the_store_has_is_not_solved_again(tmp_path):
     first = sweep(loads(1.0, 2.0), Store(tmp_path), workers=2)
     assert (first.solved, first.reused) == (2, 0)
@@ -97,10 +128,12 @@ def test_what_the_store_has_is_not_solved_again(tmp_path):
     assert (other.solved, other.reused) == (1, 0)
 
 
+@pytest.mark.usefixtures("here")
 def test_a_task_that_stands_there_twice_is_solved_once(tmp_path):
     assert sweep(loads(1.0, 1.0), Store(tmp_path), workers=1).solved == 1
 
 
+@pytest.mark.usefixtures("here")
 def test_a_failed_solve_is_a_row_of_nan_with_its_reason_and_the_rest_go_on(tmp_path):
     tasks = loads(200.0, 1.0, 2.0)
     swept = sweep(tasks, Store(tmp_path), workers=2)
@@ -112,6 +145,7 @@ def test_a_failed_solve_is_a_row_of_nan_with_its_reason_and_the_rest_go_on(tmp_p
     assert (again.solved, again.reused) == (0, 3)
 
 
+@pytest.mark.usefixtures("here")
 def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_it_again(tmp_path):
     tasks = loads(2000.0, 5.0, 1.0)
     heard = Heard()
@@ -131,6 +165,7 @@ def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_
     assert (again.solved, again.reused, list(again.faults)) == (1, 2, tasks[:1])
 
 
+@pytest.mark.slow
 def test_a_mended_task_takes_the_note_of_its_fault_away(tmp_path, monkeypatch):
     (task,) = loads(20000.0, solver=Stand(marks=str(tmp_path), dies=Processes.tries))
     assert task in sweep([task], Store(tmp_path / "solved"), workers=1).faults
@@ -175,6 +210,7 @@ class Odd:
         return len(outcome.rows) == 1
 
 
+@pytest.mark.usefixtures("here")
 def test_a_task_may_fail_in_any_way(tmp_path):
     ways = {
         "memory": "MemoryError",
@@ -281,6 +317,7 @@ def test_a_folder_is_free_again_when_the_run_that_had_it_is_killed(tmp_path):
     assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [task.work for task in tasks]
 
 
+@pytest.mark.usefixtures("here")
 def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, monkeypatch):
     monkeypatch.setattr("compare.store._code_digest", lambda _: "0" * 32)
     sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
@@ -301,6 +338,7 @@ def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, mon
     assert "NUMBA_NUM_THREADS" not in os.environ
 
 
+@pytest.mark.usefixtures("here")
 def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
     heard = Heard()
     sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
@@ -308,6 +346,7 @@ def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
     assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
 
 
+@pytest.mark.usefixtures("here")
 def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path):
     class Impatient(Heard):
         def finished(self, task, outcome):
