@@ -1,4 +1,4 @@
-"""The command `crosscheck`: every function of `compare.commands` as a command of the same name and arguments."""
+"""The command `crosscheck`: every function of `compare.commands` as a command, its docstring as the help."""
 
 import inspect
 import json
@@ -12,51 +12,29 @@ import typer
 
 from . import commands
 from .console import FAILED, MISTAKE, said_to_people
+from .docstrings import documented
 
 app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False)
 
-# One meaning of an argument wherever it stands: its type on a command line, and what it is.
-ARGUMENTS = {
-    ("run", "scene"): (
-        str | None,
-        "Scene as TOML, or the name of a ready one; the paper's sphere and cone if absent.",
-    ),
-    ("plan", "scene"): (str, "Scene as TOML, or the name of a ready one."),
-    ("animate", "scene"): (str, "Scene as TOML, or the name of a ready one."),
-    ("study", "name"): (str | None, "Study, or a file with one of your own; absent, the studies are listed."),
-    ("workprecision", "name"): (str | None, "Diagram, or all of them by the name all; absent, they are listed."),
-    ("mastercurve", "table"): (Path, "CSV of friction mu, normal force F_N [N] and speed v [m/s]."),
-    ("topography", "file"): (Path, "Map of heights: .npy, .npz, .csv, .txt, or as SurfaceTopography reads it."),
-    ("figures", "folder"): (Path, "Folder that a command left."),
-    ("export", "folder"): (Path, "Folder that a command left, or a file of results."),
-    ("new", "name"): (str, "Ready scene or study, see `crosscheck list`."),
-    ("new", "file"): (Path | None, "Where to; NAME.toml if absent. Never overwritten."),
-    ("schema", "kind"): (str, "scene or study."),
+# What stands on a command line for what a function takes.
+TYPES = {
+    "str": str,
+    "str | None": str | None,
+    "int": int,
+    "int | None": int | None,
+    "float": float,
+    "bool": bool,
+    "Asked": str,
+    "Asked | Mapping[str, Asked] | None": str | None,
+    "str | Path": Path,
+    "str | Path | None": Path | None,
+    "Sequence[float] | None": list[float] | None,
+    "Any": str | None,
 }
-OPTIONS = {
-    "size": (str, "How much is solved: quick, standard or full."),
-    "output": (Path | None, "Folder of the page and of what has been solved."),
-    "baseline": (Path | None, "Stored quantities as TOML; those of the package if absent."),
-    "update": (bool, "Store what has moved."),
-    "pixel": (list[float] | None, "Side of a pixel [m]; twice, along x and y. If the file has none."),
-    "unit": (str | None, "Of its heights: m, mm, um, nm. If the file has none."),
-    "level": (str | None, "Taken off first: mean, tilt or curvature. If absent tilt; mean of what is periodic."),
-    "repeat": (str, "How the map goes on: mirror or periodic."),
-    "peaks": (str, "Heights grow towards the elastomer, up, or away, down."),
-    "journal": (str, "Whose columns and least sizes; none in particular if default."),
-    "style": (str | None, "Style of matplotlib of your own: a .mplstyle file, or a name."),
-    "to": (str, "csv or latex."),
-    "frames": (int, "How many pictures."),
-    "seconds": (float, "How long the animation lasts [s]."),
-    "folder": (Path, "Folder of what has been solved."),
-    "workers": (int | None, "Processes; as many as processors if absent."),
-    "scheduler": (str | None, "Address of a dask scheduler, as tcp://host:8786, whose workers then solve."),
-    "format": (str, "Of the page: html, markdown or latex."),
-    "figures": (str, "Forms of the figures: png, or png,pdf,svg."),
-    "report": (bool, "Whether the page and its figures are written."),
-}
+# Arguments by their place, though they may be absent.
+PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
-PYTHON_ONLY = {"quantities", "progress"}
+PYTHON_ONLY = {"quantities", "progress", "options"}
 SHARED = {"workers": None, "scheduler": None, "format": "html", "figures": "png", "report": True}
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but mistakes.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Say each solve and each figure.")]
@@ -85,22 +63,23 @@ class Command:
         """Whether it has the options of all commands that solve."""
         return "options" in inspect.signature(self.function).parameters
 
-    def parameters(self) -> dict[str, Any]:
-        """Arguments and their defaults, those that all commands share included."""
-        found = inspect.signature(self.function).parameters
-        own = {name: each.default for name, each in found.items() if name not in PYTHON_ONLY and name != "options"}
-        return own | (SHARED if self.solves else {})
-
     def callback(self) -> Callable[..., None]:
         """Function with a signature that typer turns into arguments and options."""
-        parameters = [self._parameter(name, default) for name, default in self.parameters().items()]
+        found = inspect.signature(self.function).parameters
+        own = {name: (each.annotation, each.default) for name, each in found.items() if name not in PYTHON_ONLY}
+        if self.solves:
+            shared = {name: each.__forward_arg__ for name, each in commands.Options.__annotations__.items()}
+            own |= {name: (shared[name], default) for name, default in SHARED.items()}
+        about, said = documented(self.function.__doc__)
+        texts = documented(commands.__doc__)[1] | said
+        parameters = [_parameter(name, *each, texts[name]) for name, each in own.items()]
         if self.solves:
             parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
 
         def called(**given: Any) -> None:
             self(**given)
 
-        called.__doc__ = (self.function.__doc__ or "").split("\n\n")[0]
+        called.__doc__ = about
         called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
         called.__annotations__ = {each.name: each.annotation for each in parameters}
         return called
@@ -127,23 +106,25 @@ class Command:
         if not getattr(found, "feasible", True):
             raise typer.Exit(MISTAKE)
 
-    def _parameter(self, name, default):
-        kind, text = ARGUMENTS.get((self.title, name)) or OPTIONS[name]
-        if (self.title, name) in ARGUMENTS:
-            told = typer.Argument(help=text)
-        elif name == "report":
-            told = typer.Option("--report/--no-report", help=text)
-        else:
-            told = typer.Option(f"--{name}", help=text, **({"min": 1} if name == "workers" else {}))
-        if isinstance(default, str) and kind in (Path, Path | None):
-            default = Path(default)
-        return inspect.Parameter(
-            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, told]
-        )
+
+def _parameter(name: str, annotation: str, default: Any, text: str) -> inspect.Parameter:
+    """Argument or option of a command; text : what the docstring says of it, with more on Python alone"""
+    kind = TYPES[annotation]
+    text = text.partition(". From Python")[0].replace("[", "\\[")  # a unit is no markup
+    text = f"{text[:1].upper()}{text[1:]}."
+    if default is inspect.Parameter.empty or name in PLACED:
+        told = typer.Argument(help=text)
+    elif kind is bool and default:
+        told = typer.Option(f"--{name}/--no-{name}", help=text)
+    else:
+        told = typer.Option(f"--{name}", help=text, min=1 if name == "workers" else None)
+    if isinstance(default, str) and kind in (Path, Path | None):
+        default = Path(default)
+    return _keyword(name, Annotated[kind, told], default)
 
 
-def _keyword(name, annotation):
-    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=annotation)
+def _keyword(name, annotation, default=False):
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
 def _as_json(found: Any) -> str:

@@ -8,9 +8,9 @@ Options of all of them:
 
 output : folder of the page and of what has been solved
 workers : processes; as many as processors if absent
-scheduler : address of a scheduler of dask.distributed, whose workers solve then
-format : of the page, "html", "markdown" or "latex"
-figures : forms of the figures, separated by commas: "png", or "png,pdf,svg"
+scheduler : address of a scheduler of dask.distributed, as tcp://host:8786, whose workers solve then
+format : of the page, html, markdown or latex
+figures : forms of the figures, separated by commas: png, or png,pdf,svg
 report : whether the page and its figures are written; findings and results always are
 progress : whether the terminal says how far it is
 
@@ -69,8 +69,8 @@ def run(
 ) -> Report:
     """Solve a scene in one and in three dimensions, compare, and write a report.
 
-    scene : a Scene or a Case, the path of one, the name of a ready one, or several by name; the paper's sphere and
-        cone if absent
+    scene : scene as TOML, or the name of a ready one; the paper's sphere and cone if absent. From Python also a
+        Scene or a Case, or several by name
     """
     from .studies.run import Run
 
@@ -85,20 +85,20 @@ def study(
 ) -> Report | Listing:
     """Ask the claims of the paper of many contacts in one and in three dimensions, and write a page.
 
-    name : of a study, or the path of a file with one of your own; absent, the studies are listed
-    size : "quick" (minutes), "standard" (up to an hour) or "full" (up to a day)
+    name : study, or a file with one of your own; absent, the studies are listed
+    size : how much is solved, quick (minutes), standard (up to an hour) or full (up to a day)
     """
     from .studies.claimstudy import ClaimStudy
 
     if name is None:
         return ClaimStudy.listing()
-    return solve(ClaimStudy.of(name, size), output, **options)
+    return solve(ClaimStudy.of(str(name), size), output, **options)
 
 
 def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
     """Simulate the paper again in one dimension: its figures, its parameter studies, its claims.
 
-    size : "quick" (20 rough profiles averaged), "standard" (50) or "full" (200, as published)
+    size : how much is solved, quick (20 rough profiles averaged), standard (50) or full (200, as published)
     """
     from .studies.paper.study import Paper
 
@@ -113,8 +113,9 @@ def workprecision(
 ) -> Report | Listing:
     """Measure what accuracy costs in time, in one and in three dimensions, and write a page.
 
-    name : of a diagram, or "all"; absent, the diagrams are listed. What is timed is solved on this machine, alone
-    size : "quick" (a minute a diagram), "standard" or "full" (up to ten)
+    name : diagram, or all of them by the name all; absent, they are listed. What is timed is solved on this
+        machine, alone
+    size : how much is solved, quick (a minute a diagram), standard or full (up to ten)
     """
     from .studies.workprecision.study import WorkPrecision
 
@@ -128,7 +129,7 @@ def stability(
 ) -> Report:
     """Solve the named hard cases, and say whether each keeps its law; status 1 if any does not.
 
-    size : "quick" (half a minute), "standard" or "full" (some minutes)
+    size : how much is solved, quick (half a minute), standard or full (some minutes)
     """
     from .studies.stability import Stability
 
@@ -144,8 +145,8 @@ def regress(
 ) -> Report:
     """Say whether the accuracy of one dimension has moved from what is stored; status 1 if it has.
 
-    baseline : file of stored quantities; that of the package if absent
-    update : whether what has moved is stored
+    baseline : stored quantities as TOML; those of the package if absent
+    update : store what has moved
     quantities : that are measured; those of the package if absent
     """
     from .studies.regress import Regress
@@ -179,12 +180,12 @@ def topography(
 ) -> Report:
     """Describe a measured map of heights: size, slopes, spectra, and the self-affine law in them.
 
-    file : .npy, .npz, .csv, .txt, or as SurfaceTopography reads it
-    pixel : side of a pixel [m], or sides along x and y, if the file has none
-    unit : of its heights, "m", "mm", "um" or "nm", if the file has none
-    level : taken off first, "mean", "tilt" or "curvature"; if absent tilt, and mean of what is periodic
-    repeat : how the map goes on, "mirror" or "periodic"
-    peaks : "up" if heights grow towards the elastomer, else "down"
+    file : map of heights, .npy, .npz, .csv, .txt, or as SurfaceTopography reads it
+    pixel : side of a pixel [m], twice, along x and y, where they differ; if the file has none
+    unit : of its heights, m, mm, um or nm; if the file has none
+    level : taken off first, mean, tilt or curvature; if absent tilt, and mean of what is periodic
+    repeat : how the map goes on, mirror or periodic
+    peaks : up if heights grow towards the elastomer, down if away from it
     """
     from .studies.topography import Map
 
@@ -226,7 +227,8 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
 def plan(scene: Asked) -> Plans:
     """Say what would be simulated of a scene, what that costs, and what is left out; status 2 if no solver can.
 
-    scene : as of run, with or without settings of the solvers
+    scene : scene as TOML, with or without settings of the solvers, or the name of a ready one. From Python also a
+        Scene or a Case
     """
     from .planning import plans
 
@@ -253,8 +255,8 @@ def ready() -> Listing:
 def new(name: str, file: str | Path | None = None) -> Path:
     """Write a ready scene or study into a file, to be changed; never over a file that is there.
 
-    name : of a ready scene or study
-    file : where to; NAME.toml if absent
+    name : ready scene or study, see `crosscheck list`
+    file : where to; NAME.toml if absent. Never overwritten
     """
     from .library import write
 
@@ -264,8 +266,8 @@ def new(name: str, file: str | Path | None = None) -> Path:
 def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, Any]:
     """Write the JSON schema of scenes or of studies, for editors that complete and check TOML.
 
-    kind : "scene" or "study"
-    output : file; none is written if absent
+    kind : scene or study
+    output : file to write; none if absent
     """
     from .json_schema import schema
 
@@ -277,9 +279,9 @@ def figures(
 ) -> list[Path]:
     """Draw every figure of a folder again, for a journal or in a style, from its tables; nothing is solved.
 
-    folder : that a command left
-    journal : whose columns and least sizes; none in particular if "default"
-    style : a style of matplotlib of your own: a .mplstyle file, a name, or settings
+    folder : folder that a command left
+    journal : whose columns and least sizes; none in particular if default
+    style : style of matplotlib of your own, a .mplstyle file or a name. From Python also settings
     output : where to; `figures` in the folder if absent
     """
     from .redraw import redraw
@@ -290,8 +292,8 @@ def figures(
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
     """Write the tables of results into files: CSV with units, or LaTeX for a paper.
 
-    folder : that a command left, or a file of results
-    to : "csv", every digit, or "latex", rounded, for booktabs
+    folder : folder that a command left, or a file of results
+    to : csv, every digit, or latex, rounded, for booktabs
     output : where to; `tables` in the folder if absent
     """
     from .tables import export
@@ -310,9 +312,11 @@ def animate(
 ) -> Path:
     """Draw a scene as it moves in time, in one and in three dimensions side by side.
 
+    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     output : a .gif, or an .mp4 where ffmpeg is there; the name of the scene with .gif if absent
-    frames, seconds : how many pictures, and how long they last
-    folder : of what has been solved
+    frames : how many pictures
+    seconds : how long the animation lasts [s]
+    folder : folder of what has been solved
     """
     from contextlib import nullcontext
 

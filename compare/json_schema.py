@@ -1,22 +1,19 @@
 """JSON schemas of the files that a user writes, for editors: names, allowed values and units as one types."""
 
 import json
-import re
-from collections.abc import Iterator
-from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
 from pydantic import TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
+from .docstrings import documented
 from .store import write
 from .suggest import known
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
 _BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
-_FIELD = re.compile(r"([a-z_0-9]+(?:, [a-z_0-9]+)*) : (.+)")
 
 
 def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
@@ -43,7 +40,7 @@ class _Documented(GenerateJsonSchema):
 
     def dataclass_schema(self, schema):
         found = super().dataclass_schema(schema)
-        about, fields = _documented(schema["cls"].__doc__ or "")
+        about, fields = documented(schema["cls"].__doc__)
         for name, text in fields.items():
             if name in found.get("properties", {}):
                 described = found["properties"][name]
@@ -57,26 +54,6 @@ class _Documented(GenerateJsonSchema):
             for part in (self.get_schema_from_definitions(choice["$ref"]) for choice in found["oneOf"]):
                 part["required"] = list(dict.fromkeys(["type", *part.get("required", [])]))
         return found
-
-
-def _documented(docstring: str) -> tuple[str, dict[str, str]]:
-    """First paragraph of a docstring, and what it says of each field in lines of the form "name : text"."""
-    paragraphs = re.split(r"\n\s*\n", cleandoc(docstring))
-    return " ".join(paragraphs[0].split()), dict(_fields(cleandoc(docstring).splitlines()))
-
-
-def _fields(lines) -> Iterator[tuple[str, str]]:
-    entries = []
-    for line in lines:
-        if found := _FIELD.fullmatch(line):
-            entries.append([found[1], found[2]])
-        elif entries and line.startswith("    "):
-            entries[-1][1] += " " + line.strip()
-        else:
-            entries.append(["", ""])
-    for names, text in entries:
-        for name in filter(None, names.split(", ")):
-            yield name, text
 
 
 def _said_in_full(node):
