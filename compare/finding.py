@@ -190,6 +190,11 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
     return pandas.DataFrame([each.row for each in findings], columns=list(COLUMNS))
 
 
+def claimed(findings: Iterable[Finding]) -> list[Finding]:
+    """Findings on claims, without numbers that are only reported."""
+    return [each for each in findings if each.verdict != REPORTED]
+
+
 def sentences(findings: Sequence[Finding]) -> list[str]:
     """A statement for each claim, from all of its findings: where it holds, fails, is undecided."""
     found = []

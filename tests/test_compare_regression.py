@@ -70,8 +70,10 @@ def test_a_quantity_is_the_ratio_of_the_means_of_two_tasks():
     assert replace(quantity(), numerator=both, denominator=4.0).value(outcomes) == pytest.approx(0.5, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize(("moved_by", "verdict"), [(0, HOLDS), (0.99, HOLDS), (1.01, FAILS)])
+@pytest.mark.parametrize(
+    ("moved_by", "sign", "verdict"),
+    [(0, 1, HOLDS), (0.99, 1, HOLDS), (0.99, -1, HOLDS), (1.01, 1, FAILS), (1.01, -1, FAILS)],
+)
 def test_a_quantity_may_move_by_its_tolerance_and_no_further(moved_by, verdict, sign):
     stored = 2.0 / (1 + sign * moved_by * TOLERANCE)
     (finding,) = found({"force": stored}, quantity())
@@ -88,14 +90,8 @@ def test_the_farthest_is_said_first_and_what_is_missing_is_undecided():
         replace(FAILING, id="failing"),
     )
     verdicts = {each.claim.id.removeprefix("regress."): each.verdict for each in findings}
-    assert verdicts == {
-        "less": FAILS,
-        "more": FAILS,
-        "same": HOLDS,
-        "old": UNDECIDED,
-        "young": UNDECIDED,
-        "failing": UNDECIDED,
-    }
+    unknown = dict.fromkeys(("old", "young", "failing"), UNDECIDED)
+    assert verdicts == {"less": FAILS, "more": FAILS, "same": HOLDS} | unknown
     answer = study.answer(findings)
     assert answer[0].startswith("1 of 6 quantities lie within their tolerances")
     assert answer[1] == "the more: moved by 7.2 tolerances, from 1.985702939 to 2."
@@ -110,8 +106,7 @@ def test_the_farthest_is_said_first_and_what_is_missing_is_undecided():
     assert "0.001: a test" in str(page.blocks[-1])
 
 
-@pytest.mark.parametrize("value", [nan, inf])
-@pytest.mark.parametrize("stored", [{"force": 2.0}, {}])
+@pytest.mark.parametrize(("value", "stored"), [(nan, {"force": 2.0}), (inf, {})])
 def test_what_is_no_number_never_passes(value, stored):
     study = Regress((quantity(),), Path("mine.toml"), stored)
     (finding,) = study.findings(study.answers({pressed(2.0): Outcome((Row(normal_force=value),))}))
@@ -170,14 +165,14 @@ def test_stored_digits_leave_less_than_the_least_tolerance(tmp_path):
         ("[values]\n'some other' = 2.0", "'some other' is no quantity of this one"),
     ],
 )
-@pytest.mark.parametrize("updating", [False, True])
-def test_a_broken_or_foreign_baseline_is_named(tmp_path, text, complaint, updating):
+def test_a_broken_or_foreign_baseline_is_named(tmp_path, text, complaint):
     path = tmp_path / "baseline.toml"
     path.write_text(text)
-    with pytest.raises(InvalidInput) as raised:
-        Regress.of(path, [quantity()], updating)
-    assert str(path) in str(raised.value)
-    assert complaint in str(raised.value)
+    for updating in (False, True):
+        with pytest.raises(InvalidInput) as raised:
+            Regress.of(path, [quantity()], updating)
+        assert str(path) in str(raised.value)
+        assert complaint in str(raised.value)
 
 
 def test_without_a_file_a_baseline_is_begun_only_where_that_is_asked_for(tmp_path):
@@ -205,8 +200,6 @@ def test_a_test_of_ones_own_passes_until_something_moves(tmp_path):
     stronger = [quantity("two"), replace(quantities[1], denominator=1 / 1.004)]
     with pytest.raises(AssertionError, match=r"mine\.toml\n(.*\n)*the three: moved by 4 tolerances"):
         check(path, stronger, solved, workers=1)
-    update(path, stronger, solved, workers=1)
-    check(path, stronger, solved, workers=1)
 
 
 def test_the_command_says_whether_anything_is_wrong_and_stores_on_demand(tmp_path):
@@ -217,10 +210,7 @@ def test_the_command_says_whether_anything_is_wrong_and_stores_on_demand(tmp_pat
         return commands.regress(path, update, list(quantities), **given).failed
 
     assert not failed(*good, update=True)
-    assert not failed(*good)
     assert failed(good[0], replace(good[1], denominator=1.1))
-    assert failed(good[0])
-    assert failed(*good, quantity("four"))
     before = path.read_text()
     assert failed(good[0], replace(FAILING, id="three"), update=True)
     assert path.read_text() == before
@@ -256,18 +246,18 @@ def test_the_stored_values_are_what_theory_says_where_it_says_something(part, li
 
 def test_profiles_at_once_are_those_of_one_at_a_time_and_one_without_an_answer_says_so():
     tasks = [each.numerator for each in shipped() if isinstance(each.numerator, Profiles)]
-    task = replace(tasks[1], points=500, profiles=3)
+    task = replace(tasks[1], points=128, profiles=2)
     outcome = task.solve()
     assert task.fits(outcome)
-    assert not replace(task, profiles=4).fits(outcome)
+    assert not replace(task, profiles=3).fits(outcome)
     for seed, row in enumerate(outcome.rows):
         rough = replace(task.scene.roughness, seed=seed)
-        alone = MDR(points=500).solve(replace(task.scene, roughness=rough))
+        alone = MDR(points=128).solve(replace(task.scene, roughness=rough))
         assert row.friction_coefficient == pytest.approx(alone.friction_coefficient, rel=MET)
         assert row.depth == pytest.approx(alone.depth, rel=MET)
     weightless = replace(task.scene, motion=replace(task.scene.motion, load=5e-324))
     outcome = replace(task, scene=weightless).solve()
-    assert [row.reason for row in outcome.rows] == ["no depth carries the load"] * 3
+    assert [row.reason for row in outcome.rows] == ["no depth carries the load"] * 2
 
 
 def test_the_example_of_the_page_runs():

@@ -34,6 +34,8 @@ SERIES = Series(
     bem=BEM(points=64),
     mdr=MDR(points=500),
 )
+# Ends and middle of the speeds and loads: enough for families and powers.
+FEW = replace(SERIES, speeds=SERIES.speeds[::3], values=SERIES.values[::3])
 SLOPE = 0.2
 HALF = "fewer than half of the surfaces"
 
@@ -276,10 +278,6 @@ def test_every_finding_names_its_series_and_the_plot_that_shows_it(judged):
     assert plots["eq17.load-exponent"] == plots["eq23.collapse"] == "sphere/collapse"
     assert plots["eq23.exponent"] == "sphere/shifts"
     assert plots["limit.slow"] == "sphere/levels"
-
-
-# Ends and middle of the speeds and loads: enough for families and powers.
-FEW = replace(SERIES, speeds=SERIES.speeds[::3], values=SERIES.values[::3])
 
 
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray
-from test_compare_studies import SERIES, cut, eq_19, obeying, other, spoiled
+from test_compare_studies import FEW, SERIES, cut, eq_19, obeying, other, spoiled
 
 from compare import csvfiles
 from compare.finding import REPORTED
@@ -17,44 +17,36 @@ from compare.rectangle import unique
 from compare.studies.catalogue import STUDIES, ReadyStudy
 from compare.studies.claimstudy import AllStudies, ClaimStudy
 from compare.studies.series import Contacts
-from scene import Program, Stage
+from scene import Indent, Program, Stage
 
 
-def resting():
-    """The sphere at rest, depths prescribed."""
-    depths = tuple(float(depth) for depth in np.geomspace(5e-5, 1e-3, 4))
-    scene = SERIES.at(1.0)
-    rest = replace(
-        SERIES,
-        name="rest",
-        title="At rest",
-        scene=replace(scene, motion=replace(scene.motion, load=None, depth=1e-4)),
-    )
-    return obeying(lambda load, speed: eq_19(load * 1e4, speed), replace(rest, speeds=(), values=depths))
-
-
-def pressed_in():
-    """The sphere pressed in at two rates."""
-    scene = replace(SERIES.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),)))
-    series = replace(
-        SERIES, name="pressed", title="Pressed in", scene=scene, speeds=(0.1, 1.0), values=(1e-4, 2e-4, 4e-4)
-    )
+def by_depth(name, title, motion, speeds, values):
+    """The sphere under prescribed depths."""
+    scene = replace(SERIES.scene, motion=motion)
+    series = replace(SERIES, name=name, title=title, scene=scene, speeds=speeds, values=values)
     return obeying(lambda load, speed: eq_19(load * 1e4, speed), series)
+
+
+def of(whole, title="A <question> & more?"):
+    """A study of some series, and its answers."""
+    answers = xarray.DataTree.from_dict({f"/{each.series.name}": each.answers[each.series.name] for each in whole})
+    ready = ReadyStudy(title, "About.", lambda size: [each.series for each in whole])
+    return ClaimStudy("mine", ready, "quick"), answers
 
 
 @pytest.fixture(scope="module")
 def study():
     """Four series, one with a failed solve, and a study of them with its answers."""
     sliding = cut(obeying(eq_19), speeds=6, values=5)
-    whole = [
-        spoiled(sliding, np.s_[0, 2, 1], reason="it would not <converge>"),
-        other(sliding, "smoother", rms_height=2.5e-5),
-        resting(),
-        pressed_in(),
-    ]
-    answers = xarray.DataTree.from_dict({f"/{each.series.name}": each.answers[each.series.name] for each in whole})
-    ready = ReadyStudy("A <question> & more?", "About.", lambda size: [each.series for each in whole])
-    return ClaimStudy("mine", ready, "quick"), answers
+    depths, program = (5e-5, 2e-4, 1e-3), Program(stages=(Stage(duration=1.0, depth=1e-4),))
+    return of(
+        [
+            spoiled(sliding, np.s_[0, 2, 1], reason="it would not <converge>"),
+            other(sliding, "smoother", rms_height=2.5e-5),
+            by_depth("rest", "At rest", Indent(depth=1e-4), (), depths),
+            by_depth("pressed", "Pressed in", program, (0.1, 1.0), depths),
+        ]
+    )
 
 
 @pytest.fixture(scope="module")
@@ -87,21 +79,22 @@ def test_every_finding_stands_on_the_page_once_and_leads_to_a_plot_that_is_there
 
 
 def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
-    names = {plot.name for plot in page.every(Plot)}
-    assert {"verdicts", "family", "sphere/collapse", "sphere/shifts", "sphere/levels", "sphere/effects"} <= names
-    assert {"rest/depth", "pressed/pressed-in"} <= names
-    assert "rest/levels" not in names
-    for plot in page.every(Plot):
-        assert 5 < len(plot.caption.split()) <= 60, plot.name
-        if plot.name.startswith("smoother"):
-            continue
+    plots = {plot.name: plot for plot in page.every(Plot)}
+    assert {"verdicts", "family", "sphere/collapse", "sphere/shifts", "sphere/levels", "sphere/effects"} <= set(
+        plots
+    )
+    assert {"rest/depth", "pressed/pressed-in"} <= set(plots)
+    assert "rest/levels" not in plots
+    for name, plot in plots.items():
+        assert 5 < len(plot.caption.split()) <= 60, name
+        if name.startswith(("smoother", "rest/effects", "pressed/effects")):
+            continue  # drawn as those of the sphere
         tables = {}
-        for name, frame in plot.tables.items():
-            csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
-            tables[name] = csvfiles.read(tmp_path / f"{name}.csv")
+        for table, frame in plot.tables.items():
+            csvfiles.write_text(tmp_path / f"{table}.csv", csvfiles.text(frame))
+            tables[table] = csvfiles.read(tmp_path / f"{table}.csv")
         with style.applied():
-            drawing = plot.draw(tables, **plot.options)
-        assert drawing.axes
+            assert plot.draw(tables, **plot.options).axes
 
 
 def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(study, page):
@@ -133,10 +126,9 @@ def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     assert answers["sphere"].attrs["title"] == SERIES.title
 
 
-def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(study, monkeypatch):
-    monkeypatch.setattr(AllStudies, "rectangles", lambda self: {})  # thousands of scenes
-    assert [each.name for each in ClaimStudy.of("all").studies] == list(STUDIES)
-    asked, answers = study
+def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(monkeypatch):
+    first = obeying(eq_19, FEW)
+    asked, answers = of([first, other(first, "smoother", rms_height=2.5e-5)])
     both = AllStudies((asked, replace(asked, name="second")))
     tree = xarray.DataTree.from_dict({"/mine": answers, "/second": answers.copy()})
     findings = both.findings(tree)
@@ -144,3 +136,5 @@ def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(study, 
     page = both.page(tree, findings)
     assert len(page.answer) == len(asked.answer(asked.findings(answers)))
     assert {"mine/verdicts", "second/family"} <= {plot.name for plot in page.every(Plot)}
+    monkeypatch.setattr(AllStudies, "rectangles", lambda self: {})  # thousands of scenes
+    assert [each.name for each in ClaimStudy.of("all").studies] == list(STUDIES)

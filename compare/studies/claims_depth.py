@@ -1,6 +1,7 @@
 """Claims on force and depth: smooth bodies against closed forms, rough ones in one dimension against three."""
 
 from collections.abc import Iterator
+from functools import partial
 from math import nan
 
 import numpy as np
@@ -87,25 +88,20 @@ def _smooth(series, solver, dimension) -> Iterator[Claim]:
 
 
 def _at_rest(series) -> Iterator[Claim]:
-    depths = np.array([elastic_contact(series.at(value)).depth for value in series.values])
+    depths, at_load = closed_forms(series)[1], series.prescribed == "load"
+
+    def apart(sample):
+        if at_load:
+            one, three = (mean(sample[solver], "depth_reached")[0] for solver in SOLVERS)
+            return (one - three) / depths
+        one, three = (np.log(mean(sample[solver], "normal_force")[0]) for solver in SOLVERS)
+        return one - three
+
     deep = depths * MUCH_LESS_HEIGHT >= series.scene.roughness.rms_height
-    for places, what in ((deep, "deep"), (~deep, "shallow")):
-        if not places.any():
-            continue
-
-        def depth_apart(sample, places=places):
-            return ((_rest(sample, "MDR", "depth_reached") - _rest(sample, "BEM", "depth_reached")) / depths)[
-                places
-            ]
-
-        def force_apart(sample, places=places):
-            one, three = (np.log(_rest(sample, solver, "normal_force")) for solver in SOLVERS)
-            return (one - three)[places]
-
-        if series.prescribed == "load":
-            yield claim(f"rest.depth-{what}", depth_apart)
-        else:
-            yield claim(f"rest.force-{what}", force_apart)
+    for places, side in ((deep, "deep"), (~deep, "shallow")):
+        if places.any():
+            measure = partial(lambda sample, places: apart(sample)[places], places=places)
+            yield claim(f"rest.{'depth' if at_load else 'force'}-{side}", measure)
 
 
 def _stiffness(series) -> Iterator[Claim]:
@@ -134,7 +130,3 @@ def _over_smooth(series, answers):
 
 def _secants(answers):
     return np.diff(mean(answers, "normal_force")[0]) / np.diff(mean(answers, "depth_reached")[0])
-
-
-def _rest(sample, solver, name):
-    return mean(sample[solver], name)[0]

@@ -14,7 +14,7 @@ from scene.reading import InvalidInput, text_of
 
 from ..declaration import Study
 from ..describe import described, slug
-from ..finding import REPORTED, VERDICTS, Finding, sentences
+from ..finding import REPORTED, VERDICTS, Finding, claimed, sentences
 from ..inputs import located
 from ..library import Listing, ready
 from ..outcome import Outcome
@@ -144,7 +144,7 @@ class ClaimStudy(Study):
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone."""
-        return sentences(_claimed(findings))
+        return sentences(claimed(findings))
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
@@ -203,7 +203,7 @@ class AllStudies(Study):
         return [found for each in self.studies for found in self._own(each, answers)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return sentences(_claimed(findings))
+        return sentences(claimed(findings))
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
         """Verdicts of each study, and its series against one variable."""
@@ -222,19 +222,14 @@ class AllStudies(Study):
         for each in self.studies:
             own = [plot for plot in plots if plot.folder == f"{each.name}/"]
             command = f"`crosscheck study {each.name} --size {each.size}`."
-            claimed = Findings(_claimed(self._own(each, answers)))
-            blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, claimed]))
+            verdicts = Findings(claimed(self._own(each, answers)))
+            blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, verdicts]))
         return blocks
 
     def _own(self, each, answers):
         """Findings of one study, each with the study in front of its place and its plot."""
         found = each.findings(answers.children[each.name])
         return [replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found]
-
-
-def _claimed(findings: Sequence[Finding]) -> list[Finding]:
-    """Findings on claims, without numbers that are only reported."""
-    return [each for each in findings if each.verdict != REPORTED]
 
 
 def _located(name: str | Path) -> Path:
@@ -252,7 +247,7 @@ def _located(name: str | Path) -> Path:
 def _overview(findings: Sequence[Finding]) -> Iterator[dict]:
     """Number of findings of each verdict, for each claim and dimensionality."""
     verdicts: dict[tuple[str, str], list[Finding]] = {}
-    for each in _claimed(findings):
+    for each in claimed(findings):
         verdicts.setdefault((each.claim.id, each.row["dimension"]), []).append(each)
     for (_, dimension), own in verdicts.items():
         counts = {name: sum(each.verdict == name for each in own) for name in VERDICTS if name != REPORTED}

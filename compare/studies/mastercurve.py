@@ -13,7 +13,7 @@ from scene.reading import InvalidInput
 from scene.table import read_rows
 
 from ..declaration import Study
-from ..finding import EXACT, FAILS, REPORTED, Claim, Finding, sentences
+from ..finding import EXACT, FAILS, Claim, Finding, claimed, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Table
 from ..plots import shifted_curves
@@ -42,20 +42,19 @@ CLAIMS = {
     eq23.VERTICAL_ALONE.id: ("mastercurve.vertical-alone", "Misfit to one curve with shifts along friction alone"),
     eq23.BOTH.id: ("mastercurve.both", "Misfit to one curve with both shifts"),
 }
-EXPONENT = Claim(
-    "mastercurve.exponent",
-    "Exponent of the shift along the load as a power of the speed",
-    meaning="Least squares in logarithms.",
-)
-BESIDE = Claim(
-    "mastercurve.exponent-beside-vertical",
-    "Exponent of the shift along the load where the curves are shifted along friction too",
-    meaning="Least squares in logarithms.",
-)
-VERTICAL_EXPONENT = Claim(
-    "mastercurve.vertical-exponent",
-    "Exponent of the shift along friction, beside that along the load, as a power of the speed",
-    meaning="Least squares in logarithms.",
+EXPONENT, BESIDE, VERTICAL_EXPONENT = (
+    Claim(f"mastercurve.{name}", sentence, meaning="Least squares in logarithms.")
+    for name, sentence in (
+        ("exponent", "Exponent of the shift along the load as a power of the speed"),
+        (
+            "exponent-beside-vertical",
+            "Exponent of the shift along the load where the curves are shifted along friction too",
+        ),
+        (
+            "vertical-exponent",
+            "Exponent of the shift along friction, beside that along the load, as a power of the speed",
+        ),
+    )
 )
 NOT_REPEATED = "no point was measured more than once: the scatter is not known, and part of a misfit"
 NO_SHIFT = "none, as these shifts do not bring the curves onto one"
@@ -146,7 +145,7 @@ class Mastercurve(Study):
         return findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id == EXPONENT.id])
+        return sentences([*claimed(findings), *(each for each in findings if each.claim.id == EXPONENT.id)])
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         row = shifted_curves.ShiftedCurves(self.path.stem, self.collapse, findings[0])

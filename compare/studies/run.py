@@ -123,7 +123,7 @@ class Run(Study):
         return CaseFindings(name, slug(name), self.cases[name], datasets)
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return finding.sentences([each for each in findings if np.isfinite(each.claim.tolerance)])
+        return finding.sentences(finding.claimed(findings))
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
@@ -135,12 +135,14 @@ class Run(Study):
 
 def _blocks(found: CaseFindings, answers) -> list[Block]:
     case, folder = found.case, f"{found.folder}/"
-    claims = [each for each in found.claims if np.isfinite(each.claim.tolerance)]
-    others = [each for each in found.claims if not np.isfinite(each.claim.tolerance)]
+    others = [each for each in found.claims if each.verdict == finding.REPORTED]
     blocks: list[Block] = [
         Text(_asked(case)),
         *_plots(found, answers),
-        Findings(claims, "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid."),
+        Findings(
+            finding.claimed(found.claims),
+            "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid.",
+        ),
         Findings(others, "Numbers that tell how far these can be trusted."),
         Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
     ]
@@ -155,25 +157,23 @@ def _blocks(found: CaseFindings, answers) -> list[Block]:
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:
     """A row for each claim and dimension, a column for each case: number and verdict, or counts of verdicts."""
-    rows: dict[tuple[str, str], dict[str, str]] = {}
+    rows: dict[tuple[str, str], dict[str, list[Finding]]] = {}
     for case in cases:
-        several: dict[tuple[str, str], list[Finding]] = {}
-        for each in case.claims:
-            if np.isfinite(each.claim.tolerance):
-                several.setdefault((each.claim.sentence, each.dimension), []).append(each)
-        for place, found in several.items():
-            rows.setdefault(place, {})[case.name] = _cell(found)
+        for each in finding.claimed(case.claims):
+            place = each.claim.sentence, each.dimension or each.claim.dimension
+            rows.setdefault(place, {}).setdefault(case.name, []).append(each)
     return DataFrame(
         [
-            {"sentence": sentence, "dimension": dimension} | {case.name: told.get(case.name, "") for case in cases}
-            for (sentence, dimension), told in rows.items()
+            {"sentence": sentence, "dimension": dimension}
+            | {case.name: _cell(found.get(case.name, [])) for case in cases}
+            for (sentence, dimension), found in rows.items()
         ],
         columns=["sentence", "dimension", *(case.name for case in cases)],
     )
 
 
 def _cell(found: Sequence[Finding]) -> str:
-    """One number with its verdict, or how often each verdict stands."""
+    """One number with its verdict, or how often each verdict stands; empty without any."""
     if len(found) == 1:
         return f"{finding.number(found[0])}, {found[0].verdict}"
     counts = {name: sum(each.verdict == name for each in found) for name in finding.VERDICTS}
@@ -278,7 +278,7 @@ def _times(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarr
     for task in tasks:
         seconds = float(np.nansum([row.seconds for row in outcomes[task].rows]))
         spent[task.solver.name] = spent.get(task.solver.name, 0.0) + seconds
-    dataset = xarray.Dataset({"seconds": ("solver", list(spent.values()))}, {"solver": list(spent)})
-    for name in ("solver", "seconds"):
-        dataset[name].attrs = attributes(name)
-    return dataset
+    solvers = xarray.Variable("solver", list(spent), attributes("solver"))
+    return xarray.Dataset(
+        {"seconds": ("solver", list(spent.values()), attributes("seconds"))}, {"solver": solvers}
+    )

@@ -9,7 +9,7 @@ from pandas import DataFrame, concat
 
 from mdr1d.equations import interpolation
 
-from ..finding import REPORTED, Finding, table
+from ..finding import Finding, claimed, table
 from ..page import Plot
 from ..plots import study_depth, study_friction, study_verdicts
 from ..plots.study_friction import ALONE, COMMON, FITTED, LAW, PREDICTED
@@ -29,8 +29,7 @@ def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], 
 
     together : whether findings on several series are among them
     """
-    judged = [each for each in findings if each.verdict != REPORTED]
-    if judged:
+    if judged := claimed(findings):
         titles = [(each.series.name, each.series.title) for each in series]
         titles += [
             (place, place) for place in dict.fromkeys(each.where for each in judged) if place not in dict(titles)
@@ -55,8 +54,7 @@ def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], 
 def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
     """Distance of each claim from what was measured; friction, or depth and force."""
     series = judged.series
-    claims = [each for each in judged.findings if each.verdict != REPORTED]
-    if claims:
+    if claims := claimed(judged.findings):
         yield Plot(
             f"{series.folder}/effects",
             study_verdicts.effects,

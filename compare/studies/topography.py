@@ -1,6 +1,6 @@
 """Heights, slopes and spectra of a map that a user measured: `crosscheck topography`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import nan
@@ -14,7 +14,7 @@ from scene import Topography
 from scene.reading import InvalidInput, mistakes
 
 from ..declaration import Study
-from ..finding import EXACT, UNKNOWN, Claim, Finding, sentences
+from ..finding import EXACT, Claim, Finding, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Text
 from ..plots import topography as plots
@@ -22,29 +22,35 @@ from ..statistics.spectra import Description, describe
 from ..task import Batch, Task
 from ..vocabulary import attributes
 
-BY_WAVES = "Rms of the derivatives of its waves."
-BY_DIFFERENCES = "Rms of the differences between neighbours over a pixel."
-CLAIMS = {
-    claim.id: claim
-    for claim in (
-        Claim("topography.rms-height", "Rms height", unit="m", meaning="Rms of the pixels, levelled."),
-        Claim("topography.rms-slope", "Rms slope of the full gradient, spectral", meaning=BY_WAVES),
-        Claim("topography.rms-slope-x", "Rms slope along x, spectral", meaning=BY_WAVES),
-        Claim("topography.rms-slope-y", "Rms slope along y, spectral", meaning=BY_WAVES),
-        Claim(
-            "topography.rms-difference", "Rms slope of the full gradient, by differences", meaning=BY_DIFFERENCES
-        ),
-        Claim("topography.rms-difference-x", "Rms slope along x, by differences", meaning=BY_DIFFERENCES),
-        Claim("topography.rms-difference-y", "Rms slope along y, by differences", meaning=BY_DIFFERENCES),
-        Claim(
-            "topography.hurst",
-            "Hurst exponent",
-            meaning="Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it.",
-        ),
-        Claim("topography.longest", "Longest wavelength of the self-affine band", unit="m"),
-        Claim("topography.shortest", "Shortest wavelength of the self-affine band", unit="m"),
-    )
-}
+WAVES = "Rms of the derivatives of its waves."
+DIFFERENCES = "Rms of the differences between neighbours over a pixel."
+EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
+
+
+def _law(name: str) -> Callable[[Description], float]:
+    """A number of the self-affine law, NaN where there is none."""
+    return lambda found: getattr(found.law, name, nan)
+
+
+# Name, sentence, meaning, unit, and number out of a Description.
+NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] = (
+    ("rms-height", "Rms height", "Rms of the pixels, levelled.", "m", lambda it: it.rms_height),
+    ("rms-slope", "Rms slope of the full gradient, spectral", WAVES, "1", lambda it: it.rms_slope_spectral),
+    ("rms-slope-x", "Rms slope along x, spectral", WAVES, "1", lambda it: it.spectral_slopes[0]),
+    ("rms-slope-y", "Rms slope along y, spectral", WAVES, "1", lambda it: it.spectral_slopes[1]),
+    (
+        "rms-difference",
+        "Rms slope of the full gradient, by differences",
+        DIFFERENCES,
+        "1",
+        lambda it: it.rms_slope,
+    ),
+    ("rms-difference-x", "Rms slope along x, by differences", DIFFERENCES, "1", lambda it: it.slopes[0]),
+    ("rms-difference-y", "Rms slope along y, by differences", DIFFERENCES, "1", lambda it: it.slopes[1]),
+    ("hurst", "Hurst exponent", EXPONENT, "1", _law("hurst")),
+    ("longest", "Longest wavelength of the self-affine band", "", "m", _law("longest")),
+    ("shortest", "Shortest wavelength of the self-affine band", "", "m", _law("shortest")),
+)
 
 
 @dataclass(frozen=True)
@@ -112,37 +118,20 @@ class Map(Study):
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
         """Height, slopes, and the self-affine law with its interval; nothing is claimed of them."""
-        found, law = self.description, self.description.law
-        numbers = {
-            "rms-height": found.rms_height,
-            "rms-slope": found.rms_slope_spectral,
-            "rms-slope-x": found.spectral_slopes[0],
-            "rms-slope-y": found.spectral_slopes[1],
-            "rms-difference": found.rms_slope,
-            "rms-difference-x": found.slopes[0],
-            "rms-difference-y": found.slopes[1],
-            "hurst": nan if law is None else law.hurst,
-            "longest": nan if law is None else law.longest,
-            "shortest": nan if law is None else law.shortest,
-        }
-        findings = []
-        for name, value in numbers.items():
-            hurst = name == "hurst"
-            known = hurst and law is not None
-            findings.append(
-                Finding(
-                    claim=CLAIMS[f"topography.{name}"],
-                    value=float(value),
-                    scatter=(law.low, law.high) if known else (nan, nan),
-                    grid=0.0 if known else nan,
-                    grid_method=EXACT if known else UNKNOWN,
-                    where=self.path.name,
-                    regime=found.band if hurst else "",
-                    reason="; ".join(found.warnings) if hurst else "",
-                    plot=plots.NAME,
-                    dimension="measured",
-                )
-            )
+        found, law, findings = self.description, self.description.law, []
+        for name, sentence, meaning, unit, number in NUMBERS:
+            claim = Claim(f"topography.{name}", sentence, meaning=meaning, unit=unit)
+            told: dict[str, Any] = {
+                "value": float(number(found)),
+                "where": self.path.name,
+                "plot": plots.NAME,
+                "dimension": "measured",
+            }
+            if name == "hurst":
+                told |= {"regime": found.band, "reason": "; ".join(found.warnings)}
+                if law is not None:
+                    told |= {"scatter": (law.low, law.high), "grid": 0.0, "grid_method": EXACT}
+            findings.append(Finding(claim, **told))
         return findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
