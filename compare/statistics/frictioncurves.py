@@ -1,9 +1,9 @@
 """Curves of friction against load at several speeds: simulated on the same rough surfaces, or measured."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import inf, nan, sqrt
-from typing import Any, Protocol, Self
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 import xarray
@@ -21,41 +21,6 @@ class Curve:
     log_load: np.ndarray
     log_friction: np.ndarray
     error: np.ndarray
-
-
-class FrictionCurves(Protocol):
-    """Curves of ln mu (ln F) at several speeds, and the scatter of what follows from them."""
-
-    @property
-    def speeds(self) -> np.ndarray:
-        """(S,) [m/s]."""
-
-    @property
-    def curves(self) -> Sequence[Curve]:
-        """A curve for each speed; points weigh alike."""
-
-    @property
-    def points(self) -> int:
-        """Number of points, those without an answer included."""
-
-    @property
-    def surfaces(self) -> int:
-        """Number of random surfaces behind all points; 1 where there is none."""
-
-    def complete(self) -> Self:
-        """The points that have an answer, speeds ascending. Raises ValueError where nothing is left."""
-
-    def resampled(self, statistic: Statistic) -> dict[str, Replicates]:
-        """Statistics of these curves with their scatter."""
-
-    def deviations(self, slopes: float | np.ndarray = 0.0) -> np.ndarray:
-        """Deviations (K, N) of ln mu from a curve of these slopes d ln mu / d ln F, to first order.
-
-        The mean of products over K estimates the covariance.
-        """
-
-    def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
-        """Numbers (M,) whose deviations (K, M) follow from those of the points."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +115,7 @@ class SimulatedCurves:
         return resample(statistic, self)
 
     def deviations(self, slopes: float | np.ndarray = 0.0) -> np.ndarray:
-        """Deviations (surfaces, N) of each surface from the mean, relative, along a curve of these slopes."""
+        """Deviations (surfaces, N) of each surface from the mean, relative, along a curve d ln mu / d ln F."""
         surfaces = slice(None) if self.load.ndim == 3 else slice(0)
         forces = (np.atleast_3d(force)[self.known] for force in (self.load, self.friction_force))
         load, friction = ((force / force.mean(axis=1, keepdims=True) - 1)[:, surfaces] for force in forces)
@@ -225,3 +190,10 @@ class MeasuredCurves:
             moved.append(replace(curve, log_friction=curve.log_friction + by * here))
             point -= curve.log_load.size
         return replace(self, curves=tuple(moved))
+
+
+FrictionCurves: TypeAlias = SimulatedCurves | MeasuredCurves
+"""Curves of ln mu (ln F) at several speeds, and the scatter of what follows from them.
+
+The mean of products of `deviations` (K, N) estimates the covariance of ln mu at all points.
+"""

@@ -172,16 +172,13 @@ def means(bem: xarray.Dataset, mdr: xarray.Dataset) -> list[MeasuredMean]:
 
 def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
     """A row for each level of each plan, relative to the scale of the truth, with the failures and costs."""
-    return [row for each in found for row in _plan_rows(each)]
-
-
-def _plan_rows(mean):
-    samples = {(sample.solver, sample.points): sample for sample in mean.samples}
-    for plan in mean.plans:
-        for level in plan.levels:
+    rows = []
+    for mean in found:
+        samples = {(sample.solver, sample.points): sample for sample in mean.samples}
+        for plan, level in ((way, level) for way in mean.plans for level in way.levels):
             own = samples[plan.solver, level.points[0]]
             low, high = level.scatter.interval()
-            yield {
+            row = {
                 "contact": mean.contact,
                 "title": mean.title,
                 "quantity": mean.quantity,
@@ -210,34 +207,70 @@ def _plan_rows(mean):
                 "memory": own.costs["memory"],
                 "applications": own.costs["applications"],
             }
+            rows.append(row)
+    return rows
 
 
 def _mean_of(variable, about, grids, lines):
     """Two levels for the truth: the scatter is averaged out on the first grid, corrected on the same surfaces."""
     name = variable.attrs["quantity"]
-    first, finest = grids[0].values[name], grids[-1].values[name]
-    many = Scatter.of(first)
-    corrections = finest - first[: finest.size]
+    coarsest, finest = grids[0], grids[-1]
+    first, best = coarsest.values[name], finest.values[name]
+    many, corrections = Scatter.of(first), best - first[: best.size]
     few = Scatter.of(corrections)
     value = _mean(first) + _mean(corrections)
     error, freedom = _combined(first, corrections, many, few)
     unit = variable.attrs.get("scale", abs(value) or nan)
-    discretisation = _left(grids[-1], grids[-2], name) / unit
-    if _failed(first, corrections) > MOST_FAILED:
-        discretisation = nan
     statistical = error / unit
-    reach = half_width(statistical, freedom)
-    plans = (
-        *_plain(grids, name, unit, many, discretisation),
-        *_corrected(grids, name, unit, many, discretisation),
-        *(_line(each, name, unit, value, statistical, freedom, discretisation) for each in lines),
-    )
-    truth = Known(value, unit * (reach + discretisation), unit)
+    known = np.isfinite(first)
+    known[: corrections.size] &= np.isfinite(corrections)
+    # Error of the finest grid at first order, from what it changes on the same surfaces.
+    changed = abs(_mean(best - grids[-2].values[name][: best.size]))
+    left = changed / (finest.points / grids[-2].points - 1) / unit
+    if 1 - known.mean() > MOST_FAILED:
+        left = nan
+
+    def bias(sample):
+        """Bias on the same surfaces: what they share does not count. Of the finest grid, the truth's own."""
+        if sample is finest:
+            return Bias(left, 0.0)
+        changes = (sample.values[name][: best.size] - best) / unit
+        scatter = Scatter.of(changes)
+        return Bias(_mean(changes), half_width(scatter.of_mean, scatter.freedom) + left)
+
+    def plain(sample):
+        """A mean on one grid. Its scatter is that of the first, times the change of it on the same surfaces."""
+        values = sample.values[name]
+        both = np.isfinite(values) & np.isfinite(first[: values.size])
+        here, there = (Scatter.of(each[: values.size][both]) for each in (values, first))
+        scatter = Scatter(many.value * here.value / there.value / unit if there.value else nan, many.freedom)
+        return SamplingPlan("BEM", bias(sample), (Level((sample.points,), scatter, sample.costs["processor"]),))
+
+    def corrected(sample):
+        """A mean on the first grid, with what a finer one changes on surfaces of their own."""
+        scatter = Scatter(many.value / unit, many.freedom)
+        coarse = Level((coarsest.points,), scatter, coarsest.costs["processor"])
+        changes = sample.values[name] - first[: sample.values[name].size]
+        spent = sample.costs["processor"] + coarsest.costs["processor"]
+        fine = Level((sample.points, coarsest.points), Scatter.of(changes / unit), spent)
+        return SamplingPlan("BEM", bias(sample), (coarse, fine))
+
+    def line(sample):
+        """Plan of the 1D model, its bias its own mean less the truth: two independent numbers."""
+        scatter = Scatter.of(sample.values[name] / unit)
+        parts, freedoms = (scatter.of_mean, statistical), (scatter.freedom, freedom)
+        error, both = hypot(*parts), 0.0
+        if scatter.freedom > 0 and error > 0:
+            both = error**4 / sum(p**4 / f for p, f in zip(parts, freedoms, strict=True))
+        found = Bias(_mean(sample.values[name]) / unit - value / unit, half_width(error, both) + left)
+        return SamplingPlan("MDR", found, (Level((sample.points,), scatter, sample.costs["processor"]),))
+
+    plans = (*map(plain, grids), *map(corrected, grids[1:]), *map(line, lines))
+    truth = Known(value, unit * (half_width(statistical, freedom) + left), unit)
     told = about["contact"], about["title"], name, variable.attrs["label"]
-    failed = sum(len(sample.reasons) for sample in (*grids, *lines))
-    return MeasuredMean(
-        *told, plans, discretisation, failed, truth, statistical, freedom, samples=(*grids, *lines)
-    )
+    samples = (*grids, *lines)
+    failed = sum(len(sample.reasons) for sample in samples)
+    return MeasuredMean(*told, plans, left, failed, truth, statistical, freedom, samples)
 
 
 def _combined(first, corrections, many, few):
@@ -251,67 +284,6 @@ def _combined(first, corrections, many, few):
     whole = sum(parts)
     freedom = whole**2 / (parts[0] ** 2 / many.freedom + parts[1] ** 2 / few.freedom) if whole else inf
     return sqrt(max(whole + 2 * covariance, 0.0)), freedom
-
-
-def _failed(first, corrections):
-    """Share of the surfaces that lack an answer, or the correction that they were drawn for."""
-    known = np.isfinite(first)
-    known[: corrections.size] &= np.isfinite(corrections)
-    return 1 - known.mean()
-
-
-def _left(finest, less, name):
-    """Error of the finest grid at first order, from what it changes on the same surfaces."""
-    best = finest.values[name]
-    return abs(_mean(best - less.values[name][: best.size])) / (finest.points / less.points - 1)
-
-
-def _plain(grids, name, unit, many, discretisation):
-    """A mean on one grid. Biases are those on the same surfaces: what they share does not count."""
-    for sample in grids:
-        bias = _grid_bias(sample, grids[-1], name, unit, discretisation)
-        scatter = _scatter_on(sample.values[name], grids[0].values[name], many, unit)
-        yield SamplingPlan("BEM", bias, (Level((sample.points,), scatter, sample.costs["processor"]),))
-
-
-def _corrected(grids, name, unit, many, discretisation):
-    """A mean on the first grid, with what finer ones change on surfaces of their own."""
-    first = grids[0]
-    coarse = Level((first.points,), Scatter(many.value / unit, many.freedom), first.costs["processor"])
-    for sample in grids[1:]:
-        changes = sample.values[name] - first.values[name][: sample.values[name].size]
-        scatter = Scatter.of(changes / unit)
-        seconds = sample.costs["processor"] + first.costs["processor"]
-        bias = _grid_bias(sample, grids[-1], name, unit, discretisation)
-        yield SamplingPlan("BEM", bias, (coarse, Level((sample.points, first.points), scatter, seconds)))
-
-
-def _grid_bias(sample, best, name, unit, discretisation):
-    """Bias of a grid; of the finest grid it is what the truth's own may be."""
-    if sample is best:
-        return Bias(discretisation, 0.0)
-    finest = best.values[name]
-    changes = (sample.values[name][: finest.size] - finest) / unit
-    scatter = Scatter.of(changes)
-    return Bias(_mean(changes), half_width(scatter.of_mean, scatter.freedom) + discretisation)
-
-
-def _scatter_on(values, first, many, unit):
-    """Scatter on any grid: that of the first, which many surfaces tell, times its change on the same surfaces."""
-    both = np.isfinite(values) & np.isfinite(first[: values.size])
-    here, there = (Scatter.of(each[: values.size][both]) for each in (values, first))
-    return Scatter(many.value * here.value / there.value / unit if there.value else nan, many.freedom)
-
-
-def _line(sample, name, unit, value, statistical, freedom, discretisation):
-    """Plan of the 1D model, its bias its own mean less the truth: two independent numbers."""
-    scatter = Scatter.of(sample.values[name] / unit)
-    parts = scatter.of_mean, statistical
-    error = hypot(*parts)
-    known = scatter.freedom > 0 and error > 0
-    both = error**4 / sum(p**4 / f for p, f in zip(parts, (scatter.freedom, freedom), strict=True)) if known else 0
-    bias = Bias(_mean(sample.values[name]) / unit - value / unit, half_width(error, both) + discretisation)
-    return SamplingPlan("MDR", bias, (Level((sample.points,), scatter, sample.costs["processor"]),))
 
 
 def _mean(values):
