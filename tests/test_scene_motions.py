@@ -31,7 +31,7 @@ def test_the_path_is_signed_and_the_length_is_not():
     assert FRETTING.length == pytest.approx(1.5 + 4.0 + 2.0)
     assert FRETTING.span == pytest.approx(4.0)
     assert FRETTING.reverses
-    assert not program({"duration": 1.0, "load": 1.0, "speed": 1.0}).reverses
+    assert not program({"duration": 1.0, "load": 1.0, "speed": 1.0}, {"duration": 1.0}).reverses
 
 
 def test_forwards_only_path_length_and_span_are_the_same_number():

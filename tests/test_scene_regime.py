@@ -44,14 +44,6 @@ def test_each_flag_falls_with_its_own_ratio(name, condition, limit):
     assert [key for key, holds in beyond.items() if not holds] == [condition]
 
 
-def test_regimes_of_many_contacts_are_arrays():
-    loads = np.array([1e-3, 1e3])
-    radius = (loads / 1e8) ** (1 / 3)
-    regime = Regime.of((10.0, 2.0), (radius, 10.0 * radius**2), 1e-5, 1e-2, 0.1)
-    np.testing.assert_array_equal(regime.flags["h0 << d"], [False, True])
-    np.testing.assert_array_equal(regime.flags["2a < L"], [True, False])
-
-
 def test_heights_that_are_all_zero_have_no_slope_to_outweigh_the_indenter():
     regime = Regime.of((10.0, 2.0), (1e-3, 1e-5), 0.0, 1e-2, 0.0)
     assert regime.macro_over_rough == inf
