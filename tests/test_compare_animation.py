@@ -72,7 +72,7 @@ def texts(drawing):
 
 
 @pytest.mark.parametrize("solver", [LINE, SPACE])
-@pytest.mark.parametrize("motion", [RUN, LIFT, DIP])
+@pytest.mark.parametrize("motion", [RUN, DIP, pytest.param(LIFT, marks=pytest.mark.slow)])
 def test_instants_are_kept_of_the_same_march_to_the_last_digit(solver, motion):
     scene = replace(RUNNING, motion=motion)
     plain, kept = (each.solve(scene) for each in (solver, replace(solver, frames=5)))
@@ -107,16 +107,17 @@ def test_instants_in_one_dimension_are_the_elements_then():
     touching = kept["frame_contact"]
     pressed = kept["frame_depth"][:, None] - kept["frame_profile"]
     np.testing.assert_allclose(kept["frame_displacement"][touching], pressed[touching], rtol=0, atol=1e-18)
-    for name, last in (
-        ("x", "x"),
-        ("profile", "profile"),
-        ("displacement", "displacement"),
-        ("contact", "contact"),
-    ):
-        np.testing.assert_array_equal(kept[f"frame_{name}"][-1], kept[last])
+    for name in ("x", "profile", "displacement", "contact"):
+        np.testing.assert_array_equal(kept[f"frame_{name}"][-1], kept[name])
 
 
-@pytest.mark.parametrize("solver", [replace(LINE, points=1000), replace(SPACE, points=64, transforms="fftw")])
+@pytest.mark.parametrize(
+    "solver",
+    [
+        replace(LINE, points=1000),
+        pytest.param(replace(SPACE, points=64, transforms="fftw"), marks=pytest.mark.slow),
+    ],
+)
 def test_instants_that_are_not_asked_for_take_no_memory_and_those_that_are_what_the_plan_says(solver):
     def most(asked):
         asked.solve(RUNNING)  # what is loaded once is no part of it
@@ -154,16 +155,17 @@ def test_what_is_kept_of_a_step_is_a_copy():
 
 def test_a_gif_has_every_instant_for_its_share_of_the_time(tmp_path):
     path = tmp_path / "run.gif"
-    animation.record(film(RUNNING, 5), path, seconds=1.0)
+    animation.record(film(RUNNING), path, seconds=1.0)
     with Image.open(path) as gif:
         pictures = [(frame.info["duration"], frame.convert("RGB")) for frame in ImageSequence.Iterator(gif)]
-    assert [duration for duration, _ in pictures] == [200] * 5
+    assert [duration for duration, _ in pictures] == [250] * 4
     assert {picture.getpixel((0, 0)) for _, picture in pictures} == {(255, 255, 255)}
     first, last = (np.asarray(pictures[k][1], int) for k in (0, -1))
     assert (np.abs(first - last).max(axis=2) > 60).mean() > 1e-3
     assert path.stat().st_size < 1e6
 
 
+@pytest.mark.slow
 def test_the_same_march_is_made_again_from_what_was_solved_with_the_settings_of_the_case(
     tmp_path, solved, monkeypatch
 ):
@@ -193,6 +195,7 @@ def fake_ffmpeg(folder, script):
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
 
 
+@pytest.mark.slow
 def test_an_mp4_goes_through_ffmpeg_picture_by_picture(tmp_path, monkeypatch):
     tools = tmp_path / "tools"
     tools.mkdir()
@@ -227,9 +230,11 @@ HARD = {
 }
 
 
-@pytest.mark.parametrize("name", HARD)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in ("lift", "line") else pytest.mark.slow) for name in HARD]
+)
 def test_every_instant_is_drawn_with_units_to_the_same_scales(name):
-    found = film(HARD[name], 3)
+    found = film(HARD[name])
     assert ("MDR" in found.fields) == (not LINE.refusals(HARD[name]))
     with style.applied():
         reel = MarchFigure(found)
@@ -281,7 +286,7 @@ def test_the_elements_pass_the_indenter_with_the_elastomer():
 
 
 def test_where_nothing_touches_that_is_said():
-    found = film(HARD["lift"], 4)
+    found = film(HARD["lift"])
     with style.applied():
         reel = MarchFigure(found)
         reel.show(3)
@@ -292,6 +297,7 @@ def test_where_nothing_touches_that_is_said():
         assert "nothing touches here" not in texts(reel.drawing)
 
 
+@pytest.mark.slow
 def test_a_look_of_ones_own_holds_for_every_instant(tmp_path):
     found = film(RUNNING, 2)
     with style.chosen(style.Look(sheet="dark_background")):

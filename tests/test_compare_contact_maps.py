@@ -55,6 +55,7 @@ SCENES = {
     "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
     "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),
 }
+OFTEN = {"rough", "line", "lifted", "full"}  # drawn in each run: with a wake, without maps, without contact or gap
 LINE, SPACE = MDR(points=500, steps=20), BEM(points=48, steps=20)
 
 
@@ -65,6 +66,7 @@ def answered(name):
     return {solver.name: solver.solve(scene).fields for solver in solvers}
 
 
+@cache
 def seen(name):
     return view(SCENES[name], SPACE, answered(name))
 
@@ -76,27 +78,39 @@ def drawn(found):
     return drawing
 
 
+@cache
+def picture(name):
+    """A figure, only to be looked at."""
+    return drawn(seen(name))
+
+
+def texts(drawing):
+    return [text.get_text() for axes in drawing.get_axes() for text in axes.texts]
+
+
 def axes_of(drawing, title):
     return next(axes for axes in drawing.get_axes() if axes.get_title(loc="left").startswith(title))
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=() if name in OFTEN else pytest.mark.slow) for name in SCENES],
+)
 def test_every_contact_has_a_picture_with_units_and_words_and_its_data(name):
-    found = seen(name)
-    drawing = drawn(found)
+    drawing = picture(name)
     for axes in drawing.get_axes():
         for label in (axes.get_xlabel(), axes.get_ylabel()):
             assert not label or label.endswith("]"), label
     titles = " ".join(axes.get_title(loc="left") for axes in drawing.get_axes())
     assert ("1D" in titles) == (not LINE.refusals(SCENES[name]))
     assert ("gap" in titles) == (name != "line")
-    plot = contact_maps.plot(found)
+    plot = contact_maps.plot(seen(name))
     assert len(plot.caption.split()) <= 60
     assert all(len(table) for name, table in plot.tables.items() if name != contact_maps.PRESSURE)
 
 
 @pytest.mark.parametrize("journal", ["aip", "elsevier"])  # the narrowest page and the widest
-@pytest.mark.parametrize("name", ["smooth", "line"])
+@pytest.mark.parametrize("name", ["line", pytest.param("smooth", marks=pytest.mark.slow)])
 def test_nothing_written_is_smaller_than_a_journal_allows_or_leaves_the_figure(name, journal):
     found = seen(name)
     with style.applied(style.Look(JOURNALS[journal])):
@@ -114,8 +128,7 @@ def test_nothing_written_is_smaller_than_a_journal_allows_or_leaves_the_figure(n
 
 
 def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
-    found = seen("rough")
-    drawing = drawn(found)
+    found, drawing = seen("rough"), picture("rough")
     pressure, gap, contact = (axes_of(drawing, f"3D: {what}") for what in ("pressure", "gap", "real contact"))
     assert pressure.get_xlim() == gap.get_xlim() == contact.get_xlim()
     assert pressure.get_ylim() == gap.get_ylim() == contact.get_ylim()
@@ -129,8 +142,7 @@ def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
 
 
 def test_what_is_drawn_lies_beside_the_figure():
-    found = seen("rough")
-    drawing, sheets = drawn(found), contact_maps.plot(found).tables
+    drawing, sheets = picture("rough"), contact_maps.plot(seen("rough")).tables
     pressed = sheets["contact-maps-pressure"]
     image = axes_of(drawing, "3D: pressure").images[0].get_array()
     np.testing.assert_allclose(np.sort(1e-6 * pressed["pressure"]), np.sort(image.compressed()), rtol=1e-12)
@@ -202,22 +214,20 @@ def test_of_one_pixel_in_contact_a_point_is_drawn():
 
 
 def test_full_contact_has_no_gap_of_rounding():
-    gap = axes_of(drawn(seen("full")), "3D: gap")
+    gap = axes_of(picture("full"), "3D: gap")
     image = gap.images[0]
     assert np.max(image.get_array()) < 1e-6 * image.get_clim()[1]
 
 
 def test_where_nothing_is_left_in_contact_that_is_said():
-    found = seen("lifted")
-    assert not found.space.touching.any()
-    texts = [text.get_text() for axes in drawn(found).get_axes() for text in axes.texts]
-    assert texts.count("nothing touches") == 3
-    assert "at rest" in texts
+    assert not seen("lifted").space.touching.any()
+    said = texts(picture("lifted"))
+    assert said.count("nothing touches") == 3
+    assert "at rest" in said
 
 
 def test_a_contact_that_goes_backwards_meets_the_elastomer_from_the_other_side():
-    texts = [text.get_text() for axes in drawn(seen("back")).get_axes() for text in axes.texts]
-    assert "← elastomer flows" in texts
+    assert "← elastomer flows" in texts(picture("back"))
 
 
 def test_what_has_no_fields_or_is_warmed_by_its_friction_has_no_picture():
@@ -233,8 +243,8 @@ def test_the_figure_from_its_files_is_the_figure(tmp_path):
         table.to_csv(tmp_path / f"{name}.csv", index=False)
     read = {name: pandas.read_csv(tmp_path / f"{name}.csv") for name in plot.tables}
     with style.applied():
-        pictures = [rendered(each.figure()) for each in (plot, replace(plot, tables=read))]
-    np.testing.assert_array_equal(*pictures)
+        again = replace(plot, tables=read).figure()
+        np.testing.assert_array_equal(rendered(again), rendered(picture("rough")))
 
 
 def rendered(drawing):

@@ -71,12 +71,12 @@ def touching():
 
 @pytest.fixture(scope="module")
 def slow():
-    """The whole of Fig. 3, mu-tilde = xi^SLOPE (1 + r^2), and of each profile a factor of its own."""
-    found = contacts(ParameterStudies())
+    """Fig. 3 at some Hurst exponents, mu-tilde = xi^SLOPE (1 + r^2), and of each profile a factor of its own."""
+    found = contacts(ParameterStudies(hurst=(0.0, 0.5, 1.0)))
     count = len(found)
     xi, spread, profiles = np.geomspace(1e-5, 0.4, count), np.geomspace(1e-3, 3.0, count), 4
     wide = np.where(np.arange(count) % 10 == 0, 1.2, 0.5)
-    regime = Regime(spread[::-1] / 5, wide, np.roll(spread, 400), np.full(count, 2.4))
+    regime = Regime(spread[::-1] / 5, wide, np.roll(spread, count // 3), np.full(count, 2.4))
     samples = np.outer(xi**SLOPE * (1 + regime.macro_over_rough**2), np.linspace(0.98, 1.02, profiles))
     table = DataFrame(
         {
@@ -94,6 +94,11 @@ def slow():
 def studies(slow):
     fits = DataFrame([{"points_fitted": name, **fit.row} for name, fit in lines(slow).items()])
     return paper_studies.plot(slow.points, fits)
+
+
+@pytest.fixture(scope="module")
+def studies_drawn(studies):
+    return drawn(studies)
 
 
 def rule(shape, alpha, slope=2.4, height=0.06):
@@ -200,11 +205,11 @@ def test_the_sketch_is_the_closed_form_of_a_kelvin_solid():
     assert len(right.lines) > 6 * paper_sketch.ELEMENTS.size
 
 
-def test_every_point_of_the_studies_is_drawn_once_and_hollow_where_a_condition_breaks(slow, studies):
-    law_of, slope, rest = drawn(studies).axes[:3]
+def test_every_point_of_the_studies_is_drawn_once_and_hollow_where_a_condition_breaks(slow, studies_drawn):
+    law_of, slope, rest = studies_drawn.axes[:3]
     table = slow.points
     for empty, where in ((True, ~table["holds"]), (False, table["holds"])):
-        assert 100 < where.sum() < 1220
+        assert 20 < where.sum() < 340
         expected = ordered(table["xi"][where], table["normalised_friction"][where])
         np.testing.assert_array_equal(points(law_of, empty), expected)
     ratio = table["normalised_friction"] / table["xi"]
@@ -217,20 +222,20 @@ def test_every_point_of_the_studies_is_drawn_once_and_hollow_where_a_condition_b
         assert len(labelled(rest)[name].get_offsets()) == where.sum() > 0
 
 
-def test_the_studies_say_the_slope_of_the_points_where_the_conditions_hold(slow, studies):
+def test_the_studies_say_the_slope_of_the_points_where_the_conditions_hold(slow, studies, studies_drawn):
     fits = studies.tables["paper-studies-lines"].set_index("points_fitted")
     assert fits.loc["conditions hold, over 1 + r²", "slope"] == pytest.approx(SLOPE, rel=1e-9)
-    said = " ".join(text.get_text() for text in drawn(studies).axes[0].texts)
+    said = " ".join(text.get_text() for text in studies_drawn.axes[0].texts)
     assert f"filled: slope {fits.loc['conditions hold', 'slope']:.3f}" in said
-    none = paper_studies.plot(slow.points, studies.tables["paper-studies-lines"].iloc[1:])
-    assert not drawn(none).axes[0].texts
 
 
 def test_a_point_of_the_studies_without_an_answer_is_left_out(slow, studies):
     lost = slow.points.copy()
-    lost.loc[[3, 700], "normalised_friction"] = np.nan
-    fits = studies.tables["paper-studies-lines"]
-    assert len(points(drawn(paper_studies.plot(lost, fits)).axes[0])) == len(lost) - 2
+    lost.loc[[3, 70], "normalised_friction"] = np.nan
+    fits = studies.tables["paper-studies-lines"].iloc[1:]
+    law_of = drawn(paper_studies.plot(lost, fits)).axes[0]
+    assert len(points(law_of)) == len(lost) - 2
+    assert not law_of.texts  # no line through points where the conditions hold, no slope
     assert paper_studies.plot(lost.assign(normalised_friction=np.nan), fits) is None
 
 
