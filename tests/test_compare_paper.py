@@ -24,7 +24,7 @@ from scene import Cone, Regime, SolveError
 from scene.reading import InvalidInput
 from scene.regime import SMALL_SLOPE
 
-SMALL = ParameterStudies(values=4, hurst=(0.0, 0.3, 1.0), profiles=20)
+SMALL = ParameterStudies(values=4, hurst=(0.0, 0.3, 1.0), profiles=10)
 TINY = ParameterStudies(values=2, hurst=(0.5,), profiles=50)
 # Sampling of a smaller campaign; at full size the demand is 2 %.
 SLOPE = 0.02
@@ -122,6 +122,7 @@ def test_intervals_have_what_they_estimate_as_often_as_stated(profiles):
     np.testing.assert_allclose(inside / draws, 0.95, atol=0.04)
 
 
+@pytest.mark.slow
 def test_the_same_numbers_come_from_one_worker_and_from_two_and_a_stopped_sweep_resumes(tmp_path):
     tasks = TINY.tasks()
     one, two = (sweep(tasks, Store(tmp_path / f"{workers}"), workers=workers) for workers in (1, 2))
