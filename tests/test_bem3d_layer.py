@@ -18,7 +18,7 @@ from bem3d.layer import FALSIFIED, Layered
 from bem3d.layerwaves import Bonded, Frictionless
 from bem3d.line import Line
 from bem3d.sliding import Flow
-from compare.exact import foundation, full_contact, mean_lag
+from compare.exact import foundation, full_contact
 from compare.exact import layer as reference
 from scene import (
     Cone,
@@ -153,16 +153,6 @@ def test_kernels_are_the_sum_of_their_waves(medium, base, thickness, flow):
     for q in (0.05, 0.4, 2.0, np.pi):
         wave = np.exp(-1j * q * np.arange(-n, n)) @ columns
         assert abs(wave - alike(q, thickness, base, flow, shift)) < KERNEL
-
-
-@pytest.mark.parametrize("by", ["by_pixel", "by_strip"])
-def test_a_thick_layer_is_a_half_space_but_for_what_its_base_takes_off(by):
-    x = np.array([0.0, 0.3, 2.0, 30.0])
-    thick = getattr(Layered(1e9, Bonded(0.5)), by)(1.0)(x, 0.0, 5)
-    if by == "by_pixel":
-        np.testing.assert_allclose(thick, influence.by_pixel(x, 0.0, 5), atol=1e-8)
-    else:
-        assert np.ptp(thick[:, 0] + 2 / np.pi * influence.mean_log(x)) < 1e-14 * thick.max()
 
 
 @pytest.mark.parametrize("by", ["by_pixel", "by_strip"])
@@ -376,16 +366,6 @@ def test_a_thin_layer_that_yields_is_a_bed_of_springs_in_sliding(stated, poisson
     # pixels that the edge cuts: 1e-2 of the area, and little of the pressure
     assert found.normal_force == pytest.approx(load, rel=5e-4)
     assert found.friction_coefficient == pytest.approx(rows[1] / rows[0], rel=5e-4)
-
-
-@pytest.mark.parametrize("stated", [Layer(thickness=1e-4), Layer(thickness=1e-4, base="frictionless")])
-def test_friction_of_a_slow_sphere_does_not_know_the_layer(stated):
-    """mu = v lag <d2z/dx2>, the same of every medium, as every wave of pressure is delayed alike."""
-    solid, speed = standard(0.4), 1e-4
-    found = BEM(points=128).solve(Scene(SPHERE, solid, Slide(speed=speed, load=1.0), layer=stated))
-    expected = speed * mean_lag(solid) / SPHERE.radius
-    assert found.friction_coefficient == pytest.approx(expected, rel=1e-3)  # next order: memory over radius, 1e-3
-    assert found.measures["friction_by_loss"] / found.normal_force == pytest.approx(expected, rel=0.03)
 
 
 @pytest.mark.parametrize(

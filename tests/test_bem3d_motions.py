@@ -16,7 +16,7 @@ from bem3d.history import _Mirrored
 from bem3d.marching import march
 from bem3d.problem import Problem
 from bem3d.timeline import timeline
-from bem3d.upstream import Endless, Repeating, Returning, Sheet
+from bem3d.upstream import Repeating, Returning, Sheet
 from compare.exact import full_contact
 from scene import (
     CrossedWaves,
@@ -96,12 +96,6 @@ def test_what_leaves_the_window_is_found_again_as_if_the_window_had_held_it(roug
     assert friction < 4e-4
 
 
-def test_the_wider_sheets_alone_do_not_have_all_of_the_wake(monkeypatch):
-    monkeypatch.setattr(Returning, "_entering", Endless._entering)
-    _, friction = missed(ROUGH)
-    assert friction > 3e-3
-
-
 def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else():
     motion = program(pressed("load", 0.5), slid(A), slid(-2.003 * A, load=0.4), slid(0.5 * A, 2 * SPEED))
     one, other = (solved(each, points=32) for each in (motion, mirrored(motion)))
@@ -158,22 +152,6 @@ def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(indente
     assert result.measures["friction_by_work"] == pytest.approx(result.friction_force, rel=1e-2)
     turned = np.searchsorted(result.fields["path"][: np.argmax(result.fields["path"])], 5.7 * length)
     assert result.fields["friction_force"][turned] == pytest.approx(steady.friction_force, rel=5e-3)
-
-
-def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it():
-    lifted, again = [pressed(), {"duration": 0.2 * TAU, "depth": 0.0}], {"duration": TAU, "depth": DEPTH}
-    away = [slid(4 * A, 4 * A / TAU), slid(-4 * A, 4 * A / TAU)]
-    moved, waited, fresh = (
-        solved(program(*stages), extent=2.8e-3, steps=40)
-        for stages in ([*lifted, *away, again], [*lifted, {"duration": 2 * TAU}, again], [again])
-    )
-    forces = []
-    for result in (moved, waited, fresh):
-        time, force = (result.fields[name] for name in ("time", "normal_force"))
-        forces.append(np.interp(time[-1] - 0.5 * TAU, time, force))
-    assert moved.normal_force == pytest.approx(waited.normal_force, rel=1e-3)
-    assert forces[0] == pytest.approx(forces[1], rel=1e-2)  # between steps of which there are 20 in the ramp
-    assert forces[0] < 0.96 * forces[2]
 
 
 CHANGES = (
@@ -264,13 +242,6 @@ def test_a_repeating_surface_wraps_round_both_ways():
     assert list(window.fields[0, 0]) == [5, 6, 7, 0, 1, 2, 3, 4]
     around.follow(-1.0, 0.0)
     assert list(window.fields[0, 0]) == [1, 2, 3, 4, 5, 6, 7, 0]
-
-
-def test_an_indenter_that_never_turns_back_keeps_nothing_behind(monkeypatch):
-    monkeypatch.setattr(marching, "Returning", None)
-    solved(program(pressed(), slid(A)), points=24)
-    with pytest.raises(TypeError):
-        solved(program(pressed(), slid(-A)), points=24)
 
 
 HARD = {

@@ -161,13 +161,6 @@ def test_the_kernels_of_a_plan_are_those_that_a_solve_builds(name, built):
     assert plan.shape == answer.fields["pressure"].shape
 
 
-def test_a_plan_says_that_tractions_without_coupling_build_the_kernel_of_the_pressure_again():
-    scene = SCENES["shear-uncoupled"]
-    said = solver(scene).plan(scene).kernels
-    (again,) = [kernel for kernel in said if kernel.name == "tractions: that of the pressure, built again"]
-    assert (again.form, again.shape) in [(kernel.form, kernel.shape) for kernel in said if kernel is not again]
-
-
 @pytest.mark.parametrize(
     ("name", "points"),
     [
