@@ -4,9 +4,10 @@ from dataclasses import fields
 from importlib.resources import as_file, files
 from math import sqrt
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, model_validator
+import numpy as np
+from pydantic import AfterValidator, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -105,6 +106,15 @@ class Case:
     @property
     def scene(self) -> Scene:
         return Scene(**{field.name: getattr(self, field.name) for field in fields(Scene)})
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """The case as JSON can hold it; a map of heights that was measured is held whole."""
+        content = TypeAdapter(Case).dump_python(self, mode="json")
+        for name, part in vars(self).items():
+            if hasattr(part, "heights"):
+                content[name] |= {"heights": np.asarray(part.heights.heights).tolist()}
+        return content
 
     @property
     def slides(self) -> bool:

@@ -21,7 +21,7 @@ from .vocabulary import attributes
 
 FINE, COARSE = "fine", "coarse"
 # Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
-SOLVED, EMPTY, FAILED, NOT_ASKED = STATUS = ("solved", "no contact", "failed", "not asked")
+SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
 # What a solver gives of every contact, by the names of a Dataset.
 NUMBERS = {
     "normal_force": "normal_force",

@@ -1,7 +1,7 @@
 """A page as one HTML file that needs nothing else: images and tables inside, offline and without scripts."""
 
 import base64
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from html import escape
 from typing import Any
 from urllib.parse import quote
@@ -32,7 +32,7 @@ def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str])
 
     pictures : of the plots, by name; tables : text of every CSV file beside the page, by name
     """
-    definitions = Definitions()
+    used: dict[str, Term] = {}
     shown = {table.name for table in page.every(Table)}
     behind = {name: frame for name, frame in page.tables() if name not in shown}
     return _template("page.html").render(
@@ -40,38 +40,15 @@ def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str])
         contents=[
             (anchor("section", each.title), each.title) for each in page.blocks if isinstance(each, Section)
         ],
-        data={name: _rows(frame, definitions) for name, frame in behind.items()},
+        data={name: _rows(frame, used) for name, frame in behind.items()},
         about={**page.about, **made()},
-        **_content(definitions, pictures, tables, {plot.name for plot in page.every(Plot)}),
+        **_content(used, pictures, tables, {plot.name for plot in page.every(Plot)}),
     )
 
 
 def fragment(page: Page) -> str:
     """Answer, findings and tables of a page, without its figures, as a part of another page."""
-    return _template("fragment.html").render(page=page, **_content(Definitions(shown=False), {}, {}, set()))
-
-
-class Definitions:
-    """What a page uses of the vocabulary, in the order of use.
-
-    shown : whether the page has them
-    """
-
-    def __init__(self, shown: bool = True) -> None:
-        self.shown = shown
-        self._used: dict[str, Term] = {}
-
-    def use(self, name: str) -> str:
-        """Anchor of the definition of a name, which the page then has; empty of one that explains itself."""
-        whose = stem(name)
-        found = entry(whose)
-        if found is None or not self.shown:
-            return ""
-        self._used[whose] = found
-        return anchor("def", whose)
-
-    def __iter__(self) -> Iterator[tuple[str, Term]]:
-        return iter(self._used.items())
+    return _template("fragment.html").render(page=page, **_content(None, {}, {}, set()))
 
 
 def anchor(*parts: str) -> str:
@@ -79,40 +56,40 @@ def anchor(*parts: str) -> str:
     return "-".join("".join(c if c.isascii() and c.isalnum() else "-" for c in part) for part in parts if part)
 
 
-def _content(definitions, pictures, tables, figures) -> dict[str, Any]:
-    """What the templates need beside the page."""
+def _content(used, pictures, tables, figures) -> dict[str, Any]:
+    """What the templates need beside the page. used : terms that it defines; None without definitions"""
     return {
         "kind": lambda block: type(block).__name__,
         "anchor": anchor,
-        "definitions": definitions,
+        "definitions": used,
         "pictures": pictures,
         "figures": figures,
         "prose": lambda markdown: Markup(prose.html(markdown)),
-        "rows": lambda table: _rows(table.frame, definitions, people=True),
-        "head": lambda label, name: Markup(_head(label, definitions.use(name))),
+        "rows": lambda table: _rows(table.frame, used, people=True),
+        "head": lambda label, name: Markup(_head(label, name, used)),
         "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),
         "download": lambda name: _download(name, tables),
         "FINDINGS": FINDINGS,
     }
 
 
-def _rows(frame: DataFrame, definitions: Definitions, people: bool = False) -> Markup | None:
+def _rows(frame: DataFrame, used: dict[str, Term] | None, people: bool = False) -> Markup | None:
     """Head and body of a table; None of one that is too long to be read."""
     if len(frame) > MOST_ROWS:
         return None
     shown = columns(frame) if people else columns(frame, DIGITS, merged=False)
-    heads = "".join(_head(column.title, definitions.use(column.name)) for column in shown)
+    heads = "".join(_head(column.title, column.name, used) for column in shown)
     cells = [[_cell(column, *each) for each in zip(column.values, column.texts, strict=True)] for column in shown]
     body = "\n".join(f"<tr>{''.join(row)}</tr>" for row in zip(*cells, strict=True))
     return Markup(f"<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}\n</tbody>")
 
 
-def _head(title, definition):
-    mark = (
-        f'<a class="mark" href="#{definition}" aria-label="Definition: {escape(title)}">?</a>'
-        if definition
-        else ""
-    )
+def _head(title, name, used):
+    """Head of a column, with a link to its definition, which the page then has."""
+    whose, mark = stem(name), ""
+    if used is not None and (found := entry(whose)) is not None:
+        used[whose] = found
+        mark = f'<a class="mark" href="#{anchor("def", whose)}" aria-label="Definition: {escape(title)}">?</a>'
     return f'<th scope="col"><span class="label">{escape(title)}</span>{mark}</th>'
 
 

@@ -29,7 +29,6 @@ from ..rectangle import Rectangle
 from ..task import SceneTask, Task
 from ..views import view
 from ..vocabulary import attributes
-from ..written import as_json
 from .casecurves import (
     CURVES,
     OWN,
@@ -80,7 +79,7 @@ class Run(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        return {"cases": {name: as_json(Case, case) for name, case in self.cases.items()}}
+        return {"cases": {name: case.inputs for name, case in self.cases.items()}}
 
     @cached_property
     def _curves(self) -> Mapping[str, Mapping[str, Rectangle]]:
