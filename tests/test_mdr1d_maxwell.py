@@ -174,20 +174,3 @@ def test_a_flat_that_starts_pressed_in_relaxes_as_the_modulus_does(memory):
     assert contact.traction == 0
     # What the jump stores is lost on the flat and behind it.
     assert contact.dissipation == pytest.approx(0.0, abs=ROUNDING * contact.force)
-
-
-@pytest.mark.parametrize(("short", "ratio"), [(1e-12, 1 + 1e-6), (1.0, 1e6), (1e12, 2.0)])
-def test_modes_far_below_a_pixel_and_far_above_everything_are_carried(short, ratio):
-    heights, pixel = line()
-    solid = Prony(
-        equilibrium_modulus=1.0,
-        moduli=((ratio - 1) / 2, (ratio - 1) / 2),
-        relaxation_times=(short * pixel, 1e12 * pixel),
-    )
-    for depth in (1e-12, 1e-9, 2e-5):
-        contact = sweep_modes(heights, pixel, modes_of(solid), 1.0, depth)
-        assert contact.force > 0
-        assert contact.dissipation > 0
-        assert contact.traction == pytest.approx(
-            contact.dissipation, rel=1e-10, abs=ROUNDING * slope(heights, pixel) * contact.force
-        )

@@ -10,7 +10,6 @@ from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
 from mdr1d import MDR, marching
-from mdr1d.timeline import timeline
 from scene import Program, Prony, Scene, Slide, SolveError, Stage
 
 DEPTH, SPEED = 0.1, 0.3
@@ -115,19 +114,6 @@ def test_an_oblique_approach_on_a_kelvin_solid_is_the_closed_form_friction_that_
         assert earlier < result.friction_force < latest
 
 
-@pytest.mark.slow
-def test_friction_of_an_oblique_approach_converges_at_first_order_in_the_pixel():
-    counts, speed, approach = np.array([300, 1200, 4800]), 0.3, 0.2
-    exact = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)[1]
-    errors = [
-        1 - np.mean([approached(speed, approach, points=n, extent=e).friction_force for e in EXTENTS]) / exact
-        for n in counts
-    ]
-    # edges lie anywhere in their pixels, of which five places are an average
-    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.2)
-    assert errors[-1] < 5e-3
-
-
 WORKED = {
     **{by: program(*({"duration": time, by: value} for time, value in cycle)) for by, cycle in CYCLES.items()},
     "reversal": THERE_AND_BACK,
@@ -213,11 +199,6 @@ def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps
     assert np.angle(exact) > 0.1
 
 
-def test_a_large_oscillation_meets_less_than_that():
-    exact = motions.stiffness(A, SOLID, 1.0)
-    assert abs(response(0.1 * DEPTH, 1.0)) < 0.97 * abs(exact)
-
-
 SWUNG = {"duration": 2.0, "depth": 0.08, "speed": 0.01, "amplitude": 0.03, "frequency": 0.9}
 
 
@@ -240,12 +221,6 @@ def test_an_oscillation_has_two_hundred_steps_a_period_at_least_and_is_met_at_ea
     assert np.diff(fields["time"][within]).max() <= (1 + 1e-9) / 200 / 0.9
     found = fields["depth" if by == "depth" else "normal_force"]
     np.testing.assert_allclose(found, motion.prescribed(fields["time"]), rtol=1e-12)
-
-
-def test_an_amplitude_of_zero_costs_no_step():
-    plain = program(pressed(), slid(0.5))
-    still = program(pressed(), slid(0.5, amplitude=0.0, frequency=1e3))
-    assert np.array_equal(timeline(still, 0.005, 50).times, timeline(plain, 0.005, 50).times)
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 from math import pi, sqrt, tan
 
-import numpy as np
 import pytest
 
 from mdr1d import MDR
@@ -29,8 +28,6 @@ HALF = 1e-3  # static contact radius of the sliding cases
 ROUNDING = 1e-12
 # Measured 7e-8 at 5000 points; the error is (pixel / radius)^2 times a constant below one.
 SECOND_ORDER_AT_5000 = 2e-7
-# The contact edge falls anywhere within a pixel, so that the constant of the error, not its order, jumps about.
-ORDER, ORDER_SPREAD = 2.0, 0.3
 
 
 def sliding(shape, memory, depth):
@@ -56,15 +53,6 @@ def cone_forces(memory, a=HALF):
     c = pi / 2 * tan(ANGLE)
     leading, trailing = a**2 / 2 + a * memory, max(a - memory, 0.0) ** 2 / 2
     return STIFFNESS * c * (leading + trailing), STIFFNESS * c**2 * (leading - trailing)
-
-
-def orders(solve, exact):
-    """Observed orders of the relative errors of normal and friction force, over all grids at once."""
-    points = 2 ** np.arange(5, 13)
-    found = [solve(int(n)) for n in points]
-    pairs = np.array([(r.normal_force, r.friction_force) for r in found])
-    errors = np.abs(pairs / np.array(exact) - 1)
-    return -np.polyfit(np.log(points), np.log(errors), 1)[0]
 
 
 def test_a_sphere_follows_hertz_by_load_and_by_depth():
@@ -95,13 +83,6 @@ def test_a_compressible_solid_is_stiffer_by_its_poisson_ratio():
     soft = MDR().solve(Scene(shape, Elastic(modulus=MODULUS, poisson_ratio=0.25), motion))
     full = MDR().solve(Scene(shape, Elastic(modulus=MODULUS), motion))
     assert soft.normal_force / full.normal_force == pytest.approx(0.5 / 0.75, rel=ROUNDING)
-
-
-@pytest.mark.parametrize("ratio", [0.01, 1.0])
-def test_the_error_on_a_sliding_sphere_is_of_second_order(ratio):
-    scene = sliding(Sphere(radius=RADIUS), ratio * HALF, HALF**2 / RADIUS)
-    found = orders(lambda n: MDR(points=n).solve(scene), sphere_forces(ratio * HALF))
-    assert found == pytest.approx(ORDER, abs=ORDER_SPREAD)
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 0.1, 1.0, 1e6])

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from sliding import PAPER, ROUGH, SMOOTH
 
 from mdr1d import MDR, draw
 from scene import (
@@ -13,7 +14,6 @@ from scene import (
     Cylinder,
     Elastic,
     Indent,
-    Kelvin,
     Measured,
     Plane,
     PowerLaw,
@@ -21,18 +21,12 @@ from scene import (
     Prony,
     Refused,
     Scene,
-    SelfAffine,
     Slide,
     SolveError,
     Sphere,
     Stage,
     Wave,
 )
-
-KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
-SMOOTH = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.3, load=1.0))
-ROUGH = replace(SMOOTH, roughness=SelfAffine(hurst=0.8, rms_height=5e-6, longest=4e-3, shortest=1e-4, seed=3))
-PAPER = replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=None))
 
 ROUNDING = 1e-11
 

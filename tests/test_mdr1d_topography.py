@@ -136,16 +136,6 @@ def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum):
     assert rows.mean() - smooth > 10 * error  # the roughness does something
 
 
-def test_measures_are_those_of_the_line():
-    map_ = sampled()
-    answer = MDR(points=2000).solve(replace(SLIDING, roughness=map_))
-    assert answer.measures["rms_height"] == pytest.approx(map_.rms_height, rel=1e-9)
-    assert answer.settings["cutoff"] == "resolved"
-    row = MDR(points=2000, spectrum="line-scan").solve(replace(SLIDING, roughness=map_))
-    relief = map_.relief[32] - map_.relief[32].mean()
-    assert row.measures["rms_height"] == pytest.approx(relief.std(), rel=1e-6)
-
-
 def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
     monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
     map_ = Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6)

@@ -64,13 +64,6 @@ def test_modes_are_few():
         assert count >= decades
 
 
-def test_units_of_time_do_not_matter():
-    other = replace(SOLID, relaxation_time=1e17, lowest_frequency=1e-24, highest_frequency=1e-12)
-    np.testing.assert_allclose(
-        other.complex_modulus(in_range(other, 9)), SOLID.complex_modulus(in_range(SOLID, 9)), rtol=1e-12
-    )
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [

@@ -41,16 +41,6 @@ def test_the_universal_law_falls_by_nine_decades_over_fifty_kelvin():
     assert log10(universal(100.0).shift) == pytest.approx(-17.44 * 100 / 151.6, rel=ROUNDING)
 
 
-def test_a_law_of_williams_landel_and_ferry_is_the_same_from_another_reference():
-    # From T_g + 50 K the published constants are 8.86 and 101.6 K: 17.44 * 51.6 / 101.6 to three digits.
-    moved = {"c1": UNIVERSAL["c1"] * UNIVERSAL["c2"] / (UNIVERSAL["c2"] + 50), "c2": UNIVERSAL["c2"] + 50}
-    assert moved["c1"] == pytest.approx(8.86, abs=5e-3)
-    for above in (10.0, 50.0, 90.0, 200.0):
-        there = WLF(temperature=220.0 + above, reference=270.0, **moved)
-        step = universal(above).log_shift - universal(50.0).log_shift
-        assert there.log_shift == pytest.approx(step, rel=ROUNDING, abs=ROUNDING)
-
-
 def test_the_law_of_arrhenius_is_straight_over_the_inverse_temperature():
     def law(temperature):
         return Arrhenius(temperature=temperature, reference=300.0, activation_energy=80e3)
