@@ -20,9 +20,8 @@ from compare.cli import COMMANDS, PYTHON_ONLY, SHARED
 from compare.finding import COLUMNS, Claim
 from compare.rectangle import Rectangle, on_two_grids
 from compare.statistics.jackknife import friction
-from compare.task import SceneTask
 from mdr1d import MDR
-from scene import Kelvin, Plane, Refused, Scene, SelfAffine, Slide, Sphere, markup
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere, markup
 from scene.reading import InvalidInput
 
 SLIDING = Scene(
@@ -146,25 +145,6 @@ def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder
     assert str(folder) not in json.dumps(content)  # it may be moved
 
 
-@pytest.mark.slow
-def test_figures_are_drawn_again_for_a_journal_from_tables_alone(folder, found, monkeypatch):
-    monkeypatch.setattr(SceneTask, "solve", None)
-    redrawn = compare.figures(folder, journal="elsevier")
-    assert {path.stem for path in redrawn} == {name.rsplit("/", 1)[-1] for name in found.figures}
-    plain = compare.figures(folder, output=folder / "plain")
-    for path in plain:
-        if path.suffix == ".png":
-            assert path.read_bytes() == (folder / path.relative_to(folder / "plain")).read_bytes()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("to", ["csv", "latex"])
-def test_tables_are_exported(folder, found, tmp_path, to):
-    written = compare.export(folder, to, tmp_path)
-    assert written
-    assert all(path.stat().st_size for path in written)
-
-
 def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
     of_scene = compare.plan(SLIDING)
     assert of_scene.feasible
@@ -240,42 +220,6 @@ def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
     assert report.path == tmp_path / "report.html"
     assert compare.load(tmp_path)["smooth/BEM"].sizes["grid"] == 2
     assert compare.solve(Twice(), tmp_path, report=False).path is None
-
-
-def test_a_folder_that_cannot_be_written_and_options_that_are_unknown_are_said_first(tmp_path):
-    (tmp_path / "file").touch()
-    for options, error in (
-        ({"output": tmp_path / "file"}, pipeline.Unwritable),
-        ({"output": tmp_path, "format": "word"}, InvalidInput),
-        ({"output": tmp_path, "figures": "jpg"}, InvalidInput),
-    ):
-        with pytest.raises(error):
-            compare.solve(Twice(), **options)
-    assert not (tmp_path / "solved").exists()
-
-
-@pytest.mark.parametrize(
-    ("given", "suggested"), [("quick-strat", "quick-start"), ("tiny.tml", "tiny.toml"), ("zzzzzz", None)]
-)
-def test_a_misspelt_name_or_path_gets_a_suggestion(tmp_path, monkeypatch, given, suggested):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "tiny.toml").write_text("")
-    with pytest.raises(InvalidInput) as mistake:
-        compare.run(given)
-    assert str(mistake.value).startswith(f"{given}: no such file, and no ready scene")
-    assert ("did you mean" in str(mistake.value)) is (suggested is not None)
-    if suggested:
-        assert str(mistake.value).endswith(f"did you mean {suggested}?")
-    assert not list(tmp_path.glob("crosscheck-*"))
-
-
-def test_a_scene_that_nothing_compares_is_refused_before_anything_is_written(tmp_path):
-    from scene import Indent
-
-    plane = replace(SLIDING, indenter=Plane(), motion=Indent(pressure=1e4))
-    with pytest.raises(Refused, match="Plane"):
-        compare.run(plane, tmp_path / "no")
-    assert not (tmp_path / "no").exists()
 
 
 def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():

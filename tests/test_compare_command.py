@@ -203,11 +203,14 @@ def test_the_schema_is_printed_or_written(tmp_path, kind):
 
 
 MISTAKES = {
-    "run nowhere.toml": "nowhere.toml: no such file, and no ready scene",
+    "run zzzzzz": "zzzzzz: no such file, and no ready scene\n",
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
     "run study.toml": "is a study, and no scene: crosscheck study study.toml",
     "run .": "is a folder, and no scene",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
+    "run mine.tml": "no such file, and no ready scene; did you mean mine.toml?",
+    "run quick-start --format word": "format = word: allowed are html, markdown, latex",
+    "run quick-start --figures png,jpg": "figures = jpg: allowed are ",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "plan quick-strat": "did you mean quick-start?",
     "study colapse": "NAME = colapse: allowed are collapse, ",

@@ -1,7 +1,6 @@
 """The files to begin with: each is read, planned, copied, valid by its schema, and solved where it is compared."""
 
 import tomllib
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -85,16 +84,6 @@ def test_every_scene_that_can_be_compared_is(name, tmp_path):
     assert report.claims
 
 
-def test_a_copy_is_the_file_itself_and_never_overwrites(tmp_path):
-    path = tmp_path / "mine.toml"
-    assert write("hertz", path) == path
-    assert path.read_text(encoding="utf-8") == find("hertz").text
-    path.write_text("mine")
-    with pytest.raises(InvalidInput, match="is there already"):
-        write("hertz", path)
-    assert path.read_text() == "mine"
-
-
 def test_a_copy_may_name_a_schema_for_editors(tmp_path):
     path = write("hertz", tmp_path / "mine.toml", schema="scene.json")
     assert path.read_text(encoding="utf-8").startswith("#:schema scene.json\n# ")
@@ -106,11 +95,6 @@ def test_a_name_that_is_not_there_is_said_with_what_is():
         find("hert")
     with pytest.raises(InvalidInput, match=r"NAME = nothing: allowed are cold-rubber"):
         write("nothing", "nowhere.toml")
-
-
-def test_every_toml_file_of_the_package_is_one_of_them():
-    names = {path.name.removesuffix(".toml") for path in (files("compare") / "scenes").iterdir()}
-    assert names == set(SCENES)
 
 
 # Schemas for editors

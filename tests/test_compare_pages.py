@@ -2,7 +2,6 @@
 
 import json
 import re
-from dataclasses import replace
 from html.parser import HTMLParser
 from math import inf, nan
 from pathlib import Path
@@ -20,7 +19,7 @@ from pandas.testing import assert_frame_equal
 
 from compare import csvfiles, digits, manifest, pages, results, tables, vocabulary
 from compare.finding import COLUMNS
-from compare.page import Page, Plot, Table
+from compare.page import Page, Table
 from compare.pages import latex, markdown, notebook, prose, terminal
 from compare.redraw import redraw
 from scene.reading import InvalidInput
@@ -349,12 +348,6 @@ def test_every_column_of_findings_is_defined_on_the_page(folder):
 def test_the_same_page_gives_the_same_bytes(folder, tmp_path):
     again = pages.write(page(), FINDINGS, tmp_path)
     assert again.read_bytes() == (folder / "report.html").read_bytes()
-
-
-def test_a_figure_without_a_table_of_its_own_is_drawn_from_all_that_it_names():
-    plot = next(page().every(Plot))
-    assert plot.folder == "sphere/"
-    assert replace(plot, name="friction").folder == ""
 
 
 def test_every_column_of_every_figure_is_defined_or_explains_itself():
