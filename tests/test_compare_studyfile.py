@@ -61,6 +61,9 @@ hurst = 0.6
 TEXT = HEAD + SHARED + TABLES + SERIES
 
 
+KELVIN = '"kelvin"\nmodulus = "1 MPa"\nrelaxation_time = "1 ms"'
+
+
 def asked(text, size=QUICK):
     return study_of(text, "mine").series(size)
 
@@ -134,34 +137,24 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
     ("old", "new", "said"),
     [
         ('title = "Mine"', "", ["title: missing, a valid string"]),
-        ('title = "Mine"', 'titel = "Mine"', ["titel = 'Mine': unknown here; did you mean title?"]),
-        ('name = "a"', "", ["series.0.name: missing, "]),
         ('name = "a"', 'name = "a/b"', ["series.0.name = 'a/b': String should match"]),
         ('name = "b"', 'name = "A"', ["series: 'a' is the name of several"]),
         ("speeds =", "sppeds =", ["sppeds = ['50 mm/s', 0.1, 0.2]: unknown here; did you mean speeds?"]),
         ('"50 mm/s"', '"50 mm"', ["speeds.0 = '50 mm': Input should be a speed, as 20 mm/s"]),
         ("0.1, 0.2]", "0.2, 0.1]", ["series.0: speeds = [0.05, 0.2, 0.1]: from the least", "series.1: speeds"]),
         (", 0.1, 0.2]", "]", ["series.0: speeds: at least two", "series.1: speeds: at least two"]),
-        ("least =", "leest =", ["loads.leest = '0.5 N': unknown here; did you mean least?"]),
         ("greatest = 2", "greatest = 0.2", ["loads: greatest = 0.2 must exceed least = 0.5"]),
         ("count = 4", "count = 1", ["loads.count = 1: Input should be greater than or equal to 2"]),
-        ("surfaces = 2", "surfaces = 0", ["surfaces = 0: Input should be greater than or equal to 1"]),
         ("surfaces = 2", "depths = [1e-4]", ["series.0: loads, depths: both given", "series.1: loads, depths"]),
         ("surfaces = 2", "rates = [0.1]", ["series.0: speeds, rates: both given", "series.1: speeds, rates"]),
         ('["collapse"]', '["colapse"]', ["series.1.claims.0 = 'colapse': Input should be 'collapse', "]),
         ("[bem]\npoints = 32", "[bem]\npoint = 32", ["bem.point = 32: unknown here; did you mean points?"]),
         ("points = 32", "points = 24", ["series.0: bem.points = 24: at least 32", "series.1: bem.points"]),
-        ('radius = "10 mm"', "radius = -1", ["indenter.radius = -1: Input should be greater than 0"]),
         ('"10 deg"', '"10 mm"', ["series.1.indenter.angle = '10 mm': Input should be an angle, as 30 deg"]),
         ('"cone"', '"con"', ["series.1.indenter.type = 'con': one of 'sphere', 'cone', 'power-law'; did you"]),
         ("hurst = 0.6", "hurts = 0.6", ["series.1.roughness.hurts = 0.6: unknown here; did you mean hurst?"]),
         ("hurst = 0.6", "rms_height = 0", ["series.1.roughness.rms_height = 0: a study asks what roughness does"]),
-        ("[roughness]", "[roughnes]", ["roughnes: unknown here; did you mean roughness?"]),
-        (
-            '"kelvin"\nmodulus = "1 MPa"\nrelaxation_time = "1 ms"',
-            '"elastic"\nmodulus = 1',
-            ["series.0: speeds"],
-        ),
+        (KELVIN, '"elastic"\nmodulus = 1', ["series.0: speeds"]),
         ("title", 'scene = "paper-spere"\ntitle', ["scene = 'paper-spere': no scene or study is called"]),
         (SERIES, "", ["series: missing, a list"]),
         (SERIES, "[series]", ["series: Input should be a list"]),
@@ -183,11 +176,8 @@ def test_a_misspelt_list_of_tables_is_taken_for_what_is_meant():
 
 def test_every_mistake_is_named_at_once():
     text = TEXT.replace("surfaces", "surfases").replace('"50 mm/s"', '"50 Pa"').replace('"10 deg"', '"10 m"')
-    assert [line.split(" ")[1] for line in mistakes_in(text)] == [
-        "speeds.0",
-        "surfases",
-        "series.1.indenter.angle",
-    ]
+    named = [line.split(" ")[1] for line in mistakes_in(text)]
+    assert named == ["speeds.0", "surfases", "series.1.indenter.angle"]
 
 
 def test_a_file_can_ask_every_kind_of_claim():
@@ -201,15 +191,14 @@ def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(
     assert (study.place, study.title, study.inputs["source"]) == ("mine-quick", "Mine", TEXT)
     for name, said in (
         ("colapse", "did you mean collapse"),
-        (tmp_path, "is a folder"),
-        (tmp_path / "x.toml", "no such"),
+        (str(tmp_path), "is a folder"),
+        (str(tmp_path / "x.toml"), "no such"),
     ):
         with pytest.raises(InvalidInput, match=said):
-            ClaimStudy.of(name if isinstance(name, str) else str(name))
+            ClaimStudy.of(name)
     with pytest.raises(InvalidInput, match="size = paper: allowed are quick, standard, full"):
         ClaimStudy.of("collapse", "paper")
     path.write_bytes(b"\xff\xfe")
-    with pytest.raises(InvalidInput, match="not valid TOML"):
-        ClaimStudy.of(path)
-    with pytest.raises(InvalidInput, match="not valid TOML"):
-        study_of("x = " + "[" * 100_000, "mine")
+    for ask in (lambda: ClaimStudy.of(path), lambda: study_of("x = " + "[" * 100_000, "mine")):
+        with pytest.raises(InvalidInput, match="not valid TOML"):
+            ask()

@@ -31,9 +31,10 @@ def curves(case: Case) -> dict[str, Rectangle]:
     smooth = replace(scene, roughness=None)
     found = {OWN: _rectangle(case, scene, (motion.speed,), (motion.greatest,), keeps_fields=True)}
     depths = tuple(factor * elastic_contact(scene).depth for factor in plan.depths)
+    indented = Indent(depth=depths[0])
     if case.roughness:
-        found[ROUGH_DEPTH] = _rectangle(case, _at_depth(scene, depths), (0.0,), depths)
-    pressed = _rectangle(case, _at_depth(smooth, depths), (0.0,), depths)
+        found[ROUGH_DEPTH] = _rectangle(case, replace(scene, motion=indented), (0.0,), depths)
+    pressed = _rectangle(case, replace(smooth, motion=indented), (0.0,), depths)
     closed_form = exact.Exact()
     if not closed_form.refusals(pressed.scene):
         known: dict[str, dict[str, Solver]] = {closed_form.name: {FINE: closed_form, COARSE: closed_form}}
@@ -91,10 +92,6 @@ def slow_friction(case: Case) -> Mapping[str, float]:
 def edge_slope(case: Case) -> float:
     """Slope of the smooth body at the edge of the smooth relaxed contact."""
     return exact.edge_slope(case.indenter, elastic_contact(case.scene).radius)
-
-
-def _at_depth(scene: Scene, depths) -> Scene:
-    return replace(scene, motion=Indent(depth=depths[0]))
 
 
 def _rectangle(case: Case, scene: Scene, speeds, values, keeps_fields=False) -> Rectangle:

@@ -87,21 +87,20 @@ class Regress(Study):
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Every quantity of the collection or of the baseline: its ratio, and the numbers that it is made of."""
-        named = {quantity.id: quantity for quantity in self.quantities}
-        ids = sorted(named.keys() | self.stored.keys())
-        found = {id: _measured(named[id], outcomes) if id in named else ([], [], nan, GONE) for id in ids}
+        ids = sorted(self._named.keys() | self.stored.keys())
+        found = [_measured(self._named.get(id), outcomes) for id in ids]
         measured = np.full(
-            (len(ids), 2, max(len(each) for row in found.values() for each in (*row[:2], [0]))), nan
+            (len(ids), 2, max((len(side) for *sides, _, _ in found for side in sides), default=0)), nan
         )
-        for place, row in zip(measured, found.values(), strict=True):
-            for line, numbers in zip(place, row[:2], strict=True):
+        for place, (*sides, _, _) in zip(measured, found, strict=True):
+            for line, numbers in zip(place, sides, strict=True):
                 line[: len(numbers)] = numbers
         dataset = xarray.Dataset(
             {
                 "measured": (("quantity", "side", "draw"), measured),
-                "value": ("quantity", [row[2] for row in found.values()]),
+                "value": ("quantity", [value for *_, value, _ in found]),
                 "stored": ("quantity", [self.stored.get(id, nan) for id in ids]),
-                "reason": ("quantity", [row[3] for row in found.values()]),
+                "reason": ("quantity", [reason for *_, reason in found]),
             },
             {"quantity": ids, "side": list(SIDES)},
         )
@@ -109,13 +108,14 @@ class Regress(Study):
             dataset[name].attrs = attributes(str(name))
         return xarray.DataTree.from_dict({"/quantities": dataset})
 
+    @property
+    def _named(self):
+        return {quantity.id: quantity for quantity in self.quantities}
+
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        named = {quantity.id: quantity for quantity in self.quantities}
-        dataset = answers["quantities"]
-        rows = zip(
-            *(dataset[name].values.tolist() for name in ("quantity", "value", "stored", "reason")), strict=True
-        )
-        return [_finding(id, named.get(id), *row) for id, *row in rows]
+        named, dataset = self._named, answers["quantities"]
+        columns = (dataset[name].values.tolist() for name in ("quantity", "value", "stored", "reason"))
+        return [_finding(id, named.get(id), *row) for id, *row in zip(*columns, strict=True)]
 
     def failed(self, findings: Sequence[Finding]) -> bool:
         """Whether anything asks for somebody's attention; after an update, whether something is not stored."""
@@ -241,8 +241,10 @@ def _solved(study, folder, workers):
 
 
 def _measured(quantity, outcomes):
-    """Numbers of both sides, their ratio, and why there is none."""
+    """Numbers of both sides, their ratio, and why there is none; without a quantity it is gone."""
     sides: tuple = ([], [])
+    if quantity is None:
+        return *sides, nan, GONE
     try:
         sides = quantity.measured(outcomes)
         return *sides, quantity.value(outcomes), ""

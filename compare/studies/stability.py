@@ -79,16 +79,12 @@ class Stability(Study):
         every = answers["checks"].to_dataset().to_dataframe()
         for name, rows in every.groupby("case", sort=False):
             case, first = CASES[str(name)], rows.iloc[0]
-            checks = [
-                Check(row.check, row.found, row.allowed, row.message or None)
-                for row in rows.itertuples()
-                if not row.reason
-            ]
-            nearest = max(
-                checks, key=lambda each: each.nearness, default=Check("the case itself", first.found, 0.0)
-            )
+            known = (row for row in rows.itertuples() if not row.reason)
+            checks = [Check(row.check, row.found, row.allowed, row.message or None) for row in known]
+            none = Check("the case itself", first.found, 0.0)
+            nearest = max(checks, key=lambda each: each.nearness, default=none)
             told = nearest.message or first.reason
-            broken = sum(not check.holds for check in checks) or not checks
+            broken = not checks or not all(check.holds for check in checks)
             refused = all(check.message for check in checks)
             claim = Claim(
                 id=f"stability.{name}",
