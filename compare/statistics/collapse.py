@@ -139,7 +139,7 @@ class Collapse:
         lower, upper = bounds(self.curves)
         if not np.all((lower <= increments) & (increments <= upper)):
             return RmsMisfit.unknown()
-        return _misfit(self.data, self.degree, increments)
+        return _misfit(self.data, Fit(self.curves, self.degree), lambda fit: increments)
 
 
 def collapse(data: FrictionCurves) -> Collapse:
@@ -153,7 +153,7 @@ def collapse(data: FrictionCurves) -> Collapse:
     if len(curves) < 2 or count <= unknowns:
         raise ValueError(f"{len(curves)} speeds with too few points for {unknowns} unknowns: add loads or speeds")
     unmoved = np.zeros(len(curves) - 1)
-    straight = _misfit(complete, 1, unmoved, lifted=True)
+    straight = _misfit(complete, Fit(curves, 1, lifted=True), lambda fit: unmoved)
     along = _best(Fit(curves, DEGREE), unmoved)
     lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
     level = Fit(curves, lifted.degree)
@@ -251,11 +251,7 @@ def _moved(data, fit, guess):
     if inside(best, *bounds(fit.curves)):
         return _aligned(data, fit, lambda each: near(each, best))
 
-    def missed(part):
-        each = Fit(part.curves, fit.degree, fit.lifted)
-        return {"": each.residuals(near(each, best))}
-
-    return replace(_undecided(fit, best, PARTED), misfit=data.resampled(missed)[""].rms)
+    return replace(_undecided(fit, best, PARTED), misfit=_misfit(data, fit, lambda each: near(each, best)))
 
 
 def _taken(data, level, lifted, along, both):
@@ -264,11 +260,13 @@ def _taken(data, level, lifted, along, both):
     along, both : guesses of the increments of either fit
     """
 
-    def missed(fit, guess, part):
-        each = Fit(part.curves, fit.degree, fit.lifted)
-        return each.residuals(near(each, guess))
+    def missed(fit, guess):
+        return fit.residuals(near(fit, guess))
 
-    return data.resampled(lambda part: {"": missed(level, along, part) - missed(lifted, both, part)})[""].rms
+    def taken(part):
+        return {"": missed(level.of(part.curves), along) - missed(lifted.of(part.curves), both)}
+
+    return data.resampled(taken)[""].rms
 
 
 def _undecided(fit, increments, reason):
@@ -285,7 +283,7 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
     lever = logs / (logs @ logs)
 
     def numbers(part):
-        each = Fit(part.curves, fit.degree, fit.lifted)
+        each = fit.of(part.curves)
         increments = sought(each)
         missed, mending = each.residuals(increments), _outside(each.tangent(increments), each.later)
         moved, lifted = _shifts(increments), _shifts(each.lifts(increments))
@@ -327,9 +325,14 @@ def _curve(fit, increments):
     return polynomial - lift
 
 
-def _misfit(data, degree, increments, lifted=False):
-    """Misfit of the curves with given increments of the shifts."""
-    return data.resampled(lambda part: {"": Fit(part.curves, degree, lifted).residuals(increments)})[""].rms
+def _misfit(data, fit, sought):
+    """Misfit of the curves at increments of the shifts that are sought for each part of the data."""
+
+    def missed(part):
+        each = fit.of(part.curves)
+        return {"": each.residuals(sought(each))}
+
+    return data.resampled(missed)[""].rms
 
 
 def _outside(tangent, others):

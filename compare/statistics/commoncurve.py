@@ -58,6 +58,10 @@ class Fit:
         self.levels = self.later if lifted else self.later[:, :0]
         self._last: tuple[np.ndarray, Common] | None = None
 
+    def of(self, curves: Sequence[Curve]) -> "Fit":
+        """The fit of other curves."""
+        return Fit(curves, self.degree, self.lifted)
+
     def residuals(self, increments: np.ndarray) -> np.ndarray:
         """ln mu minus the best polynomial, (N,)."""
         basis = self.common(increments).orthonormal

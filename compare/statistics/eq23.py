@@ -1,9 +1,10 @@
 """Claims of Eqs. 22 and 23: what shifts of friction at several speeds, fitted or predicted, come to."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from math import isfinite, nan
-from typing import TypeVar
+from operator import attrgetter
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -57,6 +58,7 @@ BOTH = Claim(
     sentence="Misfit of friction to one curve with shifts along load and friction",
     meaning=f"{_MISFIT}, with both shifts at each speed.",
 )
+MISFIT, MENDED = attrgetter("horizontal.misfit"), attrgetter("horizontal.mended")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
 _UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
@@ -84,22 +86,27 @@ def findings(
     parted, straight = fine.horizontal.reason, fine.inseparable
     if shifts is not None and not isinstance(shifts, Mapping):
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
-    measured: list[tuple[Claim, str, str]] = [
-        (COLLAPSE, straight or _unless_beyond(fine.horizontal.misfit, parted), plots[0]),
-        (VERTICAL, straight or _unless_beyond(fine.horizontal.mended, parted), plots[1]),
+
+    def predicted(found):
+        return found.misfit_at(np.array([shifts[speed] for speed in found.speeds.tolist()]))
+
+    collapsed, plot_of_shifts = plots
+    measured: list[tuple[Claim, Callable[[Collapse], Any], str, str]] = [
+        (COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted), collapsed),
+        (VERTICAL, MENDED, straight or _unless_beyond(MENDED(fine), parted), plot_of_shifts),
     ]
     if shifts is not None:
-        measured.append((PREDICTED, "", plots[0]))
+        measured.append((PREDICTED, predicted, "", collapsed))
     if shifts is not None and isfinite(exponent):
         claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
-        measured.append((claim, straight or parted, plots[1]))
-    measured += [(UNSHIFTED, "", plots[0]), (VERTICAL_ALONE, "", plots[1])]
+        measured.append((claim, attrgetter("horizontal.exponent"), straight or parted, plot_of_shifts))
+    measured.append((UNSHIFTED, attrgetter("unshifted.misfit"), "", collapsed))
+    measured.append((VERTICAL_ALONE, attrgetter("vertical.misfit"), "", plot_of_shifts))
     if not fine.both.reason:
-        measured.append((BOTH, "", plots[1]))
-    for claim, reason, plot in measured:
-        numbers = [_number(each, claim.id, shifts) for each in (fine, coarse) if each is not None]
-        found = finding(claim, numbers[0], numbers[-1] if coarse else None, reason)
-        drawn = fine.data.surfaces if draws is None else draws
+        measured.append((BOTH, attrgetter("both.misfit"), "", plot_of_shifts))
+    drawn = fine.data.surfaces if draws is None else draws
+    for claim, number, reason, plot in measured:
+        found = finding(claim, number(fine), number(coarse) if coarse else None, reason)
         yield replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
 
 
@@ -129,20 +136,6 @@ def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", p
 def shiftable(speeds: int, points: int) -> bool:
     """Whether so many speeds, each with so many points, are enough to find shifts of both kinds."""
     return speeds > 1 and speeds * points > 2 * (speeds - 1) + DEGREE + 1
-
-
-def _number(found, claim, shifts):
-    """Number of a fit that a claim is on."""
-    if claim == PREDICTED.id:
-        return found.misfit_at(np.array([shifts[speed] for speed in found.speeds.tolist()]))
-    return {
-        COLLAPSE.id: found.horizontal.misfit,
-        VERTICAL.id: found.horizontal.mended,
-        EXPONENT.id: found.horizontal.exponent,
-        UNSHIFTED.id: found.unshifted.misfit,
-        VERTICAL_ALONE.id: found.vertical.misfit,
-        BOTH.id: found.both.misfit,
-    }[claim]
 
 
 def _unless_beyond(missed, reason):

@@ -47,15 +47,14 @@ def means(dataset: xarray.Dataset) -> DataFrame:
     Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid.
     """
     dataset = with_spread(dataset)
-    grids = {str(name): dataset.sel(grid=name) for name in dataset["grid"].values}
-    fine, prescribed = grids[FINE], pressed(dataset)
+    fine, prescribed = dataset.sel(grid=FINE), pressed(dataset)
     speed, value = np.meshgrid(dataset["speed"].values, dataset[prescribed].values, indexing="ij")
     columns = {"points": np.full(speed.size, int(fine["points"])), "speed": speed, prescribed: value}
     for name in ESTIMATED:
         above, below = RATIOS.get(name, (name, None))
         if above not in fine:
             continue
-        found = _interval(grids, above, below)
+        found = interval(dataset, above, below)
         one = fine[above] if below is None else fine[above] / fine[below].where(fine[below] != 0)
         deviation = one.std("draw", ddof=1) if "draw" in one.dims else xarray.full_like(one, nan)
         columns |= {name: found.value, f"{name}_deviation": deviation.transpose("speed", prescribed).values}
@@ -121,11 +120,7 @@ def touches(dataset: xarray.Dataset) -> np.ndarray:
 
 def interval(dataset: xarray.Dataset, above: str, below: str | None = None) -> Interval:
     """Mean over draws of a variable, or ratio of two means, on the fine grid at every speed, and load or depth."""
-    return _interval({str(name): dataset.sel(grid=name) for name in dataset["grid"].values}, above, below)
-
-
-def _interval(grids, above, below) -> Interval:
-    found = {name: _estimated(each, above, below) for name, each in grids.items()}
+    found = {name: _estimated(dataset.sel(grid=name), above, below) for name in dataset["grid"].values.tolist()}
     fine = found[FINE]
     low, high = fine.interval()
     grid = np.abs(fine.value - found[COARSE].value) if COARSE in found else nan

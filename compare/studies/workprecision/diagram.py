@@ -154,18 +154,12 @@ def order_finding(diagram: str, each: MeasuredLadder, expected: float = nan, plo
 
 def time_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
     """Processor time to the wanted error."""
-    claim = Claim(
-        f"workprecision.{diagram}.time",
-        f"Processor time to {share(WANTED)}",
-        meaning="Least processor time of the cheapest step from which on all steps keep the error",
-        unit="s",
-        dimension=DIMENSIONS[each.solver],
-    )
     k = None if each.reference_error > WANTED else each.reaching(WANTED)
     value = nan if k is None else float(each.processor[k])
-    return Finding(
-        claim, value, where=where_of(each), reason="" if k is not None else each.cell(WANTED), plot=plot
-    )
+    sentence, dimension = f"Processor time to {share(WANTED)}", DIMENSIONS[each.solver]
+    meaning = "Least processor time of the cheapest step from which on all steps keep the error"
+    told = where_of(each), "s", dimension, each.cell(WANTED), meaning
+    return reported(f"{diagram}.time", sentence, value, *told, plot=plot)
 
 
 def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
@@ -196,10 +190,11 @@ def reported(
     unit: str = "1",
     dimension: str = "3D",
     missing: str = "",
+    meaning: str = "",
     **more: Any,
 ) -> Finding:
     """Finding of a number that is reported without a claim. missing : why, where it is not known"""
-    claim = Claim(f"workprecision.{id}", sentence, unit=unit, dimension=dimension)
+    claim = Claim(f"workprecision.{id}", sentence, meaning=meaning, unit=unit, dimension=dimension)
     return Finding(claim, value, where=where, reason="" if isfinite(value) else missing, **more)
 
 
