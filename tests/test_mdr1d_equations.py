@@ -259,15 +259,6 @@ def per_period(elastomer, surface, speed, depth):
 SPEED, DEPTH = 0.1, 4e-5
 
 
-def test_a_kelvin_solid_in_full_contact_has_the_friction_of_its_finite_differences():
-    for points in (32, 256):
-        surface = draw(ROUGH, points)
-        force, length = per_period(Kelvin(modulus=1e6, relaxation_time=1e-4), surface, SPEED, DEPTH)
-        assert length == pytest.approx(surface.period, rel=ROUNDING_OF_A_PERIOD)
-        expected = 4 * 1e6 * 1e-4 * SPEED * surface.rms_slope**2 * surface.period
-        assert force == pytest.approx(expected, rel=ROUNDING_OF_A_PERIOD)
-
-
 def test_full_contact_is_the_sum_of_all_waves_of_the_polygon():
     """Linear interpolation makes of a wave q the waves q + 2 pi m / pixel, each sinc^2 of its amplitude."""
     solid = Prony(equilibrium_modulus=1e6, moduli=(2e6, 1e6), relaxation_times=(1e-4, 1e-3))

@@ -158,22 +158,6 @@ def test_friction_over_the_path_is_the_work_forwards_and_backwards(solid):
     assert done > 0
 
 
-@pytest.mark.parametrize("solid", ["elastic", "series"])
-def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it(solid):
-    lifted, again = [pressed(), {"duration": 0.3, "depth": 0.0}], {"duration": 1.0, "depth": DEPTH}
-    moved = solved(program(*lifted, slid(1.5, 1.5), slid(-1.5, 1.5), again), SOLIDS[solid])
-    waited = solved(program(*lifted, {"duration": 2.0}, again), SOLIDS[solid])
-    fresh = solved(program(again), SOLIDS[solid])
-    assert moved.normal_force == pytest.approx(waited.normal_force, rel=1e-9)
-    # it lands later in a dent than on fresh ground
-    work = moved.fields["work"][-1] - moved.fields["work"][moved.fields["time"] <= 3.3 + 1e-9][-1]
-    assert (
-        work == pytest.approx(fresh.fields["work"][-1], rel=1e-9)
-        if solid == "elastic"
-        else (work < 0.99 * fresh.fields["work"][-1])
-    )
-
-
 def response(amplitude, omega, solid=SOLID, **settings):
     """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
     frequency, held = omega / (2 * np.pi), 100.0
@@ -221,22 +205,6 @@ def test_an_oscillation_has_two_hundred_steps_a_period_at_least_and_is_met_at_ea
     assert np.diff(fields["time"][within]).max() <= (1 + 1e-9) / 200 / 0.9
     found = fields["depth" if by == "depth" else "normal_force"]
     np.testing.assert_allclose(found, motion.prescribed(fields["time"]), rtol=1e-12)
-
-
-@pytest.mark.slow
-def test_friction_under_an_oscillating_load_departs_from_the_steady_one_at_second_order_of_the_amplitude():
-    period, count = 0.5, 8
-
-    def mean(amplitude):
-        swing = {"duration": count * period, "speed": SPEED, "amplitude": amplitude, "frequency": 1 / period}
-        fields = solved(program(pressed("load"), slid(2.0), swing), points=200).fields
-        late = fields["time"] > fields["time"][-1] - 4 * period * (1 + 1e-9)
-        time, friction = fields["time"][late], fields["friction_force"][late]
-        return np.sum((friction[1:] + friction[:-1]) / 2 * np.diff(time)) / np.ptp(time)
-
-    amplitudes = np.array([0.02, 0.04, 0.08])
-    changes = np.array([mean(amplitude) for amplitude in amplitudes]) - mean(0.0)
-    assert np.polyfit(np.log(amplitudes), np.log(np.abs(changes)), 1)[0] == pytest.approx(2.0, abs=0.3)
 
 
 def test_too_many_periods_are_refused_with_what_to_change():

@@ -33,7 +33,6 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.scales import elastic_contact
 
 # Sums of some thousand terms in double precision; in units of what is summed, before it cancels.
 ROUNDING = 1e-11
@@ -295,26 +294,6 @@ def test_forces_scale_with_modulus_and_length_squared(scene, unit, nu):
     assert there.depth / unit["length"] == pytest.approx(here.depth, abs=1e-9 * size)
     slope = here.measures["rms_slope_contact"]
     assert there.friction_coefficient == pytest.approx(here.friction_coefficient, rel=1e-8, abs=ROUNDING * slope)
-
-
-@examples(60)
-@given(bodies(), decades(-3, 1))
-def test_on_one_grid_the_depth_rises_with_the_load(scene, more):
-    """Of a contact at rest and in motion, to the 1e-10 to which a load is met."""
-    load = elastic_contact(scene).load
-    light, heavy = (
-        replace(scene, motion=Slide(speed=scene.motion.speed, load=each)) for each in (load, load * (1 + more))
-    )
-    at_rest = replace(SOLVER, points=2000).solve(replace(heavy, motion=replace(heavy.motion, speed=0.0)))
-    solver = replace(SOLVER, points=2000, extent=at_rest.settings["extent"])
-    try:
-        light, heavy = solver.solve(light), solver.solve(heavy)
-    except SolveError:  # of a fast contact that is small on the grid of the one at rest
-        reject()
-    assert heavy.settings["pixel"] == light.settings["pixel"]
-    size = max(abs(heavy.depth), heavy.fields["profile"].max() - heavy.fields["profile"].min())
-    assert heavy.depth >= light.depth - MET * size
-    assert heavy.normal_force > light.normal_force
 
 
 # Of a grid around a sphere of radius 10, and the slope at its ends.

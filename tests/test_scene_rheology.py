@@ -209,20 +209,6 @@ def test_retardation_times_lie_between_relaxation_times(form):
     assert np.all(times[:-1] <= low[1:])
 
 
-@every_form
-def test_sums_over_both_spectra_agree(form):
-    creep = form.retardation()
-    assert (creep.instantaneous + creep.compliances.sum()) * form.equilibrium == pytest.approx(1, rel=ROUNDING)
-    assert creep.instantaneous == pytest.approx(1 / form.glassy, rel=ROUNDING)
-    # -dG/ds and dJ/ds at s = 0: sum G_k tau_k + viscosity = G_0^2 sum J_k lambda_k.
-    flow = form.viscosity + form.moduli @ form.times
-    assert form.equilibrium**2 * (creep.compliances @ creep.times) == pytest.approx(flow, rel=ROUNDING)
-    # Product of zeros over product of poles is the ratio of the moduli at the ends.
-    if not form.viscosity:
-        ratio = np.log(creep.times / form.times).sum()
-        assert ratio == pytest.approx(np.log(form.glassy / form.equilibrium), rel=ROUNDING, abs=ROUNDING)
-
-
 @pytest.mark.parametrize(("seed", "viscosity"), [(0, 0.0), (1, 0.0), (2, 1e-5)])
 def test_relaxation_to_retardation_and_back_is_where_it_began(seed, viscosity):
     # Modes as near as 1/K of a decade with a modulus 1e-3 of its neighbours lose three of sixteen digits.

@@ -6,6 +6,7 @@ from dataclasses import replace
 from decimal import Decimal
 from math import nextafter, pi
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -14,7 +15,6 @@ from pydantic import TypeAdapter, ValidationError
 from scene import (
     WLF,
     Arrhenius,
-    Cone,
     Fractional,
     Heating,
     Kelvin,
@@ -183,11 +183,10 @@ def test_python_takes_what_a_file_takes_and_holds_numbers():
     adapter = TypeAdapter(Scene)
     assert adapter.validate_json(adapter.dump_json(scene)) == scene
     assert replace(scene.indenter, radius="1 cm") == Sphere(0.01)
-    assert Cone(angle="45 deg").angle == pi / 4
     assert KelvinChain("0/Pa", ("1/MPa",), ("1 s",)).compliances == (1e-6,)
     assert Arrhenius(temperature=300, reference="300 K", activation_energy="50 kJ/mol").activation_energy == 5e4
-    assert Topography(heights=[[1e-6, 2e-6, 0, 0]] * 3 + [[0.0] * 4], pixel="10 um").pixel == (1e-5, 1e-5)
-    assert Topography(heights=[[1e-6, 2e-6, 0, 0]] * 3 + [[0.0] * 4], pixel=["10 um", 2e-5]).pixel == (1e-5, 2e-5)
+    for pixel, sides in (("10 um", (1e-5, 1e-5)), (["10 um", 2e-5], (1e-5, 2e-5))):
+        assert Topography(heights=np.eye(4), pixel=pixel).pixel == sides
 
 
 def test_units_that_depend_on_others_are_those_of_the_others():
