@@ -8,7 +8,6 @@ import pytest
 from effects_page import closed_forms as motions
 from effects_page.track import harmonic
 
-import bem3d.timeline
 from bem3d import BEM, marching, upstream
 from bem3d.engine import Engine
 from bem3d.grid import Grid
@@ -286,21 +285,6 @@ def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps
     assert abs(found) == pytest.approx(abs(exact), rel=5e-3)
     assert np.angle(found / exact) == pytest.approx(0.0, abs=3e-3)
     assert np.angle(exact) > 0.1
-
-
-def test_an_oscillation_is_followed_at_second_order_in_the_step(monkeypatch):
-    # so small that no pixel joins or leaves
-    swing = {"duration": 0.75 * TAU, "amplitude": 1e-4 * DEPTH, "frequency": 1 / TAU}
-    motion = program(pressed(), {"duration": 40 * TAU}, swing)
-    monkeypatch.setattr(bem3d.timeline, "RAMP", 1)
-    counts, forces = np.array([8, 16, 32]), []
-    for count in (*counts, 128):
-        monkeypatch.setattr(bem3d.timeline, "PERIOD", count)
-        fields = solved(motion, extent=3e-3, steps=1, points=32, tolerance=1e-9).fields
-        late = fields["time"] > 41 * TAU
-        forces.append(fields["normal_force"][late].mean())  # of steps that are alike
-    errors = np.abs(np.array(forces[:-1]) - forces[-1])
-    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] > 1.7
 
 
 def test_an_oscillation_has_forty_steps_a_period_at_least_and_its_crest_is_in_the_window():

@@ -414,7 +414,6 @@ def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
 @pytest.mark.parametrize(
     ("scene", "other"),
     [
-        (sphere(roughness=ROUGH, displacement=2e-5), {"transforms": "fftw"}),
         (sphere(roughness=ROUGH, displacement=2e-5), {"transforms": "cupy"}),
         (plane(CELL, pressure=1e4, displacement=2e-7), {"precision": "single", "tolerance": 1e-4}),
         (plane(CELL, pressure=1e4, displacement=2e-7), {"transforms": "cupy"}),

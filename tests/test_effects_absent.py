@@ -1,10 +1,10 @@
-"""Absent is absent: of an effect that a scene does not ask for, not a line is run, and not a digit is another."""
+"""Absent is absent: of an effect that a scene does not ask for, not a line is run."""
 
 import os
 import subprocess
 import sys
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,26 +12,8 @@ import pytest
 from effects_page.asked import effects
 
 from bem3d import BEM
-from bem3d.engine import Engine
 from mdr1d import MDR
-from scene import (
-    WLF,
-    Coulomb,
-    Heating,
-    Indent,
-    Layer,
-    Measured,
-    Program,
-    Scene,
-    SelfAffine,
-    Shear,
-    Slide,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
-    Topography,
-    Wave,
-)
+from scene import Indent, Measured, Program, Scene, SelfAffine, Slide, Sphere, Stage, StandardLinearSolid
 
 ROOT = Path(__file__).parent.parent
 SOLVERS = {"BEM": BEM(points=32, extent=3e-3, steps=4), "MDR": MDR(points=200, steps=4)}
@@ -64,7 +46,6 @@ MODULES = {
 # What only effects need, and costs more to load than all of ours.
 LIBRARIES = {"scipy.interpolate", "SurfaceTopography"}
 OF_SCENES = {*LIBRARIES, "scipy.special", "scipy.optimize", "scipy.fft"}
-ABSENT = {Layer, WLF, Heating, Coulomb, Shear, Topography, Measured, SelfAffine, Wave, Program, Slide}
 # As an effect is asked for on the page, which is the positive of every negative below.
 ASKED = {
     "layer": "layer",
@@ -185,34 +166,6 @@ def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
     assert not called.files & later
     assert called.files & drawn
     assert called.functions & flowing
-
-
-@pytest.mark.parametrize("name", PLAIN)
-@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
-def test_a_table_without_the_lines_of_all_effects_gives_the_same_digits_by_the_same_transforms(
-    solver, name, monkeypatch
-):
-    products = []
-    make = Engine.product
-
-    def counted(self, symbol, shape, padded):
-        products.append((shape, padded, np.iscomplexobj(symbol)))
-        return make(self, symbol, shape, padded)
-
-    monkeypatch.setattr(Engine, "product", counted)
-    scene = PLAIN[name]
-    absent = ABSENT - {type(part) for part in scene.parts.values()}
-    lines = {kind: line for kind, line in solver.terms.items() if kind not in absent}
-    assert len(lines) < len(solver.terms)
-    bare_solver = type("Bare", (type(solver),), {"terms": lines})
-    whole, count = solver.solve(scene), len(products)
-    bare = bare_solver(**asdict(solver)).solve(scene)
-    assert products[:count] == products[count:]
-    for name in ("normal_force", "friction_force", "depth", "applications"):
-        assert getattr(whole, name) == getattr(bare, name), name
-    assert whole.measures.keys() == bare.measures.keys()
-    for name, values in whole.fields.items():
-        assert np.array_equal(values, bare.fields[name], equal_nan=True), name
 
 
 @pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)

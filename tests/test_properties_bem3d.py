@@ -28,7 +28,7 @@ from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
 from bem3d.sliding import Flow
-from scene import Prony, SolveError
+from scene import SolveError
 
 POINTS = 32
 # Of the depth of the lowest point: to what the conditions of contact are solved here.
@@ -287,19 +287,3 @@ def test_only_v_tau_and_pressure_over_modulus_count(scene, faster, stiffer, nu):
     change = (1 - nu) / (1 - scene.elastomer.poisson_ratio)
     other = replace(sped, elastomer=replace(rescaled(sped.elastomer, modulus=change), poisson_ratio=nu))
     assert same(answer(scene), answer(other), modulus=stiffer)
-
-
-@examples(5)
-@given(
-    planes(),
-    st.lists(st.tuples(decades(-2, 4), decades(-3, 3)), min_size=2, max_size=4),
-    evenly(0.01, 0.99),
-)
-def test_modes_may_stand_in_any_order_and_be_split(scene, branches, share):
-    """G(t) is a sum: neither its order nor how a term is written counts."""
-    moduli, times = zip(*branches, strict=True)
-    split = (share * moduli[0], *moduli[1:], (1 - share) * moduli[0]), (*times, times[0])
-    solids = Prony(0.25, moduli, times), Prony(0.25, moduli[::-1], times[::-1]), Prony(0.25, *split)
-    in_order, backwards, in_parts = (answer(replace(scene, elastomer=solid)) for solid in solids)
-    assert same(in_order, backwards)
-    assert same(in_order, in_parts)
