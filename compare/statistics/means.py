@@ -1,5 +1,6 @@
-"""Means over draws at every point of a Dataset, and ratios of two solvers, with intervals of 95 %."""
+"""Means over draws at every point of a Dataset, and numbers of several Datasets, with intervals of 95 %."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import nan
 from typing import NamedTuple
@@ -9,7 +10,7 @@ import xarray
 from pandas import DataFrame
 
 from ..rectangle import COARSE, EMPTY, FAILED, FINE
-from .jackknife import Estimated, Sample, mean, mean_ratio, resample
+from .jackknife import Estimated, Sample, mean_ratio, resample
 
 # Of a mean: what is averaged, or the two forces of which the means are divided.
 FRICTION = ("friction_force", "normal_force")
@@ -71,11 +72,11 @@ def means(dataset: xarray.Dataset) -> DataFrame:
 
 @dataclass(frozen=True)
 class Compared:
-    """One quantity of two solvers, one over the other, at every speed, and load or depth: arrays (S, P).
+    """Numbers of several Datasets, and their errors: arrays of one shape.
 
-    value, low, high : ratio, and the ends of its interval of 95 % from the scatter of draws alone
-    grid : change of the ratio from half the points to all; NaN if not solved there
-    draws : of the solver with fewer; 0 of smooth bodies
+    value, low, high : numbers, and the ends of their intervals of 95 % from the scatter of draws alone
+    grid : change from half the points to all; NaN if not solved there
+    draws : of the solver with the fewest; 0 of smooth bodies
     """
 
     value: np.ndarray
@@ -84,25 +85,17 @@ class Compared:
     grid: np.ndarray
     draws: int
 
+    @property
+    def interval(self) -> Interval:
+        """Numbers with intervals that count scatter and grid."""
+        return Interval(self.value, self.low - self.grid, self.high + self.grid)
 
-def compared(above: xarray.Dataset, below: xarray.Dataset | None, over: str, under: str | None = None) -> Compared:
-    """Ratio of two solvers in a mean, or in a ratio of two means; the number of one where `below` is None.
 
-    over, under : variables
-    """
-    names = [over] if under is None else [over, under]
-    parts = {str(k): each[names] for k, each in enumerate((above, below)) if each is not None}
-
-    def ratio(sample):
-        values = [mean(sample[name], over, under) for name in parts]
-        return values[0] / values[1] if len(values) > 1 else values[0]
-
+def compared(statistic: Callable[[Mapping], np.ndarray], fine: Sample, coarse: Mapping | None) -> Compared:
+    """Numbers that a statistic of Datasets gives; `coarse` are those on half the points, None if not solved."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        fine = Sample({name: each.sel(grid=FINE) for name, each in parts.items()})
-        found = resample(lambda sample: {"": ratio(sample)}, fine)[""].estimated
-        grid = np.full(np.shape(found.value), nan)
-        if all(COARSE in each["grid"].values for each in parts.values()):
-            grid = np.abs(ratio({name: each.sel(grid=COARSE) for name, each in parts.items()}) - found.value)
+        found = resample(lambda sample: {"": statistic(sample)}, fine)[""].estimated
+        grid = np.full(np.shape(found.value), nan) if coarse is None else np.abs(statistic(coarse) - found.value)
     low, high = found.interval()
     return Compared(found.value, low, high, grid, fine.draws)
 

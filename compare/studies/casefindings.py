@@ -16,6 +16,7 @@ from ..rectangle import COARSE, FINE
 from ..statistics import eq23, means
 from ..statistics.collapse import Collapse, collapse
 from ..statistics.frictioncurves import SimulatedCurves
+from ..statistics.jackknife import Sample, mean
 from ..statistics.means import FRICTION, Compared, compared
 from .casecurves import (
     CURVES,
@@ -160,18 +161,17 @@ class CaseFindings:
         names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
         names = FRICTION if self.case.slides and self.case.motion.speed > 0 else names
         for solver, dimension in DIMENSIONS.items():
-            number = compared(self.datasets[f"{OWN}/{solver}"], None, *names)
+            number = self._ratio(OWN, (solver,), *names)
             value = float((number.grid / np.abs(number.value))[0, 0])
             yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension)
 
     def _spread(self):
         """Spread of both estimates of friction in three dimensions, at every speed."""
-        if speeds := self._speeds(SPEED):
-            dataset = means.with_spread(self.datasets[f"{SPEED}/BEM"])
-            if "friction_spread" in dataset:
-                found = compared(dataset, None, "friction_spread")
-                known = [(k, speed) for k, speed in enumerate(speeds) if isfinite(found.value[k, 0])]
-                yield from (self._at_speed(SPREAD, found, k, speed) for k, speed in known)
+        speeds = self._speeds(SPEED)
+        if speeds and "friction_spread" in self.datasets[f"{SPEED}/BEM"]:
+            found = self._ratio(SPEED, ("BEM",), "friction_spread")
+            known = [(k, speed) for k, speed in enumerate(speeds) if isfinite(found.value[k, 0])]
+            yield from (self._at_speed(SPREAD, found, k, speed) for k, speed in known)
 
     @cached_property
     def shifted(self) -> list[Shifted]:
@@ -229,13 +229,27 @@ class CaseFindings:
         return [] if asked is None else asked["speed"].values.tolist()
 
     def _friction(self, curve) -> Compared:
-        return compared(self.datasets[f"{curve}/MDR"], self.datasets[f"{curve}/BEM"], *FRICTION)
+        return self._ratio(curve, ("MDR", "BEM"), *FRICTION)
+
+    def _ratio(self, curve, solvers, over, under=None) -> Compared:
+        """A mean, or a ratio of two means, of one solver, or of one over another, at every point of a curve."""
+        names = [over] if under is None else [over, under]
+        datasets = {solver: self.datasets[f"{curve}/{solver}"][names] for solver in solvers}
+
+        def ratio(sample):
+            values = [mean(sample[solver], over, under) for solver in solvers]
+            return values[0] / values[1] if len(values) > 1 else values[0]
+
+        on_both = all(COARSE in each["grid"].values for each in datasets.values())
+        fine = Sample({name: each.sel(grid=FINE) for name, each in datasets.items()})
+        coarse = {name: each.sel(grid=COARSE) for name, each in datasets.items()} if on_both else None
+        return compared(ratio, fine, coarse)
 
     def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
         """Force of one over that of another less one, by depth."""
         reference = self.datasets[f"{curve}/{below}"]
         touched, depths = means.touches(reference)[0], reference["depth"].values.tolist()
-        found = compared(self.datasets[f"{curve}/{above}"], reference, "normal_force")
+        found = self._ratio(curve, (above, below), "normal_force")
         place = {"plot": "force-depth", "less": 1.0, "dimension": dimension}
         return {
             depth: self._finding(claim, found, (0, k), f"{depth * 1e6:.3g} µm", **place)

@@ -9,8 +9,8 @@ from pandas import DataFrame, concat
 
 from ..rectangle import COARSE, FINE
 from ..statistics import means
-from ..statistics.jackknife import friction, mean, resample
-from ..statistics.means import Interval
+from ..statistics.jackknife import friction, mean
+from ..statistics.means import Interval, compared
 from .laws import regimes
 from .series import ROUGH, SOLVERS, Contacts
 
@@ -35,11 +35,7 @@ def interval(statistic: Callable[[Mapping], np.ndarray], contacts: Contacts, bod
     solvers : of which surfaces are left out; both if absent
     """
     fine, coarse = (contacts.sample(grid, body, *(solvers or SOLVERS)) for grid in (FINE, COARSE))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        found = resample(lambda sample: {"": statistic(sample)}, fine)[""].estimated
-        grid = np.abs(statistic(coarse) - found.value)
-    low, high = found.interval()
-    return Interval(found.value, low - grid, high + grid)
+    return compared(statistic, fine, coarse).interval
 
 
 def friction_at(contacts: Contacts, solver: str, body: str = ROUGH) -> Interval:

@@ -26,6 +26,7 @@ from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
 from ..plots import contact, contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
 from ..rectangle import Rectangle
+from ..statistics.means import with_spread
 from ..task import SceneTask, Task
 from ..views import view
 from ..vocabulary import attributes
@@ -115,7 +116,7 @@ class Run(Study):
     def _judged(self, name, answers) -> CaseFindings:
         below = answers[slug(name)]
         datasets = {
-            f"{node.parent.name}/{node.name}": node.to_dataset(inherit=False)
+            f"{node.parent.name}/{node.name}": with_spread(node.to_dataset(inherit=False))
             for node in below.subtree
             if node.parent is not None and node.parent.name in CURVES
         }
