@@ -197,6 +197,21 @@ def test_a_dataset_gives_the_same_curves_whatever_the_order_of_its_dimensions():
     assert (flat.load.ndim, flat.surfaces, flat.groups) == (2, 1, [])
 
 
+def test_the_scatter_of_loads_along_a_curve_is_no_deviation_from_it():
+    load = LOADS[:, None] * (1 + 1e-6 * np.random.default_rng(6).normal(size=(5, len(LOADS), 4)))
+    given = SimulatedCurves(SPEEDS, load, load**0.7)
+    assert np.abs(given.deviations(-0.3)).max() < 1e-10  # of second order
+    assert np.abs(given.deviations()).max() > 1e-7
+
+
+def test_the_mean_of_measured_points_has_their_error_over_the_root_of_their_number():
+    given = measured(np.random.default_rng(6), friction(knee), 0.01, freedom=7)
+    found = given.resampled(lambda part: {"": np.mean([curve.log_friction for curve in part.curves])})[
+        ""
+    ].estimated
+    assert (found.error, found.freedom) == (pytest.approx(0.01 / sqrt(40), rel=1e-9), 7)
+
+
 def test_every_surface_doubled_changes_no_value_and_narrows_errors():
     given = simulated(np.random.default_rng(3), friction(cubic), 6)
     twice = replace(given, load=np.tile(given.load, 2), friction_force=np.tile(given.friction_force, 2))

@@ -12,7 +12,7 @@ from compare.outcome import Outcome, Row
 from compare.plots import style
 from compare.plots.workprecision_surfaces import means as drawn_means
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
-from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes
+from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes_of
 from compare.studies.workprecision.convergence import Convergence, Ladder
 from compare.studies.workprecision.ensemble import Ensemble, means, plans_table
 from compare.studies.workprecision.models import MODELS, SURFACES
@@ -101,7 +101,7 @@ def smooth(own_error=1e-5, errors=None):
 
 
 def regime(parts):
-    return regimes(node(parts))[0]
+    return regimes_of(node(parts))[0]
 
 
 def test_the_expected_error_is_that_of_means_of_normal_deviates():

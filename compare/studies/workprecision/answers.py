@@ -64,7 +64,7 @@ def least_known(errors: Iterable[float]) -> float:
     return float(min(known, default=nan))
 
 
-def regimes(node: xarray.DataTree) -> list[Regime]:
+def regimes_of(node: xarray.DataTree) -> list[Regime]:
     """Every quantity of every contact of a diagram, smooth ones first."""
     datasets = {name: child.to_dataset(inherit=False) for name, child in node.children.items() if child.data_vars}
     found: dict[tuple[str, str], list[MeasuredLadder]] = {}

@@ -23,23 +23,10 @@ LABELS = {
     "per_transform": "time of an application, of n² log n",
     "memory": "memory",
 }
-
-
 # Columns of the table of steps.
 STEPS = (
-    *(
-        "ladder",
-        "label",
-        "title",
-        "solver",
-        "dimension",
-        "along",
-        "x",
-        "points",
-        "steps",
-        "tolerance",
-        "precision",
-    ),
+    *("ladder", "label", "title", "solver", "dimension", "along", "x"),
+    *("points", "steps", "tolerance", "precision"),
     *("processor", "wall", "repeats", "memory", "bytes_a_point", "applications", "transform_pairs"),
     *("seconds_an_application", "over_limit", "stored_bytes", "status", "reason"),
 )

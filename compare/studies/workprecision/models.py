@@ -14,8 +14,7 @@ from ...page import Plot, Table
 from ...plots import workprecision_models, workprecision_surfaces
 from ...statistics.sampling import cheapest
 from . import regimes
-from .answers import LEVELS, answers_table, cells, least_known, rough_means
-from .answers import regimes as regimes_of
+from .answers import LEVELS, answers_table, cells, least_known, regimes_of, rough_means
 from .convergence import DIMENSIONS, steps_table
 from .diagram import Diagram, reported
 from .ensemble import plans_table
