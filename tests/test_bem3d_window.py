@@ -8,7 +8,20 @@ import pytest
 from bem3d import BEM
 from bem3d.surface import RoughSurface
 from mdr1d import draw
-from scene import Cylinder, Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
+from scene import (
+    Cylinder,
+    Elastic,
+    EmptyContact,
+    Indent,
+    Kelvin,
+    Plane,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+)
 
 ROUGH = SelfAffine(hurst=0.2, rms_height=2e-4, longest=1e-2, shortest=5e-4, seed=2)
 LIGHT = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1e-2), ROUGH)
@@ -50,12 +63,7 @@ def of_waves(shortest):
     ("solver", "scene", "error", "said"),
     [
         (BEM(64, 2e-3), SMOOTH, SolveError, r"extent = 0.002 m.*larger"),
-        (
-            BEM(32, 1e-4),
-            HOLLOW,
-            EmptyContact,
-            r"0.000307705 m short of the undeformed surface, take a larger depth",
-        ),
+        (BEM(32, 1e-4), HOLLOW, EmptyContact, r"0.000307705 m short .* take a larger depth"),
         (BEM(32, 1e-2), LIGHT, Refused, r"shortest = 0.0005 m.*points = 40"),
         (BEM(32), of_waves(2e-5), SolveError, r"shortest = 2e-05 m.*points = "),
         (BEM(32), of_waves(1e-6), SolveError, "10000 waves"),
