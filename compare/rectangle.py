@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from math import nan
 from typing import Any
 
@@ -15,7 +16,7 @@ from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topo
 from scene.motion import Motion
 from scene.protocol import refuse
 
-from .outcome import Outcome
+from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of
 from .vocabulary import attributes
 
@@ -76,14 +77,12 @@ class Rectangle:
     def refuse(self) -> None:
         """Raise Refused if a solver lacks what a scene asks for, SolveError if numbers are too far apart."""
         for grids in self.grids.values():
-            for solver in grids.values():
-                for speed in self.speeds:
-                    for value in self.values:
-                        refuse(solver, self.at(value, speed))
+            for solver, speed, value in product(grids.values(), self.speeds, self.values):
+                refuse(solver, self.at(value, speed))
 
     def tasks(self) -> list[SceneTask]:
         """Every task, each once: all profiles of a 1D contact in one task, and a task for each surface in 3D."""
-        return list(dict.fromkeys(task for _, _, tasks in self._points for task in tasks))
+        return list(dict.fromkeys(task for _, tasks in self._points for task in tasks))
 
     def datasets(self, outcomes: Mapping[Task, Outcome]) -> dict[str, xarray.Dataset]:
         """Datasets by the name of the solver, with the dimensions grid, speed, load or depth, and draw.
@@ -91,54 +90,46 @@ class Rectangle:
         A smooth body has no draw. `status` tells failed from not asked, `reason` why a solve failed. Where nothing
         touches, the force is 0, and friction and contact are NaN.
         """
-        rows: dict[str, dict] = {name: {} for name in self.grids}
-        for name, place, tasks in self._points:
-            rows[name][place] = [row for task in tasks for row in outcomes[task].rows]
+        rows: dict[str, list[Row]] = {name: [] for name in self.grids}
+        for name, tasks in self._points:
+            rows[name] += [row for task in tasks for row in outcomes[task].rows]
         return {name: self._dataset(name, found) for name, found in rows.items()}
 
     def fields(self, outcomes: Mapping[Task, Outcome]) -> dict[str, Mapping[str, np.ndarray]]:
         """Fields that were kept of the first contact, by the name of the solver."""
-        kept = ((name, outcomes[tasks[0]].fields) for name, place, tasks in self._points if tasks[0].keeps_fields)
+        kept = ((name, outcomes[tasks[0]].fields) for name, tasks in self._points if tasks[0].keeps_fields)
         return {name: fields for name, fields in kept if fields}
 
     @cached_property
-    def _points(self) -> tuple[tuple[str, tuple[str, int, int], tuple[SceneTask, ...]], ...]:
-        """Solver's name, place (grid, speed, value) and tasks of every contact; kept, as scenes are many."""
+    def _points(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
+        """Solver's name and tasks of every contact, by grid, speed and value; kept, as scenes are many."""
         found = []
+        own = self.speeds[0], self.values[0]
         for name, grids in self.grids.items():
-            for grid, solver in grids.items():
-                for i, speed in enumerate(self.speeds):
-                    for j, value in enumerate(self.values):
-                        scenes = draws_of(self.at(value, speed), self.draws.get(name, 1))
-                        together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
-                        first = self.keeps_fields and grid == FINE and not (i or j)
-                        tasks = tuple(
-                            SceneTask(solver, each, keeps_fields=first and not k, work=_work(solver, each))
-                            for k, each in enumerate(together)
-                        )
-                        found.append((name, (grid, i, j), tasks))
+            for (grid, solver), speed, value in product(grids.items(), self.speeds, self.values):
+                scenes = draws_of(self.at(value, speed), self.draws.get(name, 1))
+                together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
+                first = self.keeps_fields and grid == FINE and (speed, value) == own
+                tasks = tuple(
+                    SceneTask(solver, each, keeps_fields=first and not k, work=_work(solver, each))
+                    for k, each in enumerate(together)
+                )
+                found.append((name, tasks))
         return tuple(found)
 
     def _dataset(self, name, rows):
         grids = self.grids[name]
-        count = max(len(each) for each in rows.values())
-        shape = len(grids), len(self.speeds), len(self.values), count
-        every = [
-            [[rows[grid, i, j] for j in range(len(self.values))] for i in range(len(self.speeds))]
-            for grid in grids
-        ]
-        flat = [row for each in rows.values() for row in each]
+        shape = len(grids), len(self.speeds), len(self.values), -1
 
         def array(number, kind=float):
-            found = [number(row) for plane in every for line in plane for point in line for row in point]
-            return np.array(found, kind).reshape(shape)
+            return np.array([number(row) for row in rows], kind).reshape(shape)
 
         status = array(
             lambda row: FAILED if row.reason is not None else EMPTY if row.normal_force == 0 else SOLVED, object
         )
         touched = status == SOLVED
         values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
-        for measure in sorted({measure for row in flat for measure in row.measures}):
+        for measure in sorted({measure for row in rows for measure in row.measures}):
             values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
         values["friction_force"] = np.where(touched, values["friction_force"], nan)
         reasons = array(lambda row: row.reason or "", object)
@@ -151,7 +142,7 @@ class Rectangle:
         }
         if self.random:
             first = self.scene.roughness.seed
-            coordinates["draw"] = list(range(first, first + count))
+            coordinates["draw"] = list(range(first, first + status.shape[-1]))
         else:
             dims = dims[:3]
 

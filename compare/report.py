@@ -62,7 +62,7 @@ class Report:
 
     @property
     def faults(self) -> list[str]:
-        """Number of tasks that broke, the first reasons, and where the tracebacks are; empty where none broke."""
+        """What is told of tasks that broke, in lines."""
         return faults(self.swept, self.output)
 
     def __str__(self) -> str:

@@ -16,27 +16,29 @@ SCENES = TypeAdapter(tuple[Scene, ...])
 
 
 class Task(Protocol):
-    """What one worker solves in one go; equal tasks have equal answers."""
+    """What one worker solves in one go; equal tasks have equal answers.
+
+    label : short description for people
+    work : rough cost, in units that are the same for all tasks; it orders them and tells how far they are
+    question : everything that the answer depends on but for code, as JSON can hold it
+    packages : names of the packages whose code the answer depends on
+    keeps_fields : whether the outcome has fields
+    """
 
     @property
-    def label(self) -> str:
-        """Short description for people."""
+    def label(self) -> str: ...
 
     @property
-    def work(self) -> float:
-        """Rough cost, in units that are the same for all tasks; it orders them and tells how far they are."""
+    def work(self) -> float: ...
 
     @property
-    def question(self) -> Mapping[str, Any]:
-        """Everything that the answer depends on but for code, as JSON can hold it."""
+    def question(self) -> Mapping[str, Any]: ...
 
     @property
-    def packages(self) -> Sequence[str]:
-        """Names of the packages whose code the answer depends on."""
+    def packages(self) -> Sequence[str]: ...
 
     @property
-    def keeps_fields(self) -> bool:
-        """Whether the outcome has fields."""
+    def keeps_fields(self) -> bool: ...
 
     def solve(self) -> Outcome:
         """Solve, and return the outcome."""

@@ -8,6 +8,7 @@ from typing import Any
 from pandas import DataFrame
 
 from .. import digits
+from ..finding import Finding
 from ..vocabulary import head
 
 LOW, HIGH, ERROR = "_low", "_high", "_error"
@@ -46,6 +47,20 @@ def columns(frame: DataFrame, figures: int = digits.DIGITS, merged: bool = True)
     joined = {name: _ends(name, names) if merged else () for name in names}
     hidden = {end for ends in joined.values() for end in ends}
     return [_column(frame, name, joined[name], figures) for name in names if name not in hidden]
+
+
+def claims(findings: Sequence[Finding]) -> dict[str, list[str]]:
+    """Findings as columns of text, by their heads; those in which nothing stands are left out."""
+    cells = {
+        "Verdict": [each.verdict for each in findings],
+        "Claim": [each.claim.sentence for each in findings],
+        "Model": [each.dimension for each in findings],
+        "Where": [each.place for each in findings],
+        "Found (95 %)": [each.found() for each in findings],
+        "Claimed": [each.claimed for each in findings],
+        "Basis": ["; ".join(filter(None, (each.basis, each.why))) for each in findings],
+    }
+    return {head: column for head, column in cells.items() if any(column)}
 
 
 def _ends(name, names):

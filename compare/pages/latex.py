@@ -2,13 +2,14 @@
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from pandas import DataFrame
 
 from ..page import Findings, Page, Plot, Section, Table, Text
 from ..plots.rendering import Picture
 from . import prose
-from .columns import columns
+from .columns import claims, columns
 
 MOST_ROWS = 100
 HEAD = r"""\documentclass{article}
@@ -71,15 +72,9 @@ def table(frame: DataFrame, caption: str = "", label: str = "") -> str:
 
 def findings(block: Findings, label: str = "") -> str:
     """Findings as a table."""
-    cells = {
-        "Claim": [each.claim.sentence for each in block.findings],
-        "Model": [each.dimension for each in block.findings],
-        "Where": [each.where for each in block.findings],
-        "Claimed": [each.claimed for each in block.findings],
-        "Found (95 %)": [each.found() for each in block.findings],
-        "Verdict": [each.verdict for each in block.findings],
-    }
-    return table(DataFrame({head: column for head, column in cells.items() if any(column)}), block.caption, label)
+    shown = claims([replace(each, regime="") for each in block.findings])
+    heads = [head for head in ("Claim", "Model", "Where", "Claimed", "Found (95 %)", "Verdict") if head in shown]
+    return table(DataFrame({head: shown[head] for head in heads}), block.caption, label)
 
 
 def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:

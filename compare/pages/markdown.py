@@ -7,7 +7,7 @@ from ..manifest import FINDINGS, made
 from ..page import Findings, Page, Plot, Section, Table, Text
 from ..plots.rendering import Picture
 from ..vocabulary import entry, stem
-from .columns import columns
+from .columns import claims, columns
 
 MOST_ROWS = 100
 SPECIAL = re.compile(r"([\\`*\[\]<>|$]|(?<![^\W_])_|_(?![^\W_]))")
@@ -72,16 +72,7 @@ def _findings(block, used):
     used.update(dict.fromkeys(("verdict", "dimension", "value", "tolerance", "grid_method")))
     if block.caption:
         yield escaped(block.caption)
-    cells = {
-        "Verdict": [each.verdict for each in block.findings],
-        "Claim": [each.claim.sentence for each in block.findings],
-        "Model": [each.dimension for each in block.findings],
-        "Where": [each.place for each in block.findings],
-        "Found (95 %)": [each.found() for each in block.findings],
-        "Claimed": [each.claimed for each in block.findings],
-        "Basis": ["; ".join(filter(None, (each.basis, each.why))) for each in block.findings],
-    }
-    shown = {head: column for head, column in cells.items() if any(column)}
+    shown = claims(block.findings)
     yield table(list(shown), [list(row) for row in zip(*shown.values(), strict=True)], [False] * len(shown))
 
 
