@@ -11,19 +11,7 @@ from scipy.integrate import quad
 
 from mdr1d import MDR, draw, modes_of, sweep, sweep_modes
 from mdr1d import equations as eq
-from scene import (
-    Cone,
-    Elastic,
-    Indent,
-    Kelvin,
-    PowerLaw,
-    Prony,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-    StandardLinearSolid,
-)
+from scene import Elastic, Indent, PowerLaw, Prony, Scene, SelfAffine, Sphere, StandardLinearSolid
 
 # A few powers and products.
 ROUNDING = 1e-13
@@ -97,17 +85,6 @@ def test_radius_and_depth_are_those_of_the_simulated_contact_at_rest(shape):
     assert result.measures["contact_length"] / 2 == pytest.approx(eq.contact_radius(2.0, 1e6, c, n), rel=1e-6)
     slope = eq.macroscopic_slope(2.0, 1e6, c, n)
     assert result.measures["rms_slope_contact"] == pytest.approx(slope, rel=1e-6)
-
-
-@pytest.mark.parametrize("shape", [Sphere(radius=0.02), Cone(angle=0.2)])
-def test_eq_10_without_roughness_is_the_friction_of_a_slow_smooth_indenter(shape):
-    load, modulus, time, speed = 2.0, 1e6, 1e-3, 1e-7
-    c, n = shape.mdr_coefficient, shape.exponent
-    slope = np.hypot(0.0, eq.macroscopic_slope(load, modulus, c, n))
-    mu = eq.low_speed_friction(load, modulus, time, speed, slope, c, n)
-    result = MDR().solve(Scene(shape, Kelvin(modulus, time), Slide(speed=speed, load=load)))
-    # The next term of the series is of the order of v tau / a = 1e-7.
-    assert result.friction_coefficient == pytest.approx(mu, rel=2e-6)
 
 
 def test_eq_17_is_eq_12_in_other_variables():

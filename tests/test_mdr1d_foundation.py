@@ -13,10 +13,7 @@ MODULUS = 1e6
 TIME = 1e-3
 ROUGH = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-4, shortest=5e-5, seed=4)
 SCENE = Scene(
-    Sphere(radius=1e-2),
-    Kelvin(modulus=MODULUS, relaxation_time=TIME),
-    Slide(speed=0.1, load=1.0),
-    ROUGH,
+    Sphere(radius=1e-2), Kelvin(modulus=MODULUS, relaxation_time=TIME), Slide(speed=0.1, load=1.0), ROUGH
 )
 # The march finds the edges of contact to a part in 200 of a pixel.
 MARCH = 2e-4

@@ -36,8 +36,7 @@ CYCLE = program(*((duration, {"depth": depth}) for duration, depth in CYCLES["de
 
 
 @pytest.mark.parametrize(
-    ("shape", "printed"),
-    [(BALL, (0.3625433, 0.2381208, 0.0989532)), (CONE, (0.0832869, 0.0505988, 0.0170847))],
+    ("shape", "printed"), [(BALL, (0.3625433, 0.2381208, 0.0989532)), (CONE, (0.0832869, 0.0505988, 0.0170847))]
 )
 def test_loading_and_unloading_are_those_of_ting_to_the_printed_digits(shape, printed):
     result = solved(program(*INDENTED), shape=shape, points=10000)

@@ -10,15 +10,7 @@ from sliding import ROUGH as SCENE
 
 from mdr1d import MDR, lay_out, map_profile, modes_of, sweep, sweep_modes
 from mdr1d.profile import contact_extent, greatest_depth, unmapped
-from scene import (
-    Cone,
-    PowerLaw,
-    Regime,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-)
+from scene import Cone, PowerLaw, Regime, Scene, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
 SHAPES = [Sphere(radius=1e-2), Cone(angle=0.2), PowerLaw(coefficient=0.5, exponent=1.3)]

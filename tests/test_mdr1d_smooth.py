@@ -5,17 +5,7 @@ from math import pi, sqrt, tan
 import pytest
 
 from mdr1d import MDR
-from scene import (
-    Cone,
-    Elastic,
-    Indent,
-    Kelvin,
-    PowerLaw,
-    Scene,
-    Slide,
-    SolveError,
-    Sphere,
-)
+from scene import Cone, Elastic, Indent, Kelvin, PowerLaw, Scene, Slide, SolveError, Sphere
 
 MODULUS = 1e6
 STIFFNESS = 4 * MODULUS  # E* of an incompressible solid

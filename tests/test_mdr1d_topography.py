@@ -12,15 +12,7 @@ from bem3d.surface import RoughSurface
 from mdr1d import MDR, draw
 from mdr1d.surface import band_of
 from mdr1d.topography import amplitudes
-from scene import (
-    Kelvin,
-    Refused,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-    Topography,
-)
+from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere, Topography
 from scene.waves import MOST_WAVES
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=4e-3, shortest=0.25e-3, seed=3)

@@ -7,17 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
-from strategies import (
-    bodies,
-    decades,
-    evenly,
-    examples,
-    powers_of_two,
-    rescaled,
-    solids,
-    units,
-    viscoelastic,
-)
+from strategies import bodies, decades, evenly, examples, powers_of_two, rescaled, solids, units, viscoelastic
 
 from mdr1d import MDR, Contact, modes_of, sweep, sweep_modes
 from scene import (

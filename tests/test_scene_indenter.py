@@ -69,12 +69,6 @@ def test_the_smooth_contact_at_a_load_is_the_one_at_its_depth_and_stiffness_is_t
     assert stiffness == pytest.approx(2 * solid.indentation_modulus * by_load.radius, rel=1e-8)
 
 
-def test_hertz_is_recovered():
-    contact = elastic_contact(Scene(Sphere(R), Elastic(1e6), Indent(depth=1e-4)))
-    assert contact.load == pytest.approx(4 / 3 * 4e6 * np.sqrt(R) * 1e-4**1.5, rel=ROUNDING)
-    assert contact.radius == pytest.approx(np.sqrt(R * 1e-4), rel=ROUNDING)
-
-
 @pytest.mark.parametrize(
     ("make", "said"),
     [

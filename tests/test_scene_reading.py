@@ -7,19 +7,7 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from scene import (
-    Cylinder,
-    Elastic,
-    Indent,
-    Kelvin,
-    Program,
-    Prony,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-    Stage,
-)
+from scene import Cylinder, Elastic, Indent, Kelvin, Program, Prony, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'

@@ -8,13 +8,7 @@ import pytest
 from pydantic import ValidationError
 from solids import OF_EACH_TYPE
 
-from scene import (
-    Elastic,
-    Kelvin,
-    KelvinChain,
-    Prony,
-    StandardLinearSolid,
-)
+from scene import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from scene.modes import Relaxation, Retardation
 
 ROUNDING = 1e-13  # some tens of roundings; sums of terms of one sign
@@ -178,10 +172,7 @@ def by_decimals(form):
         return found
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["30 modes over 15 decades", "neighbouring numbers", "close pairs", "a dashpot"],
-)
+@pytest.mark.parametrize("name", ["30 modes over 15 decades", "neighbouring numbers", "close pairs", "a dashpot"])
 def test_every_mode_has_its_digits(name):
     form = FORMS[name]
     creep = form.retardation()

@@ -9,16 +9,7 @@ import pytest
 from pydantic import ValidationError
 from solids import OF_EACH_TYPE
 
-from scene import (
-    WLF,
-    Arrhenius,
-    Indent,
-    Kelvin,
-    KelvinChain,
-    Prony,
-    Scene,
-    Sphere,
-)
+from scene import WLF, Arrhenius, Indent, Kelvin, KelvinChain, Prony, Scene, Sphere
 from scene.modes import Relaxation
 from scene.temperature import GAS_CONSTANT, UNIVERSAL, Shifted
 from scene.viscoelastic import Linear

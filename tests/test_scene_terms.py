@@ -9,21 +9,7 @@ from pydantic.dataclasses import dataclass as validated
 from bem3d import BEM
 from compare.exact import Exact
 from mdr1d import MDR
-from scene import (
-    WLF,
-    Cone,
-    Coulomb,
-    Elastic,
-    Heating,
-    Indent,
-    Kelvin,
-    Layer,
-    Refused,
-    Scene,
-    Shear,
-    Slide,
-    Sphere,
-)
+from scene import WLF, Cone, Coulomb, Elastic, Heating, Indent, Kelvin, Layer, Refused, Scene, Shear, Slide, Sphere
 from scene.indenter import Axisymmetric
 from scene.terms import Lacking, Term, lacking, surrounded, terms_of
 

@@ -14,16 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 import scene.topography
 from compare.cases import Case
 from compare.task import SCENES
-from scene import (
-    Elastic,
-    Indent,
-    Measured,
-    Plane,
-    Scene,
-    SelfAffine,
-    Sphere,
-    Topography,
-)
+from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
 from scene.reading import InvalidInput, read
 from scene.waves import MOST_WAVES
 
