@@ -113,14 +113,11 @@ def test_what_is_no_number_never_passes(value, stored):
     assert (finding.verdict, "no finite number" in finding.reason) == (UNDECIDED, True)
 
 
-def test_a_ratio_to_nothing_and_a_number_that_nothing_has_are_not_measured():
+def test_a_ratio_to_nothing_is_not_measured_and_beside_a_stored_zero_nothing_but_zero_holds():
     (finding,) = found({}, quantity(of="friction_force", denominator=pressed(1.0)))
     assert finding.reason == "friction_force of 0 over 0 is no finite number"
     (finding,) = found({}, quantity(of="frictoin"))
     assert "'frictoin' is no number" in finding.reason
-
-
-def test_beside_a_stored_zero_nothing_but_zero_holds():
     assert found({"force": 0.0}, quantity(of="friction_force"))[0].verdict == HOLDS
     (finding,) = found({"force": 0.0}, quantity())
     assert (finding.verdict, tolerances_moved(finding)) == (FAILS, inf)
@@ -173,21 +170,17 @@ def test_a_broken_or_foreign_baseline_is_named(tmp_path, text, complaint):
             Regress.of(path, [quantity()], updating)
         assert str(path) in str(raised.value)
         assert complaint in str(raised.value)
-
-
-def test_without_a_file_a_baseline_is_begun_only_where_that_is_asked_for(tmp_path):
-    assert Regress.of(tmp_path / "none.toml", [quantity()], update=True).stored == {}
-    with pytest.raises(InvalidInput, match=r"none\.toml: No such file"):
-        Regress.of(tmp_path / "none.toml", [quantity()])
+    # without a file one is begun only where that is asked for
+    path.unlink()
+    assert Regress.of(path, [quantity()], update=True).stored == {}
+    with pytest.raises(InvalidInput, match=r"baseline\.toml: No such file"):
+        Regress.of(path, [quantity()])
 
 
 @pytest.mark.parametrize("mistaken", [{"tolerance": 0.0}, {"tolerance": nan}, {"tolerance": 2.0}, {"id": "a\nb"}])
-def test_a_mistake_in_a_quantity_names_its_field(mistaken):
+def test_a_mistake_in_a_quantity_names_its_field_and_two_of_one_id_are_one(mistaken):
     with pytest.raises(ValueError, match=next(iter(mistaken))):
         quantity(**mistaken)
-
-
-def test_two_quantities_of_one_id_are_a_mistake():
     with pytest.raises(ValueError, match="two quantities are called 'force'"):
         found({}, quantity(), quantity())
 
