@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.accuracy import BANDS, SLOW, Assured, Choice, Unconfirmed, apart, band, ladder, resolution
+from bem3d.accuracy import BANDS, SLOW, Assured, Choice, Unconfirmed, apart, band, ladder, resolution, typical
 from scene import (
     WLF,
     Coulomb,
@@ -81,6 +81,21 @@ def test_smaller_errors_ask_for_more_points_and_a_tighter_tolerance_and_the_smal
     assert loose.points < tight.points
     assert loose.tolerance > tight.tolerance
     assert BEM.for_accuracy(SMOOTH, friction=0.003, depth=0.1).solver == tight
+
+
+def test_a_choice_is_read_off_the_ladder():
+    choice, (resolved, errors) = BEM.for_accuracy(SMOOTH, friction=0.01), ladder()["smooth", "middle", "friction"]
+    passed = errors[resolved <= choice.resolution]
+    # a tenth of the error is left to the tolerance, which leaves three times itself
+    assert choice.solver.tolerance == pytest.approx(0.01 / 30)
+    assert choice.expected["friction"] == pytest.approx(passed[-1] + 3 * choice.solver.tolerance)
+    assert passed[-1] <= 0.9 * 0.01
+    least = resolved[errors <= 0.9 * 0.01].min()
+    assert least <= choice.resolution < 1.2 * least  # by sizes of quick transforms
+    points, seconds = ladder()["smooth", "middle", "seconds"]
+    assert typical(SMOOTH, points[2])["seconds"] == pytest.approx(seconds[2])
+    between = np.sqrt(points[1] * points[2])
+    assert typical(SMOOTH, between)["seconds"] == pytest.approx(np.sqrt(seconds[1] * seconds[2]))
 
 
 def test_loose_errors_still_get_a_grid_that_carries_the_waves():
