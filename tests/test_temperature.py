@@ -1,7 +1,7 @@
 """Temperature and frictional heating in both dimensionalities: laws that hold whatever the solver."""
 
 from dataclasses import replace
-from math import exp, sqrt
+from math import exp
 
 import numpy as np
 import pytest
@@ -161,37 +161,6 @@ def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
         np.testing.assert_array_equal(numbers(found), numbers(plain))
         assert found.measures["heating_solves"] == 1
         assert found.applications == plain.applications
-
-
-# Slow sliding of a Kelvin sphere: mu = v tau a_T/R in three dimensions, twice that in one.
-SLOW = {"MDR": 2.0, "BEM": 1.0}
-
-
-@names
-def test_slow_friction_settles_where_a_closed_form_does(solver):
-    speed, energy = 5e-3, 60e3
-    slow = replace(
-        PLAIN,
-        elastomer=Kelvin(RUBBERY, TIME),
-        motion=Slide(speed=speed, load=10.0),
-        temperature=Arrhenius(temperature=290.0, reference=REFERENCE, activation_energy=energy),
-    )
-    depth = (3 * 10.0 / (16 * RUBBERY * sqrt(RADIUS))) ** (2 / 3)
-
-    def friction(temperature):
-        shift = exp(energy / GAS_CONSTANT * (1 / temperature - 1 / REFERENCE))
-        return SLOW[solver.name] * speed * TIME / RADIUS * shift
-
-    # so little heat is conducted that 60 K are to be expected, and a third of that settles
-    conductivity = 2 * friction(290.0) * RUBBERY * depth * speed / 60.0
-    expected = bisect(
-        lambda t: t - 290.0 - 2 * friction(t) * RUBBERY * depth * speed / conductivity, 290.0, 360.0, xtol=1e-9
-    )
-    answer = solver.solve(replace(slow, heating=Heating(conductivity=conductivity, feedback="average")))
-    assert 10 < expected - 290 < 25
-    # v tau/a is 3e-4; three dimensions have a pixel of a tenth of the radius
-    assert answer.measures["temperature"] - 290 == pytest.approx(expected - 290, rel=0.01)
-    assert answer.friction_coefficient == pytest.approx(friction(expected), rel=0.02)
 
 
 @names
