@@ -45,7 +45,8 @@ JUDGE = [path for path in FILES if path.relative_to(ROOT).parts[0] == "compare"]
 def parsed(path):
     """Every node of a file, and those that are there for types alone."""
     nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-    guards = [each for each in nodes if isinstance(each, ast.If) and "TYPE_CHECKING" in ast.unparse(each.test)]
+    tests = [each for each in nodes if isinstance(each, ast.If) and isinstance(each.test, ast.Name)]
+    guards = [each for each in tests if each.test.id == "TYPE_CHECKING"]
     return nodes, {id(below) for guard in guards for each in guard.body for below in ast.walk(each)}
 
 
