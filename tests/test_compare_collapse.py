@@ -13,6 +13,7 @@ from compare.statistics import eq23
 from compare.statistics.collapse import PARALLEL, PARTED, UNSCATTERED, collapse
 from compare.statistics.commoncurve import LEAST_OVERLAP, Fit, bounds, near
 from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
+from compare.statistics.jackknife import RmsMisfit
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)
@@ -100,7 +101,11 @@ def test_a_horizontal_shift_of_eq_19_is_recovered_and_nothing_else(kind):
 
 
 def test_a_vertical_shift_beside_it_is_caught_and_measured():
-    found = collapse(smooth(friction(knee, vertical=0.2)))
+    given = smooth(friction(knee, vertical=0.2))
+    # The middle one of four speeds is not their mean.
+    four = SimulatedCurves(SPEEDS[:4], given.load[:4], given.friction_force[:4])
+    assert collapse(four).both.raised.value == pytest.approx(0.2 * LOGS[:4].std(), abs=5 * FOLLOWED)
+    found = collapse(given)
     assert found.both.vertical_exponent.value == pytest.approx(-0.2, abs=5 * FOLLOWED)
     assert found.both.exponent.value == pytest.approx(POWER, abs=10 * FOLLOWED)
     assert found.both.raised.value == pytest.approx(0.2 * LOGS.std(), abs=5 * FOLLOWED)
@@ -138,16 +143,23 @@ def test_curves_that_share_no_stretch_can_fail_but_not_hold():
     small, large = (collapse(smooth(share * apart)) for share in (0.05, 0.2))
     assert small.horizontal.misfit.value < TOLERANCE < large.horizontal.misfit.value
     assert (verdicts(small, -9.0)[0], verdicts(large, -9.0)[0]) == (UNDECIDED, FAILS)
+    unsure = replace(large.horizontal, misfit=RmsMisfit(TOLERANCE**2, 1e-4, 1e-4, 4.0, 9))
+    assert next(eq23.findings(replace(large, horizontal=unsure), None, "1D")).reason == PARTED
 
 
 def test_neighbours_keep_the_least_overlap_whatever_the_misfit():
-    curves = smooth(friction(cubic, vertical=0.5, power=-9.0)).curves
+    first, *others = smooth(friction(cubic, vertical=0.5, power=-9.0)).curves
+    short = replace(first, log_load=first.log_load[:5], log_friction=first.log_friction[:5])
+    curves = [short, *others]
     fit = Fit(curves, 4)
     steps = near(fit, -9.0 * np.diff(np.log(SPEEDS)))
     for step, left, right in zip(steps, curves[:-1], curves[1:], strict=True):
         a, b = left.log_load, right.log_load + step
-        assert min(a.max(), b.max()) - max(a.min(), b.min()) >= LEAST_OVERLAP * np.ptp(a) * (1 - 1e-9)
+        shared = (min(a.max(), b.max()) - max(a.min(), b.min())) / min(np.ptp(a), np.ptp(b))
+        assert shared >= LEAST_OVERLAP * (1 - 1e-9)
     assert np.all(np.diff(bounds(curves), axis=0) > 0)
+    least = (short.log_load.max() - short.log_load.min()) * LEAST_OVERLAP
+    assert bounds(curves)[1][0] == pytest.approx(short.log_load.max() - others[0].log_load.min() - least)
 
 
 def test_slopes_of_the_misfits_are_those_of_differences_outside_the_polynomials():
