@@ -11,6 +11,7 @@ from bem3d import BEM, marching
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.marching import march
+from bem3d.material import Creep
 from bem3d.problem import Problem
 from bem3d.timeline import timeline
 from bem3d.upstream import Endless, Sheet
@@ -97,6 +98,17 @@ def test_the_force_is_of_second_order_in_the_step(monkeypatch):
         expected = indentation.loading_force(SPHERE, SOLID, [0, 2], [0, 0.2], history.time)
         errors.append((history.normal_force / expected - 1)[late(history)].mean())
     assert np.log2((errors[1] - errors[0]) / (errors[2] - errors[1])) > 1.7
+
+
+def test_a_step_is_seen_in_its_middle_by_an_elastic_solid_and_later_by_a_kelvin_body():
+    kelvin, short = Creep.of(KELVIN), 1e-2 * TAU
+    assert Creep.of(Elastic(G)).collocation(2.0) == 1.0
+    assert kelvin.collocation(short) / short == pytest.approx(0.5 + 1 / sqrt(12), rel=2e-3)  # and O(step/TAU)
+    assert kelvin.collocation(1e-6 * TAU) / (1e-6 * TAU) == pytest.approx(0.5 + 1 / sqrt(12), rel=1e-3)
+    solid = Creep.of(SOLID)  # compliances 1/5 at once and 4/5 in 5 s
+    assert (solid.instantaneous, *solid.shares, *solid.times) == pytest.approx((0.2, 0.8, 5.0))
+    assert solid.compliance(5.0) == pytest.approx(1 - 0.8 * np.exp(-1))
+    assert kelvin.loss_in_steps(2 * TAU) == pytest.approx(np.tanh(1))
 
 
 def test_an_elastic_solid_has_no_history():

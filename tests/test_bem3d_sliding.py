@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from bem3d.grid import Grid
+from bem3d.sliding import Flow
 from scene import Cone, Elastic, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 G, R, TAU = 1e6, 10e-3, 1e-3
@@ -42,6 +44,19 @@ def test_slow_sphere_has_friction_v_tau_over_R(ratio, accuracy):
     # on pixels of 25 times the memory length: the next order of the speed is of 1e-3
     found = BEM(points=96).solve(sphere_at(ratio)).friction_coefficient
     assert found / ratio == pytest.approx(A / R, rel=accuracy)
+
+
+def test_lengths_of_a_flow_and_how_far_estimates_of_friction_count_in_it():
+    grid, flow = Grid(8, 8.0), Flow(1.0, 0.0, np.array([0.5, 0.5]), np.array([1.0, 3.0]))
+    assert (flow.trail, flow.memory) == (2.0, 2.5)  # (1 + 3)/2, and (1^2 + 3^2)/2 over it
+    assert flow.compliance(2.0, 1.0) == pytest.approx(0.5 / (1 + 2j) + 0.5 / (1 + 6j))
+    quarter, fluid = (Flow(1.0, 0.0, np.ones(1), np.array([length])) for length in (0.25, 1e9))
+    assert quarter.slowness(grid) == 0.5
+    assert replace(quarter, lengths=np.array([0.125])).slowness(grid) == pytest.approx(16 / 17)
+    assert (fluid.lag(grid), fluid.collocation(grid)) == pytest.approx((1.0, 0.5))
+    assert quarter.lag(grid) == pytest.approx(np.arctan(np.pi / 4) / (np.pi / 2))
+    assert Flow.of(Elastic(G), 1.0).at_rest
+    assert Flow.of(Kelvin(G, TAU), 0.0).lag(grid) == 0.0
 
 
 def test_rough_elastic_contact_slides_without_friction_which_by_traction_it_has_on_a_coarse_grid():

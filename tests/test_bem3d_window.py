@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from bem3d.grid import Box, Grid
 from bem3d.surface import RoughSurface
 from mdr1d import draw
 from scene import (
@@ -36,6 +37,25 @@ def test_fitted_window_leaves_no_asperity_out(seed, load):
     points = 2 * round(wide / (2 * max(fitted.measures["pixel"], wide / 512)))
     everything = BEM(points=points, extent=wide).solve(scene)
     assert fitted.depth == pytest.approx(everything.depth, abs=2e-3 * ROUGH.rms_height)
+
+
+def test_a_grid_knows_its_points_their_boxes_and_values_in_between():
+    grid, row = Grid(4, 8.0, (1.0, -2.0)), Grid(4, 8.0, width=3.0)
+    assert (list(grid.x), list(grid.y), grid.patch) == ([-2, 0, 2, 4], [-5, -3, -1, 1], 4.0)
+    assert (row.shape, row.patch, list(row.y)) == ((1, 4), 6.0, [0])
+    inner, rim = np.zeros((4, 4), bool), np.zeros((4, 4), bool)
+    inner[1, 1:3], rim[0, 1] = True, True
+    assert grid.box(inner) == Box(-1, 3, -4, -2)
+    assert grid.box(inner).padded(1).union(Box(0, 5, 0, 1)) == Box(-2, 5, -5, 1)
+    assert (grid.on_rim(inner), grid.on_rim(rim), row.on_rim(rim[:1])) == (False, True, False)
+    around = Grid.around(Box(0, 3, 0, 1), 4, 2.0)
+    assert (around.extent, around.centre, around.coarser().points) == (6.0, (1.5, 0.0), 2)
+    # what is linear stays so, but for half a pixel at the rim; a contact stays as wide as it was
+    fine = Grid(8, 8.0, (1.0, -2.0))
+    plane = np.add.outer(2 * grid.y, grid.x)
+    np.testing.assert_allclose(fine.resample(plane)[1:-1, 1:-1], np.add.outer(2 * fine.y, fine.x)[1:-1, 1:-1])
+    assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner)[3])) == [2, 3, 4, 5]
+    assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner)[:, 3])) == [2, 3]
 
 
 def test_a_single_asperity_off_the_axis_is_resolved():
