@@ -97,8 +97,9 @@ def test_on_half_the_pixel_the_same_line_has_the_same_friction(shape):
 def test_friction_at_low_speed_collapses_on_slope_one_where_the_conditions_hold(slow):
     fit = claims.lines(slow)["conditions hold"]
     assert fit.count >= 10
-    assert fit.slope == pytest.approx(1.0, abs=SLOPE)
-    assert fit.slope_interval[0] < fit.slope < fit.slope_interval[1]
+    assert fit.slope.value == pytest.approx(1.0, abs=SLOPE)
+    low, high = fit.slope.interval()
+    assert low < fit.slope.value < high
 
 
 def test_what_does_not_collapse_is_the_macroscopic_slope(slow):
@@ -116,7 +117,7 @@ def test_intervals_have_what_they_estimate_as_often_as_stated(profiles):
     for _ in range(draws):
         level, tilt = generator.normal(size=(2, profiles))
         fit = line(xi, xi[:, None] * (1 + 0.05 * level + 0.02 * tilt * lever), np.ones(xi.size, bool))
-        intervals = np.array([fit.slope_interval, fit.factor_interval])
+        intervals = np.array([fit.slope.interval(), fit.factor.interval()])
         inside += (intervals[:, 0] <= 1) & (intervals[:, 1] >= 1)
     # 300 draws know 95 % to 1.3 %; a factor is its logarithm to first order only.
     np.testing.assert_allclose(inside / draws, 0.95, atol=0.04)

@@ -43,18 +43,17 @@ def banded(
 def scatter(
     axes: Axes, x: Any, y: Any, filled: Any, colours: Any, size: float, edge: float, empty: Any = None, **look: Any
 ) -> None:
-    """Markers, hollow where they are not `filled`; those filled lie above.
+    """Markers, hollow where they are not `filled`.
 
     colours : one, or one of each point; size, edge : in multiples of the marker and the line of curves
     empty : colour inside of hollow ones, that of the paper by default
     """
     x, y, filled = (np.asarray(each) for each in (x, y, filled))
-    look = {"s": style.mark(size) ** 2, "linewidths": style.width(edge), "zorder": 1} | look
-    for where, above in ((filled, 0.1), (~filled, 0.0)):
+    look |= {"s": style.mark(size) ** 2, "linewidths": style.width(edge)}
+    for where, inside in ((filled, None), (~filled, empty or style.paper())):
         if where.any():
             own = colours if isinstance(colours, str | tuple) else colours[where]
-            look |= {"facecolors": own if above else empty or style.paper(), "edgecolors": own}
-            axes.scatter(x[where], y[where], **look | {"zorder": look["zorder"] + above})
+            axes.scatter(x[where], y[where], facecolors=own if inside is None else inside, edgecolors=own, **look)
 
 
 def of_curves(points: DataFrame, chosen: Any) -> DataFrame:

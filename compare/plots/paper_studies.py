@@ -76,10 +76,11 @@ def figure(tables: Tables) -> Figure:
 def _scatter(axes: Axes, points: DataFrame, x, y):
     """One set of markers a study, coloured by the Hurst exponent, filled where all conditions hold."""
     for study, marker in zip(points["study"].unique(), MARKERS, strict=False):
-        at = (points["study"] == study).to_numpy()
-        colours = shades.PRESS(BETWEEN(points["hurst"][at]))
-        look = {"marker": marker, "empty": "none", "rasterized": True, "zorder": 2}
-        scatter(axes, x[at], y[at], points["holds"][at].astype(bool), colours, 0.75, 0.3, **look)
+        for holds, above in ((True, 3), (False, 2)):
+            at = ((points["study"] == study) & (points["holds"] == holds)).to_numpy()
+            colours = shades.PRESS(BETWEEN(points["hurst"][at]))
+            look = {"marker": marker, "empty": "none", "rasterized": True, "zorder": above}
+            scatter(axes, x[at], y[at], np.full(at.sum(), holds), colours, 0.75, 0.3, **look)
 
 
 def _law(axes, points, lines):

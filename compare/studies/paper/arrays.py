@@ -1,16 +1,17 @@
 """Tasks of which the answer is arrays, in place of rows for single scenes."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
 from ...outcome import Outcome, Row
+from ...task import Task
 
 
-class ArrayTask(ABC):
-    """A task whose answer is some arrays of one shape, see `task.Task`; NaN where there is no answer.
+class ArrayTask(Task):
+    """A task whose answer is some arrays of one shape; NaN where there is none.
 
     names : of the arrays
     """
@@ -18,21 +19,6 @@ class ArrayTask(ABC):
     names: ClassVar[tuple[str, ...]]
     keeps_fields = True
     packages = ("scene", "mdr1d")
-
-    @property
-    @abstractmethod
-    def label(self) -> str:
-        """Short description for people."""
-
-    @property
-    @abstractmethod
-    def work(self) -> float:
-        """Rough cost, in passes over a node."""
-
-    @property
-    @abstractmethod
-    def question(self) -> Mapping:
-        """Everything that the answer depends on but for code."""
 
     @property
     @abstractmethod

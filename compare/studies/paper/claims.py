@@ -8,6 +8,7 @@ intervals.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -77,27 +78,32 @@ _SHIFTS = (eq23.COLLAPSE.id, eq23.PREDICTED.id, eq23.EXPONENT.id)
 
 def lines(slow: SlowFriction) -> dict[str, Line]:
     """Straight lines through the logarithms of Fig. 3, by what the points are."""
-    points, kept = slow.points, slow.with_macro_slope
-    holds = points["holds"].to_numpy(bool)
-    slowly = _slow(points)
-    everywhere = np.ones_like(holds)
-    asked: dict[str, tuple[np.ndarray, np.ndarray | float]] = {
-        "conditions hold": (holds, 1.0),
-        "conditions hold, over 1 + r²": (holds, kept),
-        "any macroscopic slope": (slowly, 1.0),
-        "any macroscopic slope, over 1 + r²": (slowly, kept),
-        "all points": (everywhere, 1.0),
-        "all points, over 1 + r²": (everywhere, kept),
+    points, kept, xi = slow.points, slow.with_macro_slope, slow.points["xi"].to_numpy()
+    choices = {
+        "conditions hold": points["holds"].to_numpy(bool),
+        "any macroscopic slope": _slow(points),
+        "all points": np.ones(len(points), bool),
     }
-    xi = points["xi"].to_numpy()
-    return {name: line(xi, slow.samples, where, over) for name, (where, over) in asked.items()}
+    return {
+        name + suffix: line(xi, slow.samples, where, over)
+        for name, where in choices.items()
+        for suffix, over in (("", 1.0), (", over 1 + r²", kept))
+    }
 
 
 def findings(
     slow: SlowFriction, fits: Mapping[str, Line], laws: Sequence[Law], losses: Sequence[Lossy]
 ) -> list[Finding]:
     """Every claim, in the order of the paper."""
-    return [*_slope_one(slow, fits), *_alphas(laws), *_plateaus(laws), *_shifts(losses)]
+    one, other = laws
+    where, draws = f"{one.shape} minus {other.shape}", min(one.profiles, other.profiles)
+    return [
+        *_slope_one(slow, fits),
+        *(exact(_ALPHA, law.alpha, law.profiles, "paper-law", law.shape, _regime(law)) for law in laws),
+        exact(_SAME_ALPHA, difference(one, other), draws, "paper-law", where),
+        *(exact(_PLATEAU, law.plateau, law.profiles, "paper-law", law.shape, _regime(law)) for law in laws),
+        *_shifts(losses),
+    ]
 
 
 def exact(claim: Claim, measured: Estimated, draws: int, plot: str, where: str = "", regime: str = "") -> Finding:
@@ -119,34 +125,20 @@ def exact(claim: Claim, measured: Estimated, draws: int, plot: str, where: str =
 def _slope_one(slow, fits) -> Iterator[Finding]:
     """Eq. 17: where its conditions hold, with any macroscopic slope, and with that slope kept."""
     points = slow.points
-    cases = (
+    for claim, name, where in (
         (_EXPONENT, "conditions hold", points["holds"].to_numpy(bool)),
         (_ANY_SLOPE, "any macroscopic slope", _slow(points)),
         (_SLOPE_KEPT, "any macroscopic slope, over 1 + r²", _slow(points)),
-    )
-    for claim, name, where in cases:
+    ):
         fit = fits[name]
         slopes = f", rms slope {between(points['rms_slope'][where])}" if where.any() else ""
-        found = exact(claim, Estimated(fit.slope, np.nan, 0), slow.samples.shape[1], "paper-studies")
-        yield replace(found, scatter=fit.slope_interval, regime=f"{fit.count} points{slopes}")
+        draws, regime = slow.samples.shape[1], f"{fit.count} points{slopes}"
+        yield exact(claim, fit.slope, draws, "paper-studies", regime=regime)
 
 
 def _slow(points):
     """Where all conditions hold but that on the macroscopic slope."""
     return np.logical_and.reduce([points[FLAG + name].to_numpy(bool) for name in ("xi << 1", "2a < L", "h0 << d")])
-
-
-def _alphas(laws) -> Iterator[Finding]:
-    for law in laws:
-        yield exact(_ALPHA, law.alpha, law.profiles, "paper-law", law.shape, _regime(law))
-    one, other = laws
-    where, draws = f"{one.shape} minus {other.shape}", min(one.profiles, other.profiles)
-    yield exact(_SAME_ALPHA, difference(one, other), draws, "paper-law", where)
-
-
-def _plateaus(laws) -> Iterator[Finding]:
-    for law in laws:
-        yield exact(_PLATEAU, law.plateau, law.profiles, "paper-law", law.shape, _regime(law))
 
 
 def _regime(law):
@@ -155,26 +147,23 @@ def _regime(law):
 
 
 def _shifts(losses) -> Iterator[Finding]:
-    for lossy in losses:
-        ratio = lossy.points[STIFFNESS]
-        for of in (WHOLE, ROUGH):
-            found = lossy.collapses[of]
-            collapse = ""
-            middle = found.speeds[found.speeds.size // 2]
-            for each in eq23.findings(
-                found,
-                None,
-                DIMENSION,
-                shifts=lossy.exponent * np.log(found.speeds / middle),
-                exponent=lossy.exponent,
-                where=f"{lossy.loss.symbols}, {of}",
-                draws=lossy.profiles,
-                regime=f"|G(v/a)|/G₀ {between(ratio)}",
-                plots=(f"shifted-curves{lossy.loss.suffix}",) * 2,
-            ):
-                if each.claim.id == eq23.COLLAPSE.id:
-                    collapse = each.verdict
-                if each.claim.id == eq23.EXPONENT.id and collapse == FAILS:
-                    each = replace(each, reason=_MEANINGLESS)
-                if each.claim.id in _SHIFTS:
-                    yield each
+    for lossy, of in product(losses, (WHOLE, ROUGH)):
+        found, collapse = lossy.collapses[of], ""
+        middle = found.speeds[found.speeds.size // 2]
+        for each in eq23.findings(
+            found,
+            None,
+            DIMENSION,
+            shifts=lossy.exponent * np.log(found.speeds / middle),
+            exponent=lossy.exponent,
+            where=lossy.where(of),
+            draws=lossy.profiles,
+            regime=f"|G(v/a)|/G₀ {between(lossy.points[STIFFNESS])}",
+            plots=(f"shifted-curves{lossy.loss.suffix}",) * 2,
+        ):
+            if each.claim.id == eq23.COLLAPSE.id:
+                collapse = each.verdict
+            if each.claim.id == eq23.EXPONENT.id and collapse == FAILS:
+                each = replace(each, reason=_MEANINGLESS)
+            if each.claim.id in _SHIFTS:
+                yield each

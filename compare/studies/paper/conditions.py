@@ -1,17 +1,43 @@
-"""Conditions that the laws of the paper presuppose, as columns of a table of points: ratios, and which hold."""
+"""Tables of points: means over profiles with intervals, and the conditions that the laws presuppose."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from pandas import DataFrame
 
-from scene import Regime
+from scene import Regime, Scene
+from scene.scales import elastic_contact
+
+from ...statistics.jackknife import Estimated
+from . import parameters
 
 # A model that is linear and knows no length has the same contact whatever the scale of heights, slopes and loads:
 # where slopes are not small the equations describe no body, but what they say of one another stands.
 SCALE_FREE = "small slopes"
 FLAG = "holds: "
+
+
+def over_profiles(samples: np.ndarray) -> Estimated[np.ndarray]:
+    """Means (points,) of samples (points, profiles), of those that are known."""
+    count = np.isfinite(samples).sum(axis=1)
+    error = np.nanstd(samples, axis=1, ddof=1) / np.sqrt(count)
+    return Estimated(np.nanmean(samples, axis=1), error, count - 1)
+
+
+def with_ends(name: str, found: Estimated) -> dict[str, Any]:
+    """A number, or a column of them, and both ends of its interval of 95 %, by name."""
+    low, high = found.interval()
+    return {name: found.value, f"{name}_low": low, f"{name}_high": high}
+
+
+def regime_of(scenes: Sequence[Scene], rms_slope: float | np.ndarray) -> Regime:
+    """Ratios of contacts under a load, arrays (scenes,); rms_slope : of the roughness, of all or of each."""
+    bodies, relaxed = [scene.indenter for scene in scenes], [elastic_contact(scene) for scene in scenes]
+    profile = [np.array([getattr(body, name) for body in bodies]) for name in ("mdr_coefficient", "exponent")]
+    contact = [np.array([getattr(each, name) for each in relaxed]) for name in ("radius", "depth")]
+    heights = np.array([scene.roughness.rms_height for scene in scenes])
+    return Regime.of(profile, contact, heights, parameters.LENGTH, rms_slope)
 
 
 def with_conditions(

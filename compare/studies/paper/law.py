@@ -1,7 +1,7 @@
 """Fig. 4: mu-tilde against xi up to the plateau, for a cone and a sphere, and the best alpha of Eq. 19."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from math import nan
 
 import numpy as np
@@ -10,8 +10,7 @@ from pandas import DataFrame
 from scipy.optimize import minimize_scalar
 
 from mdr1d import MDR, draw, equations
-from scene import Regime, Slide, SolveError
-from scene.scales import elastic_contact
+from scene import SolveError
 
 from ...outcome import Outcome
 from ...rectangle import FINE, Rectangle
@@ -19,7 +18,7 @@ from ...statistics.jackknife import Estimated, left_out, standard_error
 from ...task import Task
 from ...vocabulary import attributes
 from . import parameters
-from .conditions import with_conditions
+from .conditions import over_profiles, regime_of, with_conditions, with_ends
 from .planes import Planes
 
 VARIABLES = tuple(float(xi) for xi in np.geomspace(1e-2, 1e2, 25))
@@ -96,19 +95,14 @@ class Law:
     @property
     def row(self) -> dict[str, float | str]:
         """Fitted exponents as a row of a table."""
-        (alpha_low, alpha_high), (low, high) = self.alpha.interval(), self.plateau.interval()
         return {
             "shape": self.shape,
             "profiles": self.profiles,
-            "alpha": self.alpha.value,
-            "alpha_low": alpha_low,
-            "alpha_high": alpha_high,
+            **with_ends("alpha", self.alpha),
             **{f"alpha_by_{name.replace(' ', '_')}": alpha for name, alpha in self.by_criterion.items()},
             "farthest_from_best_fit": self.left,
             "alpha_of_planes": self.planes_alpha,
-            "plateau": self.plateau.value,
-            "plateau_low": low,
-            "plateau_high": high,
+            **with_ends("plateau", self.plateau),
         }
 
 
@@ -121,42 +115,28 @@ def law(shape: str, solved: xarray.Dataset, of_planes: xarray.Dataset) -> Law:
         raise SolveError(f"Fig. 4, {shape}: nothing was solved: {fine['reason'].values.flat[0]}")
     samples = equations.normalised_friction(friction[known], slope)
     kept = samples[:, np.isfinite(samples).all(axis=0)]
-    count = kept.shape[1]
-    scene = parameters.base(shape)
+    found, scene = over_profiles(kept), parameters.base(shape)
+    mean, error, freedom = found.value, found.error, kept.shape[1] - 1
     xi = np.array([parameters.variable(parameters.base(shape, v), slope) for v in fine["speed"].values[known]])
-    mean, error = kept.mean(axis=1), kept.std(axis=1, ddof=1) / np.sqrt(count)
-    low, high = Estimated(mean, error, count - 1).interval()
     alpha, alphas = best(xi, mean), np.array([best(xi, without) for without in left_out(kept).T])
     by_planes = equations.normalised_friction(of_planes["friction_coefficient"].values[known], slope)
     top = equations.interpolation(xi[-1])
-    relaxed = elastic_contact(replace(scene, motion=Slide(speed=0.0, load=scene.motion.load)))
-    regime = Regime.of(
-        profile=(scene.indenter.mdr_coefficient, scene.indenter.exponent),
-        contact=(relaxed.radius, relaxed.depth),
-        rms_height=scene.roughness.rms_height,
-        longest=parameters.LENGTH,
-        rms_slope=slope,
-    )
-    points = DataFrame(
-        {
-            "shape": shape,
-            "xi": xi,
-            "normalised_friction": mean,
-            "normalised_friction_low": low,
-            "normalised_friction_high": high,
-            "deviation_from_eq_19": mean / equations.interpolation(xi) - 1,
-            "normalised_friction_of_planes": by_planes,
-        }
-    )
+    columns = {
+        "shape": shape,
+        "xi": xi,
+        **with_ends("normalised_friction", found),
+        "deviation_from_eq_19": mean / equations.interpolation(xi) - 1,
+        "normalised_friction_of_planes": by_planes,
+    }
     return Law(
         shape=shape,
-        points=with_conditions(points, regime),
-        alpha=Estimated(alpha, float(standard_error(alphas)), count - 1),
+        points=with_conditions(DataFrame(columns), regime_of([scene], slope)),
+        alpha=Estimated(alpha, float(standard_error(alphas)), freedom),
         alphas=alphas,
         by_criterion={name: best(xi, mean, error, criterion) for name, criterion in CRITERIA.items()},
         left=float(np.max(np.abs(mean / equations.interpolation(xi, alpha) - 1))),
         planes_alpha=best(xi, by_planes),
-        plateau=Estimated(float(mean[-1] / top), float(error[-1] / top), count - 1),
+        plateau=Estimated(float(mean[-1] / top), float(error[-1] / top), freedom),
     )
 
 
@@ -167,28 +147,17 @@ def difference(one: Law, other: Law) -> Estimated:
     return Estimated(one.alpha.value - other.alpha.value, error, count - 1)
 
 
-def _logarithms(friction, law, error):
-    return np.sum(np.square(np.log(friction / law)))
+# What is least at the best alpha, of friction, law and standard errors, by name.
+CRITERIA: dict[str, Callable] = {
+    "logarithms": lambda friction, law, error: np.sum(np.square(np.log(friction / law))),
+    "differences": lambda friction, law, error: np.sum(np.square(friction - law)),
+    "chi square": lambda friction, law, error: np.sum(np.square((friction - law) / error)),
+    "worst point": lambda friction, law, error: np.max(np.abs(friction / law - 1)),
+}
 
 
-def _differences(friction, law, error):
-    return np.sum(np.square(friction - law))
-
-
-def _errors(friction, law, error):
-    return np.sum(np.square((friction - law) / error))
-
-
-def _worst(friction, law, error):
-    return np.max(np.abs(friction / law - 1))
-
-
-# What is least at the best alpha, by name.
-CRITERIA = {"logarithms": _logarithms, "differences": _differences, "chi square": _errors, "worst point": _worst}
-
-
-def best(xi, friction, error=None, criterion=_logarithms) -> float:
-    """The alpha of Eq. 19 with which a criterion of friction, law and standard errors is least; NaN of NaN."""
+def best(xi, friction, error=None, criterion=CRITERIA["logarithms"]) -> float:
+    """The alpha of Eq. 19 with which one of CRITERIA is least; NaN of NaN."""
     if not np.isfinite(friction).all():
         return nan
 

@@ -61,13 +61,18 @@ class Lossy:
         """Exponent of the shifts against the speed that is expected, -beta (n+1)/n."""
         return exponent_of(self.loss)
 
+    def where(self, of: str) -> str:
+        """The rubber and what of its friction is shifted, in words."""
+        return f"{self.loss.symbols}, {of}"
+
     def conditions(self, of: str) -> DataFrame:
         """Conditions of the points that were shifted."""
-        found, at = self.collapses[of], []
-        speeds, loads = np.array(parameters.SPEEDS), np.log(parameters.FORCES)
-        for curve in found.curves:
-            row = int(np.argmin(np.abs(np.log(speeds / curve.speed))))
-            at += [row * loads.size + int(np.argmin(np.abs(loads - load))) for load in curve.log_load]
+        speeds, loads = np.log(parameters.SPEEDS), np.log(parameters.FORCES)
+        at = [
+            np.abs(speeds - np.log(curve.speed)).argmin() * loads.size + np.abs(loads - load).argmin()
+            for curve in self.collapses[of].curves
+            for load in curve.log_load
+        ]
         first = self.points.columns.get_loc(STIFFNESS)
         ratios = [name for name in vars(Regime(0, 0, 0, 0)) if name in self.points]
         return self.points.iloc[at][[*dict.fromkeys([*ratios, *self.points.columns[first:]])]]

@@ -12,17 +12,16 @@ from pandas import DataFrame
 
 from mdr1d import equations
 from mdr1d.ensemble import Answers, solve_profiles
-from scene import Regime, Scene, SolveError
-from scene.scales import elastic_contact
+from scene import Scene, SolveError
 
 from ...outcome import Outcome
 from ...rectangle import FAILED, SOLVED
-from ...statistics.jackknife import Estimated, interval, left_out, standard_error
+from ...statistics.jackknife import Estimated, left_out, standard_error
 from ...task import SCENES, Task
 from ...vocabulary import attributes
 from . import parameters
 from .arrays import ArrayTask
-from .conditions import with_conditions
+from .conditions import over_profiles, regime_of, with_conditions, with_ends
 
 NODE = "parameter-studies/MDR"
 # Profiles of one task: some seconds of work are lost at most in an interruption, and to prepare the scenes takes
@@ -57,7 +56,7 @@ class ParameterStudies:
 
     def dataset(self, outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
         """Dataset with the dimensions hurst, study, step and draw; `parameter` is what a study varies."""
-        found, tasks = contacts(self), self.tasks()
+        places, tasks = contacts(self), self.tasks()
         shape = len(self.hurst), len(parameters.STUDIES), self.values
         parts = [outcomes[task].fields for task in tasks]
         arrays = {
@@ -66,22 +65,19 @@ class ParameterStudies:
         rows = [outcomes[task].rows for task in tasks for _ in task.seeds]
         reasons = np.array([row[0].reason if row else "" for row in rows], object)
         status = np.where(np.isfinite(arrays["friction_coefficient"]), SOLVED, FAILED)
-        made: dict[str, Any] = {name: (DIMS, values, attributes(name)) for name, values in arrays.items()}
-        made |= {
-            "status": (DIMS, status, attributes("status")),
-            "reason": ("draw", reasons, attributes("reason")),
-        }
+        numbers: dict[str, Any] = {name: (DIMS, values) for name, values in arrays.items()}
+        numbers |= {"status": (DIMS, status), "reason": ("draw", reasons)}
+        made = {name: (*found, attributes(name)) for name, found in numbers.items()}
         coordinates = {
             "hurst": list(self.hurst),
             "study": [study.name for study in parameters.STUDIES],
-            "parameter": (DIMS[1:3], np.array([place.value for place in found]).reshape(shape)[0]),
-            "points": (DIMS[1:3], np.array([place.points for place in found]).reshape(shape)[0]),
+            "parameter": (DIMS[1:3], np.array([place.value for place in places]).reshape(shape)[0]),
+            "points": (DIMS[1:3], np.array([place.points for place in places]).reshape(shape)[0]),
             "draw": list(range(self.profiles)),
         }
         dataset = xarray.Dataset(made, coordinates, {"solver": "MDR"})
-        for name in arrays:
-            dataset[name].encoding = {"zlib": True, "complevel": 1}
-        dataset["status"].encoding = {"zlib": True, "complevel": 1, "dtype": "S1"}
+        for name in (*arrays, "status"):
+            dataset[name].encoding = {"zlib": True, "complevel": 1} | ({"dtype": "S1"} if name == "status" else {})
         return dataset
 
 
@@ -177,60 +173,35 @@ def slow_friction(studies: ParameterStudies, dataset: xarray.Dataset) -> SlowFri
     )
     slope = np.nanmean(slopes, axis=1)
     samples = equations.normalised_friction(friction, slopes)
-    count = np.isfinite(samples).sum(axis=1)
-    mean, error = np.nanmean(samples, axis=1), np.nanstd(samples, axis=1, ddof=1) / np.sqrt(count)
-    low, high = Estimated(mean, error, count - 1).interval()
     xi = np.array([parameters.variable(place.scene, s) for place, s in zip(found, slope, strict=True)])
-    relaxed = [elastic_contact(place.scene) for place in found]
-    regime = Regime.of(
-        profile=(np.array([place.scene.indenter.mdr_coefficient for place in found]), 1.0),
-        contact=(np.array([each.radius for each in relaxed]), np.array([each.depth for each in relaxed])),
-        rms_height=np.array([place.scene.roughness.rms_height for place in found]),
-        longest=parameters.LENGTH,
-        rms_slope=slope,
-    )
-    points = DataFrame(
-        {
-            "study": [parameters.STUDIES[place.study].name for place in found],
-            "parameter": [place.value for place in found],
-            "hurst": [place.hurst for place in found],
-            "xi": xi,
-            "normalised_friction": mean,
-            "normalised_friction_low": low,
-            "normalised_friction_high": high,
-        }
-    )
-    points = with_conditions(points, regime, {"xi << 1": ("xi", xi, xi <= SLOW)})
-    return SlowFriction(points, samples, float(np.nanmean(sweeps)))
+    columns = {
+        "study": [parameters.STUDIES[place.study].name for place in found],
+        "parameter": [place.value for place in found],
+        "hurst": [place.hurst for place in found],
+        "xi": xi,
+        **with_ends("normalised_friction", over_profiles(samples)),
+    }
+    regime, slowly = regime_of([place.scene for place in found], slope), {"xi << 1": ("xi", xi, xi <= SLOW)}
+    return SlowFriction(with_conditions(DataFrame(columns), regime, slowly), samples, float(np.nanmean(sweeps)))
 
 
 @dataclass(frozen=True)
 class Line:
-    """ln mu-tilde = ln factor + slope ln xi, least squares over points, with intervals of 95 %.
+    """ln mu-tilde = ln factor + slope ln xi, least squares over points, with errors over profiles.
 
     worst : largest |mu-tilde / xi - 1| of the points ; count : of points; with fewer than two all else is NaN
     """
 
-    slope: float
-    slope_interval: tuple[float, float]
-    factor: float
-    factor_interval: tuple[float, float]
+    slope: Estimated[float]
+    factor: Estimated[float]
     worst: float
     count: int
 
     @property
     def row(self) -> dict[str, float]:
         """Row of a table."""
-        return {
-            "count": self.count,
-            "slope": self.slope,
-            "slope_low": self.slope_interval[0],
-            "slope_high": self.slope_interval[1],
-            "factor": self.factor,
-            "factor_low": self.factor_interval[0],
-            "factor_high": self.factor_interval[1],
-            "worst": self.worst,
-        }
+        ends = with_ends("slope", self.slope) | with_ends("factor", self.factor)
+        return {"count": self.count, **ends, "worst": self.worst}
 
 
 def line(xi: np.ndarray, samples: np.ndarray, where: np.ndarray, over: np.ndarray | float = 1.0) -> Line:
@@ -240,16 +211,15 @@ def line(xi: np.ndarray, samples: np.ndarray, where: np.ndarray, over: np.ndarra
     """
     where = where & np.isfinite(samples).all(axis=1)
     if np.unique(xi[where]).size < 2:
-        return Line(nan, (nan, nan), nan, (nan, nan), nan, int(where.sum()))
+        unknown = Estimated(nan, nan, 0)
+        return Line(unknown, unknown, nan, int(where.sum()))
     x, kept = np.log(xi[where]), (samples / np.reshape(over, (-1, 1)))[where]
-    mean = kept.mean(axis=1)
-    slope, factor = _fit(x, mean)
+    mean, freedom = kept.mean(axis=1), kept.shape[1] - 1
     errors = standard_error(np.transpose(_fit(x, left_out(kept))))
-    slopes, factors = (
-        interval(value, error, kept.shape[1] - 1) for value, error in zip((slope, factor), errors, strict=True)
+    slope, factor = (
+        Estimated(float(value), float(error), freedom) for value, error in zip(_fit(x, mean), errors, strict=True)
     )
-    worst = np.abs(mean / xi[where] - 1).max()
-    return Line(float(slope), slopes, float(factor), factors, float(worst), len(x))
+    return Line(slope, factor, float(np.abs(mean / xi[where] - 1).max()), len(x))
 
 
 def _fit(x, friction):

@@ -11,6 +11,7 @@ from scene import Regime
 from scene.scales import elastic_contact
 
 from . import parameters
+from .conditions import regime_of
 from .parameters import Loss
 
 # |G(v/a)| / G_0, at the frequency of the contact as a whole, and up to where that counts as constant.
@@ -52,10 +53,8 @@ def predict(loss: Loss) -> Predicted:
     c, n = body.mdr_coefficient, body.exponent
     surface = draw(rough, parameters.POINTS)
     slope, highest = surface.rms_slope, np.pi / surface.pixel
-    contacts = [
-        elastic_contact(replace(scene, motion=replace(scene.motion, load=load))) for load in loads.tolist()
-    ]
-    radius, depth = (np.array([getattr(at, name) for at in contacts]) for name in ("radius", "depth"))
+    scenes = [replace(scene, motion=replace(scene.motion, load=load)) for load in loads.tolist()]
+    radius = np.array([elastic_contact(each).radius for each in scenes])
 
     def loss_modulus(omega):
         return solid.complex_modulus(omega).imag
@@ -72,15 +71,11 @@ def predict(loss: Loss) -> Predicted:
     slow = [equations.wave_force(of_many, q, waves, speed, 2 * radius) / loads for speed in parameters.SPEEDS]
     plateau = equations.plateau(slope)
     stiffness = np.abs(solid.complex_modulus(speeds / radius)) / solid.modulus
-    ratios: Any = Regime.of((c, n), (radius, depth), rough.rms_height, rough.longest, slope)
-    return Predicted(
-        one_frequency=one,
-        spectral=plateau * equations.interpolation(np.array(slow) / plateau),
-        stiffness=stiffness,
-        regime=replace(
-            ratios, **{name: np.broadcast_to(ratio, stiffness.shape) for name, ratio in vars(ratios).items()}
-        ),
-    )
+    ratios: dict[str, Any] = {
+        name: np.broadcast_to(ratio, stiffness.shape) for name, ratio in vars(regime_of(scenes, slope)).items()
+    }
+    spectral = plateau * equations.interpolation(np.array(slow) / plateau)
+    return Predicted(one, spectral, stiffness, Regime(**ratios))
 
 
 def _linear_between_nodes(rough, pixel):

@@ -53,7 +53,7 @@ class Paper(Study):
 
     profiles: int = parameters.PROFILES
     values: int = 20
-    _last: dict[int, tuple[Any, Reproduction]] = field(default_factory=dict, repr=False, compare=False)
+    _last: list[Any] = field(default_factory=list, repr=False, compare=False)
 
     command, title, about = "paper", "The paper in one dimension", ABOUT
 
@@ -81,7 +81,7 @@ class Paper(Study):
 
     @cached_property
     def _rectangles(self):
-        """All rectangles; kept, as they keep their scenes."""
+        # kept, as they keep their scenes
         found = {f"contact-{shape}": contact_rectangle(shape) for shape in parameters.SHAPES}
         found |= {f"law-{shape}": law.rectangle(shape, self.profiles) for shape in parameters.SHAPES}
         for loss in parameters.LOSSES:
@@ -108,24 +108,18 @@ class Paper(Study):
 
     def reproduction(self, answers: xarray.DataTree) -> Reproduction:
         """Data of every figure; kept for the last answers. Raises SolveError where all of a figure is missing."""
-        kept = self._last.get(id(answers))
-        if kept is None or kept[0] is not answers:
+        if not self._last or self._last[0] is not answers:
             slow = parameter_studies.slow_friction(self._studies, _dataset(answers, parameter_studies.NODE))
-            found = Reproduction(
-                slow=slow,
-                fits=lines(slow),
-                laws=tuple(
-                    law.law(shape, *(_dataset(answers, f"law-{shape}/{model}") for model in ("MDR", "planes")))
-                    for shape in parameters.SHAPES
-                ),
-                rubbers=tuple(
-                    losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.rectangles(loss)))
-                    for loss in parameters.LOSSES
-                ),
+            laws = (
+                law.law(shape, *(_dataset(answers, f"law-{shape}/{model}") for model in ("MDR", "planes")))
+                for shape in parameters.SHAPES
             )
-            self._last.clear()
-            self._last[id(answers)] = kept = answers, found
-        return kept[1]
+            rubbers = (
+                losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.rectangles(loss)))
+                for loss in parameters.LOSSES
+            )
+            self._last[:] = answers, Reproduction(slow, lines(slow), tuple(laws), tuple(rubbers))
+        return self._last[1]
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
         """Claims of the paper, in its order."""
@@ -151,28 +145,23 @@ class Paper(Study):
     ) -> Sequence[Block]:
         """Findings, figures, what becomes of the shift, and what the paper leaves open."""
         found = self.reproduction(answers)
+        shifts = Table("shifts", _shifts(found.rubbers, findings), "Exponents of the shift of Eq. 23.")
         return [
             Text(ABOUT),
             *plots,
             Findings(findings, "Claims of the paper, with intervals of 95 % over rough profiles."),
-            Section(
-                "What becomes of the shift",
-                [
-                    Text(SHIFTS),
-                    Table("shifts", _shifts(found.rubbers, findings), "Exponents of the shift of Eq. 23."),
-                ],
-            ),
+            Section("What becomes of the shift", [Text(SHIFTS), shifts]),
             Section("What the paper leaves open", [Text(OPEN)]),
             Section("What was solved", [Text(_solved(answers, found.slow))]),
         ]
 
     def _shifted(self, lossy, findings):
-        where = {each.where: each for each in findings if each.claim.id == eq23.COLLAPSE.id}
+        collapses = {each.where: each for each in findings if each.claim.id == eq23.COLLAPSE.id}
         rows = [
             shifted_curves.ShiftedCurves(
-                title=f"{lossy.loss.symbols}, {of}",
+                title=lossy.where(of),
                 collapse=found,
-                finding=where[f"{lossy.loss.symbols}, {of}"],
+                finding=collapses[lossy.where(of)],
                 expected=lossy.exponent,
                 powers={name: lossy.powers[name] for name in losses.comparable(of)},
                 conditions=lossy.conditions(of),
@@ -187,13 +176,13 @@ def _dataset(answers, path):
 
 
 def _fits(fits):
-    rows = [{"points_fitted": name, **fit.row} for name, fit in fits.items() if np.isfinite(fit.slope)]
+    rows = [{"points_fitted": name, **fit.row} for name, fit in fits.items() if np.isfinite(fit.slope.value)]
     return DataFrame(rows, columns=["points_fitted", *next(iter(fits.values())).row])
 
 
 def _shifts(rubbers, findings):
-    """Exponents of the shift: expected, of each form of Eq. 22, and simulated."""
-    rows = []
+    """Exponents of the shift: expected, of each form of Eq. 22, and simulated; unknown where curves part."""
+    rows, of_claim = [], {(each.claim.id, each.where): each for each in findings}
     for lossy in rubbers:
         ratio = lossy.points[losses.STIFFNESS]
         row = {
@@ -204,15 +193,10 @@ def _shifts(rubbers, findings):
             **{f"exponent_of_{name.replace(' ', '_')}": power for name, power in lossy.powers.items()},
         }
         for of, name in ((losses.WHOLE, "whole"), (losses.ROUGH, "excess")):
-            found = {each.claim.id: each for each in findings if each.where == f"{lossy.loss.symbols}, {of}"}
-            collapse, exponent = found[eq23.COLLAPSE.id], found[eq23.EXPONENT.id]
-            meant = collapse.verdict != FAILS
-            row |= {
-                f"collapse_{name}": collapse.verdict,
-                f"exponent_{name}": exponent.value if meant else np.nan,
-                f"exponent_{name}_low": exponent.interval[0] if meant else np.nan,
-                f"exponent_{name}_high": exponent.interval[1] if meant else np.nan,
-            }
+            collapse, exponent = (of_claim[each.id, lossy.where(of)] for each in (eq23.COLLAPSE, eq23.EXPONENT))
+            known = (exponent.value, *exponent.interval) if collapse.verdict != FAILS else (np.nan,) * 3
+            row[f"collapse_{name}"] = collapse.verdict
+            row |= dict(zip((f"exponent_{name}{end}" for end in ("", "_low", "_high")), known, strict=True))
         rows.append(row)
     return DataFrame(rows)
 
