@@ -70,21 +70,18 @@ def test_the_force_is_the_stiffness_times_the_displaced_area(memory):
     assert contact.force == pytest.approx(area, rel=max((pixel / memory) ** 2, 1e-6))
 
 
-def test_extreme_memories_join_the_elastic_and_the_viscous_limit():
+def test_memories_far_below_a_pixel_and_far_above_the_contact_join_their_limits():
     heights, pixel = rough_profile()
     depth = heights.min() + 2e-5
-    elastic = sweep(heights, pixel, 0.0, depth)
-    # Far below a pixel: force, friction / memory and length no longer depend on the memory.
-    for memory in (1e-300, 1e-30, 1e-15):
-        contact = sweep(heights, pixel, memory, depth)
-        assert contact.force == pytest.approx(elastic.force, rel=1e-6)
-        assert contact.length == pytest.approx(elastic.length, rel=1e-6)
-    thin, thinner = (sweep(heights, pixel, memory, depth).dissipation / memory for memory in (1e-15, 1e-17))
-    assert thin == pytest.approx(thinner, rel=1e-6)
-    # Far above the contact: a viscous fluid, whose forces are in proportion to the speed.
-    thick, thicker = (sweep(heights, pixel, memory, depth) for memory in (1e6, 1e9))
-    assert thick.force / 1e6 == pytest.approx(thicker.force / 1e9, rel=1e-6)
-    assert thick.dissipation / thick.force == pytest.approx(thicker.dissipation / thicker.force, rel=1e-6)
+    elastic, short, thin, thick, thicker = (
+        sweep(heights, pixel, memory, depth) for memory in (0.0, 1e-300, 1e-15, 1e6, 1e9)
+    )
+    assert (short.force, short.length) == pytest.approx((elastic.force, elastic.length), rel=1e-6)
+    assert thin.dissipation / 1e-15 == pytest.approx(elastic.slope_square, rel=1e-6)
+    # A viscous fluid, whose forces are in proportion to the speed.
+    assert (thick.force / 1e6, thick.dissipation / 1e6) == pytest.approx(
+        (thicker.force / 1e9, thicker.dissipation / 1e9), rel=1e-6
+    )
 
 
 @pytest.mark.parametrize(("lift", "lands"), [(-1e-9, True), (1e-9, False)])
