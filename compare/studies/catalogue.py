@@ -1,14 +1,14 @@
 """The studies that come with the package, each in three sizes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Fractional, Indent, Kelvin, Program, Slide, Stage, StandardLinearSolid
-from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 
 from .contacts import SHORTEST, STEEP, kelvin, resolved
@@ -52,66 +52,46 @@ class ReadyStudy:
 
     title: str
     about: str
-    series: Callable[[Size], list[Series]]
+    series: Callable[[Size], Iterable[Series]]
 
 
-def _collapse(size: Size) -> list[Series]:
+def _collapse(size: Size) -> Iterator[Series]:
     """At prescribed load, and at the depths that the smooth relaxed bodies have under these loads."""
     loads = size.values_of(*LOADS)
-    found = []
     for shape in SHAPES:
-        scene = kelvin(shape)
-        found.append(_series(size, shape, f"Rough {shape}", scene, values=loads))
-        depths = tuple(_depth(scene, load) for load in loads)
-        sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
-        title = f"Rough {shape}, depth prescribed"
-        found.append(_series(size.coarser, f"{shape}-depth", title, sunk, values=depths))
-    return found
+        yield _series(size, shape, f"Rough {shape}", kelvin(shape), values=loads)
+        yield _at_depths(size.coarser, f"{shape}-depth", f"Rough {shape}, depth prescribed", kelvin(shape), loads)
 
 
-def _solids(size: Size) -> list[Series]:
+def _solids(size: Size) -> Iterator[Series]:
     rubber, size = parameters.SOLID, size.coarser
-    highest = 2 * np.pi / SHORTEST * SPEEDS[1]
-    solids: dict[str, Elastomer] = {
-        "standard linear solid": StandardLinearSolid(
-            rubber.modulus, GLASSY * rubber.modulus, rubber.relaxation_time / GLASSY
-        ),
-        "power law": Fractional(
-            modulus=rubber.modulus,
-            relaxation_time=rubber.relaxation_time,
-            exponent=0.5,
-            lowest_frequency=SPEEDS[0] / 10 / parameters.LENGTH,
-            highest_frequency=float(10 * highest),
-            tolerance=1e-2,
-        ),
-    }
+    glassy = StandardLinearSolid(rubber.modulus, GLASSY * rubber.modulus, rubber.relaxation_time / GLASSY)
+    loss = Fractional(
+        modulus=rubber.modulus,
+        relaxation_time=rubber.relaxation_time,
+        exponent=0.5,
+        lowest_frequency=SPEEDS[0] / 10 / parameters.LENGTH,
+        highest_frequency=10 * (2 * np.pi / SHORTEST * SPEEDS[1]),
+        tolerance=1e-2,
+    )
     # A loss that grows with the root of the frequency is slow at lower speeds.
-    ranges = {"power law": (size.range[0] / 5, size.range[1])}
-    return [
-        _series(
-            replace(size, range=ranges.get(name, size.range)),
-            f"{shape}-{name.replace(' ', '-')}",
-            f"Rough {shape}, {name}",
-            replace(kelvin(shape), elastomer=solid),
-        )
-        for shape in SHAPES
-        for name, solid in solids.items()
-    ]
+    slower = replace(size, range=(size.range[0] / 5, size.range[1]))
+    for shape in SHAPES:
+        for name, solid, own in (("standard linear solid", glassy, size), ("power law", loss, slower)):
+            scene = replace(kelvin(shape), elastomer=solid)
+            yield _series(own, f"{shape}-{name.replace(' ', '-')}", f"Rough {shape}, {name}", scene)
 
 
-def _hurst(size: Size) -> list[Series]:
+def _hurst(size: Size) -> Iterator[Series]:
     size = size.coarser.at_most(speeds=8, values=6, surfaces=10).within(0.02, 1.0)
-    return [
-        _series(size, f"{shape}-hurst-{hurst:g}", f"Rough {shape}, H = {hurst:g}", kelvin(shape, hurst=hurst))
-        for shape in SHAPES
-        for hurst in size.hurst
-    ]
+    for shape, hurst in product(SHAPES, size.hurst):
+        title = f"Rough {shape}, H = {hurst:g}"
+        yield _series(size, f"{shape}-hurst-{hurst:g}", title, kelvin(shape, hurst=hurst))
 
 
-def _parameters(size: Size) -> list[Series]:
+def _parameters(size: Size) -> Iterator[Series]:
     """One parameter changed at a time, around the contacts of Fig. 1."""
     size = size.coarser.at_most(speeds=size.few, values=size.few, surfaces=6)
-    found = []
     for shape in SHAPES:
         base = kelvin(shape)
         rough, solid = resolved(shape), parameters.SOLID
@@ -127,47 +107,33 @@ def _parameters(size: Size) -> list[Series]:
         for what, scene in changed.items():
             # As many pixels a wave for all.
             finer = replace(size, points=round(size.points * max(1.0, SHORTEST / _shortest(scene))))
-            found.append(_series(finer, f"{shape}-{what.replace(' ', '-')}", f"Rough {shape}, {what}", scene))
-    return found
+            yield _series(finer, f"{shape}-{what.replace(' ', '-')}", f"Rough {shape}, {what}", scene)
 
 
-def _depth_study(size: Size) -> list[Series]:
+def _depth_study(size: Size) -> Iterator[Series]:
     """At rest at prescribed depths, and pressed in at constant rates."""
-    found = []
+    few = size.coarser.at_most(speeds=size.indentations, values=size.indentations, surfaces=6)
     for shape in SHAPES:
         scene = kelvin(shape)
-        depths = tuple(_depth(scene, load) for load in size.values_of(*LOADS))
+        depths = _depths(scene, size.values_of(*LOADS))
         rest = replace(scene, motion=Indent(depth=depths[0]))
-        found.append(
-            replace(_series(size, f"{shape}-rest", f"Rough {shape}, at rest", rest, values=depths), speeds=())
-        )
+        yield replace(_series(size, f"{shape}-rest", f"Rough {shape}, at rest", rest, values=depths), speeds=())
         time = scene.elastomer.relaxation_time
         solid = StandardLinearSolid(scene.elastomer.modulus, GLASSY * scene.elastomer.modulus, time)
-        few = size.coarser.at_most(speeds=size.indentations, values=size.indentations, surfaces=6)
         sunk = tuple(depths[i] for i in np.linspace(0, len(depths) - 1, few.values).round().astype(int))
         pressed = replace(scene, elastomer=solid, motion=Program(stages=(Stage(duration=1.0, depth=sunk[0]),)))
-        series = _series(
-            few,
-            f"{shape}-pressed-in",
-            f"Rough {shape}, pressed in at constant rates",
-            pressed,
-            values=sunk,
-        )
-        rates = between(0.1 * sunk[-1] / time, 10 * sunk[-1] / time, few.speeds)
-        found.append(
-            replace(
-                series, speeds=rates, bem=replace(series.bem, steps=size.steps), mdr=MDR(2000, steps=size.steps)
-            )
-        )
-    return found
+        title = f"Rough {shape}, pressed in at constant rates"
+        series = _series(few, f"{shape}-pressed-in", title, pressed, values=sunk)
+        rates, steps = between(0.1 * sunk[-1] / time, 10 * sunk[-1] / time, few.speeds), size.steps
+        yield replace(series, speeds=rates, bem=replace(series.bem, steps=steps), mdr=MDR(2000, steps=steps))
 
 
-def _regime(size: Size) -> list[Series]:
+def _regime(size: Size) -> Iterator[Series]:
     """Small roughness that is steep: rolled off, so that h0 << d while its slope is several times the body's.
 
     Slow speeds stand apart, since those of a collapse must lie close. The seeds of each series are the same.
     """
-    found, small = [], size.points <= 128
+    small = size.points <= 128
     points = 512 if small else 5 * size.points // 2
     speeds, values, fastest = (4, 3, 12.0) if small else (6, 6, 35.0)
     few = replace(size.at_most(speeds=speeds, values=values, surfaces=6), points=points)
@@ -176,16 +142,13 @@ def _regime(size: Size) -> list[Series]:
         # Wider contacts have fewer pixels a wave.
         loads = few.values_of(low, 2 * low if small else high)
         knee = replace(few, range=(2.5 * wave, fastest * wave))
-        found.append(_series(knee, shape, f"Steeply rough {shape}", scene, values=loads))
-        if small:
-            continue
-        slow = replace(few, range=(0.03 * wave, 0.06 * wave), speeds=2)
-        found.append(_series(slow, f"{shape}-slow", f"Steeply rough {shape}, slow", scene, values=loads))
-        depths = tuple(_depth(scene, load) for load in loads[::2])
-        sunk = replace(scene, motion=Slide(speed=1.0, depth=depths[0]))
-        title = f"Steeply rough {shape}, depth prescribed"
-        found.append(_series(knee.at_most(surfaces=4), f"{shape}-depth", title, sunk, values=depths))
-    return found
+        title = f"Steeply rough {shape}"
+        yield _series(knee, shape, title, scene, values=loads)
+        if not small:
+            slow = replace(few, range=(0.03 * wave, 0.06 * wave), speeds=2)
+            yield _series(slow, f"{shape}-slow", f"{title}, slow", scene, values=loads)
+            deep = knee.at_most(surfaces=4)
+            yield _at_depths(deep, f"{shape}-depth", f"{title}, depth prescribed", scene, loads[::2])
 
 
 STUDIES = {
@@ -243,13 +206,19 @@ def _series(size, name, title, scene, values=None):
     )
 
 
+def _at_depths(size, name, title, scene, loads):
+    """Series that slides at the depths which the smooth relaxed body has under loads."""
+    depths = _depths(scene, loads)
+    return _series(size, name, title, replace(scene, motion=Slide(speed=1.0, depth=depths[0])), values=depths)
+
+
 def _slower(solid: Kelvin, factor):
     return replace(solid, relaxation_time=factor * solid.relaxation_time)
 
 
+def _depths(scene, loads):
+    return tuple(elastic_contact(replace(scene, motion=Indent(load=load))).depth for load in loads)
+
+
 def _shortest(scene):
     return scene.roughness.shortest
-
-
-def _depth(scene, load):
-    return elastic_contact(replace(scene, motion=Indent(load=load))).depth

@@ -1,6 +1,6 @@
 """Claims on force and depth: smooth bodies against closed forms, rough ones in one dimension against three."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from math import nan
 
@@ -10,7 +10,7 @@ from scene.regime import MUCH_LESS_HEIGHT
 from scene.scales import elastic_contact
 
 from ..exact.indentation import loading_force
-from ..finding import Claim, Finding
+from ..finding import Finding
 from ..statistics.jackknife import mean
 from .claims import claim
 from .claims_friction import finding
@@ -19,24 +19,45 @@ from .series import ROUGH, SMOOTH, SOLVERS, Contacts, Series
 
 def depth_findings(contacts: Contacts) -> list[Finding]:
     """Findings at rest, and pressed in where the motion is a Program."""
-    series, found = contacts.series, []
-    words = where(series)
-    for solver, dimension in SOLVERS.items():
-        for each in _smooth(series, solver, dimension):
-            plot = "pressed-in" if each.id == "smooth.pressed-in" else "depth"
-            found.append(finding(each, contacts, SMOOTH, words, solver, plot=plot))
+    series, words = contacts.series, where(contacts.series)
+    found = [
+        finding(claim(name, partial(measure, solver), dimension), contacts, SMOOTH, words, solver, plot=plot)
+        for solver, dimension in SOLVERS.items()
+        for name, measure, plot in _smooth(series)
+    ]
     found += rest_findings(contacts, words)
-    for each in _stiffness(series):
-        found.append(finding(each, contacts, ROUGH, words, plot="depth"))
-    for each, rate in _pressed_in(series):
-        found.append(finding(each, contacts, ROUGH, f"{rate:.2g} m/s; {words}", plot="pressed-in"))
+    if not series.speeds and not series.pressed_in and len(series.values) > 2:
+        stiffness = claim(
+            "rest.stiffness", lambda sample: np.log(_secants(sample["MDR"]) / _secants(sample["BEM"]))
+        )
+        found.append(finding(stiffness, contacts, ROUGH, words, plot="depth"))
+    if series.pressed_in and len(series.speeds) > 1:
+        for place, name in ((0, "slow"), (-1, "fast")):
+            apart = claim(f"pressed-in.{name}", partial(_pressed_apart, series, place))
+            regime = f"{series.speeds[place]:.2g} m/s; {words}"
+            found.append(finding(apart, contacts, ROUGH, regime, plot="pressed-in"))
     return found
 
 
 def rest_findings(contacts: Contacts, words: str) -> list[Finding]:
     """Findings on depth or force at rest, where roughness is small against depth and elsewhere."""
-    claims = _at_rest(contacts.series)
-    return [finding(each, contacts, ROUGH, words, plot="depth") for each in claims]
+    series = contacts.series
+    depths, at_load = closed_forms(series)[1], series.prescribed == "load"
+
+    def apart(places, sample):
+        if at_load:
+            one, three = (mean(sample[solver], "depth_reached")[0] for solver in SOLVERS)
+            return ((one - three) / depths)[places]
+        one, three = (np.log(mean(sample[solver], "normal_force")[0]) for solver in SOLVERS)
+        return (one - three)[places]
+
+    deep = depths * MUCH_LESS_HEIGHT >= series.scene.roughness.rms_height
+    what = "depth" if at_load else "force"
+    return [
+        finding(claim(f"rest.{what}-{side}", partial(apart, places)), contacts, ROUGH, words, plot="depth")
+        for side, places in (("deep", deep), ("shallow", ~deep))
+        if places.any()
+    ]
 
 
 def closed_forms(series: Series) -> tuple[np.ndarray, np.ndarray]:
@@ -51,21 +72,16 @@ def loading(series: Series, depths: np.ndarray | None = None) -> np.ndarray:
     depths : reached [m], (rates, depths); those prescribed if absent. A march answers for the middle of its last
         step, half a step before the end
     """
-    reached = np.broadcast_to(series.values, (len(series.speeds), len(series.values)))
-    reached = reached if depths is None else depths
-    return np.array(
-        [
-            [_loading(series, rate, depth) for depth in row]
-            for rate, row in zip(series.speeds, reached.tolist(), strict=True)
-        ]
+    reached = (
+        np.broadcast_to(series.values, (len(series.speeds), len(series.values))) if depths is None else depths
     )
-
-
-def _loading(series, rate, depth):
-    if not depth > 0:
-        return nan
-    body, solid, end = series.scene.indenter, series.scene.elastomer, depth / rate
-    return float(loading_force(body, solid, (0.0, end), (0.0, depth), (end,))[0])
+    body, solid = series.scene.indenter, series.scene.elastomer
+    forces = np.full(reached.shape, nan)
+    for place, depth in np.ndenumerate(reached):
+        if depth > 0:
+            end = float(depth) / series.speeds[place[0]]
+            forces[place] = loading_force(body, solid, (0.0, end), (0.0, float(depth)), (end,))[0]
+    return forces
 
 
 def where(series: Series) -> str:
@@ -75,52 +91,20 @@ def where(series: Series) -> str:
     return f"d/h0 {over.min():.2g} to {over.max():.2g}"
 
 
-def _smooth(series, solver, dimension) -> Iterator[Claim]:
+def _smooth(series) -> Iterator[tuple[str, Callable, str]]:
+    """Claims on the smooth body by their ids, with what measures them in one dimensionality, and the plot."""
     load, depth = closed_forms(series)
-    name, variable, known = (
-        ("smooth.rest-depth", "depth_reached", depth)
-        if series.prescribed == "load"
-        else ("smooth.rest-force", "normal_force", load)
-    )
-    yield claim(name, lambda sample: mean(sample[solver], variable)[0] / known - 1, dimension)
+    if series.prescribed == "load":
+        yield "smooth.rest-depth", lambda solver, it: mean(it[solver], "depth_reached")[0] / depth - 1, "depth"
+    else:
+        yield "smooth.rest-force", lambda solver, it: mean(it[solver], "normal_force")[0] / load - 1, "depth"
     if series.pressed_in and series.speeds:
-        yield claim("smooth.pressed-in", lambda sample: _over_smooth(series, sample[solver]) - 1, dimension)
+        yield "smooth.pressed-in", lambda solver, it: _over_smooth(series, it[solver]) - 1, "pressed-in"
 
 
-def _at_rest(series) -> Iterator[Claim]:
-    depths, at_load = closed_forms(series)[1], series.prescribed == "load"
-
-    def apart(sample):
-        if at_load:
-            one, three = (mean(sample[solver], "depth_reached")[0] for solver in SOLVERS)
-            return (one - three) / depths
-        one, three = (np.log(mean(sample[solver], "normal_force")[0]) for solver in SOLVERS)
-        return one - three
-
-    deep = depths * MUCH_LESS_HEIGHT >= series.scene.roughness.rms_height
-    for places, side in ((deep, "deep"), (~deep, "shallow")):
-        if places.any():
-            measure = partial(lambda sample, places: apart(sample)[places], places=places)
-            yield claim(f"rest.{'depth' if at_load else 'force'}-{side}", measure)
-
-
-def _stiffness(series) -> Iterator[Claim]:
-    """Claim on the relaxed contact: secants between neighbouring loads or depths, in 1D and 3D at the same."""
-    if not series.speeds and not series.pressed_in and len(series.values) > 2:
-        yield claim("rest.stiffness", lambda sample: np.log(_secants(sample["MDR"]) / _secants(sample["BEM"])))
-
-
-def _pressed_in(series) -> Iterator[tuple[Claim, float]]:
-    """Claims at the slowest and the fastest rate, of two at least, with the rate [m/s]."""
-    if not series.pressed_in or len(series.speeds) < 2:
-        return
-    for place, what in ((0, "slow"), (-1, "fast")):
-
-        def apart(sample, place=place):
-            one, three = (_over_smooth(series, sample[solver])[place, -1] for solver in SOLVERS)
-            return float(np.log(one / three))
-
-        yield claim(f"pressed-in.{what}", apart), series.speeds[place]
+def _pressed_apart(series, place, sample):
+    one, three = (_over_smooth(series, sample[solver])[place, -1] for solver in SOLVERS)
+    return float(np.log(one / three))
 
 
 def _over_smooth(series, answers):
@@ -129,4 +113,5 @@ def _over_smooth(series, answers):
 
 
 def _secants(answers):
+    """Stiffness of the relaxed contact between neighbouring loads or depths."""
     return np.diff(mean(answers, "normal_force")[0]) / np.diff(mean(answers, "depth_reached")[0])

@@ -1,6 +1,7 @@
 """Claims on friction of one series: laws in each dimensionality, one against three, shifts onto one curve."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from math import nan
 
 import numpy as np
@@ -27,17 +28,26 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
     found = []
     for solver, dimension in SOLVERS.items():
         words = laws[solver].words
-        for each, xi in _one_sided(contacts, solver, dimension, laws[solver]):
-            found.append(finding(each, contacts, ROUGH, at_xi(xi, words) if xi is not None else words, solver))
+        for name, measure, xi, expected in _one_sided(contacts.series, solver, laws[solver]):
+            each = claim(name, partial(_of_one, measure, solver), dimension, expected)
+            regime = words if xi is None else at_xi(xi, words)
+            plot = "collapse" if name == "eq17.load-exponent" else "levels"
+            found.append(finding(each, contacts, ROUGH, regime, solver, plot=plot))
     words = laws["BEM"].words
     for name, place in _places(laws["BEM"]):
+        regime = at_xi(laws["BEM"].xi[place], words)
+        found.append(finding(claim(name, partial(_ratio, place)), contacts, ROUGH, regime))
+    return [*found, finding(claim("pair.smooth", partial(_ratio, 0)), contacts, SMOOTH, words)]
 
-        def ratio(sample, place=place):
-            one, three = (friction(sample[solver])[1:][place] for solver in SOLVERS)
-            return geometric(one / three)
 
-        found.append(finding(claim(name, ratio), contacts, ROUGH, at_xi(laws["BEM"].xi[place], words)))
-    return [*found, finding(claim("pair.smooth", _smooth_ratio), contacts, SMOOTH, words)]
+def _of_one(measure, solver, sample):
+    return measure(sample[solver])
+
+
+def _ratio(place, sample):
+    """Friction in 1D over 3D at a speed, geometric mean over the loads or depths."""
+    one, three = (friction(sample[solver])[1:][place] for solver in SOLVERS)
+    return geometric(one / three)
 
 
 def finding(
@@ -49,80 +59,47 @@ def finding(
     plot : name of the plot that shows it, in the folder of the series
     """
     fine, coarse = (contacts.sample(grid, body, *(solvers or SOLVERS)) for grid in (FINE, COARSE))
-    if each.id == "eq17.load-exponent":
-        plot = "collapse"
-    name = contacts.series.name
-    return measured(each, fine, coarse, name, regime, f"{contacts.series.folder}/{plot}")
+    return measured(each, fine, coarse, contacts.series.name, regime, f"{contacts.series.folder}/{plot}")
 
 
-def _one_sided(contacts, solver, dimension, laws) -> Iterator[tuple[Claim, np.ndarray | None]]:
-    """Claims of the paper on friction in one dimensionality, each with xi where it is measured."""
-    if len(laws.speeds) > 1 and laws.slowest_loss <= SLOW and _all_slow(laws.xi[0]):
-        for each in _at_low_speed(contacts, solver, dimension, laws):
-            yield each, laws.xi[0]
-    fast = laws.xi[-1] >= FAST
+def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray | None, float | None]]:
+    """Claims of the paper on friction in one dimensionality.
+
+    Each by its id, with what measures it on the answers of the solver, xi where it is measured, and the number
+    that the law has there; None of a law at all points, and of the number of the claim itself.
+    """
+
+    def mu(answers):
+        return friction(answers)[1:]
+
+    def xi(answers):
+        return laws.xi_under(mean(answers, "normal_force")[1:])
+
+    def speed_exponent(answers):
+        slow, next_to_it = mu(answers)[:2]
+        return float(np.mean(np.log(next_to_it / slow)) / np.log(series.speeds[1] / series.speeds[0]))
+
+    def over_limit(answers):
+        rest = answers.isel(speed=0)
+        force = rest["normal_force"].transpose(..., "draw").values
+        limit = series.speeds[0] * mean_ratio(slow_drag(series.scene.solid, solver, rest), force).value
+        return geometric(mu(answers)[0] / limit)
+
+    slowest, fast = laws.xi[0], laws.xi[-1] >= FAST
+    known = slowest[np.isfinite(slowest)]
+    if len(laws.speeds) > 1 and laws.slowest_loss <= SLOW and known.size and known.max() <= SLOW:
+        yield "eq17.speed-exponent", speed_exponent, slowest, float(laws.loss_exponent[0])
+        if len(series.values) > 1:
+            exponent = laws.exponent_of_load
+            yield "eq17.load-exponent", lambda it: power(mean(it, "normal_force")[1], mu(it)[0]), slowest, exponent
+        yield "eq17.level", lambda it: geometric(mu(it)[0] / (laws.plateau * xi(it)[0])), slowest, None
+        # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
+        if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
+            yield "limit.slow", over_limit, slowest, None
     if fast.any():
-
-        def plateau(sample):
-            mu, xi = _at_points(sample[solver], laws)
-            return geometric(mu[-1][fast] / laws.law_of(xi)[-1][fast])
-
-        yield claim("eq14.plateau", plateau, dimension), laws.xi[-1][fast]
-
-    def law(sample):
-        mu, xi = _at_points(sample[solver], laws)
-        return np.log(mu / laws.law_of(xi))
-
-    yield claim("eq19.law", law, dimension), None
-
-
-def _at_low_speed(contacts, solver, dimension, laws) -> Iterator[Claim]:
-    series = contacts.series
-    apart = np.log(series.speeds[1] / series.speeds[0])
-
-    def speed_exponent(sample):
-        mu = friction(sample[solver])[1:]
-        return float(np.mean(np.log(mu[1] / mu[0])) / apart)
-
-    yield claim("eq17.speed-exponent", speed_exponent, dimension, float(laws.loss_exponent[0]))
-    if len(series.values) > 1:
-
-        def load_exponent(sample):
-            return power(mean(sample[solver], "normal_force")[1], friction(sample[solver])[1])
-
-        yield claim("eq17.load-exponent", load_exponent, dimension, laws.exponent_of_load)
-
-    def level(sample):
-        mu, xi = _at_points(sample[solver], laws)
-        return geometric(mu[0] / (laws.plateau * xi[0]))
-
-    yield claim("eq17.level", level, dimension)
-    # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
-    if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
-
-        def over_limit(sample):
-            rest = sample[solver].isel(speed=0)
-            drag = slow_drag(series.scene.solid, solver, rest)
-            limit = series.speeds[0] * mean_ratio(drag, rest["normal_force"].transpose(..., "draw").values).value
-            return geometric(friction(sample[solver])[1] / limit)
-
-        yield claim("limit.slow", over_limit, dimension)
-
-
-def _at_points(answers, laws):
-    """Friction at every point that slides, and xi under the load there."""
-    return friction(answers)[1:], laws.xi_under(mean(answers, "normal_force")[1:])
-
-
-def _all_slow(xi):
-    """Whether xi is small wherever it is known."""
-    known = xi[np.isfinite(xi)]
-    return known.size > 0 and known.max() <= SLOW
-
-
-def _smooth_ratio(sample):
-    one, three = (friction(sample[solver])[1] for solver in SOLVERS)
-    return geometric(one / three)
+        reached = laws.xi[-1][fast]
+        yield "eq14.plateau", lambda it: geometric((mu(it)[-1] / laws.law_of(xi(it))[-1])[fast]), reached, None
+    yield "eq19.law", lambda it: np.log(mu(it) / laws.law_of(xi(it))), None, None
 
 
 def _places(laws) -> Iterator[tuple[str, int]]:
