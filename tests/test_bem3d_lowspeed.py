@@ -173,12 +173,21 @@ def test_without_an_edge_slow_friction_is_the_energy_lost():
 
 
 @pytest.mark.parametrize(
-    ("lag", "slowness", "most"), [(0.0, 0.0, 0.5), (0.0, 0.5, 0.25), (1.0, 0.0, 2.0), (0.0, 1.0, 0.125)]
+    ("lag", "slowness", "most", "force"),
+    [
+        (0.0, 0.0, 0.5, 1.0),
+        (0.0, 0.5, 0.25, 1.0625),
+        (1.0, 0.0, 2.0, 3.0),
+        (0.0, 1.0, 0.125, 1.125),
+        (0.5, 0.0, 1.0, 2.0),
+    ],
 )
-def test_estimates_disagree_as_far_as_they_count(lag, slowness, most):
+def test_estimates_join_and_disagree_as_far_as_they_count(lag, slowness, most, force):
     # The loss, 1, beside traction of 3, work of 1.5 and curvature of 1.125.
     estimates = {"by_traction": 3.0, "by_loss": 1.0, "by_work": 1.5, "by_curvature": 1.125, "mean_curvature": 0.0}
-    assert Friction(**estimates, lag=lag, slowness=slowness).disagreement == most
+    found = Friction(**estimates, lag=lag, slowness=slowness)
+    assert (found.disagreement, found.force) == (most, force)
+    assert found.measures(2.0)["friction_disagreement"] == most / 2
 
 
 def test_a_plane_in_partial_contact_follows_the_law_too():

@@ -111,6 +111,13 @@ def test_a_step_is_seen_in_its_middle_by_an_elastic_solid_and_later_by_a_kelvin_
     assert kelvin.loss_in_steps(2 * TAU) == pytest.approx(np.tanh(1))
 
 
+def test_a_depth_that_is_seen_late_in_its_step_is_told_of_the_middle():
+    seen, middle = np.array([0.6, 1.6, 2.7]), np.array([0.5, 1.5, 2.5])
+    found = marching._back(seen, 2 * seen, middle)
+    np.testing.assert_allclose(found, [1.2, 3.0, 5.0])  # nothing is known before the first
+    np.testing.assert_allclose(marching._back(seen, np.array([np.nan, 1.0, 2.1]), middle)[1], 1.0)
+
+
 def test_an_elastic_solid_has_no_history():
     up, down = Stage(duration=1.0, depth=2e-4), Stage(duration=0.5, depth=0.0)
     history = marched(Sphere(R), Elastic(G), Program(stages=(up, down)), 12, 48, 4e-3)

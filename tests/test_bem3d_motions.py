@@ -201,6 +201,17 @@ def test_fretting_has_sheets_for_how_far_it_goes_and_not_for_how_long(monkeypatc
     assert halves[0].max() > 0 > halves[0].min()
 
 
+def test_sheets_double_until_nothing_beyond_the_widest_comes_in_and_what_has_faded_is_left_behind():
+    sheets = upstream.wider_grids(Grid(256, 1.0, (3.0, 0.0)), 1.5)
+    assert [(each.points, each.extent, each.centre) for each in sheets] == [
+        (points, extent, (3.0, 0.0)) for points, extent in ((128, 2.0), (64, 4.0), (32, 8.0))
+    ]
+    assert upstream.wider_grids(Grid(256, 1.0), 0.0) == []
+    there = program(pressed(), slid(1.0, 0.5), slid(-0.25, 0.25))
+    assert upstream.left_behind(there, np.array([1e-3, 1e-4])) == pytest.approx(0.5e-3 * -np.log(1e-17))
+    assert upstream.left_behind(there, np.array([1e3])) == there.span
+
+
 def test_columns_that_come_back_bring_what_they_had_beyond_the_wider_sheets_and_what_has_faded_is_dropped():
     grid = Grid(16, 16.0)
     window = Sheet(grid, 1)

@@ -8,6 +8,7 @@ import pytest
 from bem3d import BEM
 from bem3d.grid import Box, Grid
 from bem3d.surface import RoughSurface
+from bem3d.window import check_resolved
 from mdr1d import draw
 from scene import (
     Cylinder,
@@ -56,6 +57,14 @@ def test_a_grid_knows_its_points_their_boxes_and_values_in_between():
     np.testing.assert_allclose(fine.resample(plane)[1:-1, 1:-1], np.add.outer(2 * fine.y, fine.x)[1:-1, 1:-1])
     assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner)[3])) == [2, 3, 4, 5]
     assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner)[:, 3])) == [2, 3]
+
+
+def test_nine_pixels_in_contact_are_enough_and_eight_are_not():
+    touched = np.arange(16).reshape(4, 4) < 9
+    check_resolved(Grid(4, 8.0), touched)
+    touched[0, 0] = False
+    with pytest.raises(SolveError, match="covers 8 of 4 x 4 points on extent = 8 m, 9 are needed"):
+        check_resolved(Grid(4, 8.0), touched)
 
 
 def test_a_single_asperity_off_the_axis_is_resolved():
