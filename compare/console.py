@@ -50,7 +50,9 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
     output : the option that names the folder, with its value
     solves : whether something may have been stored before it went wrong
     """
-    interrupt_on("SIGTERM", "SIGHUP")
+    for number in (getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)):
+        if signal.getsignal(number) is signal.SIG_DFL:  # and not ignored, as by nohup
+            signal.signal(number, signal.default_int_handler)
     try:
         yield
     except KeyboardInterrupt as interrupt:
@@ -72,10 +74,3 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
         typer.echo(f"crosscheck: {where}{told}{'' if early else '. What is solved and stored is kept.'}", err=True)
         raise typer.Exit(MISTAKE if early else FAILED) from error
-
-
-def interrupt_on(*names: str) -> None:
-    """Let signals do what Ctrl-C does, unless they are ignored, as by nohup."""
-    for number in (getattr(signal, name) for name in names if hasattr(signal, name)):
-        if signal.getsignal(number) is signal.SIG_DFL:
-            signal.signal(number, signal.default_int_handler)

@@ -118,18 +118,14 @@ class Unwritable(OSError):
 def _make_folders(folder, below, place):
     """Make every folder that is written into. Raises Unwritable."""
     try:
-        _try_folders(folder, below, place)
+        for path in (folder, *(folder / name for name in (*below, place) if name)):
+            if path.exists() and not path.is_dir():
+                raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))
+            path.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=path):
+                pass
+        for path in (folder / place / name for name in (*pages.FILES, results.NAME, manifest.NAME)):
+            if path.is_dir():
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     except OSError as error:
         raise Unwritable(error.errno, error.strerror, error.filename) from error
-
-
-def _try_folders(folder, below, place):
-    for path in (folder, *(folder / name for name in (*below, place) if name)):
-        if path.exists() and not path.is_dir():
-            raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))
-        path.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path):
-            pass
-    for path in (folder / place / name for name in (*pages.FILES, results.NAME, manifest.NAME)):
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
