@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -15,159 +16,113 @@ TOLERANCE = 0.05
 CLOSED = 0.01
 _RATIO = "Ratio of the coefficients, 1D over 3D, geometric mean over the loads or depths."
 _PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
-
-CLAIMS = {
-    claim.id: claim
-    for claim in (
-        Claim(
-            "eq17.speed-exponent",
+_REST_DEPTH = (
+    "the depth under a load is the same in 1D and 3D",
+    "rms over loads of the difference of depths, over that of the smooth body.",
+)
+_REST_FORCE = "the force at a depth is the same in 1D and 3D", "rms over depths of ln of the ratio of forces."
+_DEEP, _SHALLOW = "At rest, rough, h0 at most 0.1 d", "At rest, rough, h0 above 0.1 d"
+# Sentence and meaning of each claim by its id; by the number claimed, NaN where it differs from place to place,
+# and by how far from it still counts.
+_TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
+    (nan, TOLERANCE): {
+        "eq17.speed-exponent": (
             "Eq. 17: at low speed friction grows with the speed as the loss at the shortest wave does",
-            tolerance=TOLERANCE,
-            meaning="d ln mu / d ln v between the two slowest speeds, mean over the loads or depths.",
+            "d ln mu / d ln v between the two slowest speeds, mean over the loads or depths.",
         ),
-        Claim(
-            "eq17.load-exponent",
+        "eq17.load-exponent": (
             "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))",
-            tolerance=TOLERANCE,
-            meaning="d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law "
-            "leaves out the slope of the macroscopic shape.",
+            "d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law leaves out "
+            "the slope of the macroscopic shape.",
         ),
-        Claim(
-            "eq17.level",
+    },
+    (1.0, TOLERANCE): {
+        "eq17.level": (
             "Eq. 17: friction at low speed has the level of the law",
-            1.0,
-            TOLERANCE,
-            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope "
-            "as this dimensionality has it and every wave taken for the shortest.",
+            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope as "
+            "this dimensionality has it and every wave taken for the shortest.",
         ),
-        Claim(
-            "limit.slow",
+        "limit.slow": (
             "Friction at the slowest speed is that of the exact limit of low speed",
-            1.0,
-            TOLERANCE,
             "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
             "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads "
             "or depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
             "friction is found by that mean where the contact trails by less than a quarter of a pixel "
             "(docs/theory.md, Eq. 5e): the check is then of the pressure found in sliding.",
         ),
-        Claim(
-            "eq14.plateau",
+        "eq14.plateau": (
             "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
-            1.0,
-            TOLERANCE,
             "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or "
             "depths at which xi is large.",
         ),
-        Claim(
-            "eq19.law",
+        "eq14.slope-exponent": (
+            "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
+            "at which all are at that limit, but for what Eq. 19 still lacks of it.",
+        ),
+        "pair.friction-slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
+        "pair.friction-knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
+        "pair.friction-fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
+        "pair.smooth": (
+            "Smooth, at the slowest speed: friction in 1D is that in 3D",
+            f"{_RATIO} It tends to 2 as the speed tends to zero.",
+        ),
+    },
+    (2.0, 2 * TOLERANCE): {
+        "eq17.slope-exponent": (
+            "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
+            "at which all are at that limit, but for what Eq. 19 still lacks of it.",
+        ),
+    },
+    (0.0, 2 * TOLERANCE): {
+        "eq19.law": (
             "Eq. 19: friction follows the law at all speeds and loads",
-            0.0,
-            2 * TOLERANCE,
             "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
         ),
-        Claim(
-            "eq18.one-curve",
+        "eq18.one-curve": (
             "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
-            0.0,
-            2 * TOLERANCE,
             "rms of ln mu about one curve through all points of several series, none shifted, without what "
             "scatter adds.",
         ),
-        Claim(
-            "eq17.slope-exponent",
-            "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
-            2.0,
-            2 * TOLERANCE,
-            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or "
-            "depths at which all are at that limit, but for what Eq. 19 still lacks of it.",
-        ),
-        Claim(
-            "eq14.slope-exponent",
-            "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
-            1.0,
-            TOLERANCE,
-            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or "
-            "depths at which all are at that limit, but for what Eq. 19 still lacks of it.",
-        ),
-        Claim(
-            "pair.friction-slow",
-            "Rough, at the slowest speed: friction in 1D is that in 3D",
-            1.0,
-            TOLERANCE,
-            _RATIO,
-        ),
-        Claim("pair.friction-knee", "Rough, at the knee: friction in 1D is that in 3D", 1.0, TOLERANCE, _RATIO),
-        Claim(
-            "pair.friction-fast",
-            "Rough, at the fastest speed: friction in 1D is that in 3D",
-            1.0,
-            TOLERANCE,
-            _RATIO,
-        ),
-        Claim(
-            "pair.smooth",
-            "Smooth, at the slowest speed: friction in 1D is that in 3D",
-            1.0,
-            TOLERANCE,
-            f"{_RATIO} It tends to 2 as the speed tends to zero.",
-        ),
-        *(
-            Claim(f"rest.{name}-{side}", f"At rest, rough, {where}: {sentence}", 0.0, TOLERANCE, meaning)
-            for name, sentence, meaning in (
-                (
-                    "depth",
-                    "the depth under a load is the same in 1D and 3D",
-                    "rms over loads of the difference of depths, over that of the smooth body.",
-                ),
-                (
-                    "force",
-                    "the force at a depth is the same in 1D and 3D",
-                    "rms over depths of ln of the ratio of forces.",
-                ),
-            )
-            for side, where in (("deep", "h0 at most 0.1 d"), ("shallow", "h0 above 0.1 d"))
-        ),
-        Claim(
-            "rest.stiffness",
+    },
+    (0.0, TOLERANCE): {
+        "rest.depth-deep": (f"{_DEEP}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
+        "rest.depth-shallow": (f"{_SHALLOW}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
+        "rest.force-deep": (f"{_DEEP}: {_REST_FORCE[0]}", _REST_FORCE[1]),
+        "rest.force-shallow": (f"{_SHALLOW}: {_REST_FORCE[0]}", _REST_FORCE[1]),
+        "rest.stiffness": (
             "At rest, rough: the stiffness is the same in 1D and 3D",
-            0.0,
-            TOLERANCE,
             "rms over neighbouring loads or depths of ln of the ratio of dF/dd.",
         ),
-        Claim(
-            "smooth.rest-depth",
+        "pressed-in.slow": (
+            "Pressed in at the slowest rate, rough: the force at the greatest depth is the same in 1D and 3D",
+            _PRESSED,
+        ),
+        "pressed-in.fast": (
+            "Pressed in at the fastest rate, rough: the force at the greatest depth is the same in 1D and 3D",
+            _PRESSED,
+        ),
+    },
+    (0.0, CLOSED): {
+        "smooth.rest-depth": (
             "Smooth bodies at rest have the depth of Galin and Sneddon",
-            0.0,
-            CLOSED,
             "rms over the loads of the relative deviation from the closed form.",
         ),
-        Claim(
-            "smooth.rest-force",
+        "smooth.rest-force": (
             "Smooth bodies at rest have the force of Galin and Sneddon",
-            0.0,
-            CLOSED,
             "rms over the depths of the relative deviation from the closed form.",
         ),
-        Claim(
-            "smooth.pressed-in",
+        "smooth.pressed-in": (
             "Smooth bodies pressed into a viscoelastic solid have the force of Lee and Radok",
-            0.0,
-            CLOSED,
             "rms over rates and depths of the relative deviation from the closed form at the depth reached.",
         ),
-        *(
-            Claim(
-                f"pressed-in.{name}",
-                f"Pressed in at the {name}est rate, rough: the force at the greatest depth is the same in 1D "
-                "and 3D",
-                0.0,
-                TOLERANCE,
-                _PRESSED,
-            )
-            for name in ("slow", "fast")
-        ),
-    )
+    },
+}
+CLAIMS = {
+    name: Claim(name, sentence, expected, tolerance, meaning)
+    for (expected, tolerance), texts in _TEXTS.items()
+    for name, (sentence, meaning) in texts.items()
 }
 
 
