@@ -229,6 +229,8 @@ def test_a_name_in_the_wrong_table_is_said_with_the_right_one(tmp_path):
     text = "speed = 0.1\n" + WHOLE.replace("speed = 0.1\n", "")
     (line,) = lines_of(tmp_path, text)
     assert line.startswith("speed = 0.1: unknown here; did you mean motion.speed? Known are indenter, elastomer")
+    (line,) = lines_of(tmp_path, text.replace("speed", "spede"))
+    assert line.startswith("spede = 0.1: unknown here; did you mean motion.speed?")
     assert lines_of(tmp_path, text.replace("0.1", "-0.1"))[1] == (
         "motion.speed = -0.1: Input should be greater than or equal to 0"
     )
