@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from math import nan
+from math import isfinite, nan
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,7 +20,7 @@ from ...task import Task
 from .convergence import Ladder, costs_of, described, settings_of
 from .cost_fit import GROWING, LABELS, MEMORY_FROM, STEPS, CostFit, fits_of
 from .cost_ladders import AXES, ladders
-from .diagram import Diagram
+from .diagram import Diagram, reported
 from .forecasts import LARGEST, MEMORIES, Forecast, forecasts
 from .reference import Outcomes
 
@@ -119,44 +119,40 @@ def _exponents_of(each):
 
 def _exponent(each, cost):
     law, setting = each.laws[cost], each.setting
-    sentence = f"Power of the {setting} with which {LABELS[cost]} grows"
-    claim = Claim(f"workprecision.costs.{cost}-{setting}", sentence, dimension=each.dimension)
+    named = f"costs.{cost}-{setting}", f"Power of the {setting} with which {LABELS[cost]} grows"
+    told = {"where": each.title, "dimension": each.dimension, "plot": PLOT}
     if isinstance(law, NoLaw):
-        return Finding(claim, nan, where=each.title, reason=f"no power: {law.reason}", plot=PLOT)
+        return reported(*named, nan, missing=f"no power: {law.reason}", **told)
     said = f"from {law.lowest:g} to {law.highest:g} {setting}"
-    return Finding(claim, law.exponent, law.exponent_interval, 0.0, where=each.title, regime=said, plot=PLOT)
+    return reported(*named, law.exponent, scatter=law.exponent_interval, grid=0.0, regime=said, **told)
 
 
 def _over_limit(each):
-    claim = Claim(
-        "workprecision.costs.over-transforms",
-        "Time of a 3D solve from 256² points on over that of its products by transforms alone, largest",
-        dimension=each.dimension,
-    )
+    sentence = "Time of a 3D solve from 256² points on over that of its products by transforms alone, largest"
     ratios = each.known("over_limit", MEMORY_FROM)
-    ratios = ratios[np.isfinite(ratios)]
-    value, why = (float(ratios.max()), "") if len(ratios) else (nan, "not measured")
-    return Finding(claim, value, where=each.title, reason=why, plot=PLOT)
+    value = max(filter(isfinite, ratios.tolist()), default=nan)
+    told = {"dimension": each.dimension, "missing": "not measured", "plot": PLOT}
+    return reported("costs.over-transforms", sentence, value, each.title, **told)
 
 
 def _forecast(each: Forecast):
     """Findings of forecasts: a cost left out and then measured decides, a cost beyond all measured is reported."""
-    told: dict[str, Any] = {"where": each.title, "reason": each.reason, "plot": PLOT}
-    if each.kind.startswith("held-out"):
-        claim = Claim(
-            f"workprecision.costs.{each.kind}",
-            f"The {each.kind.split('-')[-1]} of the largest grid, left out, lies in the interval of its forecast",
-            1.0,
-            0.0,
-            "Cost measured over the cost that the law of the smaller grids gives",
-            dimension=each.title[:2],
-        )
-        stated = UNDECIDED if each.held is None else HOLDS if each.held else FAILS
-        return Finding(claim, each.found / each.value, stated=stated, **told)
+    dimension = each.title[:2]
+    if not each.kind.startswith("held-out"):
+        told: dict[str, Any] = {"scatter": (each.low, each.high), "grid": 0.0, "plot": PLOT}
+        where = each.title, each.unit, dimension, each.reason
+        return reported(f"costs.{each.kind}", each.what.capitalize(), each.value, *where, **told)
     claim = Claim(
-        f"workprecision.costs.{each.kind}", each.what.capitalize(), unit=each.unit, dimension=each.title[:2]
+        f"workprecision.costs.{each.kind}",
+        f"The {each.kind.split('-')[-1]} of the largest grid, left out, lies in the interval of its forecast",
+        1.0,
+        0.0,
+        "Cost measured over the cost that the law of the smaller grids gives",
+        dimension=dimension,
     )
-    return Finding(claim, each.value, (each.low, each.high), 0.0, **told)
+    stated = UNDECIDED if each.held is None else HOLDS if each.held else FAILS
+    ratio = each.found / each.value
+    return Finding(claim, ratio, where=each.title, reason=each.reason, stated=stated, plot=PLOT)
 
 
 def _laws(each: CostFit) -> Iterator[dict[str, Any]]:
