@@ -3,7 +3,7 @@
 import tracemalloc
 from dataclasses import replace
 from itertools import pairwise
-from math import isnan
+from math import isnan, sqrt
 
 import numpy as np
 import pytest
@@ -71,6 +71,14 @@ def test_intervals_of_exponents_and_forecasts_hold_as_often_as_they_say_and_narr
     # An F test overlooks some fixed costs, and intervals are then too narrow: it is not 95 % to the letter.
     laws = [fit(GRIDS, noisy(0.02 + 1e-7 * GRIDS**2.2, seed)) for seed in range(TRIALS // 2)]
     assert np.mean([holds(law.exponent_interval, 2.2) for law in laws]) >= 0.9
+
+
+def test_one_more_measurement_amid_the_others_scatters_by_them_and_by_their_mean():
+    law = fit(GRIDS, noisy(1e-7 * GRIDS**2.2, 3))
+    # Six points, two unknowns: Student's t of four degrees of freedom, 2.7764.
+    assert law.freedom == 4
+    half = 2.7764 * law.scatter * sqrt(1 + 1 / 6)
+    assert np.log(law.interval(law.centre)[1] / law.at(law.centre)) == pytest.approx(half, rel=1e-4)
 
 
 def test_a_cost_that_falls_to_a_level_gets_no_fixed_part():

@@ -14,6 +14,7 @@ from compare.statistics.jackknife import (
     groups,
     interval,
     left_out,
+    mean_ratio,
     resample,
     standard_error,
 )
@@ -59,6 +60,7 @@ def test_the_error_of_a_mean_is_its_standard_error():
     first = sample.values[0]
     assert found.error == pytest.approx(first.std(ddof=1) / sqrt(7), rel=1e-12)
     assert found.freedom == 6
+    assert mean_ratio(np.append(first, np.nan)).error == pytest.approx(found.error, rel=1e-12)
 
 
 def test_one_surface_left_out_at_a_time_is_what_arrays_left_out_give():
