@@ -173,10 +173,7 @@ def held_by(of, scene):
 @pytest.mark.parametrize(
     ("name", "points"),
     [
-        *(
-            (name, 256)
-            for name in ("rest", "modes", "rough", "plane-slide", "program", "layer", "shear", "topography")
-        ),
+        *((name, 128) for name in ("rest", "modes", "rough", "plane-slide", "program", "layer", "shear")),
         ("line-slide", 1024),
         pytest.param("far-and-back", 64, marks=pytest.mark.slow),
     ],
