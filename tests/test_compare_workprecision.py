@@ -208,6 +208,9 @@ def test_an_order_rests_on_no_failed_step_and_on_none_within_the_error_of_the_re
     assert (found.order, found.count) == (pytest.approx(2.0), 3)
     np.testing.assert_allclose(found.at(points[1:4]), errors[1:4], rtol=1e-12)
     assert isnan(observed(points[3:], errors[3:], 1e-4).order)
+    noisy = np.array([4e-2, 1.2e-2, 2.4e-3, 7e-4])
+    _, covariance = np.polyfit(np.log(points[1:5]), np.log(noisy), 1, cov=True)
+    assert observed(points[1:5], noisy).deviation == pytest.approx(np.sqrt(covariance[0, 0]), rel=1e-9)
     ladder = measured([4e-2, 1e-2, 2.5e-3, 2e-3], reference_error=7e-4)
     assert ladder.order.order == pytest.approx(2.0)
 
