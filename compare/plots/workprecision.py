@@ -73,17 +73,11 @@ def panels(steps: DataFrame) -> list[Panel]:
     groups: dict[tuple[str, str], list[MeasuredLadder]] = {}
     for each in ladders(steps):
         groups.setdefault((each.contact, each.label), []).append(each)
-    return [
-        Panel(
-            tuple(
-                sorted(
-                    (each for each in own if each.estimate == own[0].estimate or each.ladder == own[0].ladder),
-                    key=lambda each: each.estimate != own[0].estimate,
-                )
-            )
-        )
-        for own in groups.values()
-    ]
+    found = []
+    for first, *others in groups.values():
+        kept = [each for each in others if first.estimate == each.estimate or first.ladder == each.ladder]
+        found.append(Panel((first, *sorted(kept, key=lambda each: each.estimate != first.estimate))))
+    return found
 
 
 def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float], float]]:
@@ -137,17 +131,15 @@ def _panel(axes: Axes, panel, looks):
     own = panel.first.reference_error
     for curve in solved:
         look, errors = dict(_look(panel, curve, looks)), np.maximum(curve.errors, LEAST)
-        marker = look.pop("marker")
+        marker, hollow = look.pop("marker"), (errors <= own) & (curve.estimate != "indicator")
         axes.plot(curve.processor, errors, **look)
-        dots(
-            axes, curve.processor, errors, (errors <= own) & (curve.estimate != "indicator"), marker, look["color"]
-        )
+        dots(axes, curve.processor, errors, hollow, marker, look["color"])
     if not solved:
         axes.text(0.5, 0.5, "not solved", transform=axes.transAxes, ha="center", va="center")
         return
     _room(axes, panel)
     if own > 0:
-        axes.axhspan(axes.get_ylim()[0], own, color=style.grey(0.9), zorder=0, linewidth=0)
+        hidden(axes, axes.get_ylim()[0], own)
     for curve in panel.answers:
         if _falls(curve):
             guide(axes, *_power(curve))
@@ -176,16 +168,20 @@ def dots(
         axes.plot(x[part], y[part], linestyle="none", zorder=3, **own)
 
 
+def hidden(axes: Axes, least: float, error: float) -> None:
+    """Band of errors that are not told from that of the reference."""
+    axes.axhspan(least, error, color=style.grey(0.9), zorder=0, linewidth=0)
+
+
 def guide(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:
     """The power that errors follow."""
-    axes.plot(x, y, color=style.grey(0.3), linestyle=(0, (1, 1.5)), linewidth=style.width(0.7), zorder=1)
+    axes.plot(x, y, **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
 
 
 def corner(axes: Axes, text: str) -> None:
     """A small text in the lower left corner."""
-    axes.text(
-        0.02, 0.02, text, transform=axes.transAxes, fontsize=style.tiny(), color=style.grey(0.3), va="bottom"
-    )
+    look: dict[str, Any] = {"fontsize": style.tiny(), "color": style.grey(0.3), "va": "bottom"}
+    axes.text(0.02, 0.02, text, transform=axes.transAxes, **look)
 
 
 def _look(panel, curve, looks):
@@ -223,11 +219,9 @@ def _letters(panel) -> Iterator[Letter]:
 
 
 def _legend(drawing, drawn, looks):
-    entries = {
-        label: Line2D([], [], **look, label=label, markersize=style.mark()) for label, look in looks.items()
-    }
+    entries = dict(looks)
     for panel in drawn:
         for k, estimate in enumerate(panel.estimates[1:]):
-            look = {**BESIDE[k % len(BESIDE)], "markersize": style.mark(), "linewidth": style.width(0.7)}
-            entries.setdefault(estimate, Line2D([], [], **look, label=estimate))
-    style.legend(drawing, list(entries.values()), "outside lower center", len(entries))
+            entries.setdefault(estimate, {**BESIDE[k % len(BESIDE)], "linewidth": style.width(0.7)})
+    handles = [Line2D([], [], **look, label=label, markersize=style.mark()) for label, look in entries.items()]
+    style.legend(drawing, handles, "outside lower center", len(handles))

@@ -83,7 +83,7 @@ def figure(
         _times(axes, _along(steps, setting), f"{labels[setting]} [1]")
     for axes, letter in zip(panels.flat, "abcdef", strict=True):
         axes.set_title(f"({letter})")
-        style.decades(axes)
+    style.decades(*panels.flat)
     _shares(contact)
     style.legend(drawing, times.get_legend_handles_labels()[0], "outside upper center", 3)
     return drawing
@@ -97,8 +97,8 @@ def _along(steps: DataFrame, setting: str) -> dict[str, DataFrame]:
 def _look(name, rows):
     marker, line = LOOKS[name]
     colour = style.COLOUR[rows["solver"].iloc[0]]
-    face = colour if name in FILLED else style.paper()
-    return {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": style.mark()}, line
+    face, own = colour if name in FILLED else style.paper(), {"linestyle": line, "linewidth": style.width(0.8)}
+    return own | {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": style.mark()}
 
 
 def _law(laws: DataFrame, ladder: str, cost: str):
@@ -115,17 +115,13 @@ def _against_points(axes: Axes, ladders, laws, cost, label, times=1.0):
     for name, rows in ladders.items():
         if rows.empty:
             continue
-        points, line = _look(name, rows)
-        values = times * rows[cost]
-        shown = values > 0
-        axes.plot(
-            rows["x"][shown], values[shown], linestyle="none", label=rows["title"].iloc[0], zorder=3, **points
-        )
+        look, values = _look(name, rows), times * rows[cost]
+        shown, none = values > 0, {"linestyle": "none", "zorder": 3}
+        axes.plot(rows["x"][shown], values[shown], label=rows["title"].iloc[0], **look | none)
         law = _law(laws, name, cost)
         if law is not None:
             x = np.geomspace(law["lowest"], law["highest"], 60)
-            look = {"color": points["color"], "linestyle": line, "linewidth": style.width(0.8)}
-            axes.plot(x, times * _at(law, x), zorder=2, **look)
+            axes.plot(x, times * _at(law, x), **look | {"marker": "", "zorder": 2})
     axes.set(xscale="log", yscale="log", ylabel=label)
 
 
@@ -138,49 +134,35 @@ def _forecasts(axes: Axes, ladders, laws, forecasts, what, cost, largest, times=
         x = np.geomspace(law["highest"], largest, 40)
         look: dict[str, Any] = {"color": style.COLOUR[rows["solver"].iloc[0]], "linewidth": style.width(0.65)}
         axes.plot(x, times * _at(law, x), **look | {"linewidth": style.width(0.45), "alpha": 0.6}, zorder=1)
-        bars = [[each["value"] - each["low"]], [each["high"] - each["value"]]]
-        marks: dict[str, Any] = {
-            "marker": LOOKS[each["ladder"]][0],
-            "markersize": style.mark(0.65),
-            "linestyle": "none",
-        }
-        axes.errorbar([place], [each["value"]], bars, **marks, **look)
+        look |= {"marker": LOOKS[each["ladder"]][0], "markersize": style.mark(0.65), "linestyle": "none"}
+        axes.errorbar(
+            [place], [each["value"]], style.bars(*[[each[end]] for end in ("value", "low", "high")]), **look
+        )
 
 
 def _machines(axes: Axes, memories, largest):
     axes.set_xlim(right=max(2 * largest, axes.get_xlim()[1]))
     for k, size in enumerate(memories):
-        axes.axhline(size, color=style.grey(0.6), linewidth=style.width(0.65), zorder=0)
-        axes.annotate(
-            f"{size} GiB",
-            (0.01 + 0.12 * k, size),
-            xycoords=("axes fraction", "data"),
-            fontsize=style.tiny(),
-            color=style.grey(0.35),
-            va="bottom",
-        )
+        axes.axhline(size, **style.line(0.6, 0.65, zorder=0))
+        said: dict[str, Any] = {"fontsize": style.tiny(), "color": style.grey(0.35), "va": "bottom"}
+        axes.annotate(f"{size} GiB", (0.01 + 0.12 * k, size), xycoords=("axes fraction", "data"), **said)
 
 
 def _counts(axes: Axes, ladders):
     """Time over that of the first: what modes or steps add."""
     for name, rows in ladders.items():
-        points, line = _look(name, rows)
         label = f"{rows['title'].iloc[0]}: {rows['along'].iloc[0]}"
-        line = {"linestyle": line, "linewidth": style.width(0.8), "label": label}
-        axes.plot(rows["x"], rows["processor"] / rows["processor"].iloc[0], **line, **points)
-    axes.set(
-        xscale="log", yscale="log", xlabel="modes, or steps in time [1]", ylabel="time over that of the first [1]"
-    )
+        axes.plot(rows["x"], rows["processor"] / rows["processor"].iloc[0], label=label, **_look(name, rows))
+    axes.set(xscale="log", yscale="log", xlabel="modes, or steps in time [1]")
+    axes.set_ylabel("time over that of the first [1]")
     if ladders:
         axes.legend(fontsize=style.tiny())
 
 
 def _times(axes: Axes, ladders, label):
     for name, rows in ladders.items():
-        points, line = _look(name, rows)
         rows = rows.sort_values("x", kind="stable")
-        line = {"linestyle": line, "linewidth": style.width(0.8), "label": rows["title"].iloc[0]}
-        axes.plot(rows["x"], rows["processor"], **line, **points)
+        axes.plot(rows["x"], rows["processor"], label=rows["title"].iloc[0], **_look(name, rows))
     axes.set(xscale="log", yscale="log", xlabel=label, ylabel="processor time [s]")
     # A decade at least: a cost that hardly varies is to look so.
     found = np.concatenate([[np.nan], *(rows["processor"] for rows in ladders.values())])

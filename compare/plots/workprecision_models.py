@@ -14,7 +14,7 @@ from ..page import Plot, Tables
 from ..statistics.sampling import Mean, SamplingPlan, envelope
 from . import style
 from .lettering import Letter, letter, write
-from .workprecision import Panel, corner, dots, guide, marks, panels
+from .workprecision import Panel, corner, dots, guide, hidden, marks, panels
 from .workprecision_surfaces import means, plan_look
 
 # Size of a panel [inch], and of what surrounds them all.
@@ -107,7 +107,7 @@ def _draw_ladders(axes: Axes, panel: Panel):
             solved = np.isfinite(curve.processor)
             guide(axes, curve.processor[solved], np.maximum(curve.order.at(curve.values)[solved], LEAST))
     if own > 0:
-        axes.axhspan(LEAST / 10, own, color=style.grey(0.9), zorder=0, linewidth=0)
+        hidden(axes, LEAST / 10, own)
     if failed := sum(len(curve.failures) for curve in panel.curves):
         corner(axes, f"not solved: {failed}")
 
@@ -126,7 +126,7 @@ def _draw_mean(axes: Axes, mean: Mean):
         band: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
         axes.axhspan(max(mean.floor.least, LEAST), mean.floor.most, **band)
     if mean.grid_error > 0:
-        axes.axhspan(LEAST / 10, mean.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
+        hidden(axes, LEAST / 10, mean.grid_error)
     if mean.failed:
         corner(axes, f"not solved: {mean.failed}")
 
@@ -186,18 +186,8 @@ def _share(group: Sequence[Axes], rough):
 
 
 def _legend(drawing, drawn):
-    entries: list = [
-        Line2D(
-            [],
-            [],
-            color=style.COLOUR[solver],
-            marker=style.MARKER[solver],
-            linestyle=style.LINE[solver],
-            markersize=style.mark(0.8),
-            label=style.LABEL[solver],
-        )
-        for solver in ("MDR", "BEM")
-    ]
+    looks = (style.look(solver, markersize=style.mark(0.8)) for solver in ("MDR", "BEM"))
+    entries: list = [Line2D([], [], **look) for look in looks]
     if any(map(_rough, drawn)):
         entries.append(Line2D([], [], **_cheapest(), label="cheapest plan in 3D"))
         entries.append(Patch(color=style.COLOUR["MDR"], alpha=0.2, linewidth=0, label="error that 1D keeps, 95 %"))

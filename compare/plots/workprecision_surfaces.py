@@ -15,6 +15,7 @@ from ..page import Plot, Tables
 from ..statistics.sampling import Bias, Effort, Level, Mean, SamplingPlan, Scatter, cheapest
 from . import style
 from .lettering import Letter, letter, write
+from .workprecision import hidden
 
 COLUMNS, HEIGHT, AROUND = 3, 2.2, 0.55
 # Surfaces that curves are drawn to at least.
@@ -112,21 +113,15 @@ def _panel(axes: Axes, each: Mean, taken):
     if isfinite(scatter):
         axes.plot(counts, scatter / np.sqrt(counts), **_scatter(), zorder=1)
     if isfinite(each.grid_error) and each.grid_error > 0:
-        axes.axhspan(LEAST / 10, each.grid_error, color=style.grey(0.9), zorder=0, linewidth=0)
+        hidden(axes, LEAST / 10, each.grid_error)
     for level, effort in taken.items():
-        axes.plot(
-            effort.counts[0],
-            level,
-            marker=TAKEN[len(effort.counts) > 1],
-            markersize=style.mark(0.9) if len(effort.counts) > 1 else 6,
-            color=style.ink(),
-            linestyle="none",
-            zorder=5,
-        )
+        corrected = len(effort.counts) > 1
+        size = style.mark(0.9) if corrected else 6
+        axes.plot(effort.counts[0], level, TAKEN[corrected], color=style.ink(), markersize=size, zorder=5)
 
 
 def _scatter():
-    return {"color": style.grey(0.45), "linewidth": style.width(0.8), "linestyle": ":"}
+    return style.line(0.45, 0.8, linestyle=":")
 
 
 def _taken(each, levels) -> dict[float, Effort]:
@@ -142,16 +137,10 @@ def _label(axes, known: Sequence[SamplingPlan]):
             together[-1].append(plan)
         else:
             together.append([plan])
+    place = {"xytext": (2, 0), "textcoords": "offset points", "fontsize": style.tiny(), "va": "center"}
     for close in together:
-        axes.annotate(
-            ", ".join(map(str, sorted(plan.levels[0].points[0] for plan in close))),
-            (1.0, close[0].bias.size),
-            xycoords=axes.get_yaxis_transform(),
-            xytext=(2, 0),
-            textcoords="offset points",
-            fontsize=style.tiny(),
-            va="center",
-        )
+        text = ", ".join(map(str, sorted(plan.levels[0].points[0] for plan in close)))
+        axes.annotate(text, (1.0, close[0].bias.size), xycoords=axes.get_yaxis_transform(), **place)
 
 
 def _limits(axes, drawn):
