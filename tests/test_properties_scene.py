@@ -121,15 +121,15 @@ def test_ordinary_numbers_have_an_answer(solver):
 
 
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
-@pytest.mark.parametrize("value", NEVER, ids=repr)
-def test_what_can_be_no_value_is_named_with_its_field(scene, part, name, value):
+def test_what_can_be_no_value_is_named_with_its_field(scene, part, name):
     """-1 is a value of none but poisson_ratio, of which it is just out of range."""
-    with pytest.raises(ValidationError) as caught:
-        placed(getattr(scene, part), name, value)
-    mistake = caught.value.errors()[0]
-    assert mistake["loc"][0] == name
-    assert mistake["input"] is value or mistake["input"] == value or value == [1.0]
-    assert len(mistake["msg"]) > 10
+    for value in NEVER:
+        with pytest.raises(ValidationError) as caught:
+            placed(getattr(scene, part), name, value)
+        mistake = caught.value.errors()[0]
+        assert mistake["loc"][0] == name
+        assert mistake["input"] is value or mistake["input"] == value or value == [1.0]
+        assert len(mistake["msg"]) > 10
 
 
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
@@ -146,14 +146,13 @@ def test_extreme_numbers_are_solved_within_the_laws_or_declined_with_a_reason(sc
         assert lawful(answered(solver, changed)), value
 
 
-@pytest.mark.parametrize("value", NEVER, ids=repr)
 @pytest.mark.parametrize("name", ["duration", "speed", "load", "amplitude", "frequency"])
-def test_stages_take_no_impossible_values(name, value):
-    if name == "speed" and value == -1.0:
-        return  # backwards
-    with pytest.raises(ValidationError) as caught:
-        replace(START.stages[0], **{name: value})
-    assert caught.value.errors()[0]["loc"] == (name,)
+def test_stages_take_no_impossible_values(name):
+    for value in NEVER:
+        if name != "speed" or value != -1.0:  # backwards
+            with pytest.raises(ValidationError) as caught:
+                replace(START.stages[0], **{name: value})
+            assert caught.value.errors()[0]["loc"] == (name,)
 
 
 @pytest.mark.parametrize("name", ["duration", "speed", "load", "depth"])
