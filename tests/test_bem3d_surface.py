@@ -55,6 +55,19 @@ def test_power_on_a_ring_of_wave_vectors_is_the_density():
     assert power == pytest.approx(expected, rel=SHELL)
 
 
+def test_the_longest_waves_have_the_power_of_their_cells():
+    r, offsets = rough(), (np.arange(400) + 0.5) / 400 - 0.5
+    power = np.abs(draw(r).amplitudes) ** 2
+
+    def share(k_y, k_x):
+        q = r.q_min * np.hypot(k_x + offsets[None, :], k_y + offsets[:, None])
+        return power[len(power) // 2 + k_y, k_x] / r.density_2d(q, r.q_max(0.0)).mean()
+
+    # of 64 points in a cell, where the density is cut off below the longest wave and where it is smooth
+    for k, accuracy in (((0, 1), 0.05), ((1, 1), 0.05), ((0, 2), 2e-3)):
+        assert share(*k) == pytest.approx(share(5, 6), rel=accuracy)
+
+
 def test_slopes_are_the_derivative_of_heights():
     surface, x = draw(rough()), np.linspace(-3e-3, 4e-3, 9)
     step = 1e-8

@@ -408,3 +408,11 @@ def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
     # 108 and 70 of single planes were measured, a product of two components counting twice; the pressure takes
     # 22. Without the slipping points of the coarse grid it is 130 and 90
     assert tangential < most
+
+
+def test_where_nothing_sticks_the_displacement_is_the_least_at_which_all_but_one_point_slips_forward():
+    image, everywhere = np.array([[1.0, 3.0, 2.0]]), np.ones(3, bool)
+    assert stickslip._level(image, np.ones((1, 3)), everywhere, np) == 3.0
+    along = np.array([[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])
+    assert stickslip._level(np.vstack([image, 5 * image]), along, everywhere, np) == 3.0
+    assert stickslip._level(image, np.ones((1, 3)), np.array([True, False, False]), np) == 2.5
