@@ -3,20 +3,21 @@
 import json
 import os
 import platform
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, is_dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
+from pydantic_core import to_json
 
 from scene.reading import InvalidInput
 
 from .csvfiles import write_text
 from .page import Page, Plot
-from .store import PACKAGES, finite
+from .store import PACKAGES
 
 if TYPE_CHECKING:
     from .declaration import Study
@@ -152,14 +153,8 @@ def _read(path):
 
 def _storable(value):
     """What JSON can hold: null for NaN, and what is no value of JSON as its fields or as text."""
-    if is_dataclass(value) and not isinstance(value, type):
-        value = asdict(value)
-    if isinstance(value, Mapping):
-        return {str(name): _storable(entry) for name, entry in value.items()}
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, list | tuple | set | frozenset):
-        return [_storable(entry) for entry in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    return finite(value) if value is None or isinstance(value, str | int | float) else str(value)
+    return json.loads(to_json(value, inf_nan_mode="null", fallback=_plain))
+
+
+def _plain(value):
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else str(value)

@@ -370,8 +370,3 @@ def _package_digest(package):
     return code_digest(
         Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
     )
-
-
-def finite(value):
-    """A value as JSON can hold it: None for NaN and infinities."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value
