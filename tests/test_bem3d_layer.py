@@ -94,6 +94,9 @@ def test_long_waves_are_springs_and_short_ones_a_half_space(base):
     with np.errstate(over="raise", invalid="raise", divide="raise"):
         assert base.yields(1e-6) / 1e-6 == pytest.approx(base.springs, rel=1e-10, abs=1e-12)
         np.testing.assert_array_equal(base.yields(np.array([20.0, 1e3, 1e6, np.inf]))[1:], 1.0)
+    if base.springs > 0:  # and springs that are coupled over a length, the less the longer the wave
+        coupled = abs(base.yields(1e-3) / 1e-3 - base.springs) / base.springs / 1e-6
+        assert coupled == pytest.approx(base.spread**2, rel=1e-3, abs=1e-5)
     if base == Bonded(0.5):
         assert base.yields(1e-6) == pytest.approx(2e-18 / 3, rel=1e-10)
 
