@@ -254,7 +254,7 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
 
 
 def test_figures_are_functions_of_what_their_files_hold(report):
-    drawn = {"contact", "force-depth", "friction-load"}
+    drawn = {"force-depth", "friction-load"}
     plots = [each for each in report[2].every(Plot) if each.name.removeprefix("small-sphere/") in drawn]
     assert len(plots) == len(drawn)
     for plot in plots:

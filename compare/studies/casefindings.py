@@ -261,10 +261,7 @@ class CaseFindings:
         return self._finding(claim, found, (place, 0), f"v = {speed:.3g} m/s", "friction-speed")
 
     def _finding(self, claim, found, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
-        value, low, high, grid = (
-            float(each[at])
-            for each in (found.value, found.low, found.high, np.broadcast_to(found.grid, found.value.shape))
-        )
+        value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
         return Finding(
             claim=claim,
             value=value - less,

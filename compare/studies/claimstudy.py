@@ -65,9 +65,7 @@ class ClaimStudy(Study):
     study: ReadyStudy
     size: str
     source: str | None = None
-    _judged: dict[int, tuple[xarray.DataTree, JudgedStudy]] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    _judged: dict = field(default_factory=dict, init=False, repr=False, compare=False)
 
     command = "study"
 
@@ -133,11 +131,10 @@ class ClaimStudy(Study):
 
     def judged(self, answers: xarray.DataTree) -> JudgedStudy:
         """Every series and all together, judged once for the same answers."""
-        if id(answers) not in self._judged:
+        if self._judged.get("answers") is not answers:
             series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
-            self._judged.clear()
-            self._judged[id(answers)] = answers, JudgedStudy(series, tuple(family_findings(series)))
-        return self._judged[id(answers)][1]
+            self._judged.update(answers=answers, found=JudgedStudy(series, tuple(family_findings(series))))
+        return self._judged["found"]
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
         return self.judged(answers).findings
