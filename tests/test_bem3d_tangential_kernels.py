@@ -83,12 +83,12 @@ def test_every_library_gives_the_same_pairs(other, accuracy, points):
         np.testing.assert_allclose(found, expected, atol=accuracy * np.abs(expected).max())
 
 
-@pytest.mark.parametrize("points", [16, 17])
-def test_whole_planes_and_blocks_are_one_product(points):
+@pytest.mark.parametrize(("points", "side"), [(16, 32), (17, 34), (17, 17)])
+def test_whole_planes_and_blocks_are_one_product(points, side):
     rng, given = np.random.default_rng(1), tractions(points)
-    padded = 2 * points, 2 * points
-    symbols = rng.standard_normal((3, points + 1, points + 1))
-    symbols[1, [0, -1]] = symbols[1, :, [0, -1]] = 0  # odd, and real planes
+    padded, half = (side, side), side // 2 + 1
+    symbols, ends = rng.standard_normal((3, half, half)), [0] if side % 2 else [0, -1]
+    symbols[1, ends] = symbols[1, :, ends] = 0  # odd, and real planes
     blocked = Engine().pair(list(symbols), (points, points), padded)
     whole = WholePair(list(symbols), (points, points), padded, np)
     out = np.empty_like(given)

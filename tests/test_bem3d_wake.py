@@ -116,7 +116,11 @@ def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
     solver, result = solved(scene, points=48, steps=40, frames=1)
     around = surroundings(solver, scene, result.fields, **BEYOND)
     np.testing.assert_allclose(around.gap, result.fields["gap"], rtol=0, atol=1e-12 * result.depth)
-    seen = result.fields["frame_displacement"][-1]
+    seen, late = (
+        result.fields["frame_displacement"][-1],
+        result.fields["frame_time"][-1] - result.fields["time"][-1],
+    )
+    assert result.fields["frame_shift"][-1] == pytest.approx(0.3 * late, abs=1e-12)
     # the depth is held; the gap is measured where the last step ends and drawn where its pixels are, of slope 0.2
     off = 0.2 * (around.x[1] - around.x[0])
     np.testing.assert_allclose(around.displacement, seen, rtol=0, atol=off)
