@@ -1,6 +1,7 @@
 """An indenter that turns back, changes its speed, comes in at an angle and oscillates over a foundation."""
 
 from dataclasses import replace
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -205,6 +206,12 @@ def test_an_oscillation_has_two_hundred_steps_a_period_at_least_and_is_met_at_ea
     assert np.diff(fields["time"][within]).max() <= (1 + 1e-9) / 200 / 0.9
     found = fields["depth" if by == "depth" else "normal_force"]
     np.testing.assert_allclose(found, motion.prescribed(fields["time"]), rtol=1e-12)
+
+
+def test_a_load_is_met_at_the_place_of_a_step_at_which_a_dashpot_creeps_linearly():
+    for z in (1e-6, 9.99e-4, 1.001e-3, 1.0, 50.0):
+        place = 1 / (1 - (-Decimal(z)).exp()) - 1 / Decimal(z)
+        assert marching._place(z) == pytest.approx(float(place), rel=1e-10)
 
 
 def test_too_many_periods_are_refused_with_what_to_change():
