@@ -335,7 +335,7 @@ def solved():
     """Answers of both solvers to a small series."""
     rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
     scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
-    series = Series("s", "S", scene, (1e-2, 1.5e-2), (2.0, 8.0), 4, 4, BEM(points=64), MDR(points=1000))
+    series = Series("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
     tasks = rectangle.unique(series.rectangles)
     return Contacts(series, rectangle.tree(series.rectangles, {task: task.solve() for task in tasks}))
 
