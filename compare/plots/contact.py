@@ -53,7 +53,8 @@ def figure(tables: Tables, radius: float, pixel: float, flow: str) -> Figure:
     span = (x.min(), x.max())
     touching.section(left, line, "MDR", span, touching.heights([line], span))
     left.set_title("1D: profile")
-    left.legend(handles=left.lines[-1:], loc="lower right", handlelength=1.4)
+    left.lines[-1].set_label("real contact")
+    left.legend(loc="lower right", handlelength=1.4)
     left.text(0.5, 0.9, "rigid indenter", transform=left.transAxes, fontsize=style.small(), ha="center")
     _map(drawing, right, tables[PLANE], radius * 1e3, pixel)
     for axes in (left, right):

@@ -32,15 +32,17 @@ class MarchFigure:
         columns = above.add_gridspec(rows, 1 + maps, width_ratios=(1, 1.5) if maps else (1,))
         self._map = above.add_subplot(columns[:, 0]) if maps else None
         self._sections = [above.add_subplot(columns[row, -1]) for row in range(rows)]
-        self._histories = below.subplots(1, len(HISTORIES))
+        histories = below.subplots(1, len(HISTORIES))
         instants = range(len(film.times))
         seen = [_section(film, solver, k) for solver in self._solvers for k in instants]
         self._heights = touching.heights(seen, film.span)
         self._highest = touching.highest_pressure(film.fields["BEM"]["frame_pressure"]) if maps else 1.0
         if self._map is not None:
             self._lay_out_map(self._map, above)
-        for axes, name in zip(self._histories, HISTORIES, strict=True):
+        self._past: list[tuple[Line2D, np.ndarray, np.ndarray]] = []
+        for axes, name in zip(histories, HISTORIES, strict=True):
             self._lay_out_history(axes, name)
+        histories[0].legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2, borderaxespad=0.2)
 
     def show(self, k: int) -> None:
         """Draw the k-th instant in place of the one before."""
@@ -60,8 +62,9 @@ class MarchFigure:
                 axes.set_xlabel("")
             if not seen.touching.any():
                 touching.remark(axes, "nothing touches here")
-        for axes, name in zip(self._histories, HISTORIES, strict=True):
-            self._show_history(axes, name, film.times[k])
+        for line, time, values in self._past:
+            past = time <= scale * film.times[k] * (1 + 1e-9)
+            line.set_data(time[past], values[past])
 
     def _lay_out_map(self, axes: Axes, drawing):
         """Axes of the pressure and the bar of its colours, of all instants."""
@@ -94,32 +97,16 @@ class MarchFigure:
         touching.remark(axes, way if (seen.pressure > 0).any() else f"{way}, nothing touches")
 
     def _lay_out_history(self, axes: Axes, name):
-        film = self.film
-        (scale, seconds), (up, unit), (low, high) = self._units(name)
+        """Axes of a force; its curves are kept, to show what is past."""
+        film, limits = self.film, self.film.limits(name)
+        (scale, seconds), (low, high) = prefixed(film.times[-1], "s"), limits
+        up, unit = prefixed(limits, "N/m" if isinstance(film.scene.indenter, Cylinder) else "N")
+        for solver in self._solvers:
+            (line,) = axes.plot([], [], **style.look(solver, marker=""))
+            self._past.append((line, scale * film.fields[solver]["time"], up * film.fields[solver][name]))
         room = ROOM * ((high - low) or 1.0)
         axes.set(xlim=(0, scale * film.scene.motion.duration), ylim=(up * (low - room), up * (high + room)))
         axes.set(xlabel=f"time [{seconds}]", ylabel=f"{HISTORIES[name]} [{unit}]")
-        if axes is self._histories[0]:
-            lines = [Line2D([], [], **_look(solver)) for solver in self._solvers]
-            axes.legend(handles=lines, loc="lower left", bbox_to_anchor=(0, 1), ncols=2, borderaxespad=0.2)
-
-    def _show_history(self, axes: Axes, name, now):
-        _clear(axes)
-        (scale, _), (up, _), _ = self._units(name)
-        for solver in self._solvers:
-            time, values = self.film.fields[solver]["time"], self.film.fields[solver][name]
-            past = time <= now * (1 + 1e-9)
-            axes.plot(scale * time[past], up * values[past], **_look(solver))
-
-    def _units(self, name):
-        """Labels of the axes of time and of a history, and its limits [SI]."""
-        limits = self.film.limits(name)
-        unit = "N/m" if isinstance(self.film.scene.indenter, Cylinder) else "N"
-        return prefixed(self.film.times[-1], "s"), prefixed(limits, unit), limits
-
-
-def _look(solver):
-    return style.look(solver, marker="")
 
 
 def _clear(axes):

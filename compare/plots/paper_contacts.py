@@ -91,7 +91,9 @@ def _panel(axes: Axes, line, limits, width, title) -> None:
     # A marker, too, since contact may be at one node.
     bold = {"linewidth": style.width(width), "markersize": style.width(width), "solid_capstyle": "round"}
     bold |= {"marker": "o", "markeredgewidth": 0}
-    touching.bodies(axes, x * 1e3, body * 1e6, surface * 1e6, contact, axes.get_ylim(), **bold)
+    drawn = touching.bodies(axes, x * 1e3, body * 1e6, surface * 1e6, contact, axes.get_ylim(), **bold)
+    for artist, label in zip(drawn, ("surface of the elastomer", "real contact"), strict=True):
+        artist.set_label(label)
     _scale(axes)
 
 

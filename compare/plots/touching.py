@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap, to_rgb
 from matplotlib.image import AxesImage
+from matplotlib.lines import Line2D
 from matplotlib.typing import ColorType
 from pandas import DataFrame
 
@@ -79,14 +80,17 @@ def heights(sections: Sequence[Section], span: tuple[float, float]) -> tuple[flo
     return float(low - BELOW * room), float(high + ABOVE * room)
 
 
-def bodies(axes: Axes, x, indenter, surface, touching, ends: Sequence[float], **look: Any) -> None:
-    """Elastomer and rigid indenter between two heights, real contact in bold, all in the units of the axes."""
+def bodies(axes: Axes, x, indenter, surface, touching, ends: Sequence[float], **look: Any) -> list[Line2D]:
+    """Elastomer and rigid indenter between two heights, in the units of the axes.
+
+    Returns the lines of the surface and of real contact, which is in bold; look : of that.
+    """
     bottom, top = ends
     axes.fill_between(x, np.maximum(surface, bottom), bottom, color=elastomer(), linewidth=0)
     axes.fill_between(x, np.minimum(indenter, top), top, color=rigid(), linewidth=0)
-    axes.plot(x, surface, color=skin(), linewidth=style.width(0.65), label="surface of the elastomer")
-    bold: dict[str, Any] = {"color": style.COLOUR["MDR"], "linewidth": style.width(2.2), "solid_capstyle": "butt"}
-    axes.plot(x, np.where(touching, surface, np.nan), label="real contact", **bold | look)
+    look = {"color": style.COLOUR["MDR"], "linewidth": style.width(2.2), "solid_capstyle": "butt", **look}
+    thin = axes.plot(x, surface, color=skin(), linewidth=style.width(0.65))
+    return [*thin, *axes.plot(x, np.where(touching, surface, np.nan), **look)]
 
 
 def section(
