@@ -109,7 +109,7 @@ def test_every_contact_has_a_picture_with_units_and_words_and_its_data(name):
     assert all(len(table) for name, table in plot.tables.items() if name != contact_maps.PRESSURE)
 
 
-@pytest.mark.parametrize("journal", ["aip", "elsevier"])  # the narrowest page and the widest
+@pytest.mark.parametrize("journal", ["aip", pytest.param("elsevier", marks=pytest.mark.slow)])  # narrow and wide
 @pytest.mark.parametrize("name", ["line", pytest.param("smooth", marks=pytest.mark.slow)])
 def test_nothing_written_is_smaller_than_a_journal_allows_or_leaves_the_figure(name, journal):
     found = seen(name)
