@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, marching
+from bem3d.arrays import as_drawn, of_roughness
 from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
 from bem3d.grid import Grid
 from bem3d.layerwaves import PIECES, Taken, taking
@@ -186,6 +187,13 @@ def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
     taking.cache_clear()  # a layer's table is
     _, most = held_by(asked.solve, scene)
     assert most / FACTOR < asked.plan(scene).memory < most * FACTOR
+
+
+def test_a_surface_of_many_waves_is_drawn_in_the_memory_that_a_plan_says():
+    scene = replace(SCENES["rough"], roughness=replace(ROUGH, shortest=ROUGH.longest / 128))
+    _, most = held_by(lambda rough: RoughSurface.draw(rough, rough.q_max(0.0)), scene.roughness)
+    (drawn,) = as_drawn([*of_roughness(scene, 1e-6, 64)])
+    assert most / FACTOR < drawn.bytes < most * FACTOR
 
 
 def test_a_plan_draws_no_surface_and_holds_next_to_nothing(monkeypatch):
