@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import nnls
 
 from bem3d import contact, influence
+from bem3d.krylov import conjugate_gradients
 
 TOLERANCE = 1e-8
 N = 12
@@ -69,6 +70,15 @@ def test_symmetric_problem_agrees_with_nonnegative_least_squares():
     expected, _ = nnls(root.T, np.linalg.solve(root, (0.3 - z).ravel()), maxiter=10_000)
     found = contact.solve(operator, z, np.where(z < 0.3, 1.0, 0.0), 1e-10, depth=0.3, symmetric=True)
     np.testing.assert_allclose(found.pressure.ravel(), expected, atol=1e-7 * expected.max())
+
+
+def test_conjugate_gradients_take_as_many_steps_as_the_square_root_of_the_condition_says():
+    matrix, _, operator = problem(0)
+    on_set = contact._OnSet(operator, (), np.ones((N, N), bool), False, contact.FUSED)
+    b, root = np.random.default_rng(0).standard_normal(N * N), np.sqrt(np.linalg.cond(matrix))
+    steps = int(np.ceil(np.log(2 * root / 1e-8) / np.log((root + 1) / (root - 1))))
+    found = conjugate_gradients(on_set, b, 1e-12, 0.0, steps)
+    assert np.linalg.norm(matrix @ found - b) < 1e-8 * np.linalg.norm(b)
 
 
 @pytest.mark.parametrize("length", [0, 30.0])
