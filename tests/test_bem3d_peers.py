@@ -134,6 +134,11 @@ def agree(result, peer):
     return np.all(np.array(apart(result, peer)) <= (PRESSURE, GAP, POINTS))
 
 
+def complementarity(pressure, gap, height):
+    """The peers' error, by which all codes can be compared."""
+    return np.sum(np.abs(pressure * gap)) / (pressure.sum() * height)
+
+
 # Mean pressure over E* times the rms gradient, from a few asperities to the last dry spots to none: what touches.
 LOADS = {0.035: 0.08, 0.8: 0.92, 1.7: 0.9997, 2.5: 1.0}
 
@@ -148,6 +153,18 @@ def test_a_rough_cell_agrees_with_tamaas_up_to_full_contact(tamaas, load):
     assert result.measures["mean_pressure"] == pytest.approx(peer[0].mean(), rel=1e-12)
 
 
+@pytest.mark.parametrize("load", [0.035, 1.4])
+def test_a_finer_rough_cell_agrees_with_both_peers(tamaas, contact_mechanics, load):
+    pressure = load * SLOPE
+    result, heights = ours(Plane(), Indent(pressure=pressure), rough_plane(256, seed=2), points=256)
+    substrate = contact_mechanics.PeriodicFFTElasticHalfSpace(heights.shape, 1.0, (1.0, 1.0))
+    for peer in (
+        by_tamaas(tamaas, heights, pressure),
+        by_contact_mechanics(substrate, heights, 1.0, external_force=pressure),
+    ):
+        assert agree(result, peer), apart(result, peer)
+
+
 def test_a_cell_pressed_to_a_mean_gap_carries_the_pressure_of_tamaas(tamaas):
     wanted = 0.02
     _, heights = ours(Plane(), Indent(pressure=wanted), rough_plane(128))
@@ -155,6 +172,17 @@ def test_a_cell_pressed_to_a_mean_gap_carries_the_pressure_of_tamaas(tamaas):
     result, _ = ours(Plane(), Indent(gap=float(peer[1].mean())), rough_plane(128))
     assert agree(result, peer), apart(result, peer)
     assert result.measures["mean_pressure"] == pytest.approx(wanted, rel=PRESSURE)
+
+
+@pytest.mark.parametrize("load", [0.035, 0.8])
+def test_the_complementarity_error_of_the_peers_follows_our_tolerance(tamaas, load):
+    # theirs is a mean over the pressure, ours the largest single gap over a depth of a few rms heights
+    pressure = load * SLOPE
+    for tolerance in (1e-4, 1e-6, 1e-8):
+        result, heights = ours(Plane(), Indent(pressure=pressure), rough_plane(128), tolerance=tolerance)
+        fields, height = result.fields, result.measures["rms_height"]
+        assert complementarity(fields["pressure"], fields["gap"], height) <= 2 * tolerance
+    assert complementarity(*by_tamaas(tamaas, heights, pressure), height) <= LEFT
 
 
 def test_the_comparison_of_cells_can_fail(tamaas):
@@ -213,6 +241,21 @@ def test_a_viscoelastic_cell_goes_the_way_of_tamaas(transients):
     # a share of pixels that come into contact one by one: to eight of 4096
     assert np.abs(history.contact_area - theirs[:, 1]).max() <= 0.002
     assert np.abs(history.pressure - pressure).sum() <= IN_TIME * pressure.sum()
+
+
+def test_the_comparison_in_time_can_fail(transients):
+    history, height, theirs, pressure = transients
+    gap = -history.depth
+    late = theirs[1:-1, 0] - gap[:-2]  # a step late
+    assert np.abs(late).min() > IN_TIME * height
+    assert np.ptp(theirs[:, 0]) > 0.5 * height
+    assert np.abs(history.pressure.T - pressure).sum() > IN_TIME * pressure.sum()
+
+
+def test_the_comparison_of_viscoelastic_cells_can_fail(tamaas):
+    result, heights = ours(Plane(), Indent(pressure=0.1), rough_plane(128), PRONY)
+    underway = held_by_tamaas(tamaas, heights, 0.1, 0.1, steps=5)
+    assert not agree(result, underway)
 
 
 # A sphere of unit radius at a depth of 0.02: the contact is 0.28 across, on 0.6.
