@@ -11,7 +11,7 @@ from scipy.integrate import quad
 
 from mdr1d import MDR, draw, modes_of, sweep, sweep_modes
 from mdr1d import equations as eq
-from scene import Elastic, Indent, PowerLaw, Prony, Scene, SelfAffine, Sphere, StandardLinearSolid
+from scene import Elastic, Indent, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 # A few powers and products.
 ROUNDING = 1e-13
@@ -135,6 +135,12 @@ def test_the_last_form_of_eq_15_as_printed_depends_on_the_unit_of_length():
         assert printed == pytest.approx(right / sqrt(total), rel=ROUNDING)
 
 
+def test_the_root_over_both_is_right_at_an_rms_slope_of_one_alone():
+    slope = np.array([0.25, 1.0, 4.0])
+    ratio = eq.normalised_friction(0.1, slope, form="as_printed") / eq.normalised_friction(0.1, slope)
+    np.testing.assert_allclose(ratio, np.sqrt(slope), rtol=ROUNDING)
+
+
 def test_in_the_kelvin_limit_eq_21_is_eq_12_and_as_printed_half_of_it():
     kelvin = at(eq.low_speed_friction, POINT)
     loss = kelvin_loss(POINT["modulus"], POINT["relaxation_time"])
@@ -172,6 +178,16 @@ def test_eq_25_is_eq_22_of_a_sphere_with_a_power_law_loss():
     assert at(eq.power_law_friction, sphere, speed=0.0) == 0.0
 
 
+def test_eq_25_as_printed_depends_on_the_unit_of_time():
+    minutes = POINT | {k: POINT[k] * 60 for k in ("speed", "reference_frequency")}
+    same = at(eq.power_law_friction, minutes) / at(eq.power_law_friction, POINT)
+    printed = at(eq.power_law_friction, minutes, form="as_printed") / at(
+        eq.power_law_friction, POINT, form="as_printed"
+    )
+    assert same == pytest.approx(1.0, rel=ROUNDING)
+    assert printed > 2
+
+
 @pytest.mark.parametrize("n", [1.0, 4.0])
 def test_the_force_master_curve_is_eq_22(n):
     point = POINT | {"n": n}
@@ -183,6 +199,10 @@ def test_the_force_master_curve_is_eq_22(n):
     np.testing.assert_allclose(ends, [eq.plateau(0.1), 0.0], rtol=ROUNDING)
     slope = np.diff(np.log(at(eq.force_shift, point, speed=speeds[:, 0]))) / np.diff(np.log(speeds[:, 0]))
     np.testing.assert_allclose(slope, eq.force_shift_exponent(point["beta"], n), rtol=1e-10)
+
+
+def test_the_shift_exponent_of_the_experiment_gives_a_tenth():
+    assert eq.force_shift_exponent(0.1, 2) == pytest.approx(-0.15, rel=ROUNDING)
 
 
 ROUGH = SelfAffine(hurst=0.4, rms_height=1e-6, longest=1e-3, shortest=1e-4, seed=1)
@@ -218,6 +238,19 @@ def test_the_spectral_force_is_the_integral_and_its_waves_add_up_to_it():
     assert eq.wave_force(loss, numbers, surface.amplitudes, 0.1, 2e-3) == pytest.approx(force, rel=1e-3)
 
 
+def test_the_one_frequency_form_overestimates_long_waves():
+    # Of waves with amplitudes ~ q^-(H + 1/2) and G'' ~ w^b the long ones win where 2H > 1 + b.
+    solid = partial(eq.power_law_loss, loss=1e5, reference_frequency=1.0, beta=0.3)
+    misfits = []
+    for hurst in (0.1, 0.9):
+        rough = SelfAffine(hurst=hurst, rms_height=1e-6, longest=1e-2, shortest=1e-6)
+        q = rough.q_max(0.0)
+        spectral = eq.spectral_force(solid, lambda k, r=rough, q=q: r.density_1d(k, q), (rough.q_min, q), 0.1, 1.0)
+        misfits.append(eq.high_frequency_force(solid, q, 0.1, rough.rms_slope(q), 1.0) / spectral)
+    assert misfits[0] == pytest.approx(1.0, abs=0.5)
+    assert misfits[1] < 0.2
+
+
 def per_period(elastomer, surface, speed, depth):
     """Friction [N] and length of contact [m] of one period of a rough line far from its ends, simulated."""
     modulus, moduli, times = elastomer.relaxation()
@@ -250,6 +283,56 @@ def test_full_contact_is_the_sum_of_all_waves_of_the_polygon():
         lambda w: solid.complex_modulus(w).imag, numbers.ravel(), heights.ravel(), SPEED, surface.period
     )
     assert total == pytest.approx(force, rel=1e-8)
+
+
+@pytest.mark.parametrize("solid", [Kelvin(1e6, 1e-4), StandardLinearSolid(1e6, 4e6, 1e-3)], ids=str)
+def test_the_waves_themselves_are_met_to_second_order_in_the_pixel(solid):
+    errors, points = [], (64, 128, 256)
+    for count in points:
+        surface = draw(ROUGH, count)
+        numbers = 2 * pi / surface.period * np.arange(1, surface.amplitudes.size + 1)
+        expected = eq.wave_force(
+            lambda w: solid.complex_modulus(w).imag, numbers, surface.amplitudes, SPEED, surface.period
+        )
+        errors.append(abs(per_period(solid, surface, SPEED, DEPTH)[0] / expected - 1))
+    assert -np.polyfit(np.log(points), np.log(errors), 1)[0] == pytest.approx(2.0, abs=0.1)
+
+
+# A shallow sphere: h_0/d = 0.02, rms slope 0.16, eleven times the macroscopic one.
+SHALLOW = Scene(
+    Sphere(radius=1.0),
+    Kelvin(modulus=1e6, relaxation_time=1e-3),
+    Slide(speed=1e-3, load=10.0),
+    SelfAffine(hurst=0.3, rms_height=3e-6, longest=2e-3, shortest=2e-5),
+)
+PROFILES, STANDARD_ERRORS = 20, 3  # of the mean over the profiles
+
+
+def simulated(scene, points=8000):
+    """mu and rms slope on so many profiles (2, PROFILES)."""
+    found = []
+    for seed in range(PROFILES):
+        result = MDR(points=points).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
+        found.append((result.friction_coefficient, result.measures["rms_slope"]))
+    return np.array(found).T
+
+
+def test_slow_rough_friction_is_eq_10_within_its_scatter():
+    friction, slope = simulated(SHALLOW)
+    arguments = (10.0, 1e6, 1e-3, 1e-3)
+    both = np.hypot(slope, eq.macroscopic_slope(10.0, 1e6, 1.0, 2))
+    kept = friction / eq.low_speed_friction(*arguments, both, 1.0, 2) - 1
+    left_out = friction / eq.low_speed_friction(*arguments, slope, 1.0, 2) - 1
+    error = kept.std(ddof=1) / sqrt(PROFILES)
+    # Measured -0.2 and +0.6 %, the standard error is 0.12 %.
+    assert abs(kept.mean()) < STANDARD_ERRORS * error < left_out.mean()
+
+
+def test_fast_rough_friction_is_the_plateau_within_its_scatter():
+    friction, slope = simulated(replace(SHALLOW, motion=Slide(speed=100.0, load=10.0)))
+    ratio = friction / eq.plateau(slope)
+    # Measured -3 %, the standard error is 3 %.
+    assert abs(ratio.mean() - 1) < STANDARD_ERRORS * ratio.std(ddof=1) / sqrt(PROFILES)
 
 
 @pytest.mark.parametrize("function", RESULTS, ids=lambda f: f.__name__)

@@ -11,7 +11,8 @@ from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
 from mdr1d import MDR, marching
-from scene import Program, Prony, Scene, Slide, SolveError, Stage
+from mdr1d.timeline import timeline
+from scene import Elastic, Kelvin, Program, Prony, Scene, Slide, SolveError, Stage, StandardLinearSolid
 
 DEPTH, SPEED = 0.1, 0.3
 A = np.sqrt(DEPTH)  # of the contact
@@ -52,6 +53,19 @@ def test_what_leaves_the_grid_is_found_again_as_if_the_grid_had_held_it(solid, r
     np.testing.assert_allclose(near.fields["displacement"], far.fields["displacement"][inside], atol=ROUNDING)
 
 
+def test_a_wake_that_is_forgotten_is_felt(monkeypatch):
+    right, follow = solved(THERE_AND_BACK), marching._Returning.follow
+
+    def forgetful(row, line, k):
+        row._behind = {1: [], -1: []}
+        return follow(row, line, k)
+
+    monkeypatch.setattr(marching._Returning, "follow", forgetful)
+    monkeypatch.setattr(marching, "_BALANCED", np.inf)
+    wrong = solved(THERE_AND_BACK)
+    assert np.abs(wrong.fields["normal_force"] - right.fields["normal_force"]).max() > 0.02
+
+
 def test_an_indenter_that_never_turns_back_keeps_nothing_behind(monkeypatch):
     monkeypatch.setattr(marching, "_Returning", None)
     solved(program(pressed(), slid(1.5), slid(0.5, 3 * SPEED)))
@@ -80,6 +94,16 @@ def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(solid):
     assert at_turn == pytest.approx(steady.friction_force, rel=1e-9)
 
 
+def test_a_solid_that_forgets_at_once_turns_its_friction_round_at_once():
+    quick = Kelvin(modulus=0.25, relaxation_time=1e-4)
+    result = solved(program(pressed(), slid(0.5), slid(-0.02)), quick, points=1000)
+    friction = result.fields["friction_force"]
+    steady = solved(Slide(speed=SPEED, depth=DEPTH), quick, points=1000).friction_force
+    before = np.searchsorted(result.fields["time"], 1.0 + 0.5 / SPEED) - 1
+    assert friction[before] == pytest.approx(steady, rel=1e-9)
+    assert friction[-1] == pytest.approx(-steady, rel=1e-3)
+
+
 @pytest.mark.parametrize("speeds", [(0.03, 0.3), (0.3, 0.0, 0.1)])
 def test_after_a_step_of_the_speed_friction_comes_to_that_of_the_new_one(speeds):
     stages = [slid(2.0, speed) if speed else {"duration": 3.0} for speed in speeds]
@@ -92,6 +116,19 @@ def test_after_a_step_of_the_speed_friction_comes_to_that_of_the_new_one(speeds)
 def approached(speed, approach, **settings):
     motion = program({"duration": DEPTH / approach, "depth": DEPTH, "speed": speed})
     return solved(motion, KELVIN, steps=200, **settings)
+
+
+@pytest.mark.slow
+def test_friction_of_an_oblique_approach_converges_at_first_order_in_the_pixel():
+    counts, speed, approach = np.array([300, 1200, 4800]), 0.3, 0.2
+    exact = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)[1]
+    errors = [
+        1 - np.mean([approached(speed, approach, points=n, extent=e).friction_force for e in EXTENTS]) / exact
+        for n in counts
+    ]
+    # edges lie anywhere in their pixels, of which five places are an average
+    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.2)
+    assert errors[-1] < 5e-3
 
 
 # Places of the edges in their pixels.
@@ -159,6 +196,34 @@ def test_friction_over_the_path_is_the_work_forwards_and_backwards(solid):
     assert done > 0
 
 
+def test_a_cycle_of_fretting_encloses_what_it_loses():
+    cycles = [slid(0.05), *(slid(0.1 * (-1) ** (k + 1)) for k in range(20))]
+    fields = solved(program(pressed(), *cycles), KELVIN, points=400).fields
+    last = 1.0 + sum(stage["duration"] for stage in cycles) - np.array([0.2 / SPEED, 0.0])
+    work, lost, stored = (
+        np.diff(np.interp(last, fields["time"], fields[name]))[0] for name in ("work", "dissipated", "stored")
+    )
+    # what the first press has left behind fades as exp(-t), and 7 s have passed
+    assert work == pytest.approx(lost, rel=np.exp(-6))
+    assert abs(stored) < np.exp(-6) * work
+
+
+@pytest.mark.parametrize("solid", ["elastic", "kelvin", "series"])
+def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it(solid):
+    lifted, again = [pressed(), {"duration": 0.3, "depth": 0.0}], {"duration": 1.0, "depth": DEPTH}
+    moved = solved(program(*lifted, slid(1.5, 1.5), slid(-1.5, 1.5), again), SOLIDS[solid])
+    waited = solved(program(*lifted, {"duration": 2.0}, again), SOLIDS[solid])
+    fresh = solved(program(again), SOLIDS[solid])
+    assert moved.normal_force == pytest.approx(waited.normal_force, rel=1e-9)
+    # it lands later in a dent than on fresh ground
+    work = moved.fields["work"][-1] - moved.fields["work"][moved.fields["time"] <= 3.3 + 1e-9][-1]
+    assert (
+        work == pytest.approx(fresh.fields["work"][-1], rel=1e-9)
+        if solid == "elastic"
+        else (work < 0.99 * fresh.fields["work"][-1])
+    )
+
+
 def response(amplitude, omega, solid=SOLID, **settings):
     """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
     frequency, held = omega / (2 * np.pi), 100.0
@@ -182,6 +247,11 @@ def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps
     assert abs(found) == pytest.approx(abs(exact), rel=5e-3)
     assert np.angle(found / exact) == pytest.approx(0.0, abs=5e-3)
     assert np.angle(exact) > 0.1
+
+
+def test_a_large_oscillation_meets_less_than_that():
+    exact = motions.stiffness(A, SOLID, 1.0)
+    assert abs(response(0.1 * DEPTH, 1.0)) < 0.97 * abs(exact)
 
 
 SWUNG = {"duration": 2.0, "depth": 0.08, "speed": 0.01, "amplitude": 0.03, "frequency": 0.9}
@@ -208,6 +278,28 @@ def test_an_oscillation_has_two_hundred_steps_a_period_at_least_and_is_met_at_ea
     np.testing.assert_allclose(found, motion.prescribed(fields["time"]), rtol=1e-12)
 
 
+def test_an_amplitude_of_zero_costs_no_step():
+    plain = program(pressed(), slid(0.5))
+    still = program(pressed(), slid(0.5, amplitude=0.0, frequency=1e3))
+    assert np.array_equal(timeline(still, 0.005, 50).times, timeline(plain, 0.005, 50).times)
+
+
+@pytest.mark.slow
+def test_friction_under_an_oscillating_load_departs_from_the_steady_one_at_second_order_of_the_amplitude():
+    period, count = 0.5, 8
+
+    def mean(amplitude):
+        swing = {"duration": count * period, "speed": SPEED, "amplitude": amplitude, "frequency": 1 / period}
+        fields = solved(program(pressed("load"), slid(2.0), swing), points=200).fields
+        late = fields["time"] > fields["time"][-1] - 4 * period * (1 + 1e-9)
+        time, friction = fields["time"][late], fields["friction_force"][late]
+        return np.sum((friction[1:] + friction[:-1]) / 2 * np.diff(time)) / np.ptp(time)
+
+    amplitudes = np.array([0.02, 0.04, 0.08])
+    changes = np.array([mean(amplitude) for amplitude in amplitudes]) - mean(0.0)
+    assert np.polyfit(np.log(amplitudes), np.log(np.abs(changes)), 1)[0] == pytest.approx(2.0, abs=0.3)
+
+
 def test_a_load_is_met_at_the_place_of_a_step_at_which_a_dashpot_creeps_linearly():
     for z in (1e-6, 9.99e-4, 1.001e-3, 1.0, 50.0):
         place = 1 / (1 - (-Decimal(z)).exp()) - 1 / Decimal(z)
@@ -228,3 +320,13 @@ def test_a_reversal_within_the_first_pixels_is_followed_as_by_far_smaller_ones(s
     coarse, fine = (solved(motion, SOLIDS[solid], points=points) for points in (200, 800))
     assert coarse.normal_force == pytest.approx(fine.normal_force, rel=2 / 126)  # edges, known to an element
     assert coarse.fields["path"][-1] == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("time", [1e-9, 1e9])
+def test_reversal_of_the_shortest_and_longest_memories_loses_nothing(time):
+    solid = StandardLinearSolid(0.25, 1.25, time)
+    result = solved(program(pressed(), slid(0.7), slid(-1.1)), solid)
+    glassy = Elastic(1.25 if time > 1 else 0.25)
+    elastic = solved(program(pressed(), slid(0.7), slid(-1.1)), glassy)
+    assert result.normal_force == pytest.approx(elastic.normal_force, rel=2e-3)
+    assert abs(result.friction_coefficient) < 2e-3
