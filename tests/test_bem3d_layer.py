@@ -18,7 +18,7 @@ from bem3d.layer import FALSIFIED, Layered
 from bem3d.layerwaves import Bonded, Frictionless
 from bem3d.line import Line
 from bem3d.sliding import Flow
-from compare.exact import foundation, full_contact
+from compare.exact import foundation, full_contact, mean_lag
 from compare.exact import layer as reference
 from scene import (
     Cone,
@@ -27,11 +27,13 @@ from scene import (
     Indent,
     Layer,
     Plane,
+    Program,
     Scene,
     SelfAffine,
     Slide,
     SolveError,
     Sphere,
+    Stage,
     StandardLinearSolid,
     Wave,
 )
@@ -362,6 +364,19 @@ def test_a_thin_layer_that_yields_is_a_bed_of_springs_in_sliding(stated, poisson
     assert found.friction_coefficient == pytest.approx(rows[1] / rows[0], rel=5e-4)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("base", ["bonded", "frictionless"])
+def test_friction_of_a_slow_sphere_does_not_know_the_layer(base):
+    """mu = v lag <d2z/dx2>, the same of every medium, as every wave of pressure is delayed alike."""
+    solid, speed = standard(0.4), 1e-4
+    found = BEM(points=128).solve(
+        Scene(SPHERE, solid, Slide(speed=speed, load=1.0), layer=Layer(thickness=1e-4, base=base))
+    )
+    expected = speed * mean_lag(solid) / SPHERE.radius
+    assert found.friction_coefficient == pytest.approx(expected, rel=1e-3)  # next order: memory over radius, 1e-3
+    assert found.measures["friction_by_loss"] / found.normal_force == pytest.approx(expected, rel=0.03)
+
+
 @pytest.mark.parametrize(
     ("base", "thickness"),
     [("bonded", 1e-9), ("bonded", 1e-4), ("frictionless", 1e-9), ("frictionless", 1e-5), ("frictionless", 1e-3)],
@@ -379,6 +394,41 @@ def test_full_contact_of_a_wave_on_a_layer_is_exact(base, thickness):
     assert found.measures["contact_fraction"] == 1
     # by the limit of thin layers to (q h)^2
     assert found.friction_force == pytest.approx(friction, rel=1e-2 if thickness == 1e-5 else 1e-6)
+
+
+@pytest.mark.slow
+def test_creeping_in_a_layer_is_lee_and_radoks():
+    """F = int E*(t - s) dF_1(d(s)), F_1(d) of an elastic layer of E* = 1: constant nu, contact that only grows."""
+    solid, stated, end, deepest = standard(), Layer(thickness=5e-4), 3e-3, 1e-4
+    depths = np.geomspace(1e-8, deepest, 40)
+    loads = [reference.of_depth(SPHERE, stated, 1.0, 0.5, depth).load for depth in depths]
+
+    def elastic(time):
+        depth = np.maximum(time / end * deepest, depths[0])
+        return np.exp(np.interp(np.log(depth), np.log(depths), np.log(loads)))
+
+    glassy, relaxed = 20e6, 4e6
+
+    def force(time):
+        lost = quad(lambda s: np.exp(-(time - s) / 1e-3) * elastic(s), 0, time, epsrel=1e-6)[0] / 1e-3
+        return glassy * elastic(time) - (glassy - relaxed) * lost
+
+    program = Program(stages=(Stage(duration=end, depth=deepest),))
+    found = BEM(points=128, steps=60).solve(Scene(SPHERE, solid, program, layer=stated))
+    late = found.fields["time"] > end / 4
+    expected = np.array([force(time) for time in found.fields["time"][late]])
+    # few pixels in contact at first: 3e-3 on 32 across, of second order
+    np.testing.assert_allclose(found.fields["normal_force"][late], expected, rtol=4e-3)
+
+
+@pytest.mark.slow
+def test_a_march_ends_in_steady_sliding():
+    solid, stated = standard(), Layer(thickness=2e-4)
+    steady = BEM(points=64).solve(Scene(SPHERE, solid, Slide(speed=0.5, load=1.0), layer=stated))
+    program = Program(stages=(Stage(duration=3e-3, load=1.0), Stage(duration=10e-3, speed=0.5)))
+    marched = BEM(points=64, steps=60).solve(Scene(SPHERE, solid, program, layer=stated))
+    assert marched.depth == pytest.approx(steady.depth, rel=2e-3)
+    assert marched.friction_coefficient == pytest.approx(steady.friction_coefficient, rel=1e-2)
 
 
 def test_a_rough_sphere_finds_its_window_on_a_thin_layer():

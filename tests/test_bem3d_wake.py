@@ -7,6 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 from bem3d import BEM
+from bem3d.grid import Grid
+from bem3d.problem import Problem
 from bem3d.wake import surroundings
 from scene import (
     Cylinder,
@@ -96,6 +98,38 @@ def test_far_behind_the_surface_is_that_of_a_point_load_in_flow(memory):
 def _remembered(x, y, length):
     """1/r convolved downstream with exp(-s/l)/l."""
     return quad(lambda s: np.exp(-s) / np.hypot(x - s * length, y), 0, 40, points=[abs(x) / length])[0]
+
+
+def test_behind_a_kelvin_body_every_point_returns_to_its_relaxed_place_at_the_rate_of_its_own_time():
+    speed = 2 * A / TAU
+    scene = Scene(Sphere(R), KELVIN, Slide(speed=speed, load=LOAD))
+    solver, result = solved(scene, points=96)
+    around = surroundings(solver, scene, result.fields, downstream=4 * A)
+    relaxed = surroundings(
+        solver,
+        replace(scene, motion=Indent(load=LOAD)),
+        # what the same pressure does at rest: where the gap of the answer is that of the relaxed surface
+        result.fields | {"gap": _relaxed_gap(solver, scene, result)},
+        downstream=4 * A,
+    )
+    length, pixel = speed * TAU, around.x[1] - around.x[0]
+    row = len(around.y) // 2
+    w, slope = around.displacement[row], np.gradient(around.displacement[row], pixel)
+    behind = around.x > 1.5 * A
+    at = around.x[behind] + around.lag
+    elastic = np.interp(at, relaxed.x, relaxed.displacement[row])
+    # of second order in the pixel of the difference quotient
+    kept = slice(2, -2)
+    np.testing.assert_allclose((w + length * slope)[behind][kept], elastic[kept], rtol=1e-3)
+
+
+def _relaxed_gap(solver, scene, result):
+    x, y = result.fields["x"], result.fields["y"]
+    pixel = x[1] - x[0]
+    grid = Grid(len(x), pixel * len(x), (float(x.mean()), float(y.mean())))
+    problem = Problem(replace(scene, motion=Indent(load=LOAD)), solver.engine, solver.terms)
+    displacement = problem.medium.operator(grid)(result.fields["pressure"] / problem.flow.modulus) * grid.pixel
+    return displacement + problem.heights(grid, None)
 
 
 def test_a_pressure_that_is_not_of_the_scene_has_no_surface():
