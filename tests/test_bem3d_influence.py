@@ -55,6 +55,12 @@ def test_retarded_kernel_tends_to_the_elastic_one_when_the_memory_is_short():
     np.testing.assert_allclose(retarded, elastic, rtol=1e-6)
 
 
+def test_far_downstream_a_short_memory_only_delays_the_elastic_kernel_by_its_length():
+    length = 0.5
+    delayed = influence.retarded(40, 4, length, 0.0)[0, 40 + 30]
+    assert delayed == pytest.approx(1 / np.pi / (30 - length), rel=2e-3)
+
+
 LENGTHS = np.geomspace(1e-4, 1e7, 12)
 SHARES = np.linspace(1.0, 2.0, 12) / 18
 

@@ -40,6 +40,7 @@ from scene import (
     Wave,
 )
 from scene.costs import multiples
+from scene.plan import Kernel
 
 KELVIN = Kelvin(1e6, 1e-3)
 STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
@@ -160,6 +161,22 @@ def test_the_kernels_of_a_plan_are_those_that_a_solve_builds(name, built):
     assert planned(plan) == of_the_finest(built, plan)
     assert plan.steps == answer.measures.get("time_steps", 0)
     assert plan.shape == answer.fields["pressure"].shape
+
+
+def test_a_plan_says_that_tractions_without_coupling_build_the_kernel_of_the_pressure_again():
+    scene = SCENES["shear-uncoupled"]
+    said = solver(scene).plan(scene).kernels
+    (again,) = [kernel for kernel in said if kernel.name == "tractions: that of the pressure, built again"]
+    assert (again.form, again.shape) in [(kernel.form, kernel.shape) for kernel in said if kernel is not again]
+
+
+def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
+    scene = SCENES["slide"]
+    asked = solver(scene)
+    plan = asked.plan(scene)
+    asked.solve(scene)
+    fewer = replace(plan, kernels=plan.kernels[1:])
+    assert planned(fewer) != of_the_finest(built, plan)
 
 
 def held_by(of, scene):
@@ -310,6 +327,12 @@ def test_a_program_of_many_stages_is_said_in_one_line():
     assert "oscillation" in plan.left_out
     said = solver(SCENES["program"]).plan(SCENES["program"]).left_out
     assert said["reversal"] == "nothing is kept of what is left behind"
+
+
+def test_columns_of_a_printed_plan_stay_apart_however_long_the_names():
+    plan = solver(SCENES["rest"]).plan(SCENES["rest"])
+    long = replace(plan, kernels=(Kernel("a name that is as long as it may be, and longer", "kernel", (1,)),))
+    assert "longer kernel, 1" in str(long)
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,12 @@
 """Contacts drawn along the surface: closed forms where there are any, and the conditions themselves everywhere."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from bem3d import BEM, cerruti, stickslip
+from bem3d import BEM, cerruti, engine, stickslip
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from compare.exact import tangential as closed
@@ -192,6 +193,14 @@ def test_a_smooth_sphere_has_the_symmetry_of_its_pull():
     assert answer.measures["tangential_displacement"] / u_max == pytest.approx(closed.displacement(0.5), rel=3e-3)
 
 
+def test_two_components_tend_to_one_as_the_coupling_vanishes():
+    one, two = (BEM(points=48).solve(sphere(nu=nu, displacement=2e-5)) for nu in (0.0, 1e-9))
+    assert two.friction_force == pytest.approx(one.friction_force, rel=1e-5)
+    assert "traction_y" in two.fields
+    assert "traction_y" not in one.fields
+    assert np.abs(two.fields["traction_y"]).max() < 1e-6 * two.fields["traction_x"].max()
+
+
 @pytest.mark.parametrize("nu", [0.0, 0.5])
 def test_a_displacement_and_the_force_that_it_takes_are_one_state(nu):
     one = BEM(points=48, tolerance=1e-7).solve(sphere(nu=nu, roughness=ROUGH, displacement=2e-5))
@@ -214,6 +223,24 @@ def test_a_force_just_short_of_all_that_friction_holds_has_its_displacement_too(
     assert (answer.measures["stick_area"] == 0) == (short < 1.5e-3)
     size = np.hypot(answer.fields["traction_x"], answer.fields["traction_y"])
     assert (size <= MU * answer.fields["pressure"] * (1 + 1e-9)).all()
+
+
+@pytest.mark.slow
+def test_the_displacement_grows_with_the_force_up_to_all_that_friction_holds():
+    shares = 1 - np.array([0.05, 0.01, 3e-3, 1.7e-3, 1e-3, 1e-4, 1e-5, 1e-7])
+    answers = [BEM(points=48).solve(sphere(force=share * MU * LOAD)) for share in shares]
+    assert (np.diff([answer.measures["tangential_displacement"] for answer in answers]) > 0).all()
+    assert answers[0].measures["stick_area"] > answers[-1].measures["stick_area"] == 0
+
+
+def test_the_force_grows_with_the_displacement_less_and_less():
+    forces = [
+        BEM(points=48, extent=EXTENT).solve(sphere(roughness=ROUGH, displacement=u)).friction_force
+        for u in np.linspace(1.8e-5, 9e-5, 5)
+    ]
+    gained = np.diff([0.0, *forces])
+    assert (gained > 0).all()
+    assert (np.diff(gained) < 0).all()
 
 
 @pytest.mark.parametrize(("nu", "drawn", "precision"), [(0.0, 1.0, "double"), (0.5, 1e200, "single")])
@@ -270,6 +297,21 @@ def test_a_cell_that_touches_everywhere_slips_somewhere_however_little_it_is_dra
         assert answer.friction_force / (MU * answer.fields["pressure"].min() * 1e-6) == pytest.approx(1, rel=0.05)
         forces.append(answer.friction_force)
     np.testing.assert_allclose(forces, forces[0], rtol=1e-3)
+
+
+@pytest.mark.parametrize(("length", "modulus"), [(1e-6, 1e3), (1e3, 1e-3)])
+def test_units_do_not_matter(length, modulus):
+    scene = sphere(displacement=2e-5, roughness=ROUGH)
+    rough = {name: getattr(ROUGH, name) * length for name in ("rms_height", "longest", "shortest")}
+    scaled = replace(
+        scene,
+        indenter=Sphere(R * length),
+        elastomer=Elastic(G * modulus),
+        motion=Shear(load=LOAD * modulus * length**2, displacement=2e-5 * length),
+        roughness=replace(ROUGH, **rough),
+    )
+    one, other = (BEM(points=32).solve(each) for each in (scene, scaled))
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-7)
 
 
 def test_the_relaxed_modulus_alone_counts():
@@ -408,6 +450,20 @@ def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
     # 108 and 70 of single planes were measured, a product of two components counting twice; the pressure takes
     # 22. Without the slipping points of the coarse grid it is 130 and 90
     assert tangential < most
+
+
+@pytest.mark.parametrize("other", [{"precision": "single", "tolerance": 1e-4}, {"transforms": "cupy"}], ids=str)
+def test_every_library_gives_the_same_tractions(other, monkeypatch):
+    # numpy stands in for cupy, whose arrays and functions have the same names
+    names = {name: getattr(np, name) for name in dir(np) if not name.startswith("_")}
+    monkeypatch.setattr(engine, "_cupy", lambda: SimpleNamespace(**names | {"asnumpy": np.asarray}))
+    scene = sphere(roughness=ROUGH, displacement=2e-5)
+    one, two = BEM(points=49).solve(scene), BEM(points=49, **other).solve(scene)
+    # to tolerance
+    assert two.friction_force == pytest.approx(one.friction_force, rel=2e-4)
+    np.testing.assert_allclose(
+        two.fields["traction_y"], one.fields["traction_y"], atol=2e-3 * one.fields["traction_x"].max()
+    )
 
 
 def test_where_nothing_sticks_the_displacement_is_the_least_at_which_all_but_one_point_slips_forward():

@@ -15,6 +15,7 @@ from scene import (
     Arrhenius,
     Coulomb,
     Indent,
+    Kelvin,
     Layer,
     Measured,
     Plane,
@@ -127,6 +128,32 @@ def test_a_seed_moves_the_map_by_whole_pixels():
     np.testing.assert_allclose(moved, np.roll(map_.relief, (-row, -column), (0, 1)), atol=1e-12)
 
 
+def test_places_of_a_map_differ():
+    asked, solver = replace(SLIDING, roughness=sampled(SLIDING.roughness, 17)), BEM(points=48)
+    forces = [
+        solver.solve(replace(asked, motion=Indent(depth=1e-5), roughness=replace(asked.roughness, seed=k)))
+        for k in (0, 2, 3)
+    ]
+    assert len({answer.normal_force for answer in forces}) == 3
+
+
+def test_a_map_without_heights_is_no_roughness():
+    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
+    smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))
+    same(smooth, bare, 0.0)
+    assert smooth.applications == bare.applications
+
+
+def test_the_map_is_built_once_for_all_grids(monkeypatch):
+    calls = []
+    build = scene.topography._mirrored
+    monkeypatch.setattr(scene.topography, "_mirrored", lambda *given: calls.append(1) or build(*given))
+    fresh = sampled(SLIDING.roughness, 19, repeat="mirror")
+    for seed in (0, 1):
+        BEM(points=48).solve(replace(SLIDING, roughness=replace(fresh, seed=seed)))
+    assert len(calls) == 1
+
+
 def test_rectangles_are_roughness_but_no_cell():
     heights = 1e-6 * np.random.default_rng(0).normal(size=(12, 18))
     map_ = Topography(heights=heights, pixel=1e-4, repeat="periodic", shortest_kept=4e-4)
@@ -225,6 +252,22 @@ def test_a_contact_at_the_rim_of_a_map_is_an_error():
     with pytest.raises(SolveError, match="rim of the map"):
         BEM(points=128, extent=1.2e-3).solve(Scene(body, SOLID, Indent(load=deep.load)))
     assert BEM(points=96).solve(Scene(body, SOLID, Indent(depth=1e-6))).normal_force > 0
+
+
+def test_a_body_that_is_not_reached_is_not_touched():
+    # its lowest pixel lies on the axis, between the pixels of an even grid
+    with pytest.raises(SolveError, match="between the centres of pixels"):
+        BEM(points=64, extent=1e-3).solve(Scene(ball(65, 2e-3), SOLID, Indent(depth=1e-12)))
+
+
+@pytest.mark.slow
+def test_settings_for_a_map_keep_their_promise():
+    rough = replace(SLIDING.roughness, shortest=L)
+    asked = replace(SLIDING, roughness=sampled(rough, 9), elastomer=Kelvin(1e6, 1e-3))
+    choice = BEM.for_accuracy(asked, friction=0.05)
+    answer, truth = choice.solve(), BEM(points=256, tolerance=1e-6).solve(asked)
+    assert answer.confirmed
+    assert answer.result.friction_force == pytest.approx(truth.friction_force, rel=0.05)
 
 
 def test_a_measured_body_puts_no_roughness_on_grids():
