@@ -140,7 +140,7 @@ def caught(mutation, slow):
         place = copied / mutation.path
         place.write_text(mutation.applied(place.read_text(encoding="utf-8")), encoding="utf-8")
         environment = {**os.environ, "PYTHONPATH": str(copied), "NUMBA_CACHE_DIR": name}
-        marks = ["-m", "slow or not slow"] if slow else []
+        marks = ["-m", "not hours"] if slow else []
         chosen = [each.replace(str(ROOT), str(copied)) for each in near(mutation)]
         for files in ([chosen] if chosen else []) + [[]]:
             command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *marks, *files]
