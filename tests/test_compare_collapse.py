@@ -81,6 +81,17 @@ def verdicts(found, power=POWER):
     return [named[name] for name in ("collapse", "vertical", "predicted")]
 
 
+def test_a_finding_names_the_plot_that_shows_it():
+    found = collapse(smooth(friction(knee, vertical=0.2)))
+    given = {"shifts": POWER * np.log(SPEEDS), "exponent": POWER, "plots": ("curves", "shifts")}
+    named = {each.claim.id.removeprefix("eq23."): each.plot for each in eq23.findings(found, None, "1D", **given)}
+    drawn = {
+        "curves": {"collapse", "predicted", "unshifted"},
+        "shifts": {"vertical", "exponent", "vertical-alone", "both"},
+    }
+    assert {plot: {name for name in named if named[name] == plot} for plot in drawn} == drawn
+
+
 def numbers(found):
     each = found.both
     return np.array(

@@ -15,6 +15,7 @@ from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.plots import style
 from compare.plots import topography as plots
+from compare.statistics import spectra
 from compare.statistics.powerlaw import fit
 from compare.statistics.spectra import describe, mapped, rings_of, rows_of
 from compare.studies.topography import Map
@@ -168,6 +169,11 @@ def test_what_is_no_power_law_a_short_band_and_a_lopsided_map_are_warned_of():
         (stretched, ("isotropic",)),
     ):
         assert any(word in each for each in describe(warned).warnings for word in words)
+
+
+def test_slopes_along_x_and_y_may_differ_by_so_much_and_no_more():
+    assert not list(spectra._of_directions((1.0, spectra.LOPSIDED)))
+    assert list(spectra._of_directions((1.001 * spectra.LOPSIDED, 1.0)))
 
 
 def test_a_law_takes_four_rings():

@@ -111,6 +111,13 @@ def test_the_expected_error_is_that_of_means_of_normal_deviates():
     assert plan(bias=0.03).error_of(25) == pytest.approx(np.sqrt(np.mean(found**2)), rel=0.045)
 
 
+def test_a_scatter_has_a_degree_of_freedom_less_than_values():
+    scatter = Scatter.of([1.0, nan, 3.0, 5.0])
+    assert scatter == Scatter(2.0, 2)
+    assert scatter.of_mean == pytest.approx(2.0 / sqrt(3))
+    assert Scatter.of([1.0]).freedom == Scatter.of([]).freedom == 0
+
+
 def test_the_interval_of_a_scatter_covers_as_often_as_it_says():
     """Of 2000 samples of eight; allowed: four standard deviations of a binomial share, 0.02."""
     random = np.random.default_rng(3)
