@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 from scipy.special import gamma
 
-from scene import Fractional
+from scene import Fractional, Kelvin
 
 SOLID = Fractional(modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-4, highest_frequency=1e8)
 BETWEEN = 1.02  # the error is sampled at 32 frequencies a mode; other frequencies may find a little more
@@ -62,6 +62,18 @@ def test_modes_are_few():
         count = len(replace(SOLID, tolerance=tolerance).relaxation()[2])
         assert count <= most * decades
         assert count >= decades
+
+
+def test_a_smaller_tolerance_gives_a_smaller_error():
+    errors = [replace(SOLID, tolerance=10.0**-n).error for n in range(1, 10, 2)]
+    assert np.all(np.diff(errors) < 0)
+
+
+def test_an_exponent_near_one_is_nearly_a_kelvin_body():
+    solid, body = replace(SOLID, exponent=1 - 1e-9), Kelvin(1e6, 1e-3)
+    np.testing.assert_allclose(
+        solid.complex_modulus(in_range(solid, 50)).imag, body.complex_modulus(in_range(solid, 50)).imag, rtol=1e-5
+    )
 
 
 @pytest.mark.parametrize(

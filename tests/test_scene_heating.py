@@ -1,7 +1,7 @@
 """Frictional heating, on contacts whose friction is a formula of the temperature."""
 
 from dataclasses import dataclass, fields, replace
-from math import exp, inf, isnan, nan
+from math import exp, inf, isnan, log, nan
 
 import numpy as np
 import pytest
@@ -165,6 +165,31 @@ def test_with_feedback_temperature_and_heat_agree(peak, feedback):
     assert abs(answer.friction_coefficient / cold.friction_coefficient - 1) > 1e-3
 
 
+def test_an_indenter_that_conducts_without_limit_keeps_the_contact_cold():
+    cold = Fake()(SCENE)
+    for conductivity in (1e12, 1e300):
+        answer = heated(SCENE, conductivity=conductivity, feedback="average")
+        assert answer.friction_coefficient == cold.friction_coefficient
+        assert answer.measures["heating_solves"] == 1
+        assert answer.measures["temperature"] == 300.0
+    rises = [heated(SCENE, conductivity=10.0**k, feedback="average").measures["average_heating"] for k in (4, 5)]
+    # weak: in proportion, but for the first order of the feedback
+    assert rises[0] / rises[1] == pytest.approx(10.0, rel=10 * rises[0] * 80e3 / 8.314 / 300**2)
+
+
+@pytest.mark.parametrize("conductivity", [1e-3, 1e-12])
+def test_an_indenter_that_hardly_conducts_is_as_hot_as_leaves_it_nearly_without_friction(conductivity):
+    def miss(temperature):
+        law = replace(COLD, temperature=temperature)
+        heat = 2 * Fake().at(replace(SCENE, temperature=law)) * 1e6 * DEPTH * 0.01 / conductivity
+        return log(heat) - log(temperature - 300.0)
+
+    answer = heated(SCENE, conductivity=conductivity, feedback="average")
+    expected = bisect(miss, 300.0 + 1e-9, 1e15, xtol=1e-9, rtol=1e-12)
+    assert answer.measures["temperature"] == pytest.approx(expected, rel=2 * AGREE)
+    assert answer.measures["heating_solves"] < 30
+
+
 def rubber(peak, steepness):
     """Rise [K] over that of the maximum, of a friction that is a hump over ln a_T = -k x: unit maximum."""
 
@@ -196,6 +221,21 @@ def test_the_coldest_of_several_temperatures_is_found():
     assert several >= 15
     assert np.median(trials) <= 5
     assert max(trials) <= 25
+
+
+def test_a_contact_ignites_where_the_heat_outgrows_what_is_conducted():
+    """Semenov: x = C exp(k x) has a solution up to C k = 1/e, where x = 1/k; with more, only a far hotter one."""
+    steepness, hump = 0.1, 1e6
+
+    def hottest(strength):
+        return settled(counted(lambda x: strength * hump * rubber(hump, steepness)(x) / 2)[0]).warmer
+
+    critical = 1 / (steepness * exp(1))
+    assert hottest(critical * 0.99) < 1 / steepness < hottest(critical * 1.01)
+    assert hottest(critical * 1.01) > 10 / steepness
+    # below, the lower branch of x = C exp(k x), in the limit of a hump far away
+    low = bisect(lambda x: 0.9 * critical * exp(steepness * x) - x, 0, 1 / steepness, xtol=1e-12)
+    assert hottest(0.9 * critical) == pytest.approx(low, rel=1e-5)
 
 
 def test_all_friction_heats_also_that_of_the_interface():

@@ -105,6 +105,18 @@ def test_convolving_relaxation_with_creep_gives_time(solid):
         assert integral + solid.viscosity * solid.creep_compliance(t) == pytest.approx(t, rel=1e-9)
 
 
+def test_storage_follows_from_loss_by_kramers_and_kronig():
+    # G' - G_0 = (2 omega^2/pi) P int G''(x)/(x (omega^2 - x^2)) dx; omega lies midway between nodes in ln x, where
+    # the trapezoidal rule of a principal value converges exponentially.
+    solid = OF_EACH_TYPE["prony"]
+    step = 0.1
+    for omega in (1e-3, 1e2, 1e5):
+        x = omega * np.exp(step * (np.arange(-600, 600) + 0.5))
+        integral = step * np.sum(solid.complex_modulus(x).imag / (omega**2 - x**2))
+        storage = solid.static_modulus + 2 * omega**2 / np.pi * integral
+        assert storage == pytest.approx(solid.complex_modulus(omega).real, rel=1e-9)
+
+
 def test_a_negative_time_is_refused_by_value():
     for function in (Kelvin(G, 1e-3).relaxation_modulus, Kelvin(G, 1e-3).creep_compliance):
         with pytest.raises(ValueError, match=r"-0\.5"):
@@ -198,6 +210,20 @@ def test_retardation_times_lie_between_relaxation_times(form):
     assert len(times) == len(low)
     assert np.all(times >= low)
     assert np.all(times[:-1] <= low[1:])
+
+
+@every_form
+def test_sums_over_both_spectra_agree(form):
+    creep = form.retardation()
+    assert (creep.instantaneous + creep.compliances.sum()) * form.equilibrium == pytest.approx(1, rel=ROUNDING)
+    assert creep.instantaneous == pytest.approx(1 / form.glassy, rel=ROUNDING)
+    # -dG/ds and dJ/ds at s = 0: sum G_k tau_k + viscosity = G_0^2 sum J_k lambda_k.
+    flow = form.viscosity + form.moduli @ form.times
+    assert form.equilibrium**2 * (creep.compliances @ creep.times) == pytest.approx(flow, rel=ROUNDING)
+    # Product of zeros over product of poles is the ratio of the moduli at the ends.
+    if not form.viscosity:
+        ratio = np.log(creep.times / form.times).sum()
+        assert ratio == pytest.approx(np.log(form.glassy / form.equilibrium), rel=ROUNDING, abs=ROUNDING)
 
 
 @pytest.mark.parametrize(("seed", "viscosity"), [(0, 0.0), (1, 0.0), (2, 1e-5)])

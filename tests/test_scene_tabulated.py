@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from scene import Prony, Scene, Table, Tabulated, read_table
+from scene import Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
 from scene.reading import InvalidInput, read
 
 SOLID = Prony(1e6, (1e6, 3e6, 1e7, 1e8), (1e2, 1.0, 1.37e-2, 1e-5))
@@ -41,6 +41,14 @@ def test_the_solid_behind_an_exact_table_is_found():
     assert deviation(solid, omega=np.geomspace(1e-3, 1e6, 1000)) <= 1.5 * NEGLIGIBLE
     assert solid.static_modulus == pytest.approx(SOLID.static_modulus, rel=3 * NEGLIGIBLE)
     assert solid.glassy_modulus == pytest.approx(SOLID.glassy_modulus, rel=3 * NEGLIGIBLE)
+
+
+def test_one_mode_stays_one_or_two_close_to_it():
+    solid = fitted(table(StandardLinearSolid(1e6, 1e9, 1e-3), np.geomspace(1e-2, 1e8, 61)))
+    rest, moduli, times = solid.relaxation()
+    assert len(times) <= 3
+    assert np.average(np.log(times), weights=moduli) == pytest.approx(np.log(1e-3), abs=0.05)
+    assert rest == pytest.approx(1e6, rel=3 * NEGLIGIBLE)
 
 
 def test_the_stated_errors_are_those_at_the_rows():
@@ -88,6 +96,13 @@ def test_the_order_of_rows_does_not_matter_and_repeated_rows_only_weigh_more():
         np.testing.assert_allclose(
             fitted(other).complex_modulus(OMEGA), fitted(rubber).complex_modulus(OMEGA), rtol=1e-6
         )
+
+
+def test_a_known_modulus_at_rest_is_kept():
+    glass = table(omega=np.geomspace(1.0, 1e7, 40))
+    solid = fitted(glass, equilibrium_modulus=1.2e6)
+    assert solid.static_modulus == 1.2e6
+    assert solid.rms_error <= 0.1
 
 
 def test_a_liquid_has_no_modulus_at_rest():

@@ -32,6 +32,16 @@ def test_the_universal_law_falls_by_nine_decades_over_fifty_kelvin():
     assert log10(universal(100.0).shift) == pytest.approx(-17.44 * 100 / 151.6, rel=ROUNDING)
 
 
+def test_a_law_of_williams_landel_and_ferry_is_the_same_from_another_reference():
+    # From T_g + 50 K the published constants are 8.86 and 101.6 K: 17.44 * 51.6 / 101.6 to three digits.
+    moved = {"c1": UNIVERSAL["c1"] * UNIVERSAL["c2"] / (UNIVERSAL["c2"] + 50), "c2": UNIVERSAL["c2"] + 50}
+    assert moved["c1"] == pytest.approx(8.86, abs=5e-3)
+    for above in (10.0, 50.0, 90.0, 200.0):
+        there = WLF(temperature=220.0 + above, reference=270.0, **moved)
+        step = universal(above).log_shift - universal(50.0).log_shift
+        assert there.log_shift == pytest.approx(step, rel=ROUNDING, abs=ROUNDING)
+
+
 def test_the_law_of_arrhenius_is_straight_over_the_inverse_temperature():
     def law(temperature):
         return Arrhenius(temperature=temperature, reference=300.0, activation_energy=80e3)
@@ -92,6 +102,13 @@ def test_the_dashpot_of_a_solid_that_states_its_relaxation_is_slower_too():
     omega = np.geomspace(1e-3, 1e9, 25)
     found = Shifted(Damped(), 7.0).complex_modulus(omega / 7.0)
     np.testing.assert_allclose(found, Damped().complex_modulus(omega), rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", OF_EACH_TYPE)
+def test_two_shifts_are_one_by_their_product(name):
+    twice, once = Shifted(Shifted(OF_EACH_TYPE[name], 3.0), 5.0), Shifted(OF_EACH_TYPE[name], 15.0)
+    omega = np.geomspace(1e-3, 1e9, 25)
+    np.testing.assert_allclose(twice.complex_modulus(omega), once.complex_modulus(omega), rtol=ROUNDING)
 
 
 def test_times_that_rounding_makes_equal_are_one_mode():

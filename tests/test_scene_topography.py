@@ -2,6 +2,7 @@
 
 import copy
 import json
+import os
 import pickle
 import sys
 from dataclasses import replace
@@ -103,6 +104,14 @@ def test_a_map_that_repeats_keeps_its_plane_and_one_that_is_mirrored_does_not():
     assert Topography(**stated).level == Topography(**stated, repeat="mirror").level == "tilt"
     with pytest.raises(ValidationError, match='level = "tilt" with repeat = "periodic"'):
         replace(Topography(**stated), repeat="periodic")
+
+
+def test_a_scene_file_without_level_has_that_of_what_repeats(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("surface.npy", drawn((5, 6)))
+    for repeat, level in (("periodic", "mean"), ("mirror", "tilt")):
+        (tmp_path / "scene.toml").write_text(FILE + f"pixel = 1e-6\nrepeat = '{repeat}'\n")
+        assert read("scene.toml", Scene).roughness.level == level
 
 
 def test_whether_there_are_heights_is_asked_without_a_wave(monkeypatch):
@@ -236,6 +245,13 @@ def test_what_is_no_map_is_named(wrong, named):
         rough(**wrong)
 
 
+def test_what_is_no_file_is_not_read(tmp_path):
+    pipe = tmp_path / "a.npy"
+    os.mkfifo(pipe)
+    with pytest.raises(ValidationError, match="it is no file to read from"):
+        Topography(file=pipe, pixel=1.0)
+
+
 def test_a_body_whose_map_is_a_plane_has_no_lowest_point():
     y, x = np.mgrid[0:1:6j, 0:1:5j]
     for heights, level in ((np.ones((5, 5)), "none"), (x + y, "tilt")):
@@ -338,6 +354,13 @@ def test_a_scene_file_whose_map_is_none_is_told_the_table_the_file_and_what_is_a
     assert "\n" not in str(error.value)
 
 
+def test_numbers_of_half_precision_are_no_less_in_nanometres(tmp_path):
+    heights = drawn((5, 6)).astype(np.float16)
+    np.save(tmp_path / "a.npy", heights)
+    found = Topography(file=tmp_path / "a.npy", pixel=1e-6, unit="nm")
+    assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
+
+
 @pytest.mark.parametrize(
     ("name", "content", "stated", "named"),
     [
@@ -430,3 +453,9 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
         read("scene.toml", Scene)
     for named in ("roughness.heights", "roughness.pixel: missing", "roughness.path"):
         assert named in str(error.value)
+
+
+def test_a_stored_map_is_its_digest():
+    stored = STORED.dump_python(rough(), mode="json")["heights"]
+    assert stored["shape"] == [6, 8]
+    assert len(stored["digest"]) == 64

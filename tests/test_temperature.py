@@ -1,13 +1,14 @@
 """Temperature and frictional heating in both dimensionalities: laws that hold whatever the solver."""
 
 from dataclasses import replace
-from math import exp
+from math import exp, sqrt
 
 import numpy as np
 import pytest
 from scipy.optimize import bisect
 
 from bem3d import BEM
+from compare.task import SceneTask as Task
 from mdr1d import MDR
 from scene import (
     WLF,
@@ -164,6 +165,42 @@ def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
 
 
 @names
+def test_slow_friction_settles_where_a_closed_form_does(solver):
+    speed, energy = 5e-3, 60e3
+    slow = replace(
+        PLAIN,
+        elastomer=Kelvin(RUBBERY, TIME),
+        motion=Slide(speed=speed, load=10.0),
+        temperature=Arrhenius(temperature=290.0, reference=REFERENCE, activation_energy=energy),
+    )
+    depth = (3 * 10.0 / (16 * RUBBERY * sqrt(RADIUS))) ** (2 / 3)
+
+    def friction(temperature):
+        return (
+            SLOW[solver.name]
+            * speed
+            * TIME
+            / RADIUS
+            * exp(energy / GAS_CONSTANT * (1 / temperature - 1 / REFERENCE))
+        )
+
+    # so little heat is conducted that 60 K are to be expected, and a third of that settles
+    conductivity = 2 * friction(290.0) * RUBBERY * depth * speed / 60.0
+    expected = bisect(
+        lambda t: t - 290.0 - 2 * friction(t) * RUBBERY * depth * speed / conductivity, 290.0, 360.0, xtol=1e-9
+    )
+    answer = solver.solve(replace(slow, heating=Heating(conductivity=conductivity, feedback="average")))
+    assert 10 < expected - 290 < 25
+    # v tau/a is 3e-4; three dimensions have a pixel of a tenth of the radius
+    assert answer.measures["temperature"] - 290 == pytest.approx(expected - 290, rel=0.01)
+    assert answer.friction_coefficient == pytest.approx(friction(expected), rel=0.02)
+
+
+# Slow sliding of a Kelvin sphere: mu = v tau a_T/R in three dimensions, twice that in one.
+SLOW = {"MDR": 2.0, "BEM": 1.0}
+
+
+@names
 def test_fast_friction_ignites_where_a_closed_form_does(solver):
     """mu = (4/5) f a_g^2/(R v tau_c) falls with the speed: warmer is slower, and heats more. x = C/a_T(T0 + x)."""
     stiff, energy, speed = 1000.0, 80e3, 100.0
@@ -210,3 +247,10 @@ def test_a_program_with_heating_is_refused_by_name(solver):
     heated = replace(WARM, motion=program, heating=Heating(conductivity=1.0))
     with pytest.raises(Refused, match="heating = Heating: it is estimated of steady sliding, not of a Program"):
         solver.solve(heated)
+
+
+def test_tasks_at_two_temperatures_are_two():
+    task = Task(SOLVERS[0], (WARM,))
+    other = Task(SOLVERS[0], (replace(WARM, temperature=replace(LAW, temperature=311.0)),))
+    assert task.question != other.question
+    assert task.question == Task(SOLVERS[0], (replace(WARM),)).question
