@@ -10,7 +10,7 @@ from sliding import ROUGH as SCENE
 
 from mdr1d import MDR, lay_out, map_profile, modes_of, sweep, sweep_modes
 from mdr1d.profile import contact_extent, greatest_depth, unmapped
-from scene import Cone, PowerLaw, Regime, Scene, SelfAffine, Slide, Sphere
+from scene import Cone, PowerLaw, Regime, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact
 
 SHAPES = [Sphere(radius=1e-2), Cone(angle=0.2), PowerLaw(coefficient=0.5, exponent=1.3)]
@@ -88,6 +88,13 @@ def test_contact_on_a_kelvin_solid_becomes_one_sided_with_speed():
     assert np.all(np.diff(found, axis=0) > 0)
     # A trailing flank holds on over the depth over the memory and the slope.
     np.testing.assert_allclose(found[-1], 1.0, atol=1e-6)
+
+
+def test_contact_on_a_solid_with_a_glass_is_one_sided_only_between_rubber_and_glass():
+    rubber, between, glass = (shares(StandardLinearSolid(1e6, 1e8, 1e-3), speed) for speed in (1e-6, 1e-2, 1e3))
+    np.testing.assert_allclose(rubber, 0.5, atol=0.05)
+    np.testing.assert_allclose(glass, 0.5, atol=0.05)
+    assert np.all(between > 0.6)
 
 
 def test_the_regime_is_that_of_the_line_which_is_solved():

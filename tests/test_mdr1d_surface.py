@@ -116,6 +116,25 @@ def test_heights_over_many_draws_have_the_kurtosis_of_their_waves(kind, shortest
     assert abs(-3 / 8 * np.sum(waves**4) / 5e-5**4) > 2 * SIGMAS * sqrt(24 / 8000)
 
 
+def test_a_gaussian_wave_at_the_nyquist_wave_number_is_a_gaussian_height_of_its_variance():
+    rough = replace(ROUGH, hurst=0.0, shortest=None, amplitudes="gaussian")
+    heights = np.array([draw(replace(rough, seed=s), 10).heights for s in range(2000)])
+    last = heights @ (-1.0) ** np.arange(10) / 10
+    variance = amplitudes(rough, 5.0)[-1] ** 2 / 2
+    assert np.mean(last**2) == pytest.approx(variance, rel=SIGMAS * sqrt(2 / 2000))
+    assert np.mean(last**4) == pytest.approx(3 * variance**2, rel=SIGMAS * sqrt(96 / 9 / 2000))
+
+
+def test_a_gaussian_line_has_an_rms_height_that_scatters_about_that_of_the_spectrum():
+    # The variance of the mean square is the sum of A^4 / 4 over the waves.
+    rough = replace(ROUGH, amplitudes="gaussian")
+    squares = np.array([draw(replace(rough, seed=s), 1000).rms_height ** 2 for s in range(400)])
+    spread = sqrt(np.sum(amplitudes(rough, 200.0) ** 4) / 4)
+    assert squares.mean() == pytest.approx(5e-5**2, abs=SIGMAS * spread / 20)
+    # Exponential squares have long tails: the scatter of a scatter of 400.
+    assert squares.std() == pytest.approx(spread, rel=0.25)
+
+
 @pytest.mark.parametrize(("hurst", "rolloff"), [(0.0, 2e-3), (0.8, None)])
 def test_a_line_scan_lacks_the_height_of_what_is_longer_than_two_periods(hurst, rolloff):
     rough = replace(ROUGH, hurst=hurst, rolloff=rolloff)

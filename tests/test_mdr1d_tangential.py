@@ -134,6 +134,12 @@ def test_friction_without_a_pull_draws_no_springs(motion, monkeypatch):
         assert min(parts) > 0
 
 
+def test_all_slips_in_the_end_and_friction_holds_no_more():
+    answer = MDR().solve(scene(roughness=ROUGH, displacement=1.0))
+    assert answer.measures["stick_length"] == 0
+    assert answer.friction_force == pytest.approx(MU * answer.normal_force, rel=ROUNDING)
+
+
 def test_without_friction_all_slips_at_once():
     answer = MDR().solve(scene(coefficient=0.0, displacement=1e-6))
     assert answer.friction_force == 0

@@ -12,7 +12,7 @@ from bem3d.surface import RoughSurface
 from mdr1d import MDR, draw
 from mdr1d.surface import band_of
 from mdr1d.topography import amplitudes
-from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere, Topography
+from scene import Kelvin, Program, Refused, Scene, SelfAffine, Slide, Sphere, Stage, Topography
 from scene.waves import MOST_WAVES
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=4e-3, shortest=0.25e-3, seed=3)
@@ -108,6 +108,23 @@ def test_on_as_many_nodes_as_pixels_a_row_is_whole():
         np.testing.assert_allclose(coarse, fine[::2], atol=1e-12)
 
 
+def test_rows_have_all_they_have_and_no_mean():
+    map_ = sampled(points=65)
+    squares = [draw(replace(map_, seed=seed), 130, "line-scan").rms_height ** 2 for seed in range(1, 300)]
+    rows = map_.relief - map_.relief.mean(axis=1, keepdims=True)
+    assert np.mean(squares) == pytest.approx(
+        np.mean(rows**2), rel=SIGMAS * np.std(squares) / 17 / np.mean(squares)
+    )
+
+
+def test_seeds_are_lines_and_equal_seeds_are_equal():
+    map_ = sampled()
+    for spectrum in ("mapped", "line-scan"):
+        one, twin, other = (draw(replace(map_, seed=seed), 200, spectrum).heights for seed in (3, 3, 4))
+        assert np.array_equal(one, twin)
+        assert not np.allclose(one, other)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("spectrum", ["mapped", "line-scan"])
 def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum):
@@ -126,6 +143,42 @@ def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum):
     assert rows.mean() == pytest.approx(lines.mean(), abs=SIGMAS * error)
     smooth = solver.solve(scene).friction_coefficient
     assert rows.mean() - smooth > 10 * error  # the roughness does something
+
+
+def test_a_map_without_heights_is_no_roughness():
+    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
+    for spectrum in ("mapped", "line-scan"):
+        solver = MDR(points=1000, extent=4e-3, spectrum=spectrum)
+        with_it, without = solver.solve(replace(SLIDING, roughness=flat)), solver.solve(SLIDING)
+        assert with_it.friction_force == pytest.approx(without.friction_force, rel=1e-9)
+        assert with_it.depth == pytest.approx(without.depth, rel=1e-9)
+
+
+def test_a_program_slides_on_rows_of_a_map():
+    program = Program(stages=(Stage(duration=1e-2, load=1.0), Stage(duration=4e-3, speed=0.1)))
+    for spectrum in ("mapped", "line-scan"):
+        answer = MDR(points=400, spectrum=spectrum, steps=20).solve(
+            replace(SLIDING, motion=program, roughness=sampled())
+        )
+        assert answer.friction_force > 0
+        assert answer.normal_force == pytest.approx(1.0)
+
+
+def test_measures_are_those_of_the_line():
+    map_ = sampled()
+    answer = MDR(points=2000).solve(replace(SLIDING, roughness=map_))
+    assert answer.measures["rms_height"] == pytest.approx(map_.rms_height, rel=1e-9)
+    assert answer.settings["cutoff"] == "resolved"
+    row = MDR(points=2000, spectrum="line-scan").solve(replace(SLIDING, roughness=map_))
+    relief = map_.relief[32] - map_.relief[32].mean()
+    assert row.measures["rms_height"] == pytest.approx(relief.std(), rel=1e-6)
+
+
+def test_a_rectangle_is_as_long_as_its_longer_side_or_its_rows():
+    map_ = noise((30, 6), repeat="periodic")
+    assert band_of(map_, "mapped").period == pytest.approx(30e-3)
+    assert band_of(map_, "line-scan").period == pytest.approx(6e-3)
+    assert band_of(map_, "line-scan").shortest == pytest.approx(2e-3)
 
 
 def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
