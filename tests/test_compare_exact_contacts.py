@@ -1,9 +1,11 @@
 """Closed forms of contacts against their own definitions: integrals, limits, and the figures of others."""
 
+from itertools import pairwise
 from math import inf, nan, pi, sqrt
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from compare.exact import foundation, full_contact, indentation, line_contact, waves
 from mdr1d import MDR
@@ -195,6 +197,35 @@ SHAPES = [
 ]
 
 
+@pytest.mark.parametrize("shape", SHAPES[::2])
+def test_loading_force_is_the_convolution_of_lee_and_radok(shape):
+    times, depths = np.array([0.0, 0.4, 0.9, 1.5]), np.array([0.0, 0.1, 0.1, 0.3])
+    n, kc = shape.exponent, shape.mdr_coefficient
+    m = (n + 1) / n
+
+    def modulus(t):
+        return 2 / (1 - CHAIN.poisson_ratio) * CHAIN.relaxation_modulus(t)
+
+    for t in (0.3, 0.9, 1.2, 1.5):
+        total = 0.0
+        for low, high in ((0.0, 0.4), (0.9, 1.5)):
+            high = min(high, t)
+            if high <= low:
+                continue
+            start, end = np.interp([low, high], times, depths)
+            # in the radius, so that d^(m-1) is smooth; finer panels where the last mode remembers
+            ends = (np.array([start, end]) / kc) ** (1 / n)
+            cuts = ends[1] - (ends[1] - ends[0]) * np.concatenate([[1.0], np.geomspace(0.5, 1e-6, 30), [0.0]])
+
+            def integrand(a, low=low, high=high, start=start, end=end, t=t):
+                s = low + (kc * a**n - start) / (end - start) * (high - low)
+                return modulus(max(t - s, 0.0)) * kc**m * (n + 1) * a**n
+
+            total += sum(quad(integrand, a, b)[0] for a, b in pairwise(cuts))
+        expected = 2 * n / (n + 1) * kc ** (-1 / n) * total
+        assert indentation.loading_force(shape, CHAIN, times, depths, t)[0] == pytest.approx(expected, rel=1e-8)
+
+
 @pytest.mark.parametrize("shape", SHAPES)
 def test_a_held_contact_relaxes_as_the_modulus_and_a_held_load_creeps_as_the_compliance(shape):
     """After a step of a millionth of the shortest time."""
@@ -283,6 +314,19 @@ def test_the_kelvin_sphere_leaves_where_the_closed_form_says():
     assert f.min() > -1e-9
     assert normal == pytest.approx(np.trapezoid(f, x), rel=1e-9)
     assert friction == pytest.approx(-np.trapezoid(x * f, x), rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", BODIES)
+@pytest.mark.parametrize("memory", [0.02, 0.5, 40.0])
+def test_the_stretch_of_the_branch_solves_its_equation(shape, memory):
+    """y' = -g' - y/m with y = 0 where contact begins."""
+    stretch = foundation._on_sphere if shape.exponent == 2 else foundation._on_cone
+    assert stretch(-1.0, memory, 1.0) == 0.0
+    for x in (-0.9, -0.3, 0.2, 0.8):
+        h = 1e-5 * memory
+        rate = (stretch(x + h, memory, 1.0) - stretch(x - h, memory, 1.0)) / (2 * h)
+        bend = 2 * x if shape.exponent == 2 else np.sign(x)
+        assert rate == pytest.approx(-bend - stretch(x, memory, 1.0) / memory, abs=1e-7)
 
 
 @pytest.mark.parametrize("shape", BODIES)

@@ -9,6 +9,7 @@ import xarray
 from bem3d import BEM
 from compare import rectangle
 from compare.finding import REPORTED
+from compare.outcome import Outcome, Row
 from compare.rectangle import COARSE, FAILED, FINE, SOLVED
 from compare.statistics.jackknife import friction, mean
 from compare.studies import catalogue, families
@@ -236,6 +237,16 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("holds", 0, (smooth.value, smooth.value))
     (smooth,) = of(judge_series(spoiled(whole, np.s_[0, 1], body=SMOOTH)), "pair.smooth")
     assert smooth.verdict == "undecided"
+
+
+def test_a_series_of_which_nothing_was_solved_has_no_finding():
+    series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
+    outcomes = {
+        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in rectangle.unique(series.rectangles)
+    }
+    contacts = Contacts(series, rectangle.tree(series.rectangles, outcomes))
+    assert judge_series(contacts).findings == ()
+    assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
 
 
 def test_speeds_are_named_by_where_they_lie_and_none_is_asked_twice(whole, judged):

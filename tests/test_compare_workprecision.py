@@ -296,6 +296,15 @@ def test_at_rest_the_force_converges_in_second_order_and_the_pressure_in_first()
         assert found[name, "BEM, by points"].order.order == pytest.approx(order, abs=SCATTER)
 
 
+def test_hertz_pressure_misses_itself_by_nothing():
+    quantity = elastic.hertzian(radius=1.0, peak=3.0)
+    x = np.linspace(-1.5, 1.5, 31)
+    exact = 3.0 * np.sqrt(np.maximum(1 - np.square(np.hypot(x, x[:, None])), 0))
+    fields = {"x": x, "y": x, "pressure": exact}
+    assert quantity.of(Row(), fields) == pytest.approx(0.0, abs=1e-15)
+    assert quantity.of(Row(), fields | {"pressure": 1.1 * exact}) > 0.05
+
+
 def test_points_and_steps_together_converge_against_ting():
     contact, _ = marching.contacts("quick")
     both = contact.ladders[2]
@@ -341,6 +350,16 @@ def test_most_of_what_parts_a_lattice_from_a_free_tip_is_the_shape_of_its_wave_a
     assert np.all(errors["radius_less_shape"] < 0.25 * errors["radius"])
     close, wide = found["radius", windows.label].errors
     assert close == pytest.approx(wide, rel=0.05)  # the pixels lie differently under the edge
+
+
+@pytest.mark.slow
+def test_single_precision_reaches_what_its_tolerance_asks_for_and_no_more():
+    scene = scenes.pressed(scenes.SPHERE)
+    tight, double, single = (
+        BEM(points=64, tolerance=tolerance, precision=precision).solve(scene).normal_force
+        for tolerance, precision in ((1e-11, "double"), (1e-7, "double"), (1e-5, "single"))
+    )
+    assert abs(double / tight - 1) < abs(single / tight - 1) < 1e-5
 
 
 def drawn(*arguments, **how):
