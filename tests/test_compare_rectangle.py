@@ -103,6 +103,29 @@ def test_results_are_the_same_after_they_were_stored(answers, tmp_path):
             assert again[node.path].variables[name].attrs == variable.attrs
 
 
+def test_results_are_read_as_xarray_reads_them(answers, tmp_path):
+    of_all_kinds = xarray.Dataset(
+        {
+            "holds": (("x", "nameless"), np.eye(2, 3, dtype=bool), {"long_name": "a truth"}),
+            "large": ("nameless_too", np.linspace(0, 1, 1000), {"units": "m"}),
+            "whole": ((), 3),
+            "name": ((), "µm"),
+            "reason": ("x", ["", "none at all"]),
+        },
+        {"x": [1.0, 2.0], "kind": ("x", ["a", "b"]), "beside": ("nameless", [1, 2, 3])},
+        {"solver": "BEM"},
+    )
+    parts = {node.path: node.to_dataset(inherit=False) for node in answers.subtree}
+    parts |= {"/": xarray.Dataset(attrs={"title": "all"}), "/all": of_all_kinds}
+    results.write(tmp_path / "results.nc", xarray.DataTree.from_dict(parts))
+    again = results.load(tmp_path)
+    with xarray.open_datatree(tmp_path / "results.nc", engine="h5netcdf") as expected:
+        xarray.testing.assert_identical(again, expected)
+        for node in expected.subtree:
+            for name, variable in node.variables.items():
+                assert again[node.path].variables[name].dtype == variable.dtype, name
+
+
 def test_damaged_results_and_folders_without_any_are_said(tmp_path):
     with pytest.raises(InvalidInput, match="no command has left results"):
         results.load(tmp_path)
