@@ -57,6 +57,10 @@ def test_waves_pass_through_every_pixel(shape, repeat):
     assert not amplitudes[: amplitudes.shape[0] // 2 + 1, 0].any()  # twins, and the mean: not even by rounding
 
 
+def test_two_pixels_but_for_rounding_are_two_pixels():
+    assert rough(shortest_kept=2e-3 * (1 - ROUNDING / 2)).shortest_kept < 2e-3
+
+
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
 def test_beyond_its_sides_a_map_goes_on_as_stated(repeat):
     map_ = rough(repeat=repeat)
