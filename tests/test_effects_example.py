@@ -72,6 +72,12 @@ def test_a_coating_on_a_plane_in_full_contact_adds_its_compliance_to_every_wave(
     assert np.fft.rfft2(answer.fields["pressure"]) == pytest.approx(expected, abs=1e-6 * abs(expected[0, 1]))
 
 
+def test_a_coating_does_not_cost_iterations(page):
+    rigid = page["CoatedBEM"](points=64).solve(page["bare"]).applications
+    for compliance in (1e-12, 1e-10, 1e-8):
+        assert page["force"](compliance).applications < 2 * rigid
+
+
 def test_a_scene_without_the_part_is_answered_to_the_last_digit(page):
     scene = page["CoatedScene"](Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
     with_line, without = (solver(points=32).solve(scene) for solver in (page["CoatedBEM"], BEM))

@@ -32,6 +32,12 @@ def _between(low, high, function):
     return (high - low) / 2 * WEIGHTS @ (q * function(q))
 
 
+def test_the_density_of_the_line_is_pi_q_that_of_the_surface():
+    top = ROUGH.q_max(0.0)
+    q = np.linspace(0, 2 * top, 50)
+    np.testing.assert_allclose(ROUGH.density_1d(q, top), np.pi * q * ROUGH.density_2d(q, top), rtol=ROUNDING)
+
+
 @pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_both_densities_integrate_to_the_rms_height_and_to_the_rms_slope(hurst, rolloff):

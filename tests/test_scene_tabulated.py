@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from scene import Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
+from scene import Fractional, Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
 from scene.reading import InvalidInput, read
 
 SOLID = Prony(1e6, (1e6, 3e6, 1e7, 1e8), (1e2, 1.0, 1.37e-2, 1e-5))
@@ -66,6 +66,16 @@ def test_noise_is_smoothed_and_shows_in_the_stated_error(seed):
     assert 0.5 * NOISE < solid.rms_error < 1.2 * NOISE
     assert deviation(solid) < 0.6 * NOISE
     assert np.all(solid.relaxation()[1] > 0)
+
+
+def test_a_power_law_over_eight_decades_is_followed_with_few_modes():
+    law = Fractional(
+        modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-6, highest_frequency=1e10
+    )
+    omega = np.geomspace(1e-2, 1e6, 60)
+    solid = fitted(table(law, omega))
+    assert solid.rms_error <= NEGLIGIBLE
+    assert len(solid.relaxation()[2]) <= 5 * 8
 
 
 def test_units_of_frequency_and_kind_of_modulus_are_applied():

@@ -9,7 +9,22 @@ from pydantic.dataclasses import dataclass as validated
 from bem3d import BEM
 from compare.exact import Exact
 from mdr1d import MDR
-from scene import WLF, Cone, Coulomb, Elastic, Heating, Indent, Kelvin, Layer, Refused, Scene, Shear, Slide, Sphere
+from scene import (
+    WLF,
+    Cone,
+    Coulomb,
+    Cylinder,
+    Elastic,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Refused,
+    Scene,
+    Shear,
+    Slide,
+    Sphere,
+)
 from scene.indenter import Axisymmetric
 from scene.terms import Lacking, Term, lacking, surrounded, terms_of
 
@@ -75,6 +90,17 @@ def test_the_last_term_is_outmost_around_a_solve():
 
     terms = terms_of({Sphere: Marking, Kelvin: Term, Slide: Marking}, PLAIN)
     assert surrounded(lambda scene: "solved", terms)(PLAIN) == "motion(indenter(solved))"
+
+
+def test_what_one_dimension_lacks_is_refused_with_what_can_be_done():
+    lacking_in_1d = {
+        "layer": replace(PLAIN, layer=Layer(thickness=1e-3)),
+        "indenter": replace(PLAIN, indenter=Cylinder(radius=1e-3), motion=Indent(line_load=1.0)),
+    }
+    for field, scene in lacking_in_1d.items():
+        (reason,) = MDR().refusals(scene)
+        assert reason.startswith(f"{field} = {type(getattr(scene, field)).__name__}: ")
+        assert "three-dimensional solver" in reason
 
 
 @pytest.mark.parametrize("given", [{}, {"displacement": 1e-6, "force": 1.0}])

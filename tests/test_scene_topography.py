@@ -427,6 +427,26 @@ def test_a_file_that_states_no_unit_asks_for_it(tmp_path, surface_topography):
     assert Topography(file=path, unit="um").pixel == pytest.approx((2e-6, 4e-6))
 
 
+def test_a_damaged_file_is_named(tmp_path, surface_topography):
+    path = tmp_path / "a.sur"
+    path.write_bytes(b"DIGITAL SURF" + b"\0" * 40)
+    with pytest.raises(ValidationError, match="cannot be read by SurfaceTopography: it is of no format"):
+        Topography(file=path)
+
+
+def test_of_what_another_program_says_a_line_is_kept(tmp_path, surface_topography, monkeypatch):
+    def fails(_):
+        raise RuntimeError("the header ends\nand so on\nand on")
+
+    monkeypatch.setattr(surface_topography, "open_topography", fails)
+    path = tmp_path / "a.sur"
+    path.write_bytes(b"0")
+    with pytest.raises(ValidationError) as error:
+        Topography(file=path)
+    assert "a.sur cannot be read by SurfaceTopography: the header ends" in says(error)
+    assert "and so on" not in says(error)
+
+
 FILE = """
 [indenter]
 type = "sphere"
