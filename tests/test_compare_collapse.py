@@ -402,8 +402,7 @@ def test_noise_never_makes_a_claim_hold(draw, repeats, bend):
     "draw",
     [
         *(on_surfaces(n, scatter) for n in (3, 10) for scatter in (0.05, 0.2)),
-        by_points(0.01, 6),
-        by_points(0.05, 50),
+        *(pytest.param(by_points(*asked), marks=pytest.mark.hours) for asked in ((0.01, 6), (0.05, 50))),
     ],
 )
 def test_the_right_law_is_kept_in_hundreds_of_repeats(draw, law):

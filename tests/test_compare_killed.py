@@ -207,7 +207,7 @@ def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, marke
     study.finish(expected)
 
 
-@pytest.mark.slow
+@pytest.mark.hours
 def test_ten_workers_killed_at_random_moments_cost_what_they_solved_and_nothing_else(tmp_path, marked, expected):
     draw, kills, studies = random.Random(10), 0, 0
     while kills < 10:

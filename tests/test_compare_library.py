@@ -76,8 +76,13 @@ def test_every_study_is_read_and_can_be_asked(name, tmp_path):
     assert study.rectangles()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"}))
+COMPARED = sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"})
+
+
+# One that is smooth and slides stands for the others.
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name == "standard-solid" else pytest.mark.slow) for name in COMPARED]
+)
 def test_every_scene_that_can_be_compared_is(name, tmp_path):
     report = run(written(name, tmp_path), tmp_path / "out", workers=1, report=False)
     assert not report.faults

@@ -75,7 +75,9 @@ def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
         return None
     slope = _slope(own)
     known = (own["solver"] == "MDR") & np.isfinite(slope)
-    own = own.assign(eq_19=np.where(known, law(own["normal_force"], own["speed"], slope), nan))
+    own = own.assign(eq_19=nan)
+    if known.any():
+        own.loc[known, "eq_19"] = law(own["normal_force"][known], own["speed"][known], slope)
     pressed = "" if "load" in own else " The depth is prescribed: loads are means."
     told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
     caption = (
