@@ -41,10 +41,7 @@ def in_contact(engine: Engine, scene: Scene, flow: Flow, shape: Shape) -> Iterat
     """While a contact is found: products, planes, and what the solver of a set of contact keeps."""
     yield from product(engine, "response", shape, _sizes(engine, scene, shape), flow.at_rest)
     yield from product(engine, "approximate inverse", shape, shape, real=True)
-    if not flow.at_rest:
-        waves = shape[0], shape[1] // 2 + 1
-        yield Array("approximate inverse of the flow: waves", waves, engine.complex().itemsize)
-    yield Array("heights, pressure, gap and the like", (9, *shape))
+    yield Array("heights, pressure, gap and the like", (9 if flow.at_rest else 11, *shape))
     yield Array("sets of contact", (3, *shape), 1)
     touching = ceil((ON_A_ROW if shape[0] == 1 else TOUCHING) * prod(shape))
     if shape[0] == 1 and not flow.at_rest:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .convolution import PeriodicFilter
 from .engine import Engine
+from .foundation import Foundation
 from .grid import Grid
 from .ground import HALF_SPACE, Ground
 from .sliding import Flow
@@ -33,17 +34,17 @@ class Cell:
 
         return PeriodicFilter(grid.shape, symbol, self.engine)
 
-    def preconditioners(self, grid: Grid) -> list[PeriodicFilter]:
-        """The inverse of the operator, in factors as `HalfSpace`; a mean pressure is taken for the lowest wave."""
+    def preconditioner(self, grid: Grid) -> PeriodicFilter:
+        """Inverse of the operator, but for the foundation; a mean pressure is taken for the lowest wave."""
 
         def elastic(q_y, q_x):
             return self.ground.stiffness(_lengths(q_y, q_x, 2 * np.pi / grid.points), grid.pixel)
 
-        def flow(_, q_x):
-            return 1 / self._response(grid, q_x)
+        return PeriodicFilter(grid.shape, elastic, self.engine)
 
-        symbols = [elastic] if self.flow.at_rest else [flow, elastic]
-        return [PeriodicFilter(grid.shape, symbol, self.engine) for symbol in symbols]
+    def foundation(self, grid: Grid) -> Foundation | None:
+        """What of the operator is not in the elastic half-space; None at rest."""
+        return Foundation.of(self.flow, grid, wraps=True)
 
     def slope(self, grid: Grid) -> PeriodicFilter:
         """Pressure -> slope of the displacement along the flow, as far as it dissipates."""

@@ -4,12 +4,13 @@ Find p >= 0 with gap = A p + z - d >= 0 and p * gap = 0 on every point, for a de
 sum(p) = load. The operator A is positive definite; it need not be symmetric.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from . import kernels
+from .foundation import Foundation
 from .krylov import conjugate_gradients, direct, gmres
 
 ROUNDS = 400  # sets of contact tried before giving up, and one more a pixel along; 5 to 20 are usual
@@ -50,7 +51,8 @@ def solve(
     tolerance: float,
     depth: float | None = None,
     load: float | None = None,
-    precondition: Sequence[Callable] = (),
+    precondition: Callable | None = None,
+    foundation: Foundation | None = None,
     symmetric: bool = False,
     sums=FUSED,
 ) -> Contact:
@@ -62,8 +64,8 @@ def solve(
     tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z),
         or what the heights in contact span where that is more (depths under a line may be negative)
     depth, load : exactly one; load is sum(p)
-    precondition : factors of an approximate inverse of the operator on the whole grid, first to last; what each
-        gives outside the set of contact is discarded before the next
+    precondition : approximate inverse, on the whole grid, of the operator but for its foundation
+    foundation : under a flow, what of the operator remembers along x
     symmetric : conjugate gradients, else GMRES, on a single row elimination
     sums : see `kernels`
 
@@ -76,6 +78,7 @@ def solve(
     gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
     lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
     most = ROUNDS + max(heights.shape)
+    on_set = _OnSet(operator, precondition, foundation, depth is None, heights.shape, sums)
     marked, tried = xp.zeros((2, *heights.shape), bool)
     for rounds in range(1, most + 1):
         contact = pressure > 0
@@ -95,11 +98,10 @@ def solve(
             marked, tried = contact, contact.copy()
         elif (contact == marked).all():
             contact = tried.copy()
-        on_set = _OnSet(operator, precondition, contact, depth is None, sums)
+        on_set.turn_to(contact)
         correction = solver(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
-        values = xp.maximum(pressure.reshape(-1)[on_set.where] + correction, 0.0)
-        sums.put(values, on_set.where, pressure)
-        if not values.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
+        on_set.add(correction, pressure)
+        if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
             pressure, accuracy = xp.maximum(level - heights, 0.0), accuracy / 4
         pressure = _balanced(pressure, load)
     violation = max(inside, outside) / aim * tolerance
@@ -121,15 +123,36 @@ def _balanced(pressure, load):
 class _OnSet:
     """The operator on the points of contact alone; at given load on corrections that keep the load."""
 
-    def __init__(self, operator, precondition, contact, mean_free, sums):
-        self.sums, self.where = sums, sums.xp.flatnonzero(contact)
-        self._operator, self._precondition, self.mean_free = operator, precondition, mean_free
-        self._plane, self._image = sums.xp.zeros(contact.shape), sums.xp.empty(contact.shape)
+    def __init__(self, operator, precondition, foundation, mean_free, shape, sums):
+        self.sums, self.mean_free = sums, mean_free
+        self._operator, self._precondition, self._foundation = operator, precondition, foundation
+        self._plane, self._image = sums.xp.zeros(shape), sums.xp.empty(shape)
+        self._lifted = None
+
+    def turn_to(self, contact):
+        """The set of contact (ny, nx)."""
+        self.where, self._contact = self.sums.xp.flatnonzero(contact), contact
+        self._plane[:] = 0
 
     def restricted(self, plane):
         """Its values on the set."""
         values = plane.reshape(-1)[self.where]
         return values - values.mean() if self.mean_free else values
+
+    def add(self, correction, pressure):
+        """A correction on the set to the pressure, of which then nothing pulls.
+
+        Under a flow the displacement of the foundation is kept, and not the pressure left of the sum: where that
+        pulled at a leading edge, what comes behind presses the less.
+        """
+        values = pressure.reshape(-1)[self.where] + correction
+        pulls = bool(values.min() < 0)
+        if self._foundation is None:
+            values = self.sums.xp.maximum(values, 0.0)
+        self.sums.put(values, self.where, pressure)
+        if pulls and self._foundation is not None:
+            self.sums.sink(pressure, self._foundation)
+            self.sums.push(pressure, self._contact, self._foundation, least=0.0)
 
     def row(self):
         """Displacement of a single row under a unit load on its first pixel, and on its last."""
@@ -147,13 +170,10 @@ class _OnSet:
 
     def precondition(self, values, out, first, second):
         """The same with the approximate inverse."""
-        if not self._precondition:
+        if self._precondition is None:
             out[:] = values
             return 0.0, float((values * first).sum()), float((values * second).sum())
-        for factor in self._precondition:
-            sums = self._through(factor, values, out, first, second)
-            values = out
-        return sums
+        return self._through(self._precondition, values, out, first, second)
 
     def _through(self, product, values, out, first, second):
         self.sums.put(values, self.where, self._plane)
@@ -162,16 +182,53 @@ class _OnSet:
         # The vectors are free of mean themselves where means are taken off: their products need no correction.
         return total / out.size if self.mean_free else 0.0, along, beside
 
-    def applied(self, values):
-        """The operator's values, as a new vector."""
-        return self._new(self.operator, values)
+    def pressed(self, sunk):
+        """Pressure (m,) that sinks the foundation so (m,)."""
+        return self._push(sunk).reshape(-1)[self.where]
 
-    def preconditioned(self, values):
-        """The same with the approximate inverse."""
-        return self._new(self.precondition, values)
+    def displaced(self, sunk):
+        """Displacement by that pressure, free of what is to be taken off."""
+        self._operator(self._push(sunk), out=self._image)
+        return self.restricted(self._image)
 
-    def _new(self, product, values):
-        out = self.sums.xp.empty_like(values)
-        mean, _, _ = product(values, out, values, values)
-        out -= mean
-        return out
+    def sunk(self, displacement):
+        """Approximately, what sinks the foundation where the surface is displaced so (m,).
+
+        Behind each spot of contact the displacement goes on as a surface left alone: cut off there, it would have
+        jumps as large as the memory is long. At given load a level is added that keeps the load.
+        """
+        values = self._inverted(displacement).reshape(-1)[self.where]
+        if not self.mean_free:
+            return values
+        return values - float((self._worth * values).sum()) * self._level
+
+    def weigh(self):
+        """Make ready for `sunk` on this set: at given load, the level and what sinking is worth in load."""
+        if not self.mean_free:
+            return
+        xp = self.sums.xp
+        if self._lifted is None:  # by a displacement of one everywhere: near enough on all sets that follow
+            self._lifted = self._inverted(xp.ones(len(self.where))).copy()
+        # The sum of pressures as a sum of what sinks: the transpose of pushing is pushing upstream.
+        worth, contact = xp.ones(self._plane.shape), xp.ascontiguousarray(self._contact[:, ::-1])
+        if self._foundation is not None:
+            self.sums.push(worth, contact, self._foundation)
+        self._worth = xp.ascontiguousarray(worth[:, ::-1]).reshape(-1)[self.where]
+        level = self._lifted.reshape(-1)[self.where]
+        self._level = level / float((self._worth * level).sum())
+
+    def _push(self, sunk):
+        self.sums.put(sunk, self.where, self._plane)
+        if self._foundation is not None:
+            self.sums.push(self._plane, self._contact, self._foundation)
+        return self._plane
+
+    def _inverted(self, displacement):
+        self._plane[:] = 0
+        self.sums.put(displacement, self.where, self._plane)
+        if self._foundation is not None:
+            self.sums.release(self._plane, self._contact, self._foundation)
+        if self._precondition is None:
+            return self._plane
+        self._precondition(self._plane, out=self._image)
+        return self._image

@@ -19,7 +19,7 @@ class FreeConvolution:
         symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
         if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
             symbol = symbol.real
-        self.shape, self.applications, self.pairs = (ny, nx), 0, 1.0
+        self.shape, self.applications = (ny, nx), 0
         self._product = engine.product(symbol, self.shape, padded)
 
     def __call__(self, pressure, out=None):
@@ -42,7 +42,7 @@ class FreePair:
         for kernel, parity in zip(kernels, (1, -1, 1), strict=True):
             laid_out = _laid_out(kernel, parity * kernel[:, :0:-1], padded)
             symbols.append(engine.transformed(laid_out, padded, parity).real)
-        self.shape, self.applications, self.pairs = (ny, nx), 0, 1.0
+        self.shape, self.applications = (ny, nx), 0
         self._product = engine.pair(symbols, self.shape, padded)
 
     def __call__(self, planes, out=None):
@@ -55,15 +55,9 @@ class PeriodicFilter:
     """Multiplication of every wave by its symbol, on ny x nx points that repeat. `applications` counts."""
 
     def __init__(self, shape, symbol, engine=PLAIN):
-        """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array.
-
-        One of q_x alone, an array of one row, needs no transform along y.
-        """
-        ny, nx = shape
-        values = symbol(*_wave_numbers(shape))
+        """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array."""
         self.shape, self.applications = shape, 0
-        self.pairs = 0.5 if len(values) == 1 and ny > 1 else 1.0  # of transforms, an application
-        self._product = engine.product(values, shape, (1 if len(values) == 1 else ny, nx))
+        self._product = engine.product(symbol(*_wave_numbers(shape)), shape, shape)
 
     def __call__(self, values, out=None):
         """The filtered values (ny, nx)."""
@@ -85,7 +79,7 @@ class PeriodicPair:
         q_y, q_x = _wave_numbers(shape)
         xx, xy, yy = symbols(q_y, q_x)
         xy = np.where((q_y > SHORTEST) | (q_x > SHORTEST), 0.0, xy)
-        self.shape, self.applications, self.pairs = shape, 0, 1.0
+        self.shape, self.applications = shape, 0
         self._product = engine.pair((xx, xy, yy), shape, shape)
 
     def __call__(self, planes, out=None):

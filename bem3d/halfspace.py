@@ -9,6 +9,7 @@ import numpy as np
 
 from .convolution import FreeConvolution, PeriodicFilter
 from .engine import Engine
+from .foundation import Foundation
 from .grid import Grid
 from .ground import HALF_SPACE, Ground
 from .sliding import Flow
@@ -59,23 +60,19 @@ class HalfSpace:
         seen = np.maximum(lengths, LEAST_DIFFERENCE)
         return self.flow.shares * lengths / seen, seen
 
-    def preconditioners(self, grid: Grid) -> list[PeriodicFilter]:
-        """Approximate inverse of the operator: one over the compliance of the modes on pixels, then the ground.
-
-        Two factors, because a contact discards what the first gives outside: of a displacement known on the
-        contact alone, a jump to nothing behind its trailing edge, as large as the memory is long.
-        """
+    def preconditioner(self, grid: Grid) -> PeriodicFilter:
+        """Approximate inverse of the operator, but for the foundation."""
 
         def elastic(q_y, q_x):
             q = np.hypot(q_y, q_x)
             q[0, 0] = np.pi / grid.points  # half the lowest: a mean pressure on a free surface does push it in
             return self.ground.stiffness(q, grid.pixel)
 
-        def flow(_, q_x):
-            return 1 / _discrete_compliance(self.flow, grid, q_x)
+        return PeriodicFilter(grid.shape, elastic, self.engine)
 
-        symbols = [elastic] if self.flow.at_rest else [flow, elastic]
-        return [PeriodicFilter(grid.shape, symbol, self.engine) for symbol in symbols]
+    def foundation(self, grid: Grid) -> Foundation | None:
+        """What of the operator is not in the elastic half-space; None at rest."""
+        return Foundation.of(self.flow, grid)
 
     def _convolution(self, kernel):
         return FreeConvolution(kernel, self.engine)
@@ -85,13 +82,3 @@ class HalfSpace:
 
     def _flowing(self, grid, instantaneous, shares, lengths, shift):
         return self.ground.flowing(grid, instantaneous, shares, lengths, shift)
-
-
-def _discrete_compliance(flow, grid, q_x):
-    """Of pressure held from pixel to pixel, at q_x [rad/pixel], over the relaxed one."""
-    compliance = np.full(q_x.shape, complex(flow.instantaneous))
-    for share, length in zip(flow.shares, flow.in_pixels(grid), strict=True):
-        gone = -np.expm1(-1 / length)
-        # 1 - exp(-1/length - i q_x), with its digits where both are small.
-        compliance += share * gone / (gone - (1 - gone) * np.expm1(-1j * q_x))
-    return compliance

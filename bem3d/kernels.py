@@ -11,7 +11,56 @@ from numba import njit
 compiled = njit(cache=True, nogil=True, fastmath={"reassoc", "contract", "nsz"})
 
 
-class Plain:
+LEAST = -np.inf  # pressure that a foundation may have
+ROWS = 8  # marched side by side: a pixel waits for the one before it, but not for its neighbours aside
+SINK, RELEASE, PUSH = range(3)
+NOWHERE = np.zeros((0, 0), bool)
+
+
+class Marching:
+    """Along the flow over a foundation (see `foundation`), in place, on what `_lap` does on arrays of `xp`."""
+
+    def sink(self, plane, foundation):
+        """Pressure (ny, nx) to the displacement that it makes of a foundation."""
+        states = self._zeros(plane, foundation)
+        if foundation.wraps:
+            self._lap(plane.copy(), NOWHERE, foundation, states, SINK)
+            states /= 1 - self._modes(foundation) ** plane.shape[1]
+        self._lap(plane, NOWHERE, foundation, states, SINK)
+
+    def release(self, plane, contact, foundation):
+        """Displacement of a foundation in contact (ny, nx): elsewhere it becomes that of the surface left alone."""
+        self._lap(plane, contact, foundation, self._entering(plane, contact, foundation), RELEASE)
+
+    def push(self, plane, contact, foundation, least=LEAST):
+        """Displacement of a foundation in contact to pressure, zero elsewhere; no less than `least`."""
+        states = self._entering(plane, contact, foundation)
+        if foundation.wraps and least > LEAST:
+            self._lap(plane.copy(), contact, foundation, states, PUSH, least)
+        self._lap(plane, contact, foundation, states, PUSH, least)
+
+    def _modes(self, foundation):
+        return self.xp.asarray(foundation.kept)[:, None]
+
+    def _zeros(self, plane, foundation):
+        return self.xp.zeros((len(foundation.kept), len(plane)))
+
+    def _entering(self, plane, contact, foundation):
+        """States (K, ny) with which a row begins; where it wraps, those with which it ends."""
+        given = self._zeros(plane, foundation)
+        if not foundation.wraps:
+            return given
+        self._lap(plane.copy(), contact, foundation, given, PUSH)
+        # The end of a row is linear in its beginning.
+        ends = [self._zeros(plane, foundation) for _ in foundation.kept]
+        for mode, end in enumerate(ends):
+            end[mode] = 1.0
+            self._lap(self.xp.zeros_like(plane), contact, foundation, end, PUSH)
+        gone = self.xp.eye(len(ends)) - self.xp.stack(ends).transpose(2, 1, 0)
+        return self.xp.linalg.solve(gone, given.T[..., None])[..., 0].T
+
+
+class Plain(Marching):
     """By the arrays of a module xp, numpy or cupy."""
 
     def __init__(self, xp=np):
@@ -37,6 +86,22 @@ class Plain:
         direction *= beta
         direction += z - mean
 
+    def _lap(self, plane, contact, foundation, states, what, least=LEAST):
+        """Column by column downstream; `states` (K, ny) are those before the first, then those of the last."""
+        gained, where = self.xp.asarray(foundation.gained)[:, None], self.xp.where
+        kept = self._modes(foundation)
+        for x in range(plane.shape[1]):
+            states *= kept
+            known, given = states.sum(axis=0), plane[:, x].copy()
+            if what == SINK:
+                pressure = given
+                plane[:, x] = known + foundation.at_once * pressure
+            else:
+                pressure = self.xp.maximum((given - known) / foundation.at_once, least)
+                pressure = where(contact[:, x], pressure, 0.0)
+                plane[:, x] = pressure if what == PUSH else where(contact[:, x], given, known)
+            states += gained * pressure
+
     def gaps(self, displacement, heights, level, contact, gap):
         """gap = displacement + heights - level; largest |gap| in contact, deepest penetration outside."""
         gap[:] = displacement + heights - level
@@ -44,7 +109,7 @@ class Plain:
         return inside, float(-self.xp.where(contact, 0.0, gap).min())
 
 
-class Fused:
+class Fused(Marching):
     """One loop each, by numba."""
 
     xp = np
@@ -60,6 +125,12 @@ class Fused:
 
     def turn(self, direction, z, mean, beta):
         _turn(direction, z, mean, beta)
+
+    def _lap(self, plane, contact, foundation, states, what, least=LEAST):
+        modes = foundation.at_once, foundation.kept, foundation.gained
+        for first in range(0, len(plane), ROWS):
+            rows = slice(first, first + ROWS)
+            _lap(plane[rows], contact[rows], *modes, states[:, rows], what, least)
 
     def gaps(self, displacement, heights, level, contact, gap):
         flat = (a.reshape(-1) for a in (displacement, heights))
@@ -113,3 +184,27 @@ def _gaps(displacement, heights, level, contact, gap):
         else:
             outside = max(outside, -value)
     return inside, outside
+
+
+@compiled
+def _lap(plane, contact, at_once, kept, gained, states, what, least):
+    rows, stiffness = plane.shape[0], 1 / at_once
+    known, pressure = np.empty(rows), np.empty(rows)
+    for x in range(plane.shape[1]):
+        for j in range(rows):
+            known[j] = 0.0
+        for k in range(kept.size):
+            for j in range(rows):
+                states[k, j] *= kept[k]
+                known[j] += states[k, j]
+        for j in range(rows):
+            given = plane[j, x]
+            if what == SINK:
+                pressure[j] = given
+                plane[j, x] = known[j] + at_once * given
+            else:
+                pressure[j] = max((given - known[j]) * stiffness, least) if contact[j, x] else 0.0
+                plane[j, x] = pressure[j] if what == PUSH else given if contact[j, x] else known[j]
+        for k in range(kept.size):
+            for j in range(rows):
+                states[k, j] += gained[k] * pressure[j]

@@ -187,7 +187,7 @@ class _Press:
     def __init__(self, problem, program, grid):
         self._problem, self._program, self._grid = problem, program, grid
         self._operator = problem.medium.operator(grid)
-        self._preconditioners = problem.medium.preconditioners(grid)
+        self._preconditioner = problem.medium.preconditioner(grid)
 
     def __call__(self, heights, compliance, guess, tolerance, seen, middle):
         """The contact at the depth of the time `seen`, or under the load in the `middle` of the step [s].
@@ -220,9 +220,7 @@ class _Press:
         """Add what all contacts took to the work of the problem."""
         problem, points = self._problem, self._grid.points * self._grid.rows
         problem.work += self._operator.applications * points
-        problem.transforms += (
-            sum(each.applications * each.pairs for each in (self._operator, *self._preconditioners)) * points
-        )
+        problem.transforms += (self._operator.applications + self._preconditioner.applications) * points
 
     def _load(self, time):
         """Sum of the pressure over E* on all pixels."""
@@ -239,7 +237,7 @@ class _Press:
                 tolerance,
                 depth=depth,
                 load=load,
-                precondition=self._preconditioners,
+                precondition=self._preconditioner,
                 symmetric=True,
                 sums=engine.sums,
             ).map(engine.asnumpy)

@@ -158,7 +158,6 @@ def _kernels(scene, flow, shape):
     yield Kernel("response", form, values)
     yield Kernel("approximate inverse", "symbol", shape)
     if not flow.at_rest:
-        yield Kernel("approximate inverse of the flow", "symbol", shape)
         yield Kernel("loss, by the slope", form, values)
         yield Kernel("loss, from pixel to pixel", form, values)
 

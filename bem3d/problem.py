@@ -10,7 +10,7 @@ from scene import CrossedWaves, Cylinder, EmptyContact, Measured, Plane, Result,
 from scene.scales import elastic_contact
 from scene.terms import Table, terms_of
 
-from . import contact
+from . import contact, kernels
 from .cell import Cell
 from .engine import Engine
 from .grid import Grid
@@ -138,19 +138,23 @@ class Problem:
         surface, start = self.surface(finest), None
         for grid in reversed(grids[1:]):
             try:
-                start = self.solve_on(grid, surface, start, max(tolerance, COARSE_TOLERANCE)).pressure
+                answer = self.solve_on(grid, surface, start, max(tolerance, COARSE_TOLERANCE))
+                start = grid, answer.pressure
             except (EmptyContact, Unseen):
                 start = None  # the coarse grid misses the peaks that the finer one has
         return self.solve_on(finest, surface, start, tolerance)
 
     def solve_on(self, grid: Grid, surface, start, tolerance) -> contact.Contact:
-        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError."""
+        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
+
+        start : another grid on the same piece and the pressure there, or None
+        """
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
         depth, load = self._pressed(grid, heights)
         if grid.rows == 1 and not self.flow.at_rest:
             tolerance = min(tolerance, LEAST_ON_A_ROW)
-        operator, preconditioners = self.medium.operator(grid), self.medium.preconditioners(grid)
-        start = self._first_guess(heights, grid, depth, load) if start is None else grid.resampled_contact(start)
+        operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
+        start = self._first_guess(heights, grid, depth, load) if start is None else self._taken_over(*start, grid)
         here = self.engine.asarray
         try:
             return contact.solve(
@@ -160,7 +164,8 @@ class Problem:
                 tolerance,
                 depth=depth,
                 load=load,
-                precondition=preconditioners,
+                precondition=preconditioner,
+                foundation=self.medium.foundation(grid),
                 symmetric=self.flow.at_rest,
                 sums=self.engine.sums,
             ).map(self.engine.asnumpy)
@@ -172,9 +177,20 @@ class Problem:
             ) from error
         finally:
             self._count(grid, operator)
-            self.transforms += (
-                sum(factor.applications * factor.pairs for factor in preconditioners) * grid.points * grid.rows
-            )
+            self.transforms += preconditioner.applications * grid.points * grid.rows
+
+    def _taken_over(self, other, pressure, grid):
+        """The pressure of another grid on this one.
+
+        Under a flow, that which sinks the foundation as much: the pressure itself has spikes at leading edges.
+        """
+        if self.flow.at_rest:
+            return grid.resampled_contact(pressure)
+        sums, sunk = kernels.Fused(), pressure.copy()
+        sums.sink(sunk, self.medium.foundation(other))
+        taken = grid.resample(sunk)
+        sums.push(taken, grid.resampled_contact(pressure) > 0, self.medium.foundation(grid), least=0.0)
+        return taken
 
     def _count(self, grid, product):
         self.work += product.applications * grid.points * grid.rows

@@ -60,7 +60,7 @@ class BEM:
     0.152 mm, 0.0095
 
     Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
-    preconditioner too (half where it transforms along x alone), both in equivalents of the finest grid.
+    preconditioner too, both in equivalents of the finest grid.
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, rounds, transform_pairs;
     curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and roughness weighted with the pressure: at
     rest it is mu at low speed over that speed and the mean lag of the elastomer; friction_by_traction,

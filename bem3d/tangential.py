@@ -239,7 +239,7 @@ class Tangential:
         scene, engine = self._problem.scene, self._problem.engine
         if self._components == 1:
             medium = self._problem.bare
-            (inverse,) = medium.preconditioners(grid)
+            inverse = medium.preconditioner(grid)
             return Alone(medium.operator(grid)), Alone(inverse)
         kernel = cerruti.periodic if isinstance(scene.indenter, Plane) else cerruti.free
         nu = scene.solid.poisson_ratio

@@ -154,7 +154,7 @@ def free_spheres(largest: int) -> str:
 
 
 def iteration(scene: Scene, solver: BEM) -> tuple:
-    """Products with operator and preconditioner, all its factors, on the finest grid: counts, milliseconds of one.
+    """Products with operator and preconditioner on the finest grid: counts, milliseconds of one.
 
     Then the processor time of the solve there over that of its products, and of the whole solve over that of all
     its products, each as if on the finest grid.
@@ -170,15 +170,15 @@ def iteration(scene: Scene, solver: BEM) -> tuple:
     solver.solve(scene)  # compiles
     with patch.object(contact, "solve", timed):
         whole = solver.solve(scene)
-    seconds, operator, factors = runs[-1]
-    counts = operator.applications, factors[0].applications
+    seconds, operator, inverse = runs[-1]
+    counts = operator.applications, inverse.applications
     plane, out = np.ones(operator.shape), np.empty(operator.shape)
 
     def cost(product):
         return least(lambda: product(plane, out=out), solver.points)
 
-    each = cost(operator), sum(map(cost, factors))
-    everywhere = whole.applications, (whole.measures["transform_pairs"] - whole.applications) / len(factors)
+    each = cost(operator), cost(inverse)
+    everywhere = whole.applications, whole.measures["transform_pairs"] - whole.applications
     over = [of / np.dot(count, each) for of, count in ((seconds, counts), (whole.seconds, everywhere))]
     return *counts, *(1e3 * one for one in each), *over
 

@@ -181,7 +181,7 @@ def test_a_wave_in_full_contact_is_curved_as_its_pressure_says(wave, waves):
 
 def test_without_an_edge_slow_friction_is_the_energy_lost():
     slid = Scene(Plane(), KELVIN, Slide(speed=1e-6, pressure=1e6), CrossedWaves(amplitude=1e-6, wavelength=1e-3))
-    answer = BEM(points=32).solve(slid)
+    answer = BEM(points=32, tolerance=1e-9).solve(slid)
     assert answer.measures["contact_fraction"] == 1
     loss = answer.measures["friction_by_loss"]
     # Differences of slopes on 32 points leave more than this between the two.

@@ -15,7 +15,7 @@ D = 1e-4
 A = np.sqrt(R * D)
 HERTZ = 4 / 3 * 4 * G * np.sqrt(R) * D**1.5
 PUBLISHED = 5e-3  # asked for: 0.5 % with 36 or more points across the contact
-WORK = 250
+WORK = 100
 SLOW = 0.02  # the contact's edge is known to a pixel
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=1e-3, seed=2)
 
@@ -178,7 +178,7 @@ def test_every_speed_converges_by_a_bounded_work(speed, roughness):
     result = BEM(points=96).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=10.0), roughness))
     assert result.residual <= 1e-5
     assert result.friction_force > 0
-    assert result.applications <= WORK
+    assert result.applications <= 2 * WORK  # the window is sought on 64 points, here nearly as many
 
 
 SOLIDS = {

@@ -59,7 +59,8 @@ class Pressed(NamedTuple):
             TOLERANCE,
             depth=depth,
             load=self.load if depth is None else None,
-            precondition=self.medium.preconditioners(self.grid),
+            precondition=self.medium.preconditioner(self.grid),
+            foundation=self.medium.foundation(self.grid),
             symmetric=self.medium.flow.at_rest,
         )
 
