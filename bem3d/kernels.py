@@ -127,10 +127,7 @@ class Fused(Marching):
         _turn(direction, z, mean, beta)
 
     def _lap(self, plane, contact, foundation, states, what, least=LEAST):
-        modes = foundation.at_once, foundation.kept, foundation.gained
-        for first in range(0, len(plane), ROWS):
-            rows = slice(first, first + ROWS)
-            _lap(plane[rows], contact[rows], *modes, states[:, rows], what, least)
+        _lap(plane, contact, foundation.at_once, foundation.kept, foundation.gained, states, what, least)
 
     def gaps(self, displacement, heights, level, contact, gap):
         flat = (a.reshape(-1) for a in (displacement, heights))
@@ -188,23 +185,26 @@ def _gaps(displacement, heights, level, contact, gap):
 
 @compiled
 def _lap(plane, contact, at_once, kept, gained, states, what, least):
-    rows, stiffness = plane.shape[0], 1 / at_once
-    known, pressure = np.empty(rows), np.empty(rows)
-    for x in range(plane.shape[1]):
-        for j in range(rows):
-            known[j] = 0.0
-        for k in range(kept.size):
+    stiffness, modes = 1 / at_once, kept.size
+    known, pressure, of_rows = np.empty(ROWS), np.zeros(ROWS), np.zeros((modes, ROWS))
+    for first in range(0, plane.shape[0], ROWS):
+        rows = min(ROWS, plane.shape[0] - first)
+        of_rows[:, :rows] = states[:, first : first + rows]
+        for x in range(plane.shape[1]):
+            known[:] = 0.0
+            for k in range(modes):
+                for j in range(ROWS):
+                    of_rows[k, j] *= kept[k]
+                    known[j] += of_rows[k, j]
             for j in range(rows):
-                states[k, j] *= kept[k]
-                known[j] += states[k, j]
-        for j in range(rows):
-            given = plane[j, x]
-            if what == SINK:
-                pressure[j] = given
-                plane[j, x] = known[j] + at_once * given
-            else:
-                pressure[j] = max((given - known[j]) * stiffness, least) if contact[j, x] else 0.0
-                plane[j, x] = pressure[j] if what == PUSH else given if contact[j, x] else known[j]
-        for k in range(kept.size):
-            for j in range(rows):
-                states[k, j] += gained[k] * pressure[j]
+                y, given = first + j, plane[first + j, x]
+                if what == SINK:
+                    pressure[j] = given
+                    plane[y, x] = known[j] + at_once * given
+                else:
+                    pressure[j] = max((given - known[j]) * stiffness, least) if contact[y, x] else 0.0
+                    plane[y, x] = pressure[j] if what == PUSH else given if contact[y, x] else known[j]
+            for k in range(modes):
+                for j in range(ROWS):
+                    of_rows[k, j] += gained[k] * pressure[j]
+        states[:, first : first + rows] = of_rows[:, :rows]
