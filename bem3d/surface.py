@@ -68,11 +68,6 @@ class RoughSurface:
         """As of its waves."""
         return self.waves.amplitudes
 
-    @property
-    def _tops(self):
-        """Of the shortest wave along y and along x."""
-        return self.amplitudes.shape[0] // 2, self.amplitudes.shape[1] - 1
-
     def heights(self, x, y):
         """h [m], (ny, nx), on the grid of coordinates x (nx,) and y (ny,) [m]."""
         return self._sum(self.amplitudes, x, y)
@@ -88,21 +83,22 @@ class RoughSurface:
         return (np.exp(1j * np.outer(y, q_y)) @ amplitudes @ np.exp(1j * np.outer(q_x, x))).real
 
     def _spans_a_period(self, x, y):
-        """Whether the points divide a period evenly, and resolve every wave: then one transform does it."""
+        """Whether the points divide a period evenly: then one transform does it."""
         counts = np.array([len(y), len(x)])
         pixels = 2 * np.pi / (np.array([self.waves.step_y, self.waves.step_x]) * counts)
         given = np.array([np.ptp(y) / max(len(y) - 1, 1), np.ptp(x) / max(len(x) - 1, 1)])
-        resolved = np.all(counts > 2 * np.array(self._tops))
-        return bool(resolved) and np.allclose(given, pixels, rtol=1e-9, atol=0)
+        return bool(np.allclose(given, pixels, rtol=1e-9, atol=0))
 
     def _on_a_period(self, amplitudes, x, y):
         q_y, q_x = self.waves.along_y, self.waves.along_x
-        (top_y, top_x), (ny, nx) = self._tops, (len(y), len(x))
-        shifted = amplitudes / 2 * np.exp(1j * (q_y[:, None] * y[0] + q_x * x[0]))
-        waves = np.zeros((ny, nx // 2 + 1), complex)
-        waves[np.arange(-top_y, top_y + 1), : top_x + 1] = shifted
-        # Along y alone, a wave and its mirror image are both in the first column.
-        waves[:, 0] += np.conj(np.roll(waves[::-1, 0], 1))
+        top, (ny, nx) = len(q_y) // 2, (len(y), len(x))
+        shifted = amplitudes * (np.exp(1j * q_y * y[0]) / 2)[:, None] * np.exp(1j * q_x * x[0])
+        # On the points a wave is the same as the one that many wave vectors lower or higher.
+        folded = _folded(_folded(shifted, -top, ny).T, 0, nx).T
+        waves = folded[:, : nx // 2 + 1].copy()
+        waves[:, 1 : (nx + 1) // 2] += _mirrored(folded[:, : nx // 2 : -1])
+        alone = [0, nx // 2] if nx % 2 == 0 else [0]  # columns that hold a wave and its mirror image
+        waves[:, alone] += _mirrored(waves[:, alone])
         return np.fft.irfft2(waves, s=(ny, nx), norm="forward")
 
     @property
@@ -114,6 +110,20 @@ class RoughSurface:
     def rms_slope(self) -> float:
         """Spectral rms of the full gradient over a period [1]."""
         return self.waves.rms_slope
+
+
+def _folded(amplitudes, first, count):
+    """Rows first, first + 1, ... added where they are the same modulo `count`: (count, ...)."""
+    folded = np.zeros((count, *amplitudes.shape[1:]), complex)
+    for start in range(0, len(amplitudes), count):
+        rows = amplitudes[start : start + count]
+        folded[(first + start + np.arange(len(rows))) % count] += rows
+    return folded
+
+
+def _mirrored(waves):
+    """Of amplitudes of all rows, those of the wave vectors opposite."""
+    return np.conj(np.roll(waves[::-1], 1, axis=0))
 
 
 def _stream(seed, key):

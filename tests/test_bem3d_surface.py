@@ -1,10 +1,13 @@
 """One draw of a rough surface carries exactly the spectrum that it was drawn from."""
 
+from unittest import mock
+
 import numpy as np
 import pytest
 
 from bem3d.surface import RoughSurface
 from scene import SelfAffine
+from scene.waves import Waves
 
 L = 10e-3
 ROUNDING = 1e-10
@@ -127,3 +130,15 @@ def test_heights_whose_squares_are_no_numbers_are_drawn_in_proportion_and_have_a
     np.testing.assert_allclose(surface.amplitudes / height, one.amplitudes, rtol=ROUNDING)
     assert surface.rms_height == pytest.approx(height, rel=1e-12)
     assert surface.rms_slope == pytest.approx(height * one.rms_slope, rel=1e-12)
+
+
+@pytest.mark.parametrize("points", [(16, 16), (8, 8), (6, 7), (5, 9)])
+def test_on_a_period_one_transform_sums_the_waves_that_the_points_resolve_and_those_they_do_not(points):
+    rng, (ny, nx) = np.random.default_rng(0), points
+    amplitudes = rng.standard_normal((17, 12)) + 1j * rng.standard_normal((17, 12))
+    surface = RoughSurface(Waves(2 * np.pi / 3, 2 * np.pi / 2, amplitudes))
+    x, y = 0.3 + 3 / nx * np.arange(nx), 2 / ny * np.arange(ny) - 0.7
+    alone = np.block([[surface.heights(x[[i]], y[[j]]) for i in range(nx)] for j in range(ny)])
+    with mock.patch("numpy.fft.irfft2", wraps=np.fft.irfft2) as transform:
+        np.testing.assert_allclose(surface.heights(x, y), alone, atol=1e-12 * np.abs(amplitudes).sum())
+    assert transform.call_count == 1
