@@ -15,11 +15,12 @@ from collections.abc import Callable
 import numpy as np
 from scipy.special import exp1, expi
 
-from .memory import NEAR, chunks, march
+from .memory import NEAR, chunks, gauss, march
 
 Displacement = Callable[..., np.ndarray]  # of (x, s, ny), see `by_pixel`
 
 TINY = np.finfo(float).tiny
+ALIKE = 1e-12  # of steps of one pixel
 LINE_SHORT = 10.0  # memory [pixel] below which differences of primitives keep their digits
 KINK_REACH, KINK_NODES, SMOOTH_NODES = 16, 24, 6  # to 1e-13
 LAG_TERMS = 40  # of the asymptotic series of `_lag`, for z beyond as many: to exp(-40)
@@ -29,8 +30,12 @@ def by_pixel(x, s, ny):
     """Displacement of a half-space by a loaded pixel at x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
 
     def near(y):
-        y = np.append(y, y[-1] + 1) - 0.5
-        return np.diff(_corner((x + 0.5) - s, y) - _corner((x - 0.5) - s, y)) / np.pi
+        across = np.append(y, y[-1] + 1) - 0.5
+        shared = np.ndim(x) == 1 and np.shape(s)[-1:] in ((), (1,))
+        if shared and np.all(np.abs(np.diff(x) - 1) < ALIKE):  # neighbours have an edge in common
+            along = np.append(x - 0.5, x[-1] + 0.5)
+            return np.diff(np.diff(_corner(along - s, across)), axis=-2) / np.pi
+        return np.diff(_corner((x + 0.5) - s, across) - _corner((x - 0.5) - s, across)) / np.pi
 
     def far(y):
         # Mean of 1/r over the pixel: its Laplacian in the plane is 1/r^3.
@@ -160,7 +165,7 @@ def _over_pixel(f, left):
     total = np.empty_like(left)
     close = np.abs(left) < KINK_REACH
     for columns, count, power in ((close, KINK_NODES, 5), (~close, SMOOTH_NODES, 1)):
-        v, w = np.polynomial.legendre.leggauss(count)
+        v, w = gauss(count)
         v, w = (v + 1) / 2, w / 2
         start = left[columns, None]
         middle = np.clip(0.0, start, start + 1)

@@ -5,6 +5,7 @@ nodes that all lengths share. Lengths and columns are in pixels; a kernel is a f
 x - s in rows 0..ny-1, with kinks no further from the pixel's centre than a pixel.
 """
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -25,6 +26,9 @@ def chunks(start, stop):
         nodes = next(n for bound, n in BANDS if reach <= bound)
         for i in range(low, high, CHUNK):
             yield np.arange(i, min(i + CHUNK, high)), nodes
+
+
+gauss = cache(np.polynomial.legendre.leggauss)  # each takes about as long as the transforms of a small grid
 
 
 def march(kernel, columns, ny, lengths, shift):
@@ -53,9 +57,9 @@ def _memory_rule(count, lengths):
     The polynomial through its values at the Gauss nodes, by its Legendre coefficients; its products with the
     memory are integrated as far as that reaches.
     """
-    x, w = np.polynomial.legendre.leggauss(count)
+    x, w = gauss(count)
     reach = np.minimum(1.0, MANY_LENGTHS * lengths)[:, None]
-    t, fine = np.polynomial.legendre.leggauss(MEMORY_NODES)
+    t, fine = gauss(MEMORY_NODES)
     s = reach * (t + 1) / 2
     measure = fine * reach / 2 * np.exp(-s / lengths[:, None]) / lengths[:, None]
     moments = np.einsum("kt,ktm->km", measure, np.polynomial.legendre.legvander(2 * s - 1, count - 1))
@@ -71,7 +75,7 @@ def _graded_rule(edge, lengths):
     steps = 0.25 ** np.arange(1, 38)
     cuts = [0.0, 1.0, edge, *(edge * steps), *(edge - edge * steps), *(edge + (1 - edge) * steps)]
     cuts = np.unique([*cuts, *(1 - (1 - edge) * steps)])
-    x, w = np.polynomial.legendre.leggauss(PANEL_NODES)
+    x, w = gauss(PANEL_NODES)
     half = np.diff(cuts)[:, None] / 2
     s = (cuts[:-1, None] + half * (x + 1)).ravel()
     return s, (half * w).ravel() * np.exp(-s / lengths[:, None]) / lengths[:, None]
@@ -79,7 +83,7 @@ def _graded_rule(edge, lengths):
 
 def _upstream(kernel, x, ny, lengths):
     """Remembered kernel far upstream, at x < 0: (K, ny)."""
-    u, weights = np.polynomial.legendre.leggauss(UPSTREAM_NODES)
+    u, weights = gauss(UPSTREAM_NODES)
     start = np.empty((len(lengths), ny))
     for k, length in enumerate(lengths):
         scale = min(-x, length)
