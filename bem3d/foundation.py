@@ -1,4 +1,4 @@
-"""The elastomer without the half-space: under the flow its modes are a foundation, of which no point feels another.
+"""The elastomer without the half-space: under the flow its modes are a foundation, and no point feels another.
 
 The displacement of a half-space is that of this foundation, spread by the elastic kernel. What spreads is inverted
 wave by wave; the foundation is inverted exactly, pixel by pixel downstream, on any set of contact.

@@ -29,7 +29,7 @@ class Marching:
         self._lap(plane, NOWHERE, foundation, states, SINK)
 
     def release(self, plane, contact, foundation):
-        """Displacement of a foundation in contact (ny, nx): elsewhere it becomes that of the surface left alone."""
+        """Displacement of a foundation in contact (ny, nx): elsewhere it becomes that of a surface left alone."""
         self._lap(plane, contact, foundation, self._entering(plane, contact, foundation), RELEASE)
 
     def push(self, plane, contact, foundation, least=LEAST):

@@ -154,7 +154,7 @@ class Problem:
         if grid.rows == 1 and not self.flow.at_rest:
             tolerance = min(tolerance, LEAST_ON_A_ROW)
         operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
-        start = self._first_guess(heights, grid, depth, load) if start is None else self._taken_over(*start, grid)
+        start = self._first_guess(heights, grid, depth, load) if start is None else self._taken_over(grid, *start)
         here = self.engine.asarray
         try:
             return contact.solve(
@@ -179,7 +179,7 @@ class Problem:
             self._count(grid, operator)
             self.transforms += preconditioner.applications * grid.points * grid.rows
 
-    def _taken_over(self, other, pressure, grid):
+    def _taken_over(self, grid, other, pressure):
         """The pressure of another grid on this one.
 
         Under a flow, that which sinks the foundation as much: the pressure itself has spikes at leading edges.

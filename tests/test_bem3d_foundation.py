@@ -18,7 +18,9 @@ FLOWS = {
     for name, solid in SOLIDS.items()
     if name != "elastic"
 }
-CASES = [pytest.param(flow, id=f"{name}-{speed:g}") for name, flows in FLOWS.items() for speed, flow in flows.items()]
+CASES = [
+    pytest.param(flow, id=f"{name}-{speed:g}") for name, flows in FLOWS.items() for speed, flow in flows.items()
+]
 
 
 def drawn(seed=0):
@@ -102,7 +104,7 @@ def test_modes_that_last_about_as_long_are_one_and_nothing_is_lost():
     assert Foundation.of(Flow.of(SOLIDS["kelvin"], 0.0), GRID) is None
 
 
-# Of 300 scenes drawn at random over these ranges, at 256² and at 512², those that took most, and quick ones beside.
+# Of 300 scenes drawn at random, at 256² and at 512², those that took most, and quick ones beside.
 HARD = {
     "slow": (Kelvin(1e6, 1e-3), 0.004, None),
     "smooth, fast": (Kelvin(1e6, 1e-3), 380.0, None),
@@ -120,7 +122,9 @@ def pairs(solid, memory, rough):
     """Transform pairs of a sphere; memory over a; rms height over depth, Hurst exponent, a over shortest wave."""
     if rough:
         height, hurst, waves = rough
-        rough = SelfAffine(hurst=hurst, rms_height=height * A**2 / RADIUS, longest=3 * A, shortest=A / waves, seed=3)
+        rough = SelfAffine(
+            hurst=hurst, rms_height=height * A**2 / RADIUS, longest=3 * A, shortest=A / waves, seed=3
+        )
     load = 4 / 3 * solid.indentation_modulus * A**3 / RADIUS
     scene = Scene(Sphere(RADIUS), solid, Slide(speed=memory * A / 1e-3, load=load), rough)
     return BEM(points=128).solve(scene).measures["transform_pairs"]
