@@ -8,12 +8,14 @@ from scene import Plane, Scene
 from scene.plan import Array
 
 from .engine import Engine
+from .memory import SMALL
 from .problem import row_width
 from .sliding import Flow
 
 TOUCHING, ON_A_ROW = 0.4, 0.6  # of the points, in contact
 SYMMETRIC, GENERAL = 8, 16  # vectors on the points in contact, of conjugate gradients and of GMRES
 MATRICES = 6  # of the points in contact of a sliding row, while it is solved
+SAMPLES = 7  # between two columns, in the mean
 DRAWN = 13  # arrays in which a surface is drawn, each as large as half of its waves
 
 Shape = tuple[int, int]
@@ -41,6 +43,7 @@ def in_contact(engine: Engine, scene: Scene, flow: Flow, shape: Shape) -> Iterat
     """While a contact is found: products, planes, and what the solver of a set of contact keeps."""
     yield from product(engine, "response", shape, _sizes(engine, scene, shape), flow.at_rest)
     yield from product(engine, "approximate inverse", shape, shape, real=True)
+    yield from _sampled(scene, flow, shape)
     yield Array("heights, pressure, gap and the like", (9 if flow.at_rest else 11, *shape))
     yield Array("sets of contact", (3, *shape), 1)
     touching = ceil((ON_A_ROW if shape[0] == 1 else TOUCHING) * prod(shape))
@@ -57,6 +60,7 @@ def laying_out(engine: Engine, scene: Scene, flow: Flow, shape: Shape) -> Iterat
     yield Array("heights, slopes, pressure, gap", (4, *shape))
     if not repeats:
         yield Array("kernel, as it is and as it is laid out", (4, shape[0], sizes[1]))
+        yield from _sampled(scene, flow, shape)
     yield Array("symbol and its copies", (3, *half), 8 if flow.at_rest or repeats else 16)
     yield Array("waves of a plane", (shape[0], half[1]), engine.complex().itemsize)
 
@@ -75,6 +79,12 @@ def as_drawn(waves: Sequence[Array]) -> Iterator[Array]:
     """While a surface is drawn."""
     for amplitudes in waves[:1]:
         yield Array("surface as it is drawn", (DRAWN, *amplitudes.shape))
+
+
+def _sampled(scene, flow, shape):
+    """Kernel between the columns of a small grid, kept for the next solve."""
+    if 1 < shape[0] <= SMALL and not (flow.at_rest or isinstance(scene.indenter, Plane)):
+        yield Array("kernel, as it is sampled", (SAMPLES, shape[0], 2 * shape[1]))
 
 
 def _sizes(engine, scene, shape):

@@ -15,7 +15,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.special import exp1, expi
 
-from .memory import NEAR, chunks, gauss, march
+from .memory import NEAR, chunks, gauss, remembered
 
 Displacement = Callable[..., np.ndarray]  # of (x, s, ny), see `by_pixel`
 
@@ -75,8 +75,8 @@ def flowing(nx, ny, instantaneous, shares, lengths, shift, displacement: Displac
         np.zeros((2 * nx, ny)) if instantaneous == 0 else instantaneous * elastic(nx, ny, shift, displacement).T
     )
     if len(lengths):
-        for i, after in march(displacement, (-nx, nx), ny, lengths, shift):
-            kernel[i + nx] += shares @ after
+        for i, values in remembered(displacement, (-nx, nx), ny, shares, lengths, shift):
+            kernel[i + nx] += values
     return kernel.T
 
 

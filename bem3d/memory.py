@@ -5,7 +5,7 @@ nodes that all lengths share. Lengths and columns are in pixels; a kernel is a f
 x - s in rows 0..ny-1, with kinks no further from the pixel's centre than a pixel.
 """
 
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -15,6 +15,7 @@ FINEST, BANDS = 2, ((8, 16), (64, 8), (np.inf, 5))  # |column| up to which so ma
 FINE_ROWS = 3  # further aside the pixel's edges are far enough for the nodes of a band
 CHUNK = 32  # columns at a time
 UPSTREAM_NODES, MEMORY_NODES, PANEL_NODES = 64, 64, 12
+SMALL, KEPT = 256, 128  # rows, and runs of columns of so few that are kept sampled: of one grid a dozen
 MANY_LENGTHS = 40.0  # exp(-40) = 4e-18: nothing is remembered from further upstream
 
 
@@ -31,54 +32,95 @@ def chunks(start, stop):
 gauss = cache(np.polynomial.legendre.leggauss)  # each takes about as long as the transforms of a small grid
 
 
-def march(kernel, columns, ny, lengths, shift):
-    """Carry the memory downstream: each column and the state at it, (K, ny)."""
-    rules = {nodes: _memory_rule(nodes, lengths) for _, nodes in BANDS}
-    fine, fine_weights = _graded_rule(shift + 0.5, lengths)
-    decay = np.exp(-1 / lengths)[:, None]
-    state = _upstream(kernel, columns[0] - 1 + shift, ny, lengths)
-    for i, nodes in chunks(*columns):
-        s, weights = rules[nodes]
-        values = kernel(i + shift, s[:, None], ny)
-        added = (weights @ values.reshape(len(s), -1)).reshape(-1, len(i), ny)
-        close = np.flatnonzero((i >= -FINEST) & (i <= FINEST + 1))
+def remembered(kernel, columns, ny, shares, lengths, shift):
+    """The kernel as modes of these shares remember it, `shift` behind columns: runs of them, values (count, ny).
+
+    The memory is carried downstream from column to column. The kernel is sampled between whole columns, at places
+    that shift and lengths do not move.
+    """
+    decay, left_at_shift = np.exp(-1 / lengths), shares * np.exp(-shift / lengths)
+    rules = {nodes: _memory_rule(nodes, lengths, 0.0) for _, nodes in BANDS}
+    beyond = {nodes: shares @ _memory_rule(nodes, lengths, 1 - shift) for _, nodes in BANDS}
+    (_, graded), (places_beyond, graded_beyond) = (_graded_rule(lengths, begin) for begin in (0.0, 1 - shift))
+    graded_beyond = shares @ graded_beyond
+    run = np.arange(CHUNK)
+    since = np.subtract.outer(run, run)
+    faded = np.where(since >= 0, decay[:, None, None] ** np.maximum(since, 0), 0.0)
+    start, stop = columns
+    state = _upstream(kernel, start - 1, ny, lengths)
+    for i, nodes in chunks(start, stop + 1):
+        count, close = len(i), np.flatnonzero((i >= -FINEST) & (i <= FINEST + 1))
+        values = _samples(kernel, i[0], count, nodes, ny)
+        gained = np.tensordot(rules[nodes], values, 1)  # from each column to the next, and to the shift behind it
+        behind = np.tensordot(beyond[nodes], values, 1)
         if len(close):
             rows = min(ny, FINE_ROWS)
-            values = kernel(i[close] + shift, fine[:, None], rows)
-            added[:, close, :rows] = np.tensordot(fine_weights, values, 1)
-        for column, step in zip(i, added.transpose(1, 0, 2), strict=True):
-            state = decay * state + step
-            yield column, state
+            at = i[close]
+            gained[:, close, :rows] = np.tensordot(graded, _near(kernel, int(at[0]), len(at), rows), 1)
+            if shift:
+                behind[close, :rows] = np.tensordot(graded_beyond, kernel(at, places_beyond[:, None], rows), 1)
+        states = faded[:, :count, :count] @ gained
+        states += decay[:, None, None] ** np.arange(1, count + 1)[:, None] * state[:, None]
+        before = np.concatenate([state[:, None], states[:, :-1]], axis=1)
+        state = states[:, -1]
+        first = int(i[0] == start)
+        yield i[first:] - 1, (np.tensordot(left_at_shift, before, 1) + behind)[first:]
 
 
-def _memory_rule(count, lengths):
-    """Nodes (count,) on 0 <= s <= 1, weights (K, count): exact for a polynomial times exp(-s/l) ds / l.
+def _samples(kernel, first, count, nodes, ny):
+    """Kernel at the nodes before `count` columns, (nodes, count, ny); kept where a grid is small."""
+    return (_kept if ny <= SMALL else _sampled)(kernel, int(first), count, nodes, ny)
 
-    The polynomial through its values at the Gauss nodes, by its Legendre coefficients; its products with the
-    memory are integrated as far as that reaches.
+
+def _sampled(kernel, first, count, nodes, ny):
+    return kernel(first + np.arange(count), (gauss(nodes)[0][:, None] + 1) / 2, ny)
+
+
+_kept = lru_cache(KEPT)(_sampled)
+
+
+@lru_cache(KEPT)
+def _near(kernel, first, count, rows):
+    """The same at the nodes of the graded rule, of whole pixels."""
+    places, _ = _graded_rule(np.ones(1), 0.0)
+    return kernel(first + np.arange(count), places[:, None], rows)
+
+
+def _memory_rule(count, lengths, begin):
+    """Weights (K, count) at Gauss nodes on 0 <= s <= 1, for exp(-(s - begin)/l) ds / l from `begin` on.
+
+    Exact for a polynomial: the one through its values at the nodes, by its Legendre coefficients. Its products with
+    the memory are integrated as far as that reaches.
     """
-    x, w = gauss(count)
-    reach = np.minimum(1.0, MANY_LENGTHS * lengths)[:, None]
+    reach = np.minimum(1 - begin, MANY_LENGTHS * lengths)[:, None]
     t, fine = gauss(MEMORY_NODES)
-    s = reach * (t + 1) / 2
-    measure = fine * reach / 2 * np.exp(-s / lengths[:, None]) / lengths[:, None]
-    moments = np.einsum("kt,ktm->km", measure, np.polynomial.legendre.legvander(2 * s - 1, count - 1))
-    coefficients = np.polynomial.legendre.legvander(x, count - 1) * w[:, None] * (np.arange(count) + 0.5)
-    return (x + 1) / 2, moments @ coefficients.T
+    back = reach * (t + 1) / 2
+    measure = fine * reach / 2 * np.exp(-back / lengths[:, None]) / lengths[:, None]
+    polynomials = np.polynomial.legendre.legvander(2 * (begin + back) - 1, count - 1)
+    moments = np.einsum("kt,ktm->km", measure, polynomials)
+    return moments @ _coefficients(count).T
 
 
-def _graded_rule(edge, lengths):
-    """Nodes (M,) on 0 <= s <= 1 and weights (K, M) for exp(-s/l) ds / l, where the kernel has its kinks.
+@cache
+def _coefficients(count):
+    """Of Legendre polynomials up to `count`, by the values at as many Gauss nodes."""
+    x, w = gauss(count)
+    return np.polynomial.legendre.legvander(x, count - 1) * w[:, None] * (np.arange(count) + 0.5)
 
-    Panels shrink by four towards 0, where a short memory ends as well, towards the pixel's edge and towards 1.
+
+def _graded_rule(lengths, begin):
+    """Nodes (M,) on begin <= s <= 1 and weights (K, M) for exp(-(s - begin)/l) ds / l, near the kernel's kinks.
+
+    Panels shrink by four towards the beginning, where a short memory ends, and where the pixel's edge may be; of the
+    whole also towards the middle, where it is.
     """
-    steps = 0.25 ** np.arange(1, 38)
-    cuts = [0.0, 1.0, edge, *(edge * steps), *(edge - edge * steps), *(edge + (1 - edge) * steps)]
-    cuts = np.unique([*cuts, *(1 - (1 - edge) * steps)])
+    steps, side = 0.25 ** np.arange(1, 38), 1 - begin
+    cuts = np.unique([0.0, 1.0, *steps, *([] if begin else [0.5, *(0.5 - steps / 2), *(0.5 + steps / 2)])])
     x, w = gauss(PANEL_NODES)
     half = np.diff(cuts)[:, None] / 2
-    s = (cuts[:-1, None] + half * (x + 1)).ravel()
-    return s, (half * w).ravel() * np.exp(-s / lengths[:, None]) / lengths[:, None]
+    back = side * (cuts[:-1, None] + half * (x + 1)).ravel()
+    weights = side * (half * w).ravel() * np.exp(-back / lengths[:, None]) / lengths[:, None]
+    return begin + back, weights
 
 
 def _upstream(kernel, x, ny, lengths):
