@@ -89,8 +89,8 @@ def _near(kernel, first, count, rows):
 def _memory_rule(count, lengths, begin):
     """Weights (K, count) at Gauss nodes on 0 <= s <= 1, for exp(-(s - begin)/l) ds / l from `begin` on.
 
-    Exact for a polynomial: the one through its values at the nodes, by its Legendre coefficients. Its products with
-    the memory are integrated as far as that reaches.
+    Exact for a polynomial: the one through its values at the nodes, by its Legendre coefficients. Its products
+    with the memory are integrated as far as that reaches.
     """
     reach = np.minimum(1 - begin, MANY_LENGTHS * lengths)[:, None]
     t, fine = gauss(MEMORY_NODES)
@@ -111,8 +111,8 @@ def _coefficients(count):
 def _graded_rule(lengths, begin):
     """Nodes (M,) on begin <= s <= 1 and weights (K, M) for exp(-(s - begin)/l) ds / l, near the kernel's kinks.
 
-    Panels shrink by four towards the beginning, where a short memory ends, and where the pixel's edge may be; of the
-    whole also towards the middle, where it is.
+    Panels shrink by four towards the beginning, where a short memory ends, and where the pixel's edge may be; of
+    the whole also towards the middle, where it is.
     """
     steps, side = 0.25 ** np.arange(1, 38), 1 - begin
     cuts = np.unique([0.0, 1.0, *steps, *([] if begin else [0.5, *(0.5 - steps / 2), *(0.5 + steps / 2)])])

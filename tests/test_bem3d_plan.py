@@ -12,6 +12,7 @@ from bem3d.arrays import as_drawn, of_roughness
 from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
 from bem3d.grid import Grid
 from bem3d.layerwaves import PIECES, Taken, taking
+from bem3d.memory import _kept
 from bem3d.plan import EFFECTS
 from bem3d.surface import RoughSurface
 from scene import (
