@@ -95,6 +95,18 @@ class Grid:
         return bool(chosen[:, [0, -1]].any() or (self.width is None and chosen[[0, -1]].any()))
 
 
+@dataclass(frozen=True)
+class Piece(Grid):
+    """A rectangle of square pixels; `points` along the flow."""
+
+    lines: int = 1
+
+    @property
+    def rows(self) -> int:
+        """Pixels along y."""
+        return self.lines
+
+
 def _interpolated(values, count, axis):
     given = values.shape[axis]
     if given == count:

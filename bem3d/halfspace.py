@@ -3,14 +3,14 @@
 Pressures are in units of the relaxed E* and displacements in pixels. The surface arrives undisturbed.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from .convolution import FreeConvolution, PeriodicFilter
 from .engine import Engine
 from .foundation import Foundation
-from .grid import Grid
+from .grid import Grid, Piece
 from .ground import HALF_SPACE, Ground
 from .sliding import Flow
 
@@ -46,9 +46,10 @@ class HalfSpace:
 
     def gain(self, grid: Grid) -> FreeConvolution:
         """Pressure -> slope of the displacement as the difference between the pixels on both sides."""
-        wider = replace(grid, points=grid.points + 2)  # a column more at each end
+        points = grid.points + 2  # a column more at each end
+        wider = Piece(points, points * grid.pixel, width=grid.width, lines=grid.rows)
         shares, lengths = self._seen(grid)
-        kernel = self._flowing(wider, 0.0, shares, lengths, 0.0)[: grid.rows]
+        kernel = self._flowing(wider, 0.0, shares, lengths, 0.0)
         return self._convolution((kernel[:, 3:-1] - kernel[:, 1:-3]) / 2)
 
     def _seen(self, grid):

@@ -12,22 +12,10 @@ import numpy as np
 
 from scene import Plane, Program, Scene, SolveError
 
-from .grid import Grid
+from .grid import Grid, Piece
 from .problem import Problem
 
 AGREEMENT = 1e-3  # of what gap and displacement span: to less the pressure displaces the surface as it was solved
-
-
-@dataclass(frozen=True)
-class Piece(Grid):
-    """A rectangle of square pixels; `points` along the flow."""
-
-    lines: int = 1
-
-    @property
-    def rows(self) -> int:
-        """Pixels along y."""
-        return self.lines
 
 
 @dataclass(frozen=True)
