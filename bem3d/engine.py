@@ -5,6 +5,7 @@ are never transformed, and columns go block by block, forward, through the symbo
 """
 
 from dataclasses import dataclass
+from math import prod
 from typing import Literal
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from . import kernels
 
 Library = Literal["ducc0", "fftw", "cupy"]
+SMALL = 2**16  # points of a padded plane that is transformed at once: half a megabyte
 BLOCK = 32  # lines transformed at a time: half a megabyte at 512 points, padded
 
 
@@ -70,6 +72,8 @@ class Engine:
         """
         if self.on_gpu:
             return WholePlane(symbol, shape, padded, self.xp, self.complex)
+        if self.library == "ducc0" and shape[0] <= padded[0] and prod(padded) <= SMALL:
+            return SmallPlane(symbol, shape, padded, self)
         return Blocked(symbol, shape, padded, self)
 
     def pair(self, symbols, shape, padded):
@@ -172,6 +176,33 @@ class WholePlane(_Whole):
     def __call__(self, plane, out=None):
         """The product (ny, nx)."""
         return self._image(self._waves(plane) * self._symbols[0], out)
+
+
+class SmallPlane:
+    """The product with one symbol, of a plane that stays in the cache: one transform each way, by ducc0."""
+
+    def __init__(self, symbol, shape, padded, engine):
+        import ducc0  # on demand, as each library is
+
+        self.shape, self._padded, self._fft, self._threads = shape, padded, ducc0.fft, engine.threads
+        rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
+        kind = engine.real if np.isrealobj(symbol) else engine.complex
+        self._symbol = (symbol[rows] / prod(padded)).astype(kind)
+        self._points = np.zeros(padded, engine.real)
+        self._waves = np.empty((padded[0], padded[1] // 2 + 1), engine.complex)
+
+    def __call__(self, plane, out=None):
+        """The product (ny, nx)."""
+        (ny, nx), points, waves = self.shape, self._points, self._waves
+        points[:ny, :nx], points[ny:], points[:, nx:] = plane, 0, 0
+        self._fft.r2c(points, axes=(0, 1), out=waves, nthreads=self._threads)
+        waves *= self._symbol
+        options = {"axes": (0, 1), "lastsize": self._padded[1], "forward": False, "nthreads": self._threads}
+        self._fft.c2r(waves, out=points, **options)
+        if out is None:
+            return points[:ny, :nx].astype(float)
+        out[:] = points[:ny, :nx]
+        return out
 
 
 class WholePair(_Whole):

@@ -13,6 +13,7 @@ import sys
 import time
 from dataclasses import replace
 from datetime import date
+from itertools import chain
 from math import sqrt
 from pathlib import Path
 from unittest.mock import patch
@@ -24,7 +25,21 @@ from tables import table
 from timing import alone, least, pair
 
 from bem3d import BEM, contact
-from scene import Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
+from scene import (
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    Plane,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    StandardLinearSolid,
+)
 
 ELASTIC = Elastic(0.25)  # E* = 4G = 1
 SLOPE, PRESSURE = 0.1, 0.0035
@@ -35,6 +50,7 @@ REPEATED, REPEATS = 512, 3  # up to this size the least of so many runs counts
 SPHERE, DEPTH, SIDE = Sphere(1.0), 0.02, 0.4  # the contact is 0.28 across
 ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shortest=8e-3, seed=1)
 UNANSWERED = (Refused, SolveError)
+DRAWN = 60  # scenes
 PAPER = Sphere(10e-3), SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
 
 
@@ -264,6 +280,63 @@ def steady_sliding(largest: int) -> str:
     )
 
 
+SOLIDS_DRAWN = ("Kelvin", "standard linear", "Prony", "fractional")
+
+
+def drawn_sliding(seed: int) -> tuple[str, Scene]:
+    """A sliding sphere at random: its solid, and the scene. The ranges stand in the text of the section."""
+    rng = np.random.default_rng([20261123, seed])
+    kind, tau, radius = rng.choice(SOLIDS_DRAWN, p=[0.4, 0.3, 0.15, 0.15]), 1e-3, 1e-2
+    if kind == "Kelvin":
+        solid = Kelvin(1e6, tau)
+    elif kind == "standard linear":
+        solid = StandardLinearSolid(1e6, 1e6 * 10 ** rng.uniform(0.3, 4), tau)
+    elif kind == "Prony":
+        times = tau * np.array([1, 10 ** rng.uniform(-2, -1), 10 ** rng.uniform(1, 2)])
+        solid = Prony(1e6, tuple(1e6 * 10 ** rng.uniform(-0.5, 2, 3)), tuple(times))
+    else:
+        solid = Fractional(
+            modulus=1e6,
+            relaxation_time=tau,
+            exponent=rng.uniform(0.2, 0.9),
+            lowest_frequency=0.1,
+            highest_frequency=1e6,
+        )
+    a = 1e-3 * rng.uniform(0.3, 1.2)
+    depth, speed = a * a / radius, a * 10 ** rng.uniform(np.log10(3e-4), 3) / tau
+    rough = None
+    if rng.random() >= 0.3:
+        shortest = a / rng.uniform(1, 8)
+        longest = max(a * rng.uniform(1.5, 5), 3 * shortest)
+        rough = SelfAffine(
+            hurst=rng.uniform(0, 1),
+            rms_height=depth * 10 ** rng.uniform(-2, -0.3),
+            longest=longest,
+            shortest=shortest,
+            rolloff=longest * rng.uniform(0.6, 1) if rng.random() < 0.5 else None,
+            seed=int(rng.integers(10**6)),
+        )
+    load = 4 / 3 * solid.indentation_modulus * a**3 / radius
+    motion = Slide(speed=speed, load=load) if rng.random() < 0.7 else Slide(speed=speed, depth=depth)
+    return kind, Scene(Sphere(radius), solid, motion, rough)
+
+
+def sliding_drawn(largest: int) -> str:
+    """Transform pairs of scenes drawn at random, by solid: failures count as the worst."""
+
+    def rows():
+        for n in (n for n in (256, 512) if n <= max(largest, 256)):
+            pairs = {kind: [] for kind in SOLIDS_DRAWN}
+            for seed in range(DRAWN):
+                kind, scene = drawn_sliding(seed)
+                row = slid(BEM(points=n), scene)
+                pairs[kind].append(row.get("transform_pairs", np.inf))
+            for kind, found in [*pairs.items(), ("all", [*chain.from_iterable(pairs.values())])]:
+                yield f"{n}²", kind, str(len(found)), f"{np.median(found):.0f}", f"{max(found):.0f}"
+
+    return table("points|solid|scenes|transform pairs, median|worst", rows())
+
+
 SECTIONS = {
     "Rough cells": (
         f"Self-affine, H = 0.8, rms gradient {SLOPE}, roll-off at a quarter of the cell, shortest wave 8 pixels; "
@@ -293,6 +366,13 @@ SECTIONS = {
         "is included; no peer solves this. R = 10 mm, a = 1 mm; rough: H = 0.2, h₀ = 50 µm, waves from 10 mm to "
         "0.5 mm. Disagreement: of the estimates of friction, over the force.",
         steady_sliding,
+    ),
+    "Sliding, drawn at random": (
+        f"{DRAWN} spheres: v τ from 3·10⁻⁴ to 10³ a; Kelvin, standard linear (glassy over rubbery modulus 2 to "
+        "10⁴), Prony of three modes, fractional; 30 % smooth, else H from 0 to 1, rms height 0.01 to 0.5 of the "
+        "depth, a over shortest wave 1 to 8, half of them with a roll-off; a load in 70 %, a depth in 30 %. Aims: "
+        "at most 80 pairs in the median, 200 in the worst, no growth beyond 512².",
+        sliding_drawn,
     ),
 }
 

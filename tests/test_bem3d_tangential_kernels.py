@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem3d import cerruti, influence
-from bem3d.engine import Engine, WholePair, WholePlane
+from bem3d.engine import Blocked, Engine, WholePair, WholePlane
 from bem3d.grid import Grid
 
 ROUNDING = 1e-12
@@ -104,10 +104,11 @@ def test_whole_planes_and_blocks_are_one_product_of_a_single_symbol(shape, padde
     symbol = rng.standard_normal((padded[0] // 2 + 1, padded[1] // 2 + 1)) + 0j
     symbol[:, 1:-1] += 1j * rng.standard_normal((len(symbol), padded[1] // 2 - 1))
     plane, out = rng.standard_normal(shape), np.empty(shape)
-    blocked, whole = Engine().product(symbol, shape, padded), WholePlane(symbol, shape, padded, np)
-    np.testing.assert_allclose(whole(plane), blocked(plane), atol=ROUNDING)
-    assert whole(plane, out) is out
-    np.testing.assert_array_equal(out, whole(plane))
+    blocked, whole = Blocked(symbol, shape, padded, Engine()), WholePlane(symbol, shape, padded, np)
+    for product in (whole, Engine().product(symbol, shape, padded)):
+        np.testing.assert_allclose(product(plane), blocked(plane), atol=ROUNDING)
+        assert product(plane, out) is out
+        np.testing.assert_array_equal(out, product(plane))
 
 
 @pytest.mark.parametrize("points", [10, 11])
