@@ -77,7 +77,7 @@ def solve(
     pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
     gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
     lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
-    most = ROUNDS + max(heights.shape)
+    most, deepest = ROUNDS + max(heights.shape), xp.inf
     on_set = _OnSet(operator, precondition, foundation, depth is None, heights.shape, sums)
     marked, tried = xp.zeros((2, *heights.shape), bool)
     for rounds in range(1, most + 1):
@@ -92,6 +92,9 @@ def solve(
             return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
         if inside <= max(aim, ADDED * outside):
             contact |= gap < -aim
+            if outside > deepest / 2:  # what was added the last time was dropped again: solve closer
+                accuracy /= 4
+            deepest = outside
         tried |= contact
         if rounds % PATIENCE == 0:
             accuracy /= 10
