@@ -40,7 +40,7 @@ class Contact:
     rounds: int
 
     def map(self, taken_over: Callable) -> "Contact":
-        """The same with both arrays taken over, to where they are wanted."""
+        """This contact with pressure and gap taken over, to where they are wanted."""
         return replace(self, pressure=taken_over(self.pressure), gap=taken_over(self.gap))
 
 
@@ -143,17 +143,16 @@ class _OnSet:
         return values - values.mean() if self.mean_free else values
 
     def add(self, correction, pressure):
-        """A correction on the set to the pressure, of which then nothing pulls.
+        """Add a correction (m,) on the set to the pressure (ny, nx), in place, and let go of what then pulls.
 
-        Under a flow the displacement of the foundation is kept, and not the pressure left of the sum: where that
-        pulled at a leading edge, what comes behind presses the less.
+        Under a flow the pixels that still press keep the displacement of the foundation, and not their pressure:
+        where a leading edge pulled, the pixels behind it press less.
         """
         values = pressure.reshape(-1)[self.where] + correction
-        pulls = bool(values.min() < 0)
         if self._foundation is None:
             values = self.sums.xp.maximum(values, 0.0)
         self.sums.put(values, self.where, pressure)
-        if pulls and self._foundation is not None:
+        if values.min() < 0:
             self.sums.sink(pressure, self._foundation)
             self.sums.push(pressure, self._contact, self._foundation, least=0.0)
 
@@ -172,7 +171,7 @@ class _OnSet:
         return self._through(self._operator, values, out, first, second)
 
     def precondition(self, values, out, first, second):
-        """The same with the approximate inverse."""
+        """As `operator`, values of the approximate inverse into out, their mean and their products."""
         if self._precondition is None:
             out[:] = values
             return 0.0, float((values * first).sum()), float((values * second).sum())
@@ -186,19 +185,19 @@ class _OnSet:
         return total / out.size if self.mean_free else 0.0, along, beside
 
     def pressed(self, sunk):
-        """Pressure (m,) that sinks the foundation so (m,)."""
+        """Pressure (m,) under which the foundation has a given displacement (m,)."""
         return self._push(sunk).reshape(-1)[self.where]
 
     def displaced(self, sunk):
-        """Displacement by that pressure, free of what is to be taken off."""
+        """Displacement of the surface by the pressure of `pressed`; at given load without its mean."""
         self._operator(self._push(sunk), out=self._image)
         return self.restricted(self._image)
 
     def sunk(self, displacement):
-        """Approximately, what sinks the foundation where the surface is displaced so (m,).
+        """Approximate displacement (m,) of the foundation for a displacement of the surface (m,).
 
-        Behind each spot of contact the displacement goes on as a surface left alone: cut off there, it would have
-        jumps as large as the memory is long. At given load a level is added that keeps the load.
+        Behind each spot of contact the displacement continues as that of a surface left alone. Cut off there, it
+        would jump by as much as the memory is long. At given load a level is added that keeps the load.
         """
         values = self._inverted(displacement).reshape(-1)[self.where]
         if not self.mean_free:

@@ -346,7 +346,7 @@ class _Ducc:
 
 
 class _Fftw:
-    """The same by FFTW, which plans each length once and then remembers it."""
+    """`count` lines of `length` points by FFTW, which plans each length once and then remembers it."""
 
     def __init__(self, count, length, engine, real):
         import pyfftw as fftw

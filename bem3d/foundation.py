@@ -34,7 +34,7 @@ class Foundation:
 
     @classmethod
     def of(cls, flow: Flow, grid: Grid, wraps: bool = False) -> "Foundation | None":
-        """Of unit compliance, relaxed; None at rest, where displacement and pressure of a foundation are one."""
+        """That of a flow on a grid, with a relaxed compliance of one; None at rest, where it changes nothing."""
         if flow.at_rest:
             return None
         lengths = flow.in_pixels(grid)

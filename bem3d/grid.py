@@ -67,7 +67,7 @@ class Grid:
         return (np.arange(count) - (count - 1) / 2) * self.pixel
 
     def coarser(self) -> "Grid":
-        """The same piece with half the points."""
+        """A grid on this piece with half the points."""
         return replace(self, points=(self.points + 1) // 2)
 
     def resample(self, values: np.ndarray) -> np.ndarray:
@@ -77,7 +77,7 @@ class Grid:
         return values
 
     def resampled_contact(self, pressure: np.ndarray) -> np.ndarray:
-        """The same of a pressure, zero where it is at the nearest point: the contact does not grow by a rim."""
+        """A pressure resampled, zero where it is zero at the nearest point: the contact does not grow by a rim."""
         contact = pressure > 0
         for axis, count in enumerate(self.shape):
             given = contact.shape[axis]

@@ -81,7 +81,7 @@ _kept = lru_cache(KEPT)(_sampled)
 
 @lru_cache(KEPT)
 def _near(kernel, first, count, rows):
-    """The same at the nodes of the graded rule, of whole pixels."""
+    """Kernel at the graded nodes before `count` columns, (nodes, count, rows): close to its kinks."""
     places, _ = _graded_rule(np.ones(1), 0.0)
     return kernel(first + np.arange(count), places[:, None], rows)
 
@@ -103,7 +103,7 @@ def _memory_rule(count, lengths, begin):
 
 @cache
 def _coefficients(count):
-    """Of Legendre polynomials up to `count`, by the values at as many Gauss nodes."""
+    """Matrix from values at `count` Gauss nodes to coefficients of as many Legendre polynomials."""
     x, w = gauss(count)
     return np.polynomial.legendre.legvander(x, count - 1) * w[:, None] * (np.arange(count) + 0.5)
 

@@ -122,7 +122,7 @@ def _folded(amplitudes, first, count):
 
 
 def _mirrored(waves):
-    """Of amplitudes of all rows, those of the wave vectors opposite."""
+    """Amplitudes of the opposite wave vectors; waves has all rows."""
     return np.conj(np.roll(waves[::-1], 1, axis=0))
 
 

@@ -45,6 +45,11 @@ class Space:
     pressure: np.ndarray
 
     @property
+    def gap(self) -> np.ndarray:
+        """Between indenter and elastomer [m] (M, N); 0 where they touch: what is left there is the residual."""
+        return np.where(self.touching, 0.0, self.around.gap)
+
+    @property
     def touching(self) -> np.ndarray:
         """Under pressure (M, N)."""
         return self.pressure > 0

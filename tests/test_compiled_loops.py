@@ -81,6 +81,7 @@ PLANES = {
 def answers():
     """Forces, depth and friction by scene, as JSON can hold them."""
     found = {name: _numbers(MDR(points=100, steps=10).solve(scene)) for name, scene in LINES.items()}
+    # Solved closely, as rounding decides about the last pixels of an edge.
     found |= {name: _numbers(BEM(points=16, tolerance=1e-10).solve(scene)) for name, scene in PLANES.items()}
     many = solve_profiles(
         [Scene(SPHERE, KELVIN, Slide(speed=v, load=1.0), ROUGH) for v in (0.01, 1.0)], [400, 400], [1, 2]

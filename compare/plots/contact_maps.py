@@ -22,7 +22,7 @@ TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: profile and elements"}
 MOST_PIXELS = 10_000  # of the maps of the surface: of a finer grid every second one, or third, is shown
 HEIGHT = 1.9  # of the panels below [inch]
 LETTERED, TALLEST = (0.5, 1.15), 1.2  # what is written beside and around a map [inch]; of a map, height over width
-CLOSED = 3e-5  # of the relief of the indenter: a gap of less is none, as solvers leave a third of that by default
+CLOSED = 1e-6  # of the relief of the indenter: a gap of less is none
 
 
 def plot(view: View | None, folder: str = "") -> Plot | None:
@@ -108,7 +108,7 @@ def _surface(view, x, y) -> DataFrame:
     )
     step = max(1, ceil((len(rows) * len(columns) / MOST_PIXELS) ** 0.5))
     shown = slice(rows[0], rows[-1] + 1, step), slice(columns[0], columns[-1] + 1, step)
-    found = {"x": x + around.lag, "y": y, "gap": around.gap, "displacement": around.displacement}
+    found = {"x": x + around.lag, "y": y, "gap": view.space.gap, "displacement": around.displacement}
     return DataFrame({name: values[shown].ravel() for name, values in found.items()})
 
 
@@ -172,7 +172,7 @@ def _deepest(view) -> float:
 
 def _highest_gap(view) -> float:
     """Gap at which colours end [m]: the greatest displacement, of a plane the greatest gap."""
-    gap, relief = view.space.around.gap, float(np.ptp(view.space.around.indenter))
+    gap, relief = view.space.gap, float(np.ptp(view.space.around.indenter))
     greatest = float(np.nanmax(gap, initial=0.0))
     if not isinstance(view.scene.indenter, Plane):
         greatest = min(greatest, float(np.nanmax(view.space.around.displacement, initial=0.0)))
