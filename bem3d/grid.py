@@ -70,19 +70,28 @@ class Grid:
         """A grid on this piece with half the points."""
         return replace(self, points=(self.points + 1) // 2)
 
-    def resample(self, values: np.ndarray) -> np.ndarray:
-        """Values of any other grid on the same piece, taken over to this one by bilinear interpolation."""
-        for axis, count in enumerate(self.shape):
-            values = _interpolated(values, count, axis)
+    def resample(self, values: np.ndarray, given: "Grid") -> np.ndarray:
+        """Values of another grid by bilinear interpolation; beyond its outermost points, those of the nearest."""
+        for axis, position in enumerate(self._positions(given)):
+            values = _interpolated(values, position, axis)
         return values
 
-    def resampled_contact(self, pressure: np.ndarray) -> np.ndarray:
-        """A pressure resampled, zero where it is zero at the nearest point: the contact does not grow by a rim."""
-        contact = pressure > 0
-        for axis, count in enumerate(self.shape):
-            given = contact.shape[axis]
-            contact = contact.take((2 * np.arange(count) + 1) * given // (2 * count), axis)
-        return self.resample(pressure) * contact
+    def resampled_contact(self, pressure: np.ndarray, given: "Grid") -> np.ndarray:
+        """A pressure of another grid, zero where it is zero at the nearest point, or has none.
+
+        So the contact does not grow by a rim.
+        """
+        contact = np.pad(pressure > 0, 1)
+        for axis, position in enumerate(self._positions(given)):
+            # Halfway between two, the later one, whatever rounding says.
+            nearest = np.clip(np.floor(position + (0.5 + 1e-6)).astype(int), -1, given.shape[axis])
+            contact = contact.take(nearest + 1, axis)
+        return self.resample(pressure, given) * contact
+
+    def _positions(self, given):
+        """Of the rows and columns of this grid among those of another."""
+        yield (self.y - given.y[0]) / given.pixel
+        yield (self.x - given.x[0]) / given.pixel
 
     def box(self, chosen: np.ndarray) -> "Box":
         """The smallest box around the chosen pixels; chosen (rows, points) bool, at least one True."""
@@ -107,11 +116,10 @@ class Piece(Grid):
         return self.lines
 
 
-def _interpolated(values, count, axis):
+def _interpolated(values, position, axis):
     given = values.shape[axis]
-    if given == count:
-        return values
-    position = (np.arange(count) + 0.5) * given / count - 0.5
+    if given == 1:
+        return values.take(np.zeros(position.size, int), axis)
     lower = np.clip(np.floor(position).astype(int), 0, given - 2)
     share = np.clip(position - lower, 0.0, 1.0)
     share = share[:, None] if axis == 0 else share

@@ -1,6 +1,6 @@
 """One scene put on grids: heights and operators for each, and the way from a coarse grid to a fine one."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import nan
 from typing import Any
 
@@ -13,6 +13,7 @@ from scene.terms import Table, terms_of
 from . import contact, kernels
 from .cell import Cell
 from .engine import Engine
+from .foundation import Foundation
 from .grid import Grid
 from .ground import Deep
 from .halfspace import HalfSpace
@@ -50,6 +51,34 @@ def _medium(indenter, flow, engine):
             return Line(flow, engine, Deep(datum=radius))
         case _:
             return HalfSpace(flow, engine)
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A contact found before, from which the next is sought: on another grid, or of a neighbouring scene.
+
+    pressure : in units of the relaxed E* (rows, points)
+    foundation : of its flow on its grid; None at rest
+    """
+
+    grid: Grid
+    pressure: np.ndarray
+    foundation: Foundation | None
+
+    def on(self, grid: Grid, foundation: Foundation | None) -> np.ndarray:
+        """Pressure on a grid that sinks the foundation as much there; what pulls is let go of.
+
+        The pressure itself has spikes at leading edges, and another one at another speed.
+        """
+        sums, sunk = kernels.Fused(), self.pressure.copy()
+        if self.foundation is not None:
+            sums.sink(sunk, self.foundation)
+        contact = grid.resampled_contact(self.pressure, self.grid) > 0
+        taken = grid.resample(sunk, self.grid)
+        if foundation is None:
+            return taken * contact
+        sums.push(taken, contact, foundation, least=0.0)
+        return taken
 
 
 class Problem:
@@ -130,42 +159,48 @@ class Problem:
             self._count(grid, product)
         return work[0], work[1]
 
-    def solve(self, finest: Grid, tolerance: float) -> contact.Contact:
-        """From the coarsest grid to the finest, each started from the one before; in units of `solve_on`."""
-        grids = [finest]
-        while grids[-1].points >= 2 * COARSEST:
+    def solve(self, finest: Grid, tolerance: float, start: Start | None = None) -> contact.Contact:
+        """From the coarsest grid to the finest, each started from the one before; in units of `solve_on`.
+
+        start : whose points are then doubled until they are those of the finest
+        """
+        grids, coarsest = [finest], COARSEST if start is None else 2 * start.grid.points
+        while grids[-1].points >= 2 * coarsest:
             grids.append(grids[-1].coarser())
-        surface, start = self.surface(finest), None
+        surface = self.surface(finest)
         for grid in reversed(grids[1:]):
             try:
                 answer = self.solve_on(grid, surface, start, max(tolerance, COARSE_TOLERANCE))
-                start = grid, answer.pressure
+                start = self.start(grid, answer.pressure)
             except (EmptyContact, Unseen):
                 start = None  # the coarse grid misses the peaks that the finer one has
         return self.solve_on(finest, surface, start, tolerance)
 
-    def solve_on(self, grid: Grid, surface, start, tolerance) -> contact.Contact:
-        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
+    def start(self, grid: Grid, pressure: np.ndarray) -> Start:
+        """Where to begin the next solve, from a pressure in units of the relaxed E*."""
+        return Start(grid, pressure, self.medium.foundation(grid))
 
-        start : another grid on the same piece and the pressure there, or None
-        """
+    def solve_on(self, grid: Grid, surface, start: Start | None, tolerance) -> contact.Contact:
+        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError."""
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
         depth, load = self._pressed(grid, heights)
         if grid.rows == 1 and not self.flow.at_rest:
             tolerance = min(tolerance, LEAST_ON_A_ROW)
         operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
-        start = self._first_guess(heights, grid, depth, load) if start is None else self._taken_over(grid, *start)
-        here = self.engine.asarray
+        foundation, here = self.medium.foundation(grid), self.engine.asarray
+        begun = np.empty(0) if start is None else start.on(grid, foundation)
+        if not begun.any():
+            begun = self._first_guess(heights, grid, depth, load)
         try:
             return contact.solve(
                 operator,
                 here(heights),
-                here(start),
+                here(begun),
                 tolerance,
                 depth=depth,
                 load=load,
                 precondition=preconditioner,
-                foundation=self.medium.foundation(grid),
+                foundation=foundation,
                 symmetric=self.flow.at_rest,
                 sums=self.engine.sums,
             ).map(self.engine.asnumpy)
@@ -178,19 +213,6 @@ class Problem:
         finally:
             self._count(grid, operator)
             self.transforms += preconditioner.applications * grid.points * grid.rows
-
-    def _taken_over(self, grid, other, pressure):
-        """The pressure of another grid on this one.
-
-        Under a flow, that which sinks the foundation as much: the pressure itself has spikes at leading edges.
-        """
-        if self.flow.at_rest:
-            return grid.resampled_contact(pressure)
-        sums, sunk = kernels.Fused(), pressure.copy()
-        sums.sink(sunk, self.medium.foundation(other))
-        taken = grid.resample(sunk)
-        sums.push(taken, grid.resampled_contact(pressure) > 0, self.medium.foundation(grid), least=0.0)
-        return taken
 
     def _count(self, grid, product):
         self.work += product.applications * grid.points * grid.rows

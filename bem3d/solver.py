@@ -203,18 +203,18 @@ class BEM:
         return grid, answer
 
     def _windowed(self, problem):
-        grid = window.fitted(problem, self.points)
+        grid, start = window.fitted(problem, self.points)
         for _ in range(window.ATTEMPTS):
-            answer = self._on(problem, grid)
+            answer = self._on(problem, grid, start)
             better = window.improved(problem, grid, answer)
             if better is None:
                 return grid, answer
-            grid = better
+            grid, start = better, problem.start(grid, answer.pressure)
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
-    def _on(self, problem, grid):
+    def _on(self, problem, grid, start=None):
         window.check_waves(problem.scene, grid)
-        return problem.solve(grid, self.tolerance)
+        return problem.solve(grid, self.tolerance, start)
 
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus

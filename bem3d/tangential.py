@@ -198,19 +198,19 @@ class Tangential:
         grids, limits = [self._grid], [limit]
         while grids[-1].points >= 2 * COARSEST:
             grids.append(grids[-1].coarser())
-            limits.append(grids[-1].resampled_contact(limits[-1]))
-        found, drawn = None, displacement
+            limits.append(grids[-1].resampled_contact(limits[-1], grids[-2]))
+        coarse, drawn = None, displacement
         for grid, limit in zip(reversed(grids), reversed(limits), strict=True):
             finest, pixel = grid is self._grid, grid.pixel / self._grid.pixel
             share = None if force is None else force * limit.sum() / limits[0].sum()
             tolerance = self._tolerance if finest else max(self._tolerance, COARSE_TOLERANCE)
             try:
-                found = self._on(grid, limit, found, tolerance, None if drawn is None else drawn / pixel, share)
-                drawn = displacement or found.displacement * pixel
+                found = self._on(grid, limit, coarse, tolerance, None if drawn is None else drawn / pixel, share)
+                coarse, drawn = (grid, found), displacement or found.displacement * pixel
             except NotConverged:
                 if finest:
                     raise
-                found, drawn = None, displacement  # what sticks may be less than a pixel of the coarse grid
+                coarse, drawn = None, displacement  # what sticks may be less than a pixel of the coarse grid
         return found
 
     def _on(self, grid, limits, coarse, tolerance, displacement, force):
@@ -220,7 +220,7 @@ class Tangential:
             start = np.zeros((self._components, *grid.shape))
             start[0] = 0.0 if force is None else limits * (force / limits.sum())
         else:
-            start = _carried_over(coarse, grid, limits)
+            start = _carried_over(*coarse, grid, limits)
         try:
             found = stickslip.solve(
                 operator, inverse, here(limits), here(start), tolerance, displacement, force, engine.xp
@@ -251,11 +251,11 @@ def _components(scene, rows):
     return 1 if rows == 1 or scene.solid.poisson_ratio == 0 else 2
 
 
-def _carried_over(coarse, grid, limits):
+def _carried_over(other, coarse, grid, limits):
     """Tractions of another grid on this one: at their limit where they were."""
-    start = np.stack([grid.resample(plane) for plane in coarse.traction])
+    start = np.stack([grid.resample(plane, other) for plane in coarse.traction])
     length = np.sqrt((start * start).sum(axis=0))
-    slipping = (grid.resample(coarse.slipping.astype(float)) > SLIPS) & (length > 0)
+    slipping = (grid.resample(coarse.slipping.astype(float), other) > SLIPS) & (length > 0)
     return start * np.divide(limits, length, out=np.ones(grid.shape), where=slipping)
 
 

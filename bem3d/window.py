@@ -7,7 +7,7 @@ from scene.scales import elastic_contact
 
 from . import layer
 from .grid import Box, Grid
-from .problem import Problem, Unseen
+from .problem import Problem, Start, Unseen
 
 PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the surroundings allow for
 MARGIN = 1.15  # window over contact
@@ -52,26 +52,30 @@ def _risen(scene):
     return (scene.indenter.exponent + 2) / 2
 
 
-def fitted(problem: Problem, points: int) -> Grid:
-    """A grid of `points` a side that leaves a margin around the contact, found on grids of at most COARSE."""
+def fitted(problem: Problem, points: int) -> tuple[Grid, Start | None]:
+    """A grid of `points` a side that leaves a margin around the contact, and the contact that placed it.
+
+    That is found on grids of at most COARSE.
+    """
     coarse = min(points, COARSE)
-    box, margin = surroundings(problem), 1.0
+    box, margin, start = surroundings(problem), 1.0, None
     for _ in range(ATTEMPTS):
         grid = Grid.around(box, coarse, margin, problem.width)
         try:
-            touched = problem.solve_on(grid, problem.surface(grid), None, COARSE_TOLERANCE).pressure > 0
+            pressure = problem.solve_on(grid, problem.surface(grid), start, COARSE_TOLERANCE).pressure
         except (EmptyContact, Unseen):
             break
+        touched, start = pressure > 0, problem.start(grid, pressure)
         found, margin = grid.box(touched).padded(grid.pixel), MARGIN
         if grid.on_rim(touched):
             if isinstance(problem.scene.indenter, Measured):  # nothing is known of what is beyond the map
-                return Grid.around(surroundings(problem), points, 1.0)
+                return Grid.around(surroundings(problem), points, 1.0), None
             box = box.padded(grid.extent / 4)
         elif margin * found.side < SETTLED * grid.extent:
             box = found
         else:
             break
-    return Grid.around(box, points, margin, problem.width)
+    return Grid.around(box, points, margin, problem.width), start
 
 
 def check(scene: Scene, grid: Grid, answer, repeats: bool = False) -> None:
@@ -151,7 +155,7 @@ def _penetrating(problem, grid, answer, surface, shortest, inner, outer):
     fine = Grid(int(np.clip(outer / step, RING_POINTS, SAMPLES)), outer, grid.centre)
     pressure = problem.engine.asarray(_binned(grid, answer.pressure, coarse))
     displacement = problem.engine.asnumpy(problem.medium.operator(coarse)(pressure))
-    displacement = fine.resample(displacement) * coarse.pixel
+    displacement = fine.resample(displacement, coarse) * coarse.pixel
     depth = answer.depth * grid.pixel
     gap = displacement + problem.heights(fine, surface) - depth
     allowed = OVERLAP * (depth - problem.heights(grid, surface).min())

@@ -113,12 +113,13 @@ def test_a_finer_grid_starts_with_its_foundation_sunk_as_much():
     coarse = Grid(32, 3e-3)
     fine, problem = replace(coarse, points=64), Problem(scene, Engine())
     pressure = np.maximum(1 - (coarse.x**2 + coarse.y[:, None] ** 2) / 1e-6, 0.0)
-    sunk, taken = pressure.copy(), problem._taken_over(fine, coarse, pressure)
+    sunk = pressure.copy()
+    taken = problem.start(coarse, pressure).on(fine, problem.medium.foundation(fine))
     Fused().sink(sunk, problem.medium.foundation(coarse))
     there = taken > 0
     Fused().sink(taken, problem.medium.foundation(fine))
     assert np.count_nonzero(there) > 1000
-    np.testing.assert_allclose(taken[there], fine.resample(sunk)[there], rtol=1e-9)
+    np.testing.assert_allclose(taken[there], fine.resample(sunk, coarse)[there], rtol=1e-9)
 
 
 # Of 300 scenes drawn at random, at 256² and at 512², those that took most, and quick ones beside.
