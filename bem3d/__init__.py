@@ -1,5 +1,6 @@
 """The three-dimensional answer: boundary elements on a viscoelastic half-space."""
 
 from .solver import BEM
+from .trail import Trail
 
-__all__ = ["BEM"]
+__all__ = ["BEM", "Trail"]

@@ -111,6 +111,14 @@ def solve(
     raise NotConverged(f"after {most} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
 
 
+def misfit(operator: Callable, heights, pressure, depth: float | None = None, load: float | None = None) -> float:
+    """Mean |gap| that a pressure leaves where it presses, weighted with it: how far a start is from the answer."""
+    pressure = _balanced(pressure, load)
+    gap = operator(pressure) + heights
+    level = gap[pressure > 0].mean() if depth is None else depth
+    return float((pressure * abs(gap - level)).sum() / pressure.sum())
+
+
 def first_guess(heights: np.ndarray, count: int) -> np.ndarray:
     """Pressure to begin with under a load, on some `count` of the lowest points, as deep as they overlap."""
     level = np.partition(heights, count, axis=None)[count]

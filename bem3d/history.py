@@ -84,12 +84,12 @@ def _grid(solver, problem, program):
         return Grid(solver.points, scene.roughness.period, width=problem.width)
     if solver.extent is not None:
         return Grid(solver.points, solver.extent, width=problem.width)
-    boxes = [_held(window.fitted(problem, solver.points)[0])]
+    boxes = [_held(window.fitted(problem, solver.points).grid(solver.points, problem.width))]
     for speed in sorted({stage.speed for stage in program.stages} - {0.0}):
         sliding = Slide(speed=abs(speed), **{program.pressed_by: program.greatest})
         seen = Problem if speed > 0 else _Mirrored
         steady = seen(replace(scene, motion=sliding), solver.engine, solver.terms)
-        box = _held(window.fitted(steady, solver.points)[0])
+        box = _held(window.fitted(steady, solver.points).grid(solver.points, problem.width))
         boxes.append(box if speed > 0 else replace(box, left=-box.right, right=-box.left))
     all_of_them = boxes[0]
     for box in boxes[1:]:

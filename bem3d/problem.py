@@ -159,10 +159,13 @@ class Problem:
             self._count(grid, product)
         return work[0], work[1]
 
-    def solve(self, finest: Grid, tolerance: float, start: Start | None = None) -> contact.Contact:
+    def solve(
+        self, finest: Grid, tolerance: float, start: Start | None = None, beside: Start | None = None
+    ) -> contact.Contact:
         """From the coarsest grid to the finest, each started from the one before; in units of `solve_on`.
 
         start : whose points are then doubled until they are those of the finest
+        beside : of a neighbouring scene, from which the finest grid starts where it is the nearer one
         """
         grids, coarsest = [finest], COARSEST if start is None else 2 * start.grid.points
         while grids[-1].points >= 2 * coarsest:
@@ -170,32 +173,39 @@ class Problem:
         surface = self.surface(finest)
         for grid in reversed(grids[1:]):
             try:
-                answer = self.solve_on(grid, surface, start, max(tolerance, COARSE_TOLERANCE))
+                answer = self.solve_on(grid, surface, max(tolerance, COARSE_TOLERANCE), start)
                 start = self.start(grid, answer.pressure)
             except (EmptyContact, Unseen):
                 start = None  # the coarse grid misses the peaks that the finer one has
-        return self.solve_on(finest, surface, start, tolerance)
+        return self.solve_on(finest, surface, tolerance, start, beside)
 
     def start(self, grid: Grid, pressure: np.ndarray) -> Start:
         """Where to begin the next solve, from a pressure in units of the relaxed E*."""
         return Start(grid, pressure, self.medium.foundation(grid))
 
-    def solve_on(self, grid: Grid, surface, start: Start | None, tolerance) -> contact.Contact:
-        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError."""
+    def solve_on(self, grid: Grid, surface, tolerance: float, *starts: Start | None) -> contact.Contact:
+        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
+
+        starts : of which the nearest to the answer is taken
+        """
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
         depth, load = self._pressed(grid, heights)
         if grid.rows == 1 and not self.flow.at_rest:
             tolerance = min(tolerance, LEAST_ON_A_ROW)
         operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
         foundation, here = self.medium.foundation(grid), self.engine.asarray
-        begun = np.empty(0) if start is None else start.on(grid, foundation)
-        if not begun.any():
-            begun = self._first_guess(heights, grid, depth, load)
+        begun = [each.on(grid, foundation) for each in starts if each is not None]
+        begun = [here(each) for each in begun if each.any()] or [
+            here(self._first_guess(heights, grid, depth, load))
+        ]
+        heights = here(heights)
+        if len(begun) > 1:
+            begun.sort(key=lambda pressure: contact.misfit(operator, heights, pressure, depth, load))
         try:
             return contact.solve(
                 operator,
-                here(heights),
-                here(begun),
+                heights,
+                begun[0],
                 tolerance,
                 depth=depth,
                 load=load,

@@ -1,6 +1,7 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
 import time
+from functools import partial
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -22,6 +23,7 @@ from .measures import measured
 from .plan import plan_of
 from .problem import Problem
 from .terms import TERMS
+from .trail import Trail
 
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
@@ -171,50 +173,65 @@ class BEM:
         with trusted():
             return plan_of(self, scene)
 
-    def solve(self, scene: Scene) -> Result:
-        """Pressure, gap and forces. Raises Refused, or SolveError where the result could not be trusted."""
+    def solve(self, scene: Scene, trail: Trail | None = None) -> Result:
+        """Pressure, gap and forces. Raises Refused, or SolveError where the result could not be trusted.
+
+        trail : of contacts of the same body and surface, at other speeds and loads or on other grids: the solve
+            begins where they were, and leaves its own contact. The answer is the same to the tolerance. A Program
+            begins from nothing
+        """
         refuse(self, scene)
+        solve = partial(self._solved, trail=Trail() if trail is None else trail)
         with trusted():
-            result = surrounded(self._solved, terms_of(self.terms, scene))(scene)
+            result = surrounded(solve, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
         return result
 
-    def _solved(self, scene):
-        solve = marched if isinstance(scene.motion, Program) else BEM._steady
-        return solve(self, scene, time.process_time())
+    def _solved(self, scene, trail):
+        started = time.process_time()
+        return (
+            marched(self, scene, started)
+            if isinstance(scene.motion, Program)
+            else self._steady(scene, trail, started)
+        )
 
-    def _steady(self, scene, started):
+    def _steady(self, scene, trail, started):
         problem = Problem(scene, self.engine, self.terms)
-        grid, answer = self._answer(problem)
+        trail.turn_to(scene)
+        grid, answer = self._answer(problem, trail)
+        trail.leave(problem.start(grid, answer.pressure))
         return problem.completed(self._result(problem, grid, answer, started), grid)
 
-    def _answer(self, problem):
+    def _answer(self, problem, trail):
+        start, beside = trail.coarser(self.points), trail.beside(self.points)
         repeats = isinstance(problem.scene.indenter, Plane)
         if not repeats and self.extent is None:
-            return self._windowed(problem)
+            return self._windowed(problem, trail.placed(problem, self.points), start, beside)
         extent = problem.scene.roughness.period if repeats else self.extent
         grid = Grid(self.points, extent, width=problem.width)
-        answer = self._on(problem, grid)
+        answer = self._on(problem, grid, start, beside)
         window.check_on_map(problem.scene, grid, answer.pressure > 0)
         window.check(problem.scene, grid, answer, repeats)
         if repeats:
             _check_gap(problem.scene.motion.gap, grid, answer)
         return grid, answer
 
-    def _windowed(self, problem):
-        grid, start = window.fitted(problem, self.points)
+    def _windowed(self, problem, placed, start, beside):
+        grid = placed.grid(self.points, problem.width)
+        if start is None or (placed.start is not None and placed.start.grid.points > start.grid.points):
+            start = placed.start
         for _ in range(window.ATTEMPTS):
-            answer = self._on(problem, grid, start)
+            answer = self._on(problem, grid, start, beside)
             better = window.improved(problem, grid, answer)
             if better is None:
                 return grid, answer
-            grid, start = better, problem.start(grid, answer.pressure)
+            grid, start, beside = better, problem.start(grid, answer.pressure), None
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
-    def _on(self, problem, grid, start=None):
+    def _on(self, problem, grid, start, beside):
         window.check_waves(problem.scene, grid)
-        return problem.solve(grid, self.tolerance, start)
+        return problem.solve(grid, self.tolerance, start, beside)
 
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus

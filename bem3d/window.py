@@ -1,5 +1,7 @@
 """The window of surface that a contact needs: found on coarse grids, then checked for what it left out."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from scene import Cylinder, EmptyContact, Measured, Plane, Scene, SolveError
@@ -52,30 +54,39 @@ def _risen(scene):
     return (scene.indenter.exponent + 2) / 2
 
 
-def fitted(problem: Problem, points: int) -> tuple[Grid, Start | None]:
-    """A grid of `points` a side that leaves a margin around the contact, and the contact that placed it.
+class Placed(NamedTuple):
+    """Where a contact is: a box around it, the window over the box, and the coarse contact that told, if any."""
 
-    That is found on grids of at most COARSE.
-    """
-    coarse = min(points, COARSE)
-    box, margin, start = surroundings(problem), 1.0, None
+    box: Box
+    margin: float
+    start: Start | None
+
+    def grid(self, points: int, width: float | None = None) -> Grid:
+        """The window on so many points a side."""
+        return Grid.around(self.box, points, self.margin, width)
+
+
+def fitted(problem: Problem, points: int) -> Placed:
+    """Where the contact is, found on grids of at most COARSE points a side."""
+    points = min(points, COARSE)
+    placed = Placed(surroundings(problem), 1.0, None)
     for _ in range(ATTEMPTS):
-        grid = Grid.around(box, coarse, margin, problem.width)
+        box, grid = placed.box, placed.grid(points, problem.width)
         try:
-            pressure = problem.solve_on(grid, problem.surface(grid), start, COARSE_TOLERANCE).pressure
+            pressure = problem.solve_on(grid, problem.surface(grid), COARSE_TOLERANCE, placed.start).pressure
         except (EmptyContact, Unseen):
             break
         touched, start = pressure > 0, problem.start(grid, pressure)
-        found, margin = grid.box(touched).padded(grid.pixel), MARGIN
+        found = grid.box(touched).padded(grid.pixel)
         if grid.on_rim(touched):
             if isinstance(problem.scene.indenter, Measured):  # nothing is known of what is beyond the map
-                return Grid.around(surroundings(problem), points, 1.0), None
-            box = box.padded(grid.extent / 4)
-        elif margin * found.side < SETTLED * grid.extent:
-            box = found
+                return Placed(surroundings(problem), 1.0, None)
+            placed = Placed(box.padded(grid.extent / 4), MARGIN, start)
+        elif MARGIN * found.side < SETTLED * grid.extent:
+            placed = Placed(found, MARGIN, start)
         else:
-            break
-    return Grid.around(box, points, margin, problem.width), start
+            return Placed(box, MARGIN, start)
+    return placed
 
 
 def check(scene: Scene, grid: Grid, answer, repeats: bool = False) -> None:

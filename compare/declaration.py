@@ -45,7 +45,7 @@ class Study:
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved."""
-        return (Batch(rectangle.unique(self.rectangles())),)
+        return (Batch(rectangle.tasks_of(self.rectangles())),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved, labelled."""

@@ -17,6 +17,7 @@ from scene.motion import Motion
 from scene.protocol import refuse
 
 from .outcome import Outcome, Row
+from .path import Path, by_contact, joined
 from .task import SceneTask, Task, draws_of
 from .vocabulary import attributes
 
@@ -80,9 +81,9 @@ class Rectangle:
             for solver, speed, value in product(grids.values(), self.speeds, self.values):
                 refuse(solver, self.at(value, speed))
 
-    def tasks(self) -> list[SceneTask]:
-        """Every task, each once: all profiles of a 1D contact in one task, and a task for each surface in 3D."""
-        return list(dict.fromkeys(task for _, tasks in self._points for task in tasks))
+    def tasks(self) -> list[SceneTask | Path]:
+        """Every task, each once: all profiles of a 1D contact, and all speeds on a surface in 3D."""
+        return tasks_of({"": self})
 
     def datasets(self, outcomes: Mapping[Task, Outcome]) -> dict[str, xarray.Dataset]:
         """Datasets by the name of the solver, with the dimensions grid, speed, load or depth, and draw.
@@ -91,18 +92,22 @@ class Rectangle:
         touches, the force is 0, and friction and contact are NaN.
         """
         rows: dict[str, list[Row]] = {name: [] for name in self.grids}
-        for name, tasks in self._points:
-            rows[name] += [row for task in tasks for row in outcomes[task].rows]
+        answers = by_contact(outcomes)
+        for name, contacts in self.contacts:
+            rows[name] += [row for each in contacts for row in answers[each].rows]
         return {name: self._dataset(name, found) for name, found in rows.items()}
 
     def fields(self, outcomes: Mapping[Task, Outcome]) -> dict[str, Mapping[str, np.ndarray]]:
         """Fields that were kept of the first contact, by the name of the solver."""
-        kept = ((name, outcomes[tasks[0]].fields) for name, tasks in self._points if tasks[0].keeps_fields)
+        kept = ((name, outcomes[first].fields) for name, (first, *_) in self.contacts if first.keeps_fields)
         return {name: fields for name, fields in kept if fields}
 
     @cached_property
-    def _points(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
-        """Solver's name and tasks of every contact, by grid, speed and value; kept, as scenes are many."""
+    def contacts(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
+        """Solver's name and contacts of every point, by grid, speed and value; kept, as scenes are many.
+
+        All profiles of a 1D contact are one, each surface in 3D is one.
+        """
         found = []
         own = self.speeds[0], self.values[0]
         for name, grids in self.grids.items():
@@ -110,11 +115,11 @@ class Rectangle:
                 scenes = draws_of(self.at(value, speed), self.draws.get(name, 1))
                 together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
-                tasks = tuple(
+                contacts = tuple(
                     SceneTask(solver, each, keeps_fields=first and not k, work=_work(solver, each))
                     for k, each in enumerate(together)
                 )
-                found.append((name, tasks))
+                found.append((name, contacts))
         return tuple(found)
 
     def _dataset(self, name, rows):
@@ -165,22 +170,28 @@ def on_two_grids(*solvers: MDR | BEM) -> dict[str, dict[str, Solver]]:
     }
 
 
-def unique(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
-    """Tasks of several rectangles, each once: rectangles that cross share the contacts where they do."""
+def tasks_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask | Path]:
+    """Tasks of several rectangles: those that cross share the contacts where they do."""
+    return joined(contacts_of(rectangles))
+
+
+def contacts_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
+    """Contacts of several rectangles, each once."""
     found: dict[SceneTask, SceneTask] = {}
     for rectangle in rectangles.values():
-        for task in rectangle.tasks():
-            if task not in found or task.keeps_fields:
-                found[task] = task
+        for contact in (each for _, contacts in rectangle.contacts for each in contacts):
+            if contact not in found or contact.keeps_fields:
+                found[contact] = contact
     return list(found.values())
 
 
 def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
     """Everything solved of some rectangles: a Dataset for each rectangle and solver, at /rectangle/solver."""
+    answers = by_contact(outcomes)
     parts = {
         f"/{name}/{solver}": dataset
         for name, rectangle in rectangles.items()
-        for solver, dataset in rectangle.datasets(outcomes).items()
+        for solver, dataset in rectangle.datasets(answers).items()
     }
     return xarray.DataTree.from_dict(parts)
 

@@ -94,8 +94,10 @@ class SceneTask:
         module = type(self.solver).__module__
         return "scene", module.rpartition(".")[0] or module
 
-    def solve(self) -> Outcome:
+    def solve(self, *trail: Any) -> Outcome:
         """Solve every scene, one after the other.
+
+        trail : of neighbouring contacts, for a solver that begins where they were
 
         An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
         exception is a fault of the program and is raised.
@@ -103,7 +105,7 @@ class SceneTask:
         rows, fields = [], {}
         for scene in self.scenes:
             try:
-                result = self.solver.solve(scene)
+                result = self.solver.solve(scene, *trail)
             except EmptyContact:
                 depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
                 rows.append(Row(0.0, depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))

@@ -54,11 +54,15 @@ def test_a_grid_knows_its_points_their_boxes_and_values_in_between():
     # what is linear stays so, but for half a pixel at the rim; a contact stays as wide as it was
     fine = Grid(8, 8.0, (1.0, -2.0))
     plane = np.add.outer(2 * grid.y, grid.x)
-    np.testing.assert_allclose(fine.resample(plane, grid)[1:-1, 1:-1], np.add.outer(2 * fine.y, fine.x)[1:-1, 1:-1])
+    np.testing.assert_allclose(
+        fine.resample(plane, grid)[1:-1, 1:-1], np.add.outer(2 * fine.y, fine.x)[1:-1, 1:-1]
+    )
     assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner, grid)[3])) == [2, 3, 4, 5]
     assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner, grid)[:, 3])) == [2, 3]
     last = np.outer(np.ones(3), [0.0, 0.0, 1.0])
-    assert (Grid(5, 5.0).resampled_contact(last, Grid(3, 5.0)) > 0).any(axis=0).tolist() == [False] * 3 + [True] * 2
+    assert (Grid(5, 5.0).resampled_contact(last, Grid(3, 5.0)) > 0).any(axis=0).tolist() == [False] * 3 + [
+        True
+    ] * 2
 
 
 def test_nine_pixels_in_contact_are_enough_and_eight_are_not():

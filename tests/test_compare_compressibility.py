@@ -162,8 +162,8 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
         grids = {"bem": BEM(points=64), "mdr": MDR(points=200)}
         series = Series("one", "One", scene, (0.1, 0.3), (0.05, 0.1), surfaces=1, profiles=1, **grids)
         missing = Outcome((Row(reason="not asked for"),))
-        tasks = rectangle.unique(series.rectangles)
-        outcomes = {task: task.solve() if task.solver.name == "MDR" else missing for task in tasks}
+        contacts = rectangle.contacts_of(series.rectangles)
+        outcomes = {each: each.solve() if each.solver.name == "MDR" else missing for each in contacts}
         return laws(Contacts(series, rectangle.tree(series.rectangles, outcomes)), "MDR")
 
     wanted, found = ruled(0.5), ruled(0.0)

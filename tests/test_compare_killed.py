@@ -24,7 +24,7 @@ import os
 from dataclasses import dataclass, replace
 
 from bem3d import BEM
-from compare.rectangle import unique
+from compare.rectangle import tasks_of
 from compare.studies.catalogue import kelvin
 from compare.studies.series import Series
 from compare.task import SCENES
@@ -51,9 +51,9 @@ class MarkedMDR(MDR):
 
 @dataclass(frozen=True)
 class MarkedBEM(BEM):
-    def solve(self, scene):
+    def solve(self, scene, *trail):
         mark(self, scene)
-        return super().solve(scene)
+        return super().solve(scene, *trail)
 
 
 def series():
@@ -64,7 +64,12 @@ def series():
 
 
 def tasks():
-    return unique(series().rectangles)
+    return tasks_of(series().rectangles)
+
+
+def names(task):
+    contacts = getattr(task, "contacts", (task,))
+    return [name(each.solver, scene) for each in contacts for scene in each.scenes]
 """
 STUDY = """
 import marked
@@ -115,7 +120,7 @@ class Killed:
         return Counter(self.marks.read_text().split()) if self.marks.exists() else Counter()
 
     def begun_of(self, tasks, begun):
-        return {task: [begun[self.marked.name(task.solver, scene)] for scene in task.scenes] for task in tasks}
+        return {task: [begun[name] for name in self.marked.names(task)] for task in tasks}
 
     def kill(self, when):
         """Start it, kill all of it at a moment, and see that nothing stored is lost or was solved again.

@@ -11,7 +11,7 @@ from bem3d import BEM
 from compare import results
 from compare.finding import Claim
 from compare.outcome import Outcome, Row
-from compare.rectangle import Rectangle, on_two_grids, tree, unique
+from compare.rectangle import Rectangle, contacts_of, on_two_grids, tasks_of, tree
 from compare.statistics.jackknife import Sample, friction, judge, mean
 from mdr1d import MDR
 from scene import Indent, Kelvin, Layer, Refused, Scene, SelfAffine, Slide, Sphere
@@ -49,7 +49,7 @@ def outcome_of(task, bad=()):
 @pytest.fixture(scope="module")
 def answers():
     both = {"rough": ROUGH, "smooth": SMOOTH}
-    return tree(both, {task: outcome_of(task) for task in unique(both)})
+    return tree(both, {task: outcome_of(task) for task in tasks_of(both)})
 
 
 def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
@@ -77,7 +77,7 @@ def test_every_variable_says_its_unit_and_what_it_is(answers):
 
 def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
     both = {"rough": ROUGH}
-    found = tree(both, {task: outcome_of(task, bad=(6,)) for task in unique(both)})["rough/BEM"].to_dataset()
+    found = tree(both, {task: outcome_of(task, bad=(6,)) for task in tasks_of(both)})["rough/BEM"].to_dataset()
     assert set(found.status.sel(draw=6).values.ravel()) == {"failed"}
     assert set(found.reason.sel(draw=6).values.ravel()) == {"too rough"}
     assert set(found.status.sel(draw=5).values.ravel()) == {"solved"}
@@ -139,10 +139,12 @@ def test_damaged_results_and_folders_without_any_are_said(tmp_path):
 
 def test_rectangles_that_cross_share_their_contacts():
     line = replace(ROUGH, speeds=(0.1,), values=(1.0,))
-    assert len(unique({"a": ROUGH, "b": line})) == len(ROUGH.tasks())
-    kept = unique({"a": ROUGH, "b": replace(line, keeps_fields=True)})
-    assert len(kept) == len(ROUGH.tasks())
-    assert sum(task.keeps_fields for task in kept) == 2
+    assert set(tasks_of({"a": ROUGH, "b": line})) == set(ROUGH.tasks())
+    both = {"a": ROUGH, "b": replace(line, keeps_fields=True)}
+    kept = contacts_of(both)
+    assert set(kept) == set(contacts_of({"a": ROUGH}))
+    assert sum(each.keeps_fields for each in kept) == 2
+    assert {each for each in kept if each.keeps_fields} <= set(tasks_of(both))  # alone, not on a path
 
 
 def test_depths_are_prescribed_where_the_scene_prescribes_one():

@@ -15,8 +15,9 @@ from compare.cases import Case, Study
 from compare.describe import described, slug
 from compare.outcome import Outcome, Row
 from compare.page import Findings, Plot, Table
+from compare.path import Path
 from compare.plots import force_depth, style
-from compare.rectangle import COARSE, FINE, unique
+from compare.rectangle import COARSE, FINE, tasks_of
 from compare.studies.casecurves import (
     LOAD,
     OWN,
@@ -91,11 +92,10 @@ def test_depth_stays_prescribed_where_the_scene_prescribes_it():
 
 
 def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone():
-    found, every = unique(curves(CASE)), [task for each in curves(CASE).values() for task in each.tasks()]
-    asked, everywhere = (
-        [(task.solver, scene) for task in tasks for scene in task.scenes] for tasks in (found, every)
-    )
-    assert len(asked) == len(set(asked))
+    found, every = tasks_of(curves(CASE)), [task for each in curves(CASE).values() for task in each.tasks()]
+    asked, everywhere = ([each for task in tasks for each in contacts_on(task)] for tasks in (found, every))
+    solved = [(each.solver, scene) for each in asked for scene in each.scenes]
+    assert len(solved) == len(set(solved))
     assert set(everywhere) == set(asked)
     kept = {(task.solver, task.scenes[0]) for task in found if task.keeps_fields}
     assert kept == {(CASE.mdr, CASE.scene), (CASE.bem, CASE.scene)}
@@ -120,8 +120,16 @@ def test_a_grid_of_half_the_points_is_solved_where_it_has_the_same_surface(case,
 FRICTION, FORCE = 2.0, 1.1
 
 
+def contacts_on(task):
+    return task.contacts if isinstance(task, Path) else (task,)
+
+
+def invented_of(run, **how):
+    return {each: invented(each, **how) for task in run.batches()[0].tasks for each in contacts_on(task)}
+
+
 def invented(task, halved=0.0, scatter=0.0, broken=()):
-    """Rows of a task. halved : error of a coarse 3D grid; scatter : between surfaces of 3D; broken : seeds."""
+    """Rows of a contact. halved : error of a coarse 3D grid; scatter : between surfaces of 3D; broken : seeds."""
     rows, name = [], task.solver.name
     coarse = name == "BEM" and task.solver.points < CASE.bem.points
     for scene in task.scenes:
@@ -141,7 +149,7 @@ def invented(task, halved=0.0, scatter=0.0, broken=()):
 
 def judged(case=CASE, **how):
     run = Run({"a case": case})
-    answers = run.answers({task: invented(task, **how) for task in run.batches()[0].tasks})
+    answers = run.answers(invented_of(run, **how))
     return run, answers, finding.table(run.findings(answers)).set_index(["claim", "where"])
 
 
@@ -215,7 +223,7 @@ def test_points_have_means_deviations_and_intervals():
 
 def test_cases_stand_side_by_side_in_the_summary():
     run = Run({"one": CASE, "at rest": replace(CASE, motion=Indent(load=1.0))})
-    answers = run.answers({task: invented(task) for task in run.batches()[0].tasks})
+    answers = run.answers(invented_of(run))
     table = summary(run.judged(answers)).set_index("sentence")
     own = "Friction of the scene as it stands is the same in 1D and 3D"
     assert table.loc[own, "at rest"] == ""
@@ -291,7 +299,7 @@ def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(re
 def test_one_value_of_everything_is_drawn_without_a_warning(motion):
     one = Study(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
     run = Run({"one": replace(CASE, motion=motion, study=one)})
-    answers = run.answers({task: invented(task) for task in run.batches()[0].tasks})
+    answers = run.answers(invented_of(run))
     with style.applied():
         for plot in run.page(answers, run.findings(answers)).every(Plot):
             plot.figure().draw_without_rendering()

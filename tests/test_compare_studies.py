@@ -242,7 +242,7 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
 def test_a_series_of_which_nothing_was_solved_has_no_finding():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
     outcomes = {
-        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in rectangle.unique(series.rectangles)
+        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in rectangle.tasks_of(series.rectangles)
     }
     contacts = Contacts(series, rectangle.tree(series.rectangles, outcomes))
     assert judge_series(contacts).findings == ()
@@ -347,7 +347,7 @@ def solved():
     rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
     scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
     series = Series("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
-    tasks = rectangle.unique(series.rectangles)
+    tasks = rectangle.tasks_of(series.rectangles)
     return Contacts(series, rectangle.tree(series.rectangles, {task: task.solve() for task in tasks}))
 
 
@@ -385,7 +385,7 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = ClaimStudy.of(name, "quick")
-    tasks = rectangle.unique(study.rectangles())
+    tasks = rectangle.tasks_of(study.rectangles())
     assert len({(task.solver, task.scenes) for task in tasks}) == len(tasks)
     assert {task.solver.name for task in tasks} == {"MDR", "BEM"}
     grids = [grids for each in study.rectangles().values() for grids in each.grids.values()]

@@ -13,7 +13,7 @@ from compare.finding import REPORTED
 from compare.outcome import Outcome, Row
 from compare.page import Findings, Plot, Section, Table
 from compare.plots import style
-from compare.rectangle import unique
+from compare.rectangle import tasks_of
 from compare.studies.catalogue import STUDIES, ReadyStudy
 from compare.studies.claimstudy import AllStudies, ClaimStudy
 from compare.studies.series import Contacts
@@ -117,7 +117,7 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
 def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
     study = ClaimStudy("empty", ReadyStudy("Empty", "About.", lambda size: [series]), "quick")
-    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in unique(study.rectangles())}
+    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.rectangles())}
     answers = study.answers(outcomes)
     page = study.page(answers, study.findings(answers))
     assert list(page.answer) == []

@@ -24,6 +24,7 @@ from ..finding import Finding
 from ..inputs import Asked, named_cases
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
+from ..path import by_contact
 from ..plots import contact, contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
 from ..rectangle import Rectangle
 from ..statistics.means import with_spread
@@ -95,11 +96,12 @@ class Run(Study):
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Every curve, the fields of each scene's own contact, and the processor time of each solver."""
         parts: dict[str, xarray.Dataset] = {}
+        outcomes = by_contact(outcomes)
         for name, found in self._curves.items():
             folder = slug(name)
             for solver, kept in found[OWN].fields(outcomes).items():
                 parts[f"/{folder}/{FIELDS}/{solver}"] = _fields(kept, self.cases[name].indenter.type)
-            parts[f"/{folder}/{TIMES}"] = _times(rectangle.unique(found), outcomes)
+            parts[f"/{folder}/{TIMES}"] = _times(rectangle.contacts_of(found), outcomes)
         return xarray.DataTree.from_dict(
             {node.path: node.to_dataset(inherit=False) for node in super().answers(outcomes).subtree} | parts
         )
@@ -272,12 +274,12 @@ def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
     return xarray.Dataset(variables)
 
 
-def _times(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
+def _times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
     """Processor time of all solves by solver, each contact once."""
     spent: dict[str, float] = {}
-    for task in tasks:
-        seconds = float(np.nansum([row.seconds for row in outcomes[task].rows]))
-        spent[task.solver.name] = spent.get(task.solver.name, 0.0) + seconds
+    for each in contacts:
+        seconds = float(np.nansum([row.seconds for row in outcomes[each].rows]))
+        spent[each.solver.name] = spent.get(each.solver.name, 0.0) + seconds
     solvers = xarray.Variable("solver", list(spent), attributes("solver"))
     return xarray.Dataset(
         {"seconds": ("solver", list(spent.values()), attributes("seconds"))}, {"solver": solvers}

@@ -91,7 +91,7 @@ class Paper(Study):
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved: rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
         own = [*self._studies.tasks(), *(law.planes(shape) for shape in parameters.SHAPES)]
-        return (Batch([*own, *rectangle.unique(self.rectangles())]),)
+        return (Batch([*own, *rectangle.tasks_of(self.rectangles())]),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved: a Dataset for each figure, shape and rubber."""

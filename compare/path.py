@@ -1,0 +1,114 @@
+"""Paths: neighbouring contacts of one body and surface in three dimensions, solved one from the other."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from bem3d import BEM, Trail
+from scene import Indent, Program, Scene, Solver
+
+from .outcome import Outcome, Row
+from .task import SceneTask, Task
+
+# Work of a path: about a minute, so that a kill costs no more.
+LONGEST = 1e9
+
+
+@dataclass(frozen=True)
+class Path:
+    """Contacts of one body and surface, of which each starts from those before it; equal if these are.
+
+    contacts : of one scene each, in the order in which they are solved
+    """
+
+    contacts: tuple[SceneTask, ...]
+    keeps_fields = False
+
+    @property
+    def solver(self) -> Solver:
+        """Solver of the last contact."""
+        return self.contacts[-1].solver
+
+    @property
+    def scenes(self) -> tuple[Scene, ...]:
+        """Scene of each contact."""
+        return tuple(scene for each in self.contacts for scene in each.scenes)
+
+    @property
+    def label(self) -> str:
+        """First contact, and how many follow."""
+        return f"{self.contacts[0].label}, and {len(self.contacts) - 1} more"
+
+    @property
+    def work(self) -> float:
+        """Rough cost of all contacts."""
+        return sum(each.work for each in self.contacts)
+
+    @property
+    def question(self) -> dict:
+        """Questions of the contacts in their order."""
+        return {"path": [each.question for each in self.contacts]}
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """Packages of the contacts."""
+        return self.contacts[0].packages
+
+    def solve(self) -> Outcome:
+        """Solve the contacts in their order, also behind one that fails."""
+        trail = Trail()
+        return Outcome(tuple(row for each in self.contacts for row in each.solve(trail).rows))
+
+    def failed(self, reason: str) -> Outcome:
+        """Outcome with a row for each contact, each with the reason."""
+        return Outcome((Row(reason=reason),) * len(self.contacts))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether the outcome has a row for each contact."""
+        return len(outcome.rows) == len(self.contacts)
+
+
+def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Path]:
+    """Contacts as tasks: what differs in speed and grid alone as one path, from rest on, from coarse to fine.
+
+    Contacts of other solvers, in time, and those that keep fields stay alone.
+    """
+    paths: dict[object, list[SceneTask]] = {}
+    for each in contacts:
+        paths.setdefault(_shared(each), []).append(each)
+    return [task for found in paths.values() for task in _cut(sorted(found, key=_place))]
+
+
+def by_contact(outcomes: Mapping[Task, Outcome]) -> dict[Task, Outcome]:
+    """Outcomes by contact, also of those that were solved on a path."""
+    found: dict[Task, Outcome] = {}
+    for task, outcome in outcomes.items():
+        if isinstance(task, Path):
+            found |= {each: Outcome((row,)) for each, row in zip(task.contacts, outcome.rows, strict=True)}
+        else:
+            found[task] = outcome
+    return found
+
+
+def _shared(contact):
+    """What the contacts of a path have in common: all but the speed, and the grid but for its kind."""
+    (scene, *others), solver = contact.scenes, contact.solver
+    motion = scene.motion
+    if others or contact.keeps_fields or not isinstance(solver, BEM) or isinstance(motion, Program):
+        return contact
+    rest = Indent(**{motion.pressed_by: motion.greatest})
+    return replace(scene, motion=rest), replace(solver, points=16, steps=1)
+
+
+def _place(contact):
+    return getattr(contact.scenes[0].motion, "speed", 0.0), getattr(contact.solver, "points", 0)
+
+
+def _cut(contacts: list[SceneTask]) -> Iterator[SceneTask | Path]:
+    """Paths of LONGEST at most."""
+    while contacts:
+        work, count = 0.0, 0
+        while count < len(contacts) and (not count or work + contacts[count].work <= LONGEST):
+            work += contacts[count].work
+            count += 1
+        first, contacts = contacts[:count], contacts[count:]
+        yield Path(tuple(first)) if count > 1 else first[0]

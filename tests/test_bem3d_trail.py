@@ -1,0 +1,112 @@
+"""A contact that starts where its neighbours were: the same answer, in fewer transforms."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM, Trail
+from bem3d.engine import Engine
+from bem3d.grid import Grid
+from bem3d.kernels import Fused
+from bem3d.problem import Problem
+from scene import Cylinder, EmptyContact, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
+
+SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
+ROUGH = SelfAffine(hurst=0.5, rms_height=1e-5, longest=2e-3, shortest=4e-4, seed=3)
+SLIDING = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.05, load=0.5), ROUGH)
+CELL = Scene(Plane(), SOLID, Indent(pressure=2e4), replace(ROUGH, shortest=2e-4))
+
+
+def at(speed, load=0.5):
+    return replace(SLIDING, motion=Slide(speed=speed, load=load))
+
+
+def assert_alike(found, alone):
+    """Within what the tolerance leaves: a pixel at the edge may or may not press."""
+    assert found.settings == alone.settings
+    np.testing.assert_allclose(found.depth, alone.depth, rtol=1e-4)
+    np.testing.assert_allclose(found.normal_force, alone.normal_force, rtol=1e-4)
+    np.testing.assert_allclose(found.friction_force, alone.friction_force, rtol=1e-3)
+    np.testing.assert_allclose(found.measures["contact_points"], alone.measures["contact_points"], rtol=0.01)
+
+
+@pytest.mark.parametrize("speeds", [(0.0, 0.01, 0.02), (5.0, 0.01, 500.0)], ids=["near", "far"])
+def test_whatever_was_solved_before_the_answer_is_that_of_a_solve_alone(speeds):
+    trail, solver = Trail(), BEM(points=64)
+    for speed in speeds:
+        assert_alike(solver.solve(at(speed), trail), solver.solve(at(speed)))
+
+
+def test_another_body_or_load_before_changes_no_answer():
+    trail, solver = Trail(), BEM(points=64)
+    for other in (at(0.05, load=50.0), replace(SLIDING, indenter=Sphere(radius=1e-3)), CELL):
+        solver.solve(other, trail)
+        assert_alike(solver.solve(SLIDING, trail), solver.solve(SLIDING))
+
+
+def pairs(*answers):
+    """Transform pairs, in those of the finest grid."""
+    finest = max(each.settings["points"] for each in answers)
+    return sum(each.measures["transform_pairs"] * (each.settings["points"] / finest) ** 2 for each in answers)
+
+
+def test_a_scene_is_placed_once_and_its_coarse_contact_starts_the_fine_one():
+    trail, grids = Trail(), (BEM(points=64), BEM(points=128))
+    found, alone = [each.solve(SLIDING, trail) for each in grids], [each.solve(SLIDING) for each in grids]
+    for one, other in zip(found, alone, strict=True):
+        assert_alike(one, other)
+    assert found[0].measures["transform_pairs"] == alone[0].measures["transform_pairs"]
+    assert pairs(found[1]) < 0.85 * pairs(alone[1])
+
+
+def test_a_neighbour_starts_a_slow_contact_and_does_no_harm_to_a_fast_one():
+    for slow, factor in ((True, 0.8), (False, 1.1)):
+        trail, solver = Trail(), BEM(points=128)
+        speeds = (0.02, 0.025) if slow else (0.1, 5.0)
+        solver.solve(at(speeds[0]), trail)
+        assert pairs(solver.solve(at(speeds[1]), trail)) < factor * pairs(solver.solve(at(speeds[1])))
+
+
+def test_cells_lines_and_stated_windows_follow_a_trail():
+    for scene, solver in (
+        (CELL, BEM(points=64)),
+        (replace(CELL, motion=Slide(speed=0.1, pressure=2e4)), BEM(points=64)),
+        (Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=0.1, line_load=50.0)), BEM(points=64)),
+        (SLIDING, BEM(points=64, extent=4e-3)),
+    ):
+        trail = Trail()
+        replace(solver, points=32).solve(scene, trail)
+        found, alone = solver.solve(scene, trail), solver.solve(scene)
+        assert_alike(found, alone)
+        assert found.measures["transform_pairs"] <= alone.measures["transform_pairs"]
+
+
+def test_a_failed_solve_leaves_nothing_on_the_trail():
+    trail, solver = Trail(), BEM(points=64)
+    with pytest.raises(EmptyContact):
+        solver.solve(replace(SLIDING, motion=Indent(depth=1e-9), roughness=replace(ROUGH, rms_height=1e-7)), trail)
+    assert trail.beside(64) is None
+    found = solver.solve(SLIDING, trail)
+    assert found.measures["transform_pairs"] == solver.solve(SLIDING).measures["transform_pairs"]
+
+
+@pytest.mark.parametrize(("before", "after"), [(0.0, 0.2), (0.2, 0.0), (0.2, 0.4), (0.0, 0.0)])
+def test_a_start_presses_where_it_pressed_and_sinks_the_foundation_as_much(before, after):
+    def problem(speed):
+        return Problem(Scene(Sphere(1e-2), SOLID, Slide(speed=speed, load=1.0)), Engine())
+
+    old, new = Grid(32, 4e-3), Grid(48, 3e-3, (3e-4, 0.0))
+    pressure = np.maximum(1 - (old.x**2 + old.y[:, None] ** 2) / 1e-6, 0.0)
+    one, other = problem(before), problem(after)
+    foundation = other.medium.foundation(new)
+    taken = one.start(old, pressure).on(new, foundation)
+    assert (taken[new.resampled_contact(pressure, old) == 0] == 0).all()
+    if before == after == 0:
+        np.testing.assert_allclose(taken, new.resampled_contact(pressure, old))
+    sunk = one.start(old, pressure).on(new, None)  # at rest what sinks is the pressure
+    there = taken > 0
+    if foundation is not None:
+        Fused().sink(taken, foundation)
+    assert there.sum() > 300
+    np.testing.assert_allclose(taken[there], sunk[there], rtol=1e-9)
