@@ -13,7 +13,7 @@ import sys
 import time
 from dataclasses import replace
 from datetime import date
-from itertools import chain
+from itertools import chain, product
 from math import sqrt
 from pathlib import Path
 from unittest.mock import patch
@@ -24,7 +24,9 @@ from scipy.optimize import brentq
 from tables import table
 from timing import alone, least, pair
 
-from bem3d import BEM, contact
+from bem3d import BEM, Trail, contact
+from compare.studies.catalogue import SIZES as STUDY_SIZES
+from compare.studies.catalogue import STUDIES
 from scene import (
     Elastic,
     Fractional,
@@ -51,19 +53,20 @@ SPHERE, DEPTH, SIDE = Sphere(1.0), 0.02, 0.4  # the contact is 0.28 across
 ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shortest=8e-3, seed=1)
 UNANSWERED = (Refused, SolveError)
 DRAWN = 60  # scenes
+THREADED = 5  # runs
 PAPER = Sphere(10e-3), SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
 
 
-def rough_plane(n: int) -> SelfAffine:
+def rough_plane(n: int, hurst: float = 0.8, seed: int = 1) -> SelfAffine:
     """The surface of the comparison: shortest wave of 8 pixels, roll-off at a quarter of the cell."""
-    of = {"hurst": 0.8, "longest": 1.0, "rolloff": 0.25, "shortest": 8 / n, "seed": 1}
+    of = {"hurst": hurst, "longest": 1.0, "rolloff": 0.25, "shortest": 8 / n, "seed": seed}
     unit = SelfAffine(rms_height=1.0, **of)
     return SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / n)), **of)
 
 
-def cell(n: int, pressure: float) -> tuple[Scene, BEM]:
+def cell(n: int, pressure: float, **surface: float) -> tuple[Scene, BEM]:
     """A rough cell under a mean pressure over E*."""
-    return Scene(Plane(), ELASTIC, Indent(pressure=pressure), rough_plane(n)), BEM(points=n)
+    return Scene(Plane(), ELASTIC, Indent(pressure=pressure), rough_plane(n, **surface)), BEM(points=n)
 
 
 def sphere(n: int, **pressed: float) -> tuple[Scene, BEM]:
@@ -129,6 +132,93 @@ def rough_cells(largest: int) -> str:
     """The comparison of the peers by size."""
     return table(
         f"points|{COLUMNS}", (row for n in sizes(largest) for row in side_by_side(f"{n}²", *cell(n, PRESSURE)))
+    )
+
+
+def other_surfaces(largest: int) -> str:
+    """The same comparison on surfaces of other Hurst exponents and seeds."""
+    n = min(1024, largest)
+    codes = {name: code for name, code in CODES.items() if name != "ContactMechanics"}
+
+    def rows():
+        for hurst, seed in product((0.2, 0.5, 0.8), (2, 3)):
+            yield from side_by_side(f"{hurst:g}, {seed}", *cell(n, PRESSURE, hurst=hurst, seed=seed), codes)
+
+    return f"{n}² points.\n\n" + table(f"H, seed|{COLUMNS}", rows())
+
+
+def largest_cell(largest: int) -> str:
+    """The largest cell that is measured, by this solver alone."""
+    n = min(4096, 2 * largest)
+    return table(f"points|{COLUMNS}", side_by_side(f"{n}²", *cell(n, PRESSURE), dict([next(iter(CODES.items()))])))
+
+
+def wall(scene: Scene, solver: BEM, threads: tuple[int, ...]) -> list[float]:
+    """Least seconds of wall time of a solve by number of threads, measured in turn."""
+    solver.solve(scene)  # compiles
+    seconds = {count: [] for count in threads}
+    for _, count in product(range(THREADED), threads):
+        started = time.perf_counter()
+        replace(solver, threads=count).solve(scene)
+        seconds[count].append(time.perf_counter() - started)
+    return [min(each) for each in seconds.values()]
+
+
+def threads(largest: int) -> str:
+    """What a second thread of the transforms brings."""
+
+    def rows():
+        for n in (n for n in (512, 1024, 2048) if n <= max(largest, 512)):
+            one, two = alone(wall, *cell(n, PRESSURE), (1, 2))
+            yield f"{n}²", f"{one:.3g}", f"{two:.3g}", f"{one / two:.2f}"
+
+    return table("points|s, one thread|s, two|times as fast", rows())
+
+
+def along(scene: Scene, speeds, points: int) -> dict:
+    """Pairs on the fine grid and processor seconds of a point, on half the points and on all: alone and on a path.
+
+    The change of friction is that between both, the largest.
+    """
+    grids, trail = (BEM(points=points // 2), BEM(points=points)), Trail()
+    spent, changed = {"alone": np.zeros(2), "on a path": np.zeros(2)}, 0.0
+    for grid in grids:
+        grid.solve(replace(scene, motion=replace(scene.motion, speed=speeds[0])))  # compiles
+    for speed, grid in product(speeds, grids):
+        slid, found = replace(scene, motion=replace(scene.motion, speed=speed)), {}
+        for way, extra in (("alone", ()), ("on a path", (trail,))):
+            started = time.process_time()
+            found[way] = grid.solve(slid, *extra)
+            share = found[way].measures["transform_pairs"] * (grid.points / points) ** 2
+            spent[way] += share, time.process_time() - started
+        one, other = (each.friction_coefficient for each in found.values())
+        changed = max(changed, abs(other / one - 1))
+    return {"changed": changed} | {way: each / len(speeds) for way, each in spent.items()}
+
+
+def paths(largest: int) -> str:
+    """What a point of `study collapse` costs alone, and on the path that solves it."""
+    size = STUDY_SIZES["standard"]
+
+    def rows():
+        for series in (each for each in STUDIES["collapse"].series(size) if each.prescribed == "load"):
+            for points in (n for n in (128, 256, 512) if n <= max(256, largest)):
+                load = series.values[len(series.values) // 2]
+                scene = replace(series.scene, motion=Slide(speed=1.0, load=load))
+                found = alone(along, scene, series.speeds, points)
+                (pairs, seconds), (fewer, less) = found["alone"], found["on a path"]
+                yield (
+                    series.name,
+                    f"{points}²",
+                    *(f"{value:.0f}" for value in (pairs, fewer)),
+                    *(f"{value:.3g}" for value in (seconds, less)),
+                    f"{less / seconds:.2f}",
+                    f"{found['changed']:.1e}",
+                )
+
+    return table(
+        "body|points|pairs alone|on a path|processor s alone|on a path|of a solve alone|largest change of μ",
+        rows(),
     )
 
 
@@ -355,6 +445,16 @@ SECTIONS = {
         "first guess of the forces; on some surfaces it does not converge from its own.",
         free_spheres,
     ),
+    "Other surfaces": (
+        "As the rough cells, of other Hurst exponents and seeds: nothing was tuned to them.",
+        other_surfaces,
+    ),
+    "The largest cell": ("As the rough cells; once.", largest_cell),
+    "Threads": (
+        "Wall time of the rough cells by the threads of the transforms, the least of "
+        f"{THREADED} runs in turn, whole solves. Aim: at least 1.7 times as fast from 1024² on.",
+        threads,
+    ),
     "Overhead": (
         "Processor time of the solve on the finest grid, started from the next coarser one, over that of its "
         "products with operator and preconditioner (transforms, symbol, zero padding), each timed alone in the "
@@ -373,6 +473,12 @@ SECTIONS = {
         "depth, a over shortest wave 1 to 8, half of them with a roll-off; a load in 70 %, a depth in 30 %. Aims: "
         "at most 80 pairs in the median, 200 in the worst, no growth beyond 512².",
         sliding_drawn,
+    ),
+    "Paths": (
+        "A point of `study collapse` at the size standard: rough bodies at 12 speeds under one load, on half the "
+        "points and on all, each solve alone or along a path (see [sweeps](sweeps.md)). Pairs are those of the "
+        "fine grid. Aim: a third of a solve alone.",
+        paths,
     ),
 }
 

@@ -99,7 +99,7 @@ def test_equal_paths_have_equal_digits_and_are_kept_whole(solved, tmp_path):
 
 def test_a_contact_without_an_answer_has_its_reason_and_those_behind_it_are_solved():
     """The last is finer than its waves, the first is not."""
-    fine = replace(SCENE, roughness=replace(ROUGHNESS, shortest=2e-4))
+    fine = replace(SCENE, roughness=replace(ROUGHNESS, shortest=1.5e-4))
     (found,) = tasks_of(
         {"": replace(RECTANGLE, scene=fine, values=(0.5,), draws={"BEM": 1}, grids=on_two_grids(BEM(points=64)))}
     )
