@@ -181,7 +181,7 @@ class BEM:
             begins from nothing
         """
         refuse(self, scene)
-        solve = partial(self._solved, trail=Trail() if trail is None else trail)
+        solve = partial(self._solved, trail=trail)
         with trusted():
             result = surrounded(solve, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
@@ -197,7 +197,7 @@ class BEM:
         )
 
     def _steady(self, scene, trail, started):
-        problem = Problem(scene, self.engine, self.terms)
+        problem, trail = Problem(scene, self.engine, self.terms), trail or Trail()
         trail.turn_to(scene)
         grid, answer = self._answer(problem, trail)
         trail.leave(problem.start(grid, answer.pressure))

@@ -115,7 +115,7 @@ def validators():
 def test_a_schema_is_one(kind, validators):
     validators[kind].check_schema(schema(kind))
     assert schema(kind)["$schema"] == DIALECT
-    with pytest.raises(KeyError):
+    with pytest.raises(InvalidInput, match="allowed are scene, study"):
         schema("nothing")
 
 
