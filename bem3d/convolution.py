@@ -16,9 +16,10 @@ class FreeConvolution:
         ny, nx = kernel.shape[0], kernel.shape[1] // 2
         padded = (1 if ny == 1 else engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1))
         downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
-        symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
         if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
-            symbol = symbol.real
+            symbol = engine.symmetric(downstream, padded)
+        else:
+            symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
         self.shape, self.applications = (ny, nx), 0
         self._product = engine.product(symbol, self.shape, padded)
 
@@ -38,10 +39,7 @@ class FreePair:
         """kernels: xx, xy, yy (ny, nx), 0, 1, ... pixels aside and downstream; xy is odd in both, others even."""
         ny, nx = kernels[0].shape
         padded = engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1)
-        symbols = []
-        for kernel, parity in zip(kernels, (1, -1, 1), strict=True):
-            laid_out = _laid_out(kernel, parity * kernel[:, :0:-1], padded)
-            symbols.append(engine.transformed(laid_out, padded, parity).real)
+        symbols = [engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)]
         self.shape, self.applications = (ny, nx), 0
         self._product = engine.pair(symbols, self.shape, padded)
 

@@ -86,11 +86,22 @@ class Engine:
             return WholePair(symbols, shape, padded, self.xp, self.complex)
         return BlockedPair(symbols, shape, padded, self)
 
-    def transformed(self, kernel, padded, parity=1):
-        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), rows y = 0..ny-1.
+    def symmetric(self, kernel, padded, parity=1):
+        """Real symbol (my//2+1, mx//2+1) of a kernel (ny, nx) at 0, 1, ... pixels aside and downstream.
 
-        parity : in y, 1 of what is even and -1 of what is odd
+        parity : in y as in x, 1 of what is even and -1 of what is odd
         """
+        import ducc0
+
+        (ny, nx), (transform, zeros) = kernel.shape, ((ducc0.fft.dct, 0) if parity == 1 else (ducc0.fft.dst, 1))
+        symbol = np.zeros([size // 2 + 1 for size in padded])
+        symbol[:ny, :nx] = parity * kernel
+        inside = symbol[tuple(slice(zeros, size - zeros) for size in symbol.shape)]
+        transform(inside, type=1, axes=[axis for axis in (0, 1) if padded[axis] > 1], out=inside)
+        return symbol
+
+    def transformed(self, kernel, padded):
+        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), even in y, rows y = 0..ny-1."""
         (ny, mx), my = kernel.shape, padded[0]
         rows, columns = _DOUBLE.lines(ny, mx, real=True), _DOUBLE.lines(mx // 2 + 1, my, real=False)
         waves = np.empty((ny, mx // 2 + 1), complex)
@@ -100,7 +111,7 @@ class Engine:
         for block in _blocks(mx // 2 + 1):
             whole = np.zeros((waves[:, block].shape[1], my), complex)
             whole[:, :ny] = waves[:, block].T
-            whole[:, my - ny + 1 :] = parity * whole[:, ny - 1 : 0 : -1]
+            whole[:, my - ny + 1 :] = whole[:, ny - 1 : 0 : -1]
             symbol[:, block] = columns.forward(whole)[:, : my // 2 + 1].T
         return symbol
 
