@@ -1,6 +1,7 @@
 """Convolutions on the grid: with a kernel on a free surface, with a symbol on one that repeats."""
 
 import numpy as np
+from scipy.fft import irfft2, rfft2
 
 from .engine import Engine
 
@@ -14,7 +15,7 @@ class FreeConvolution:
     def __init__(self, kernel, engine=PLAIN):
         """kernel: (ny, 2 nx), symmetric in y; column nx + i acts i pixels downstream (see `influence`)."""
         ny, nx = kernel.shape[0], kernel.shape[1] // 2
-        padded = (1 if ny == 1 else engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1))
+        padded = _padded((ny, nx), engine)
         downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
         if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
             symbol = engine.symmetric(downstream, padded)
@@ -38,8 +39,10 @@ class FreePair:
     def __init__(self, kernels, engine=PLAIN):
         """kernels: xx, xy, yy (ny, nx), 0, 1, ... pixels aside and downstream; xy is odd in both, others even."""
         ny, nx = kernels[0].shape
-        padded = engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1)
-        symbols = [engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)]
+        padded = _padded((ny, nx), engine)
+        symbols = [
+            engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)
+        ]
         self.shape, self.applications = (ny, nx), 0
         self._product = engine.pair(symbols, self.shape, padded)
 
@@ -84,6 +87,20 @@ class PeriodicPair:
         """The filtered planes (2, ny, nx)."""
         self.applications += 2
         return self._product(planes, out)
+
+
+def autocorrelation(plane, engine=PLAIN):
+    """Sums of products of values i columns and j rows apart, either way: (ny, nx) for i, j = 0, 1, ..."""
+    ny, nx = plane.shape
+    padded = _padded(plane.shape, engine)
+    products = irfft2(np.square(np.abs(rfft2(plane, s=padded))), s=padded)[:, :nx]
+    both = products[:ny] + products[-np.arange(ny)]
+    both[0] /= 2
+    return both
+
+
+def _padded(shape, engine):
+    return tuple(1 if size == 1 else engine.good_size(2 * size - 1) for size in shape)
 
 
 def _laid_out(downstream, upstream, padded):

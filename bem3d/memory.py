@@ -35,6 +35,8 @@ gauss = cache(np.polynomial.legendre.leggauss)  # each takes about as long as th
 def remembered(kernel, columns, ny, shares, lengths, shift):
     """The kernel as modes of these shares remember it, `shift` behind columns: runs of them, values (count, ny).
 
+    shares : (K,), or several sums over the same modes (..., K), each with values of its own: (..., count, ny)
+
     The memory is carried downstream from column to column. The kernel is sampled between whole columns, at places
     that shift and lengths do not move.
     """
@@ -58,13 +60,15 @@ def remembered(kernel, columns, ny, shares, lengths, shift):
             at = i[close]
             gained[:, close, :rows] = np.tensordot(graded, _near(kernel, int(at[0]), len(at), rows), 1)
             if shift:
-                behind[close, :rows] = np.tensordot(graded_beyond, kernel(at, places_beyond[:, None], rows), 1)
+                behind[..., close, :rows] = np.tensordot(
+                    graded_beyond, kernel(at, places_beyond[:, None], rows), 1
+                )
         states = faded[:, :count, :count] @ gained
         states += decay[:, None, None] ** np.arange(1, count + 1)[:, None] * state[:, None]
         before = np.concatenate([state[:, None], states[:, :-1]], axis=1)
         state = states[:, -1]
         first = int(i[0] == start)
-        yield i[first:] - 1, (np.tensordot(left_at_shift, before, 1) + behind)[first:]
+        yield i[first:] - 1, (np.tensordot(left_at_shift, before, 1) + behind)[..., first:, :]
 
 
 def _samples(kernel, first, count, nodes, ny):
