@@ -1,7 +1,9 @@
 """Convolutions on the grid: with a kernel on a free surface, with a symbol on one that repeats."""
 
+from math import prod
+
 import numpy as np
-from scipy.fft import irfft2, rfft2
+from scipy.fft import rfft2
 
 from .engine import Engine
 
@@ -93,8 +95,9 @@ def autocorrelation(plane, engine=PLAIN):
     """Sums of products of values i columns and j rows apart, either way: (ny, nx) for i, j = 0, 1, ..."""
     ny, nx = plane.shape
     padded = _padded(plane.shape, engine)
-    products = irfft2(np.square(np.abs(rfft2(plane, s=padded))), s=padded)[:, :nx]
-    both = products[:ny] + products[-np.arange(ny)]
+    waves = rfft2(plane, s=padded)
+    power, rows = np.square(waves.real) + np.square(waves.imag), np.arange(padded[0] // 2 + 1)
+    both = engine.symmetric(power[rows] + power[-rows], padded)[:ny, :nx] / prod(padded)
     both[0] /= 2
     return both
 

@@ -41,8 +41,8 @@ def remembered(kernel, columns, ny, shares, lengths, shift):
     that shift and lengths do not move.
     """
     decay, left_at_shift = np.exp(-1 / lengths), shares * np.exp(-shift / lengths)
-    rules = {nodes: _memory_rule(nodes, lengths, 0.0) for _, nodes in BANDS}
-    beyond = {nodes: shares @ _memory_rule(nodes, lengths, 1 - shift) for _, nodes in BANDS}
+    rules, rules_beyond = (_memory_rules(lengths, begin) for begin in (0.0, 1 - shift))
+    beyond = {nodes: shares @ rule for nodes, rule in rules_beyond.items()}
     (_, graded), (places_beyond, graded_beyond) = (_graded_rule(lengths, begin) for begin in (0.0, 1 - shift))
     graded_beyond = shares @ graded_beyond
     run = np.arange(CHUNK)
@@ -90,19 +90,20 @@ def _near(kernel, first, count, rows):
     return kernel(first + np.arange(count), places[:, None], rows)
 
 
-def _memory_rule(count, lengths, begin):
-    """Weights (K, count) at Gauss nodes on 0 <= s <= 1, for exp(-(s - begin)/l) ds / l from `begin` on.
+def _memory_rules(lengths, begin):
+    """Weights (K, count) at as many Gauss nodes on 0 <= s <= 1 as each band has, for exp(-(s - begin)/l) ds / l.
 
-    Exact for a polynomial: the one through its values at the nodes, by its Legendre coefficients. Its products
-    with the memory are integrated as far as that reaches.
+    From `begin` on, and exact for a polynomial: the one through its values at the nodes, by its Legendre
+    coefficients. Its products with the memory are integrated as far as that reaches.
     """
     reach = np.minimum(1 - begin, MANY_LENGTHS * lengths)[:, None]
     t, fine = gauss(MEMORY_NODES)
     back = reach * (t + 1) / 2
     measure = fine * reach / 2 * np.exp(-back / lengths[:, None]) / lengths[:, None]
-    polynomials = np.polynomial.legendre.legvander(2 * (begin + back) - 1, count - 1)
+    counts = [count for _, count in BANDS]
+    polynomials = np.polynomial.legendre.legvander(2 * (begin + back) - 1, max(counts) - 1)
     moments = np.einsum("kt,ktm->km", measure, polynomials)
-    return moments @ _coefficients(count).T
+    return {count: moments[:, :count] @ _coefficients(count).T for count in counts}
 
 
 @cache
