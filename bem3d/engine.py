@@ -25,7 +25,7 @@ class Unavailable(RuntimeError):
 @dataclass(frozen=True)
 class Engine:
     """library : ducc0 or fftw on the processor, cupy on a GPU
-    threads : of the transforms on the processor
+    threads : that share the blocks of a product on the processor
     precision : of the transforms; everything else is computed in double
     """
 

@@ -125,9 +125,8 @@ def _graded_rule(lengths, begin):
     Panels shrink by four towards the beginning, where a short memory ends, and where the pixel's edge may be; of
     the whole also towards the middle, where it is, and as far as the shortest memory there is.
     """
-    side = 1 - begin
-    shortest = np.log2(min(lengths.min() / side, 1.0)) / 2 if begin else LEAST_MEMORY
-    steps = 0.25 ** np.arange(1, EDGE_PANELS - np.floor(shortest))
+    shortest = np.log2(min(lengths.min(), 1.0)) / 2 if begin else LEAST_MEMORY
+    steps, side = 0.25 ** np.arange(1, EDGE_PANELS - np.floor(shortest)), 1 - begin
     cuts = np.unique([0.0, 1.0, *steps, *([] if begin else [0.5, *(0.5 - steps / 2), *(0.5 + steps / 2)])])
     x, w = gauss(PANEL_NODES)
     half = np.diff(cuts)[:, None] / 2
