@@ -83,14 +83,13 @@ def solve(
     marked, tried = xp.zeros((2, *heights.shape), bool)
     for rounds in range(1, most + 1):
         contact = pressure > 0
-        where = xp.flatnonzero(contact)
-        if not len(where):
+        if not contact.any():
             raise NotConverged("nothing is pressed: the pressure is below the range of numbers")
         operator(pressure, out=displacement)
-        touched = heights.reshape(-1)[where]
-        level = float((displacement.reshape(-1)[where] + touched).mean()) if depth is None else depth
+        mean, highest = _levels(displacement, heights, xp.flatnonzero(contact))
+        level = mean if depth is None else depth
         inside, outside = sums.gaps(displacement, heights, level, contact, gap)
-        aim = tolerance * max(level - lowest, float(touched.max()) - lowest, least)
+        aim = tolerance * max(level - lowest, highest - lowest, least)
         if inside <= aim and outside <= aim:
             return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
         if inside <= max(aim, ADDED * outside):
@@ -120,6 +119,12 @@ def first_guess(heights: np.ndarray, count: int) -> np.ndarray:
     overlap = np.maximum(level - heights, 0.0)
     # Where they are all alike, none is deeper than the others.
     return overlap if overlap.any() else (heights == level).astype(float)
+
+
+def _levels(displacement, heights, where):
+    """Of the points of contact: the depth at which their mean gap is zero, and their greatest height."""
+    touched = heights.reshape(-1)[where]
+    return float((displacement.reshape(-1)[where] + touched).mean()), float(touched.max())
 
 
 def _balance(pressure, load):
