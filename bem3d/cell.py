@@ -7,6 +7,7 @@ are counted from the mean of the deformed surface.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.fft import fftfreq, rfft2, rfftfreq
 
 from .convolution import PeriodicFilter
 from .engine import Engine
@@ -46,20 +47,16 @@ class Cell:
         """What of the operator is not in the elastic half-space; None at rest."""
         return Foundation.of(self.flow, grid, wraps=True)
 
-    def slope(self, grid: Grid) -> PeriodicFilter:
-        """Pressure -> slope of the displacement along the flow, as far as it dissipates."""
-        return self._loss(grid, lambda q_x: q_x)
-
-    def gain(self, grid: Grid) -> PeriodicFilter:
-        """Pressure -> slope of the displacement as the difference between the pixels on both sides."""
-        return self._loss(grid, np.sin)
-
-    def _loss(self, grid, step):
-        def symbol(q_y, q_x):
-            compliance = self.ground.compliance(_lengths(q_y, q_x, 1.0), grid.pixel)
-            return -compliance * step(q_x) * self.flow.compliance(q_x, grid.pixel).imag
-
-        return PeriodicFilter(grid.shape, symbol, self.engine)
+    def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
+        """sum p dw/dx over a pressure (rows, points), the energy lost per pixel slid: by the slope of the
+        displacement along the flow, and by its difference between the pixels on both sides.
+        """
+        (ny, nx), spectrum = grid.shape, np.square(np.abs(rfft2(pressure)))
+        q_y, q_x = 2 * np.pi * np.abs(fftfreq(ny))[:, None], 2 * np.pi * np.abs(rfftfreq(nx))
+        yielding = self.ground.compliance(_lengths(q_y, q_x, 1.0), grid.pixel)
+        lost = -np.sum(yielding * spectrum, axis=0) * self.flow.compliance(q_x, grid.pixel).imag / (ny * nx)
+        lost[1 : (nx + 1) // 2] *= 2  # with those of the opposite waves
+        return float(q_x @ lost), float(np.sin(q_x) @ lost)
 
     def _response(self, grid, q_x):
         """Compliance, seen from the points of collocation; real at rest."""

@@ -74,9 +74,10 @@ def solve(
     xp = sums.xp
     solver = conjugate_gradients if symmetric else direct if len(heights) == 1 else gmres
     heights = xp.ascontiguousarray(heights)
-    pressure, accuracy = _balanced(xp.array(start, order="C"), load), ACCURACY
+    pressure, accuracy = xp.array(start, order="C"), ACCURACY
+    _balance(pressure, load)
     gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
-    lowest, least = (float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min()))
+    lowest, least = float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min())
     most, deepest = ROUNDS + max(heights.shape), xp.inf
     on_set = _OnSet(operator, precondition, foundation, depth is None, heights.shape, sums)
     marked, tried = xp.zeros((2, *heights.shape), bool)
@@ -85,9 +86,10 @@ def solve(
         if not contact.any():
             raise NotConverged("nothing is pressed: the pressure is below the range of numbers")
         operator(pressure, out=displacement)
-        level = float((displacement + heights)[contact].mean()) if depth is None else depth
+        mean, highest = _levels(displacement, heights, xp.flatnonzero(contact))
+        level = mean if depth is None else depth
         inside, outside = sums.gaps(displacement, heights, level, contact, gap)
-        aim = tolerance * max(level - lowest, float(heights[contact].max()) - lowest, least)
+        aim = tolerance * max(level - lowest, highest - lowest, least)
         if inside <= aim and outside <= aim:
             return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
         if inside <= max(aim, ADDED * outside):
@@ -106,7 +108,7 @@ def solve(
         on_set.add(correction, pressure)
         if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
             pressure, accuracy = xp.maximum(level - heights, 0.0), accuracy / 4
-        pressure = _balanced(pressure, load)
+        _balance(pressure, load)
     violation = max(inside, outside) / aim * tolerance
     raise NotConverged(f"after {most} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
 
@@ -127,8 +129,15 @@ def first_guess(heights: np.ndarray, count: int) -> np.ndarray:
     return overlap if overlap.any() else (heights == level).astype(float)
 
 
-def _balanced(pressure, load):
-    return pressure if load is None else pressure * (load / pressure.sum())
+def _levels(displacement, heights, where):
+    """Of the points of contact: the depth at which their mean gap is zero, and their greatest height."""
+    touched = heights.reshape(-1)[where]
+    return float((displacement.reshape(-1)[where] + touched).mean()), float(touched.max())
+
+
+def _balance(pressure, load):
+    if load is not None:
+        pressure *= load / pressure.sum()
 
 
 class _OnSet:

@@ -1,6 +1,9 @@
 """Convolutions on the grid: with a kernel on a free surface, with a symbol on one that repeats."""
 
+from math import prod
+
 import numpy as np
+from scipy.fft import rfft2
 
 from .engine import Engine
 
@@ -14,11 +17,12 @@ class FreeConvolution:
     def __init__(self, kernel, engine=PLAIN):
         """kernel: (ny, 2 nx), symmetric in y; column nx + i acts i pixels downstream (see `influence`)."""
         ny, nx = kernel.shape[0], kernel.shape[1] // 2
-        padded = (1 if ny == 1 else engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1))
+        padded = _padded((ny, nx), engine)
         downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
-        symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
         if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
-            symbol = symbol.real
+            symbol = engine.symmetric(downstream, padded)
+        else:
+            symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
         self.shape, self.applications = (ny, nx), 0
         self._product = engine.product(symbol, self.shape, padded)
 
@@ -37,11 +41,10 @@ class FreePair:
     def __init__(self, kernels, engine=PLAIN):
         """kernels: xx, xy, yy (ny, nx), 0, 1, ... pixels aside and downstream; xy is odd in both, others even."""
         ny, nx = kernels[0].shape
-        padded = engine.good_size(2 * ny - 1), engine.good_size(2 * nx - 1)
-        symbols = []
-        for kernel, parity in zip(kernels, (1, -1, 1), strict=True):
-            laid_out = _laid_out(kernel, parity * kernel[:, :0:-1], padded)
-            symbols.append(engine.transformed(laid_out, padded, parity).real)
+        padded = _padded((ny, nx), engine)
+        symbols = [
+            engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)
+        ]
         self.shape, self.applications = (ny, nx), 0
         self._product = engine.pair(symbols, self.shape, padded)
 
@@ -86,6 +89,21 @@ class PeriodicPair:
         """The filtered planes (2, ny, nx)."""
         self.applications += 2
         return self._product(planes, out)
+
+
+def autocorrelation(plane, engine=PLAIN):
+    """Sums of products of values i columns and j rows apart, either way: (ny, nx) for i, j = 0, 1, ..."""
+    ny, nx = plane.shape
+    padded = _padded(plane.shape, engine)
+    waves = rfft2(plane, s=padded)
+    power, rows = np.square(waves.real) + np.square(waves.imag), np.arange(padded[0] // 2 + 1)
+    both = engine.symmetric(power[rows] + power[-rows], padded)[:ny, :nx] / prod(padded)
+    both[0] /= 2
+    return both
+
+
+def _padded(shape, engine):
+    return tuple(1 if size == 1 else engine.good_size(2 * size - 1) for size in shape)
 
 
 def _laid_out(downstream, upstream, padded):

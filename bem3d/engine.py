@@ -4,6 +4,7 @@ A plane of ny x nx values is convolved as rows, then columns, then rows again. R
 are never transformed, and columns go block by block, forward, through the symbol and back, while in the cache.
 """
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from math import prod
 from typing import Literal
@@ -24,7 +25,7 @@ class Unavailable(RuntimeError):
 @dataclass(frozen=True)
 class Engine:
     """library : ducc0 or fftw on the processor, cupy on a GPU
-    threads : of the transforms on the processor
+    threads : that share the blocks of a product on the processor
     precision : of the transforms; everything else is computed in double
     """
 
@@ -86,11 +87,22 @@ class Engine:
             return WholePair(symbols, shape, padded, self.xp, self.complex)
         return BlockedPair(symbols, shape, padded, self)
 
-    def transformed(self, kernel, padded, parity=1):
-        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), rows y = 0..ny-1.
+    def symmetric(self, kernel, padded, parity=1):
+        """Real symbol (my//2+1, mx//2+1) of a kernel (ny, nx) at 0, 1, ... pixels aside and downstream.
 
-        parity : in y, 1 of what is even and -1 of what is odd
+        parity : in y as in x, 1 of what is even and -1 of what is odd
         """
+        import ducc0
+
+        (ny, nx), (transform, zeros) = kernel.shape, ((ducc0.fft.dct, 0) if parity == 1 else (ducc0.fft.dst, 1))
+        symbol = np.zeros([size // 2 + 1 for size in padded])
+        symbol[:ny, :nx] = parity * kernel
+        inside = symbol[tuple(slice(zeros, size - zeros) for size in symbol.shape)]
+        transform(inside, type=1, axes=[axis for axis in (0, 1) if padded[axis] > 1], out=inside)
+        return symbol
+
+    def transformed(self, kernel, padded):
+        """Symbol (my//2+1, mx//2+1) of a kernel (ny, mx), even in y, rows y = 0..ny-1."""
         (ny, mx), my = kernel.shape, padded[0]
         rows, columns = _DOUBLE.lines(ny, mx, real=True), _DOUBLE.lines(mx // 2 + 1, my, real=False)
         waves = np.empty((ny, mx // 2 + 1), complex)
@@ -100,7 +112,7 @@ class Engine:
         for block in _blocks(mx // 2 + 1):
             whole = np.zeros((waves[:, block].shape[1], my), complex)
             whole[:, :ny] = waves[:, block].T
-            whole[:, my - ny + 1 :] = parity * whole[:, ny - 1 : 0 : -1]
+            whole[:, my - ny + 1 :] = whole[:, ny - 1 : 0 : -1]
             symbol[:, block] = columns.forward(whole)[:, : my // 2 + 1].T
         return symbol
 
@@ -184,7 +196,7 @@ class SmallPlane:
     def __init__(self, symbol, shape, padded, engine):
         import ducc0  # on demand, as each library is
 
-        self.shape, self._padded, self._fft, self._threads = shape, padded, ducc0.fft, engine.threads
+        self.shape, self._padded, self._fft = shape, padded, ducc0.fft
         rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
         kind = engine.real if np.isrealobj(symbol) else engine.complex
         self._symbol = (symbol[rows] / prod(padded)).astype(kind)
@@ -195,10 +207,9 @@ class SmallPlane:
         """The product (ny, nx)."""
         (ny, nx), points, waves = self.shape, self._points, self._waves
         points[:ny, :nx], points[ny:], points[:, nx:] = plane, 0, 0
-        self._fft.r2c(points, axes=(0, 1), out=waves, nthreads=self._threads)
+        self._fft.r2c(points, axes=(0, 1), out=waves)
         waves *= self._symbol
-        options = {"axes": (0, 1), "lastsize": self._padded[1], "forward": False, "nthreads": self._threads}
-        self._fft.c2r(waves, out=points, **options)
+        self._fft.c2r(waves, axes=(0, 1), lastsize=self._padded[1], forward=False, out=points)
         if out is None:
             return points[:ny, :nx].astype(float)
         out[:] = points[:ny, :nx]
@@ -229,22 +240,42 @@ class _ByBlocks:
         width = mx // 2 + 1
         self._symbols = [self._laid_out(symbol, engine) for symbol in symbols]
         self._waves = [_staggered(ny, width, engine.complex) for _ in range(planes)]
-        self._rows = engine.lines(ny, mx, real=True)
-        self._columns = [engine.lines(width, my, real=False) for _ in range(planes)] if my > 1 else []
+        self._threads = engine.threads
+        self._pool = ThreadPoolExecutor(engine.threads) if engine.threads > 1 else None
+        self._rows = [engine.lines(ny, mx, real=True) for _ in range(engine.threads)]
+        self._columns = [
+            [engine.lines(width, my, real=False) for _ in range(planes)] if my > 1 else []
+            for _ in range(engine.threads)
+        ]
 
     def _laid_out(self, symbol, engine):
         """Along columns, and with what transforms there and back multiply by."""
         kind = engine.real if np.isrealobj(symbol) else engine.complex
         return np.ascontiguousarray((symbol / np.prod(self._padded)).T.astype(kind))
 
+    def _shared(self, count, lines, work):
+        """work(block, lines) on all blocks of so many lines; each thread has lines of its own."""
+
+        def of_one(thread):
+            for block in _blocks(count)[thread :: self._threads]:
+                work(block, lines[thread])
+
+        if self._pool is None:
+            of_one(0)
+        else:
+            list(self._pool.map(of_one, range(self._threads)))
+
     def _along_rows(self, plane, waves):
-        for rows in _blocks(self.shape[0]):
-            waves[rows] = self._rows.forward(plane[rows])
+        def forward(rows, lines):
+            waves[rows] = lines.forward(plane[rows])
+
+        self._shared(self.shape[0], self._rows, forward)
 
     def _back_along_rows(self, waves, out):
-        ny, nx = self.shape
-        for rows in _blocks(ny):
-            out[rows] = self._rows.backward(waves[rows])[:, :nx]
+        def backward(rows, lines):
+            out[rows] = lines.backward(waves[rows])[:, : self.shape[1]]
+
+        self._shared(self.shape[0], self._rows, backward)
 
 
 class Blocked(_ByBlocks):
@@ -257,7 +288,7 @@ class Blocked(_ByBlocks):
         """The product (ny, nx)."""
         (waves,), out = self._waves, np.empty(self.shape) if out is None else out
         self._along_rows(plane, waves)
-        if self._columns:
+        if self._padded[0] > 1:
             self._through_columns()
         else:
             waves *= self._symbols[0].T
@@ -267,13 +298,16 @@ class Blocked(_ByBlocks):
     def _through_columns(self):
         ny, half = self.shape[0], self._padded[0] // 2 + 1
         mirrored = self._padded[0] - half  # rows of q_y < 0
-        (waves,), (lines,) = self._waves, self._columns
-        for columns in _blocks(waves.shape[1]):
-            symbol = self._symbols[0][columns]
+        (waves,) = self._waves
+
+        def through(columns, lines):
+            symbol, (lines,) = self._symbols[0][columns], lines
             block = lines.forward(waves[:, columns].T)
             block[:, :half] *= symbol
             block[:, half:] *= symbol[:, mirrored:0:-1]
             waves[:, columns] = lines.backward(block)[:, :ny].T
+
+        self._shared(waves.shape[1], self._columns, through)
 
 
 class BlockedPair(_ByBlocks):
@@ -295,17 +329,18 @@ class BlockedPair(_ByBlocks):
     def _through_columns(self):
         ny, half = self.shape[0], self._padded[0] // 2 + 1
         mirrored = slice(self._padded[0] - half, 0, -1)  # rows of q_y < 0
-        for columns in _blocks(self._waves[0].shape[1]):
-            blocks = [
-                lines.forward(waves[:, columns].T) for lines, waves in zip(self._columns, self._waves, strict=True)
-            ]
+
+        def through(columns, lines):
+            blocks = [of.forward(waves[:, columns].T) for of, waves in zip(lines, self._waves, strict=True)]
             xx, xy, yy = (symbol[columns] for symbol in self._symbols)
             for part, rows, sign in ((slice(half), slice(half), 1), (slice(half, None), mirrored, -1)):
                 x, y = (block[:, part] for block in blocks)
                 across = sign * xy[:, rows]
                 x[:], y[:] = xx[:, rows] * x + across * y, across * x + yy[:, rows] * y
-            for block, lines, waves in zip(blocks, self._columns, self._waves, strict=True):
-                waves[:, columns] = lines.backward(block)[:, :ny].T
+            for block, of, waves in zip(blocks, lines, self._waves, strict=True):
+                waves[:, columns] = of.backward(block)[:, :ny].T
+
+        self._shared(self._waves[0].shape[1], self._columns, through)
 
 
 def _staggered(count, length, kind):
@@ -324,7 +359,7 @@ class _Ducc:
         import ducc0  # on demand, as each library is
 
         self._fft = ducc0.fft
-        self._real, self._length, self._threads = real, length, engine.threads
+        self._real, self._length = real, length
         self._points = _staggered(count, length, engine.real if real else engine.complex)
         self._waves = _staggered(count, length // 2 + 1, engine.complex) if real else self._points
 
@@ -334,12 +369,12 @@ class _Ducc:
         points, waves = self._points[:count], self._waves[:count]
         points[:, :given], points[:, given:] = values, 0
         transform = self._fft.r2c if self._real else self._fft.c2c
-        return transform(points, axes=(1,), forward=True, out=waves, nthreads=self._threads)
+        return transform(points, axes=(1,), forward=True, out=waves)
 
     def backward(self, waves):
         """Points of lines of waves, unnormalized."""
         points = self._points[: len(waves)]
-        options = {"axes": (1,), "forward": False, "out": points, "nthreads": self._threads}
+        options = {"axes": (1,), "forward": False, "out": points}
         if self._real:
             return self._fft.c2r(waves, lastsize=self._length, **options)
         return self._fft.c2c(waves, **options)
@@ -353,7 +388,7 @@ class _Fftw:
 
         self._points = fftw.zeros_aligned((count, length), engine.real if real else engine.complex)
         self._waves = fftw.empty_aligned((count, length // 2 + 1), engine.complex) if real else self._points
-        plan = {"axes": (1,), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT"), "threads": engine.threads}
+        plan = {"axes": (1,), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
         self._forward = fftw.FFTW(self._points, self._waves, **plan)
         self._backward = fftw.FFTW(self._waves, self._points, direction="FFTW_BACKWARD", **plan)
 

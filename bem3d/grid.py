@@ -123,7 +123,11 @@ def _interpolated(values, position, axis):
     lower = np.clip(np.floor(position).astype(int), 0, given - 2)
     share = np.clip(position - lower, 0.0, 1.0)
     share = share[:, None] if axis == 0 else share
-    return (1 - share) * values.take(lower, axis) + share * values.take(lower + 1, axis)
+    between, beyond = values.take(lower, axis), values.take(lower + 1, axis)
+    beyond -= between
+    beyond *= share
+    between += beyond
+    return between
 
 
 @dataclass(frozen=True)

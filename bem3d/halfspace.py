@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .convolution import FreeConvolution, PeriodicFilter
+from .convolution import FreeConvolution, PeriodicFilter, autocorrelation
 from .engine import Engine
 from .foundation import Foundation
 from .grid import Grid, Piece
@@ -33,24 +33,24 @@ class HalfSpace:
         shift = flow.collocation(grid) / grid.pixel
         return self._convolution(self._flowing(grid, flow.instantaneous, flow.shares, flow.in_pixels(grid), shift))
 
-    def slope(self, grid: Grid) -> FreeConvolution:
-        """Pressure -> slope of the displacement along the flow, as far as it dissipates.
+    def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
+        """sum p dw/dx over a pressure (rows, points), the energy lost per pixel slid: by the slope of the
+        displacement along the flow, and by its difference between the pixels on both sides.
 
         A mode's displacement obeys w + l dw/dx = w_elastic, so its slope is (w_elastic - w)/l without any
-        difference quotient. Of its kernel only the part even in x does work on the pressure: int p dw/dx dA is the
-        energy lost per length slid, the sum of the loss compliance over the spectrum of the pressure.
+        difference quotient. Of its kernel only the part even in x does work on the pressure, the sum of the loss
+        compliance over the spectrum of the pressure; of that of the displacement only the part odd in x.
         """
+        pairs = np.pad(autocorrelation(pressure, self.engine), ((0, 0), (0, 2)))
+        middle = grid.points + 1
+        wider = Piece(middle, middle * grid.pixel, width=grid.width, lines=grid.rows)
         shares, lengths = self._seen(grid)
         rates = shares / lengths
-        return self._convolution(self._flowing(grid, rates.sum(), -rates, lengths, 0.0))
-
-    def gain(self, grid: Grid) -> FreeConvolution:
-        """Pressure -> slope of the displacement as the difference between the pixels on both sides."""
-        points = grid.points + 2  # a column more at each end
-        wider = Piece(points, points * grid.pixel, width=grid.width, lines=grid.rows)
-        shares, lengths = self._seen(grid)
-        kernel = self._flowing(wider, 0.0, shares, lengths, 0.0)
-        return self._convolution((kernel[:, 3:-1] - kernel[:, 1:-3]) / 2)
+        slope, moved = self._flowing(wider, np.array([rates.sum(), 0.0]), np.array([-rates, shares]), lengths, 0.0)
+        even = slope[:, middle + 1 :] + slope[:, middle - 1 : 0 : -1]
+        odd = moved[:, middle + 1 :] - moved[:, middle - 1 : 0 : -1]
+        loss = np.sum(even * pairs[:, 1:-1]) + slope[:, middle] @ pairs[:, 0]
+        return float(loss), float(np.sum(odd * (pairs[:, :-2] - pairs[:, 2:])) / 2)
 
     def _seen(self, grid):
         """Shares and lengths [pixel] of the modes, none shorter than leaves digits to the even part of a kernel.

@@ -67,17 +67,18 @@ def retarded(nx, ny, length, shift):
 def flowing(nx, ny, instantaneous, shares, lengths, shift, displacement: Displacement = by_pixel):
     """Kernel of a solid in flow along +x, (ny, 2 nx) as `elastic`: its elastic share and those of its modes.
 
-    shares, lengths : of the retardation modes (K,), lengths > 0 [pixel]
+    shares, lengths : of the retardation modes (K,), lengths > 0 [pixel]; with shares (..., K) of several solids,
+        and as many elastic shares, as many kernels (..., ny, 2 nx)
     shift : how far behind the pixel's centre it is sampled, 0 to 1/2 [pixel]
     """
     shares, lengths = np.asarray(shares, float), np.asarray(lengths, float)
-    kernel = (
-        np.zeros((2 * nx, ny)) if instantaneous == 0 else instantaneous * elastic(nx, ny, shift, displacement).T
-    )
+    kernel = np.zeros((*np.shape(instantaneous), 2 * nx, ny))
+    if np.any(instantaneous):
+        kernel += np.multiply.outer(instantaneous, elastic(nx, ny, shift, displacement).T)
     if len(lengths):
         for i, values in remembered(displacement, (-nx, nx), ny, shares, lengths, shift):
-            kernel[i + nx] += values
-    return kernel.T
+            kernel[..., i + nx, :] += values
+    return np.swapaxes(kernel, -1, -2)
 
 
 def line(nx, datum, shift=0.0):
@@ -98,15 +99,15 @@ def line_flowing(nx, instantaneous, shares, lengths, shift, datum):
     the memory is short, a quadrature where it is long.
     """
     x = np.arange(-nx, nx) + shift
-    mean = instantaneous * (mean_log(x) - np.log(datum))
-    for share, length in zip(shares, lengths, strict=True):
+    mean = np.multiply.outer(instantaneous, mean_log(x) - np.log(datum))
+    for share, length in zip(np.moveaxis(np.asarray(shares), -1, 0), lengths, strict=True):
         if length < LINE_SHORT:
             gain = _remembered_log(x + 0.5, length) - _remembered_log(x - 0.5, length)
             remembered = mean_log(x) - length * gain
         else:
             remembered = _over_pixel(lambda u, length=length: _remembered_log(u, length), x - 0.5)
-        mean += share * (remembered - np.log(datum))
-    return (-2 / np.pi * mean)[None, :]
+        mean += np.multiply.outer(share, remembered - np.log(datum))
+    return -2 / np.pi * mean[..., None, :]
 
 
 def _joined(near, far, x, ny):

@@ -50,20 +50,25 @@ def gmres(on_set, b, reduction, tolerance, iterations):
     norm = sqrt(float((z * z).sum()))
     if norm == 0:
         return z
-    basis, hessenberg = [z / norm], np.zeros((iterations + 1, iterations))
+    basis, hessenberg, across = [z / norm], np.zeros((iterations + 1, iterations)), np.zeros(iterations + 1)
+    across[0] = 1.0
     for k in range(iterations):
         v = on_set.sunk(on_set.displaced(basis[k]))
         for i, q in enumerate(basis):
             hessenberg[i, k] = float((q * v).sum())
             v -= hessenberg[i, k] * q
         hessenberg[k + 1, k] = sqrt(float((v * v).sum()))
-        square, rhs = hessenberg[: k + 2, : k + 1], np.zeros(k + 2)
-        rhs[0] = norm
-        y = np.linalg.lstsq(square, rhs, rcond=None)[0]
-        if np.linalg.norm(square @ y - rhs) <= reduction * norm or hessenberg[k + 1, k] == 0:
+        if hessenberg[k + 1, k] == 0:
+            break
+        # The residual is what of the right side is along the one direction across all columns.
+        across[k + 1] = -(across[: k + 1] @ hessenberg[: k + 1, k]) / hessenberg[k + 1, k]
+        if reduction * np.linalg.norm(across) >= 1:
             break
         basis.append(v / hessenberg[k + 1, k])
-    return on_set.pressed(sum(float(share) * q for share, q in zip(y, basis, strict=False)))
+    square, rhs = hessenberg[: k + 2, : k + 1], np.zeros(k + 2)
+    rhs[0] = norm
+    shares = np.linalg.lstsq(square, rhs, rcond=None)[0]
+    return on_set.pressed(sum(float(share) * q for share, q in zip(shares, basis, strict=False)))
 
 
 def direct(on_set, b, reduction, tolerance, iterations):

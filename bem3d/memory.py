@@ -14,6 +14,7 @@ NEAR = 100  # kernels take their exact form up to here and that of a distant loa
 FINEST, BANDS = 2, ((8, 16), (64, 8), (np.inf, 5))  # |column| up to which so many nodes a pixel of flow give 1e-11
 FINE_ROWS = 3  # further aside the pixel's edges are far enough for the nodes of a band
 CHUNK = 32  # columns at a time
+EDGE_PANELS, LEAST_MEMORY = 14, -24  # to a kink, of a memory of a pixel or more; a power of 4 [pixel]
 UPSTREAM_NODES, MEMORY_NODES, PANEL_NODES = 64, 64, 12
 SMALL, KEPT = 256, 128  # rows, and runs of columns of so few that are kept sampled: of one grid a dozen
 MANY_LENGTHS = 40.0  # exp(-40) = 4e-18: nothing is remembered from further upstream
@@ -35,36 +36,45 @@ gauss = cache(np.polynomial.legendre.leggauss)  # each takes about as long as th
 def remembered(kernel, columns, ny, shares, lengths, shift):
     """The kernel as modes of these shares remember it, `shift` behind columns: runs of them, values (count, ny).
 
+    shares : (K,), or several sums over the same modes (..., K), each with values of its own: (..., count, ny)
+
     The memory is carried downstream from column to column. The kernel is sampled between whole columns, at places
     that shift and lengths do not move.
     """
-    decay, left_at_shift = np.exp(-1 / lengths), shares * np.exp(-shift / lengths)
-    rules = {nodes: _memory_rule(nodes, lengths, 0.0) for _, nodes in BANDS}
-    beyond = {nodes: shares @ _memory_rule(nodes, lengths, 1 - shift) for _, nodes in BANDS}
-    (_, graded), (places_beyond, graded_beyond) = (_graded_rule(lengths, begin) for begin in (0.0, 1 - shift))
-    graded_beyond = shares @ graded_beyond
+    decay, sums = np.exp(-1 / lengths), np.atleast_2d(shares)
+    left_at_shift = sums * np.exp(-shift / lengths)
+    rules, beyond = (_memory_rules(lengths, begin) for begin in (0.0, 1 - shift))
+    # From each column to the next, of each mode; and to the shift behind it, of each sum.
+    weights = {nodes: np.concatenate([rule, sums @ beyond[nodes]]) for nodes, rule in rules.items()}
+    _, graded = _graded_rule(lengths, 0.0)
+    if shift:
+        places_beyond, graded_beyond = _graded_rule(lengths, 1 - shift)
     run = np.arange(CHUNK)
     since = np.subtract.outer(run, run)
     faded = np.where(since >= 0, decay[:, None, None] ** np.maximum(since, 0), 0.0)
+    kept = decay[:, None, None] ** np.arange(1, CHUNK + 1)[:, None]
     start, stop = columns
     state = _upstream(kernel, start - 1, ny, lengths)
     for i, nodes in chunks(start, stop + 1):
         count, close = len(i), np.flatnonzero((i >= -FINEST) & (i <= FINEST + 1))
         values = _samples(kernel, i[0], count, nodes, ny)
-        gained = np.tensordot(rules[nodes], values, 1)  # from each column to the next, and to the shift behind it
-        behind = np.tensordot(beyond[nodes], values, 1)
+        passed = (weights[nodes] @ values.reshape(nodes, -1)).reshape(-1, count, ny)
+        gained, behind = passed[: len(lengths)], passed[len(lengths) :]
         if len(close):
             rows = min(ny, FINE_ROWS)
             at = i[close]
             gained[:, close, :rows] = np.tensordot(graded, _near(kernel, int(at[0]), len(at), rows), 1)
             if shift:
-                behind[close, :rows] = np.tensordot(graded_beyond, kernel(at, places_beyond[:, None], rows), 1)
+                beyond_near = kernel(at, places_beyond[:, None], rows)
+                behind[:, close, :rows] = np.tensordot(sums @ graded_beyond, beyond_near, 1)
         states = faded[:, :count, :count] @ gained
-        states += decay[:, None, None] ** np.arange(1, count + 1)[:, None] * state[:, None]
-        before = np.concatenate([state[:, None], states[:, :-1]], axis=1)
+        states += kept[:, :count] * state[:, None]
+        left = (left_at_shift @ states.reshape(len(lengths), -1)).reshape(behind.shape)
+        behind[:, 0] += left_at_shift @ state
+        behind[:, 1:] += left[:, :-1]
         state = states[:, -1]
         first = int(i[0] == start)
-        yield i[first:] - 1, (np.tensordot(left_at_shift, before, 1) + behind)[first:]
+        yield i[first:] - 1, behind[:, first:].reshape(*np.shape(shares)[:-1], count - first, ny)
 
 
 def _samples(kernel, first, count, nodes, ny):
@@ -86,19 +96,20 @@ def _near(kernel, first, count, rows):
     return kernel(first + np.arange(count), places[:, None], rows)
 
 
-def _memory_rule(count, lengths, begin):
-    """Weights (K, count) at Gauss nodes on 0 <= s <= 1, for exp(-(s - begin)/l) ds / l from `begin` on.
+def _memory_rules(lengths, begin):
+    """Weights (K, count) at as many Gauss nodes on 0 <= s <= 1 as each band has, for exp(-(s - begin)/l) ds / l.
 
-    Exact for a polynomial: the one through its values at the nodes, by its Legendre coefficients. Its products
-    with the memory are integrated as far as that reaches.
+    From `begin` on, and exact for a polynomial: the one through its values at the nodes, by its Legendre
+    coefficients. Its products with the memory are integrated as far as that reaches.
     """
     reach = np.minimum(1 - begin, MANY_LENGTHS * lengths)[:, None]
     t, fine = gauss(MEMORY_NODES)
     back = reach * (t + 1) / 2
     measure = fine * reach / 2 * np.exp(-back / lengths[:, None]) / lengths[:, None]
-    polynomials = np.polynomial.legendre.legvander(2 * (begin + back) - 1, count - 1)
+    counts = [count for _, count in BANDS]
+    polynomials = np.polynomial.legendre.legvander(2 * (begin + back) - 1, max(counts) - 1)
     moments = np.einsum("kt,ktm->km", measure, polynomials)
-    return moments @ _coefficients(count).T
+    return {count: moments[:, :count] @ _coefficients(count).T for count in counts}
 
 
 @cache
@@ -112,9 +123,10 @@ def _graded_rule(lengths, begin):
     """Nodes (M,) on begin <= s <= 1 and weights (K, M) for exp(-(s - begin)/l) ds / l, near the kernel's kinks.
 
     Panels shrink by four towards the beginning, where a short memory ends, and where the pixel's edge may be; of
-    the whole also towards the middle, where it is.
+    the whole also towards the middle, where it is, and as far as the shortest memory there is.
     """
-    steps, side = 0.25 ** np.arange(1, 38), 1 - begin
+    shortest = np.log2(min(lengths.min(), 1.0)) / 2 if begin else LEAST_MEMORY
+    steps, side = 0.25 ** np.arange(1, EDGE_PANELS - np.floor(shortest)), 1 - begin
     cuts = np.unique([0.0, 1.0, *steps, *([] if begin else [0.5, *(0.5 - steps / 2), *(0.5 + steps / 2)])])
     x, w = gauss(PANEL_NODES)
     half = np.diff(cuts)[:, None] / 2

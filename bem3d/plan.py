@@ -157,9 +157,9 @@ def _kernels(scene, flow, shape):
     form, values = ("symbol", shape) if repeats else ("kernel", (rows, 2 * points))
     yield Kernel("response", form, values)
     yield Kernel("approximate inverse", "symbol", shape)
-    if not flow.at_rest:
-        yield Kernel("loss, by the slope", form, values)
-        yield Kernel("loss, from pixel to pixel", form, values)
+    if not (flow.at_rest or repeats):
+        yield Kernel("loss, by the slope", form, (rows, 2 * points + 2))
+        yield Kernel("loss, from pixel to pixel", form, (rows, 2 * points + 2))
 
 
 def _held(solver, scene, flow, shape, march):

@@ -152,12 +152,9 @@ class Problem:
         """
         if self.flow.at_rest:
             return 0.0, 0.0
-        work = []
-        for product in (self.medium.slope(grid), self.medium.gain(grid)):
-            image = self.engine.asnumpy(product(self.engine.asarray(pressure / self.flow.modulus)))
-            work.append(float(np.sum(pressure * image) * grid.patch))
-            self._count(grid, product)
-        return work[0], work[1]
+        self.transforms += grid.points * grid.rows
+        loss, work = self.medium.lost(grid, pressure / self.flow.modulus)
+        return loss * self.flow.modulus * grid.patch, work * self.flow.modulus * grid.patch
 
     def solve(
         self, finest: Grid, tolerance: float, start: Start | None = None, beside: Start | None = None

@@ -40,7 +40,7 @@ class BEM:
     tolerance : largest |gap| in contact and penetration outside it, over the depth of the indenter's lowest point
         below the undeformed surface, or what its heights span in contact where that is more; what is left is the
         `residual` of a result. Sliding on a single row is solved to 1e-7 at least
-    threads : of the Fourier transforms; OMP_NUM_THREADS in the environment caps those of ducc0
+    threads : that share the products in Fourier space; an answer keeps its digits whatever their number
     precision : of the transforms; in single they are up to 1.5 times faster, need half the memory, and leave 1e-6
         of the largest displacement as noise in the gap; single rows are always solved in double
     transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU

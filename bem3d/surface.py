@@ -1,8 +1,10 @@
 """Rough surfaces in two dimensions: one draw from the spectrum of a scene, evaluated wherever a grid asks."""
 
 from dataclasses import dataclass, replace
+from math import isqrt
 
 import numpy as np
+from scipy.fft import ifft, irfft
 
 from scene import CrossedWaves, SelfAffine, SolveError, Topography
 from scene.waves import MOST_WAVES, Waves
@@ -53,7 +55,7 @@ class RoughSurface:
         k = np.hypot(k_x, k_y)
         drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))
         # Of unit height: the square of a tiny one would vanish.
-        power = np.where(drawn, _cell_means(replace(roughness, rms_height=1.0), k_x, k_y, q_max), 0.0)
+        power = np.where(drawn, _cell_means(replace(roughness, rms_height=1.0), top, q_max), 0.0)
         power /= power.sum()
         order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))
         phases, moduli = np.empty(k.size), np.ones(k.size)
@@ -79,27 +81,31 @@ class RoughSurface:
     def _sum(self, amplitudes, x, y):
         if self._spans_a_period(x, y):
             return self._on_a_period(amplitudes, x, y)
-        q_y, q_x = self.waves.along_y, self.waves.along_x
-        return (np.exp(1j * np.outer(y, q_y)) @ amplitudes @ np.exp(1j * np.outer(q_x, x))).real
+        top = len(amplitudes) // 2
+        even, odd = amplitudes[top:] + amplitudes[top::-1], amplitudes[top:] - amplitudes[top::-1]  # in y
+        even[0] /= 2
+        shares = np.block([[even.real, -even.imag], [-odd.imag, -odd.real]])
+        return _cosines(y, self.waves.step_y, len(even)) @ shares @ _cosines(x, self.waves.step_x, even.shape[1]).T
 
     def _spans_a_period(self, x, y):
         """Whether the points divide a period evenly: then one transform does it."""
         counts = np.array([len(y), len(x)])
         pixels = 2 * np.pi / (np.array([self.waves.step_y, self.waves.step_x]) * counts)
         given = np.array([np.ptp(y) / max(len(y) - 1, 1), np.ptp(x) / max(len(x) - 1, 1)])
-        return bool(np.allclose(given, pixels, rtol=1e-9, atol=0))
+        return bool((np.abs(given - pixels) <= 1e-9 * pixels).all())
 
     def _on_a_period(self, amplitudes, x, y):
-        q_y, q_x = self.waves.along_y, self.waves.along_x
-        top, (ny, nx) = len(q_y) // 2, (len(y), len(x))
-        shifted = amplitudes * (np.exp(1j * q_y * y[0]) / 2)[:, None] * np.exp(1j * q_x * x[0])
-        # On the points a wave is the same as the one that many wave vectors lower or higher.
-        folded = _folded(_folded(shifted, -top, ny).T, 0, nx).T
-        waves = folded[:, : nx // 2 + 1].copy()
-        waves[:, 1 : (nx + 1) // 2] += _mirrored(folded[:, : nx // 2 : -1])
-        alone = [0, nx // 2] if nx % 2 == 0 else [0]  # columns that hold a wave and its mirror image
-        waves[:, alone] += _mirrored(waves[:, alone])
-        return np.fft.irfft2(waves, s=(ny, nx), norm="forward")
+        top, highest = len(amplitudes) // 2, amplitudes.shape[1] - 1
+        # Transforms carry all waves: on the points of a coarse grid, between which they have others.
+        between_y, between_x = 2 * top // len(y) + 1, 2 * highest // len(x) + 1
+        waves = np.zeros((between_y * len(y), highest + 1), complex)
+        along_y = np.arange(-top, top + 1)
+        waves[along_y] = amplitudes * np.outer(
+            np.exp(1j * self.waves.along_y * y[0]), np.exp(1j * self.waves.along_x * x[0]) / 2
+        )
+        waves[:, 0] *= 2  # the others stand for their mirror images as well
+        rows = ifft(waves, axis=0, norm="forward")[::between_y]
+        return np.ascontiguousarray(irfft(rows, between_x * len(x), norm="forward")[:, ::between_x])
 
     @property
     def rms_height(self) -> float:
@@ -112,37 +118,27 @@ class RoughSurface:
         return self.waves.rms_slope
 
 
-def _folded(amplitudes, first, count):
-    """Rows first, first + 1, ... added where they are the same modulo `count`: (count, ...)."""
-    folded = np.zeros((count, *amplitudes.shape[1:]), complex)
-    for start in range(0, len(amplitudes), count):
-        rows = amplitudes[start : start + count]
-        folded[(first + start + np.arange(len(rows))) % count] += rows
-    return folded
-
-
-def _mirrored(waves):
-    """Amplitudes of the opposite wave vectors; waves has all rows."""
-    return np.conj(np.roll(waves[::-1], 1, axis=0))
+def _cosines(places, step, count):
+    """Cosines, then sines, of `count` multiples of a wave number at the places (n,): (n, 2 count)."""
+    side = isqrt(count - 1) + 1  # a wave is the product of two, of far fewer
+    turns = np.exp(1j * step * places[:, None, None] * np.multiply.outer([side, 1], np.arange(side)))
+    waves = (turns[:, 0, :, None] * turns[:, 1, None, :]).reshape(len(places), -1)[:, :count]
+    return np.hstack([waves.real, waves.imag])
 
 
 def _stream(seed, key):
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))
 
 
-def _cell_means(roughness, k_x, k_y, q_max):
-    """Mean of C_2D over the unit cell around each lattice point."""
+def _cell_means(roughness, top, q_max):
+    """Mean of C_2D over the unit cell around each point of the lattice, (2 top + 1, top + 1) as amplitudes are."""
 
-    def mean(samples, k_x, k_y):
-        offsets = (np.arange(samples) + 0.5) / samples - 0.5
-        total = np.zeros(k_x.shape)
-        for along in offsets:
-            for aside in offsets:
-                q = roughness.q_min * np.hypot(k_x + along, k_y + aside)
-                total += roughness.density_2d(q, q_max)
-        return total / samples**2
+    def mean(samples, top):
+        along = np.arange(top + 1) + ((np.arange(samples) + 0.5) / samples - 0.5)[:, None]
+        q = roughness.q_min * np.hypot(along[:, None, :, None], along[:, None, :])
+        return roughness.density_2d(q, q_max).mean(axis=(0, 1))
 
-    power = mean(OUTER_SAMPLES, k_x, k_y)
-    core = np.maximum(k_x, np.abs(k_y)) <= CORE
-    power[core] = mean(CORE_SAMPLES, k_x[core], k_y[core])
-    return power
+    core = min(CORE, top)
+    power = mean(OUTER_SAMPLES, top)
+    power[: core + 1, : core + 1] = mean(CORE_SAMPLES, core)
+    return np.concatenate([power[:0:-1], power])

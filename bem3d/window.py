@@ -164,15 +164,17 @@ def _penetrating(problem, grid, answer, surface, shortest, inner, outer):
     # No finer than the roughness asks for, nor than the solution itself was.
     step = max(grid.pixel, shortest / 8)
     fine = Grid(int(np.clip(outer / step, RING_POINTS, SAMPLES)), outer, grid.centre)
-    pressure = problem.engine.asarray(_binned(grid, answer.pressure, coarse))
-    displacement = problem.engine.asnumpy(problem.medium.operator(coarse)(pressure))
-    displacement = fine.resample(displacement, coarse) * coarse.pixel
-    depth = answer.depth * grid.pixel
-    gap = displacement + problem.heights(fine, surface) - depth
-    allowed = OVERLAP * (depth - problem.heights(grid, surface).min())
     inside_x = np.abs(fine.x - grid.centre[0]) < inner / 2
     inside_y = np.abs(fine.y - grid.centre[1]) < inner / 2
-    penetrating = (gap < -allowed) & ~(inside_y[:, None] & inside_x[None, :])
+    outside = ~(inside_y[:, None] & inside_x[None, :])
+    depth = answer.depth * grid.pixel
+    gap = problem.heights(fine, surface) - depth
+    if problem.scene.layer is None and (gap[outside] >= 0).all():  # a half-space does not rise under a pressure
+        return None
+    pressure = problem.engine.asarray(_binned(grid, answer.pressure, coarse))
+    displacement = problem.engine.asnumpy(problem.medium.operator(coarse)(pressure))
+    gap += fine.resample(displacement, coarse) * coarse.pixel
+    penetrating = (gap < -OVERLAP * (depth - answer.lowest * grid.pixel)) & outside
     return fine.box(penetrating) if penetrating.any() else None
 
 

@@ -3,15 +3,21 @@
 import numpy as np
 import pytest
 
-from bem3d.convolution import FreeConvolution, PeriodicFilter
+from bem3d.convolution import FreeConvolution, PeriodicFilter, autocorrelation
 
 ROUNDING = 1e-12
 
 
-@pytest.mark.parametrize(("ny", "nx"), [(8, 8), (7, 11), (13, 6), (1, 5)])
-def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx):
+SHAPES = [(8, 8), (7, 11), (13, 6), (1, 5)]
+
+
+@pytest.mark.parametrize("even", [False, True])
+@pytest.mark.parametrize(("ny", "nx"), SHAPES)
+def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx, even):
     rng = np.random.default_rng(1)
     kernel, pressure = rng.random((ny, 2 * nx)), rng.random((ny, nx))
+    if even:
+        kernel[:, 1:nx] = kernel[:, :nx:-1]
     expected = np.zeros((ny, nx))
     for row in range(ny):
         for column in range(nx):
@@ -22,6 +28,17 @@ def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx):
     np.testing.assert_allclose(convolution(pressure), expected, rtol=ROUNDING)
     np.testing.assert_allclose(convolution(2 * pressure), 2 * expected, rtol=ROUNDING)
     assert convolution.applications == 2
+
+
+@pytest.mark.parametrize(("ny", "nx"), SHAPES)
+def test_autocorrelation_is_the_direct_sum_over_pairs_of_points(ny, nx):
+    plane = np.random.default_rng(2).standard_normal((ny, nx))
+    expected = np.zeros((ny, nx))
+    for j in range(ny):
+        for i in range(nx):
+            here, aside, beyond = plane[: ny - j, : nx - i], plane[j:, i:], plane[j:, : nx - i]
+            expected[j, i] = np.sum(here * aside) + (np.sum(plane[: ny - j, i:] * beyond) if j else 0.0)
+    np.testing.assert_allclose(autocorrelation(plane), expected, atol=ROUNDING * nx * ny)
 
 
 def test_periodic_filter_multiplies_each_wave_by_its_symbol():

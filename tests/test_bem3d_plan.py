@@ -11,6 +11,7 @@ from bem3d import BEM, marching
 from bem3d.arrays import as_drawn, of_roughness
 from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
 from bem3d.grid import Grid
+from bem3d.halfspace import HalfSpace
 from bem3d.layerwaves import PIECES, Taken, taking
 from bem3d.memory import _kept
 from bem3d.plan import EFFECTS
@@ -130,6 +131,13 @@ def built(monkeypatch):
     noting(FreePair, "kernel", lambda kernels: kernels[0].shape)
     noting(PeriodicPair, "symbol", lambda shape: shape)
     noting(Taken, "table", lambda _: PIECES)
+    lost = HalfSpace.lost
+
+    def noted(self, grid, pressure):
+        found.extend(2 * [("kernel", (grid.rows, 2 * grid.points + 2))])  # by the slope, and from pixel to pixel
+        return lost(self, grid, pressure)
+
+    monkeypatch.setattr(HalfSpace, "lost", noted)
     taking.cache_clear()  # what is kept from another solve is built as well
     return found
 
@@ -145,7 +153,8 @@ def of_the_finest(built, plan):
         return Counter(built)
     rows, points = plan.shape
     finest = {
-        "kernel": {(rows, 2 * points)} | ({plan.shape} if rows > 1 else set()),  # pairs are of squares
+        "kernel": {(rows, 2 * points), (rows, 2 * points + 2)}
+        | ({plan.shape} if rows > 1 else set()),  # pairs are of squares
         "symbol": {plan.shape},
         "table": {PIECES},
     }
