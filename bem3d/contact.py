@@ -114,8 +114,11 @@ def solve(
 
 
 def misfit(operator: Callable, heights, pressure, depth: float | None = None, load: float | None = None) -> float:
-    """Mean |gap| that a pressure leaves where it presses, weighted with it: how far a start is from the answer."""
-    pressure = _balanced(pressure, load)
+    """Mean |gap| that a pressure leaves where it presses, weighted with it: how far a start is from the answer.
+
+    The pressure is scaled to the load, if there is one.
+    """
+    _balance(pressure, load)
     gap = operator(pressure) + heights
     level = gap[pressure > 0].mean() if depth is None else depth
     return float((pressure * abs(gap - level)).sum() / pressure.sum())
