@@ -15,6 +15,8 @@ from numba import njit
 
 # How every loop of this package is compiled: this module is its only door to numba.
 compiled = njit(cache=True, nogil=True, error_model="numpy")
+# Of a loop that only sums: side by side, in whatever order that takes.
+summed = njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 
 NOWHERE = -1.0
 
