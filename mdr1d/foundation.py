@@ -19,6 +19,8 @@ compiled = njit(cache=True, nogil=True, error_model="numpy")
 summed = njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 
 NOWHERE = -1.0
+# Intervals of which it is asked together whether they touch throughout.
+_TOGETHER = 64
 
 
 class Contact(NamedTuple):
@@ -63,21 +65,27 @@ def _landing(here, there, slope, pixel, u, memory, decay):
         return min(here / slope, pixel) if there > 0.0 else NOWHERE
     if memory * slope >= u:
         return NOWHERE
-    clearance = u - here
+    clearance, u_end = u - here, u * decay
     if clearance <= 0.0:
         return 0.0
-    closest = memory * log(u / (memory * slope)) if slope > 0.0 else inf
-    if closest < pixel:
-        met = -clearance - slope * closest - u * expm1(-closest / memory) > 0.0
+    closest = pixel
+    if memory * slope <= u_end:
+        met = there > u_end
     else:
-        closest = pixel
-        met = there > u * decay
+        # It lies above its tangents at both nodes: only if those meet below zero is there anything to search.
+        rate, rate_end = slope - u / memory, slope - u_end / memory
+        meet = (u_end - there - rate_end * pixel - clearance) / (rate - rate_end)
+        if u_end > there and clearance + rate * meet > 0.0:
+            return NOWHERE
+        closest = min(memory * log(u / (memory * slope)), pixel)
+        met = -clearance - slope * closest - u * expm1(-closest / memory) > 0.0
     if not met:
         return NOWHERE
     t = min(here / slope, pixel) if slope < 0.0 and here < 0.0 else 0.0
     for _ in range(100):
-        overlap = -clearance - slope * t - u * expm1(-t / memory)
-        rate = u / memory * exp(-t / memory) - slope
+        fallen = -u * expm1(-t / memory)
+        overlap = fallen - clearance - slope * t
+        rate = (u - fallen) / memory - slope
         if overlap >= 0.0 or rate <= 0.0:
             break
         next_t = t - overlap / rate
@@ -90,26 +98,64 @@ def _landing(here, there, slope, pixel, u, memory, decay):
 
 
 @compiled
-def _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed):
-    """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
+def _clear(heights, i, depth, u, decay, displacement):
+    """From a free node on, the intervals in which the profile stays above the free surface at their end.
 
-    Of force, traction and squared slopes, each over the pixel. Most of a sweep is this loop.
+    Returns the one after them, and u at its left node.
     """
-    force = traction = squares = 0.0
     while i < heights.size - 1:
-        here, there = depth - heights[i], depth - heights[i + 1]
-        slope = (heights[i + 1] - heights[i]) / pixel
-        if there <= memory * slope:
+        u_end = u * decay
+        if depth - min(heights[i], heights[i + 1]) > u_end:
             break
-        mean = 0.5 * (here + there) - memory * slope
         if displacement is not None:
-            displacement[i], touching[i] = here, True
-        if pushed is not None:
-            pushed[i, 0], pushed[i, 1] = pixel, pixel * mean
+            displacement[i] = u
+        u = u_end
+        i += 1
+    return i, u
+
+
+@compiled
+def _releases(heights, pixel, memory, depth):
+    """In how many intervals contact ends that begins at their left node."""
+    count, per_pixel = 0, 1.0 / pixel
+    for k in range(heights.size - 1):
+        slope = (heights[k + 1] - heights[k]) * per_pixel
+        count += 1 if depth - heights[k + 1] <= memory * slope else 0
+    return count
+
+
+@summed
+def _sums(heights, pixel, memory, depth):
+    """Force, traction and squared slopes, each over the pixel, of intervals that touch throughout."""
+    force = traction = squares = 0.0
+    per_pixel = 1.0 / pixel
+    for k in range(heights.size - 1):
+        slope = (heights[k + 1] - heights[k]) * per_pixel
+        mean = depth - 0.5 * (heights[k] + heights[k + 1]) - memory * slope
         force += mean
         traction -= slope * mean
         squares += slope * slope
+    return force, traction, squares
+
+
+@compiled
+def _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed):
+    """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
+
+    Most of a sweep are these, and a processor takes some of them at once.
+    """
+    begun, nodes = i, heights.size
+    while i + _TOGETHER < nodes and _releases(heights[i : i + _TOGETHER + 1], pixel, memory, depth) == 0:
+        i += _TOGETHER
+    while i < nodes - 1 and _releases(heights[i : i + 2], pixel, memory, depth) == 0:
         i += 1
+    if displacement is not None:
+        for k in range(begun, i):
+            slope = (heights[k + 1] - heights[k]) / pixel
+            displacement[k], touching[k] = depth - heights[k], True
+            pushed[k, 0] = pixel
+            pushed[k, 1] = pixel * (depth - 0.5 * (heights[k] + heights[k + 1]) - memory * slope)
+    force, traction, squares = _sums(heights[begun : i + 1], pixel, memory, depth)
     return i, force, traction, squares
 
 
@@ -130,8 +176,10 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             traction += pixel * pull
             slope_square += pixel * squares
             length += pixel * (i - begun)
-            if i == nodes - 1:
-                break
+        else:
+            i, u = _clear(heights, i, depth, u, decay, displacement)
+        if i == nodes - 1:
+            break
         here = depth - heights[i]
         there = depth - heights[i + 1]
         slope = (heights[i + 1] - heights[i]) / pixel
@@ -140,9 +188,7 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             touching[i] = touches
         begin, start = 0.0, here
         if not touches:
-            begin = NOWHERE
-            if here > 0.0 or there > 0.0:
-                begin = _landing(here, there, slope, pixel, u, memory, decay)
+            begin = _landing(here, there, slope, pixel, u, memory, decay)
             if begin == NOWHERE:
                 u *= decay
                 i += 1
