@@ -19,6 +19,8 @@ compiled = njit(cache=True, nogil=True, error_model="numpy")
 summed = njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
 
 NOWHERE = -1.0
+# Part of a pixel after which a step of Newton, whose error is the square, leaves none.
+_CLOSE = 1e-9
 # Intervals of which it is asked together whether they touch throughout.
 _TOGETHER = 64
 
@@ -91,8 +93,8 @@ def _landing(here, there, slope, pixel, u, memory, decay):
         next_t = t - overlap / rate
         if next_t >= closest:
             return closest
-        if next_t <= t:
-            break
+        if next_t - t <= _CLOSE * pixel:
+            return max(next_t, t)
         t = next_t
     return t
 
@@ -255,12 +257,28 @@ def nearer(approach, force, stiffness, load, lower, upper, most):
 
 
 @compiled
+def _raise_heights(unit, powers, coefficient, rms, heights):
+    """Write coefficient * powers + rms * unit on both sides of the tip, above its lowest node, and return that."""
+    half, period = heights.size // 2, unit.size
+    for begin in range(0, half + 1, period):
+        end = min(begin + period, half + 1)
+        rise = powers[begin:end]
+        right, left = heights[half + begin : half + end], heights[half - end + 1 : half - begin + 1]
+        for k in range(rise.size):
+            right[k] = coefficient * rise[k] + rms * unit[k]
+            left[rise.size - 1 - k] = coefficient * rise[k] + rms * unit[-k]
+    lowest = heights.min()
+    heights -= lowest
+    return lowest
+
+
+@compiled
 def press_many(
-    unit, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
+    unit, top, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
 ):
     """Press profiles coefficient * powers + rms * unit down with loads, as many as there are.
 
-    unit : one period of roughness (M,); powers : |x|^n at the nodes from the tip on
+    unit : one period of roughness (M,), top : its highest node; powers : |x|^n at the nodes from the tip on
     half : nodes that contact may reach on each side; coefficient, rms, memory; load, over K [m^2]; smooth, the
         depth of the smooth relaxed contact, and enough, one that surely carries the load on chords between the
         nodes: all (scenes,)
@@ -270,17 +288,10 @@ def press_many(
     Each search starts from a ratio of the depth to the smooth one, where that makes sense: the ratio found before,
     and at first the one given. The last is returned.
     """
-    top = unit.max()
     room = np.empty(2 * half.max() + 1)
     for s in range(load.size):
         heights = room[: 2 * half[s] + 1]
-        k = (-half[s]) % unit.size
-        lowest = inf
-        for i in range(heights.size):
-            heights[i] = coefficient[s] * powers[abs(i - half[s])] + rms[s] * unit[k]
-            lowest = min(lowest, heights[i])
-            k = k + 1 if k + 1 < unit.size else 0
-        heights -= lowest
+        lowest = _raise_heights(unit, powers, coefficient[s], rms[s], heights)
         # Beside the heights of roughness a tiny depth may be lost to rounding.
         surely = max(enough[s] + rms[s] * top - lowest, enough[s])
         approach = ratio * smooth[s] - lowest
