@@ -15,8 +15,10 @@ from numba import njit
 
 # How every loop of this package is compiled: this module is its only door to numba.
 compiled = njit(cache=True, nogil=True, error_model="numpy")
-# Of a loop that only sums: side by side, in whatever order that takes.
-summed = njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+# Of short loops that only sum: side by side, in whatever order that takes, at the place of the call.
+summed = njit(
+    cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"}, forceinline=True
+)
 
 NOWHERE = -1.0
 # Part of a pixel after which a step of Newton, whose error is the square, leaves none.
@@ -328,7 +330,7 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
     displacement = np.empty(heights.size)
-    touching = np.empty(heights.size, dtype=np.bool_)
+    touching = np.zeros(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))
     sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
     return Contact._make((*sums, displacement, touching, pushed))

@@ -103,8 +103,9 @@ def _clear(heights, i, depth, u, pushes, decay, ahead, displacement):
         if depth - min(heights[i], heights[i + 1]) > u_end:
             break
         displacement[i] = u
+        if u > 0.0:
+            _move(ahead, pushes)
         u = u_end
-        _move(ahead, pushes)
         i += 1
     return i, u, u_end
 
@@ -217,7 +218,7 @@ def _stretched(y, rise, table, moduli, ahead):
     return pull, push, square, cross
 
 
-@compiled
+@summed
 def _move(source, target):
     for k in range(target.size):
         target[k] = source[k]
@@ -229,45 +230,42 @@ def _pressed(
 ):
     """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
 
-    Of force, heat, traction and squared slopes, each over the pixel. Most of a sweep is this loop.
+    Of force, heat, traction and squared slopes. Most of a sweep is this loop.
     """
     force = heat = traction = squares = 0.0
+    per_pixel = 1.0 / pixel
     while i < heights.size - 1:
         here, there = depth - heights[i], depth - heights[i + 1]
         rise = there - here
-        rate = (heights[i] - heights[i + 1]) / pixel
-        pull, push, square, cross = _stretched(y, rate * pixel, table, moduli, ahead)
-        if there + drag * rate + pull <= 0.0:
+        pull, push, square, cross = _stretched(y, rise, table, moduli, ahead)
+        dragged = drag * rise * per_pixel
+        if there + dragged + pull <= 0.0:
             break
-        rise = rate * pixel
-        mean = 0.5 * (here + there) + push + rise * of_rise + drag * rate
+        mean = 0.5 * (here + there) + push + rise * of_rise + dragged
         displacement[i], touching[i] = here, True
         pushed[i, 0], pushed[i, 1] = pixel, pixel * mean
         force += mean
         heat += square + rise * (cross + rise * heat_of_rise)
-        traction += rate * mean
-        squares += rate * rate
+        traction += rise * mean
+        squares += rise * rise
         _move(ahead, y)
         i += 1
-    return i, force, heat, traction, squares
+    return i, pixel * force, heat, traction, squares * per_pixel
 
 
 @compiled
-def _land(apart, r, compliances, retarded, exchange, y):
-    """Write the stretches y at the end of a free stretch.
+def _land(kept, r, compliances, exchange, pushes, y):
+    """Write what is left of J_j r_j at the end of a free stretch, and the stretches y there; returns u there.
 
-    apart : its length; r : at its start. Returns the energy lost in it, u at its end, and how fast u falls there.
+    kept : of each r_j; r : at the start
     """
-    lost = u = fall = 0.0
-    pushes = compliances * r
+    u = 0.0
     for j in range(r.size):
-        lost -= 0.5 * pushes[j] * r[j] * expm1(-2.0 * apart / retarded[j])
-        pushes[j] *= exp(-apart / retarded[j])
+        pushes[j] = compliances[j] * r[j] * kept[j]
         u += pushes[j]
-        fall += pushes[j] / retarded[j]
     for k in range(y.size):
         y[k] = -_sum(exchange[k], pushes)
-    return lost, u, fall
+    return u
 
 
 @compiled
@@ -275,8 +273,9 @@ def _leave(u, moduli, y, exchange, r):
     """Write the smoothed forces r of a state in contact."""
     r[:] = u
     for k in range(y.size):
+        pull = moduli[k] * y[k]
         for j in range(r.size):
-            r[j] -= exchange[k, j] * moduli[k] * y[k]
+            r[j] -= exchange[k, j] * pull
 
 
 @compiled
@@ -340,10 +339,10 @@ def _sweep(
                 pushed,
             )
             width = pixel * (i - begun)
-            force += pixel * push
-            lost += heat + pixel * drag * squares
-            traction += pixel * pull
-            slope_square += pixel * squares
+            force += push
+            lost += heat + drag * squares
+            traction += pull
+            slope_square += squares
             length += width
             stretch += width
         else:
@@ -368,19 +367,23 @@ def _sweep(
                 i += 1
                 continue
             apart += begin
-            cooled, met, fall = _land(apart, left, compliances, retarded, exchange, y)
+            kept = np.exp(-apart * rates)
+            for j in range(q):
+                lost -= 0.5 * compliances[j] * left[j] * left[j] * expm1(-2.0 * apart * rates[j])
+            slackened = _land(kept, shift_left, compliances, exchange, pushes, shift)
+            met = _land(kept, left, compliances, exchange, pushes, y)
+            fall = _sum(pushes, rates)
             if begin > 0.0:
                 # Where the free surface meets the flank, the flatter of the two knows the height.
                 start = met if fall < abs(rate) else max(here + rate * begin, 0.0)
                 # Of a touch just before a node only the heights know the width.
                 width = min(max((there - start) / rate, 0.0), pixel) if rate > 0.0 else pixel - begin
-            _, kept, _ = _land(apart, shift_left, compliances, retarded, exchange, shift)
-            shift += 1.0 - kept
-            stiffness += drag * (1.0 - kept)
+            shift += 1.0 - slackened
+            stiffness += drag * (1.0 - slackened)
             # Beyond rounding a jump comes only of a profile that is pressed in where the grid starts.
             jump = max(here - u, 0.0) if begin == 0.0 else 0.0
             y += jump
-            lost += cooled - 0.5 * stiff * jump * jump
+            lost -= 0.5 * stiff * jump * jump
             f = stiff * jump + drag * (rate + fall)
             if first != first:
                 first = i * pixel + begin
