@@ -21,7 +21,7 @@ summed = njit(
 )
 
 NOWHERE = -1.0
-# Part of a pixel after which a step of Newton, whose error is the square, leaves none.
+# Part of the lengths of an interval that squared is none.
 _CLOSE = 1e-9
 # Intervals of which it is asked together whether they touch throughout.
 _TOGETHER = 64
@@ -58,20 +58,21 @@ class Contact(NamedTuple):
 
 @compiled
 def _landing(here, there, slope, pixel, u, memory, decay):
-    """Where in an interval the free surface meets the profile, from its left node; NOWHERE if it does not.
+    """Where in an interval the free surface meets the profile, from its left node, and its height there.
 
-    here, there : d - g at the left and the right node; u : displacement of the free surface at the left node.
-    The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from the left never oversteps.
+    NOWHERE if it does not. here, there : d - g at the left and the right node; u : displacement of the free surface
+    at the left node. The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from the left
+    never oversteps.
     """
     if u == 0.0:
         if here > 0.0:
-            return 0.0
-        return min(here / slope, pixel) if there > 0.0 else NOWHERE
+            return 0.0, u
+        return (min(here / slope, pixel) if there > 0.0 else NOWHERE), u
     if memory * slope >= u:
-        return NOWHERE
+        return NOWHERE, u
     clearance, u_end = u - here, u * decay
     if clearance <= 0.0:
-        return 0.0
+        return 0.0, u
     closest = pixel
     if memory * slope <= u_end:
         met = there > u_end
@@ -80,25 +81,27 @@ def _landing(here, there, slope, pixel, u, memory, decay):
         rate, rate_end = slope - u / memory, slope - u_end / memory
         meet = (u_end - there - rate_end * pixel - clearance) / (rate - rate_end)
         if u_end > there and clearance + rate * meet > 0.0:
-            return NOWHERE
+            return NOWHERE, u
         closest = min(memory * log(u / (memory * slope)), pixel)
         met = -clearance - slope * closest - u * expm1(-closest / memory) > 0.0
     if not met:
-        return NOWHERE
+        return NOWHERE, u
     t = min(here / slope, pixel) if slope < 0.0 and here < 0.0 else 0.0
+    fallen = 0.0
     for _ in range(100):
         fallen = -u * expm1(-t / memory)
         overlap = fallen - clearance - slope * t
         rate = (u - fallen) / memory - slope
         if overlap >= 0.0 or rate <= 0.0:
             break
-        next_t = t - overlap / rate
-        if next_t >= closest:
-            return closest
-        if next_t - t <= _CLOSE * pixel:
-            return max(next_t, t)
-        t = next_t
-    return t
+        step = -overlap / rate
+        if t + step >= closest:
+            return closest, u * exp(-closest / memory)
+        # The error of Newton's method is the square of its step.
+        if step <= _CLOSE * min(pixel, memory) or t + step == t:
+            return t + step, (u - fallen) * (1.0 - step / memory)
+        t += step
+    return t, u - fallen
 
 
 @compiled
@@ -192,14 +195,13 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             touching[i] = touches
         begin, start = 0.0, here
         if not touches:
-            begin = _landing(here, there, slope, pixel, u, memory, decay)
+            begin, met = _landing(here, there, slope, pixel, u, memory, decay)
             if begin == NOWHERE:
                 u *= decay
                 i += 1
                 continue
             if begin > 0.0:
                 # Where the free surface meets the flank, the flatter of the two knows the height.
-                met = u * exp(-begin / memory) if u > 0.0 else 0.0
                 start = met if met < memory * abs(slope) or u == 0.0 else max(here - slope * begin, 0.0)
             lost += 0.5 * (left - start) * (left + start)
             reach += memory * (1.0 - start / left) if left > 0.0 else memory

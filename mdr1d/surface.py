@@ -151,12 +151,13 @@ class LineFamily:
 
     def drawn_together(self, seeds: Sequence[int]) -> list[Surface]:
         """The lines of some seeds, by one transform."""
-        spread, drawn = np.zeros((len(seeds), self.nodes // 2 + 1), complex), []
+        # Not zeros(): fresh pages of memory would take longer than the waves.
+        spread, drawn = np.full((len(seeds), self.nodes // 2 + 1), 0j), []
         for own, seed in zip(spread, seeds, strict=True):
             waves = self.amplitudes
             if self.gaussian:
                 waves = waves * np.sqrt(_stream(seed, _MODULI).standard_exponential(waves.size))
-            np.multiply(waves / 2, _phasors(seed, waves.size), out=own[1 : waves.size + 1])
+            np.multiply(_phasors(seed, waves.size), waves / 2, out=own[1 : waves.size + 1])
             if 2 * waves.size == self.nodes:
                 real = own[-1].real
                 own[-1] = 2 * real if self.gaussian else np.copysign(waves[-1] / sqrt(2), real)
