@@ -17,7 +17,7 @@ from scene.protocol import trusted
 from scene.scales import elastic_contact
 
 from .domain import whole
-from .foundation import compiled, press_many
+from .foundation import press_many, summed
 from .indentation import ACCEPTED
 from .surface import MOST_NODES, Surface, family_of, nodes_needed
 
@@ -80,15 +80,17 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
     found = np.full((len(scenes), len(seeds), 6), nan)
     slopes = np.full((len(scenes), len(seeds)), nan)
     # All spectra of some seeds together: their phases are the same.
-    for columns in np.split(np.arange(len(seeds)), range(_TOGETHER, len(seeds), _TOGETHER)):
+    for first in range(0, len(seeds), _TOGETHER):
+        columns = range(len(seeds))[first : first + _TOGETHER]
         ratios: dict[tuple, float] = {}
         for indices, unit, family, each in series:
-            for column, surface in zip(columns, family.drawn_together([seeds[i] for i in columns]), strict=True):
+            surfaces = family.drawn_together([seeds[column] for column in columns])
+            for column, surface in zip(columns, surfaces, strict=True):
                 start = ratios.get((unit, column), 1.0)
                 found[indices, column], slopes[indices, column], ratios[unit, column] = each.solve(surface, start)
     misfit, friction, depth, length, span, sweeps = np.moveaxis(found, -1, 0)
-    columns = (friction, depth, length, span, slopes, sweeps)
-    return Answers(*(np.where(misfit <= ACCEPTED, column, nan) for column in columns))
+    answers = (friction, depth, length, span, slopes, sweeps)
+    return Answers(*(np.where(misfit <= ACCEPTED, answer, nan) for answer in answers))
 
 
 class _Series:
@@ -113,8 +115,10 @@ class _Series:
 
         ratio : of the depth to the smooth one, from which the first search starts
         """
-        top, bottom, rms_slope = _extremes(surface.heights, self.pixel)
-        half = _reach(self.enough + (top - bottom) * self.rms, self.coefficient, self.exponent, self.pixel)
+        heights = surface.heights
+        top, rms_slope = heights.max(), sqrt(_squared_steps(heights) / heights.size) / self.pixel
+        rise = self.enough + (top - heights.min()) * self.rms
+        half = np.ceil((rise / self.coefficient) ** (1 / self.exponent) / self.pixel) + 1
         farthest = half.max()
         if farthest > MOST_NODES:
             raise SolveError(
@@ -123,7 +127,7 @@ class _Series:
             )
         found = np.empty((self.rms.size, 6))
         ratio = press_many(
-            surface.heights,
+            heights,
             top,
             self._powers(int(farthest) + 1),
             self.pixel,
@@ -148,22 +152,12 @@ class _Series:
         return self.powers
 
 
-@compiled
-def _reach(rise, coefficient, exponent, pixel):
-    """Nodes beside the tip at which the shape has risen so far (scenes,)."""
-    return np.ceil((rise / coefficient) ** (1.0 / exponent) / pixel) + 1.0
-
-
-@compiled
-def _extremes(heights, pixel):
-    """Highest and lowest node of a period and its rms slope in one pass; Surface takes as long as a sweep."""
-    top = bottom = heights[0]
-    squares, before = 0.0, heights[-1]
-    for height in heights:
-        top, bottom = max(top, height), min(bottom, height)
-        squares += (height - before) ** 2
-        before = height
-    return top, bottom, sqrt(squares / heights.size) / pixel
+@summed
+def _squared_steps(heights):
+    total = (heights[0] - heights[-1]) ** 2
+    for k in range(heights.size - 1):
+        total += (heights[k + 1] - heights[k]) ** 2
+    return total
 
 
 def _check(scene):

@@ -60,9 +60,9 @@ class Contact(NamedTuple):
 def _landing(here, there, slope, pixel, u, memory, decay):
     """Where in an interval the free surface meets the profile, from its left node, and its height there.
 
-    NOWHERE if it does not. here, there : d - g at the left and the right node; u : displacement of the free surface
-    at the left node. The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from the left
-    never oversteps.
+    NOWHERE if it does not. here, there : d - g at the left and the right node; u : displacement of the free
+    surface at the left node. The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from
+    the left never oversteps.
     """
     if u == 0.0:
         if here > 0.0:

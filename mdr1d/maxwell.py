@@ -48,23 +48,28 @@ def _factors(width, lengths, moduli, table):
     of_rise = heat_of_rise = 0.0
     for k in range(lengths.size):
         z = width / lengths[k]
-        lost = -expm1(-z)
         if z < 0.5:
             mean = ramp = heat = 0.0
             term, doubled = 1.0, 4.0  # (-z)^n / (n + 1)! and 2^(n + 2)
             for n in range(20):
                 mean += term
-                ramp += term / (n + 2)
-                heat += z * term * (doubled - 2.0) / ((n + 2) * (n + 3))
-                term *= -z / (n + 2)
+                term /= n + 2
+                ramp += term
+                heat += term * (doubled - 2.0) / (n + 3)
+                term *= -z
                 doubled *= 2.0
                 if abs(term) * doubled < _NOTHING:
                     break
+            heat *= z
+            lost = z * mean
+            kept = 1.0 - lost
         else:
+            kept = exp(-z)
+            lost = 1.0 - kept
             mean = lost / z
             ramp = (1.0 - mean) / z
             heat = (1.0 - mean * (1.0 + 0.5 * lost)) / z
-        table[_KEPT, k] = exp(-z)
+        table[_KEPT, k] = kept
         table[_GAINED, k] = mean
         table[_PUSH, k] = moduli[k] * mean
         table[_SQUARE, k] = moduli[k] * lost * (1.0 - 0.5 * lost)
@@ -203,8 +208,8 @@ def _release(f, rate, width, y, moduli, lengths):
 def _stretched(y, rise, table, moduli, ahead):
     """Move the stretches over an interval of contact, into ahead.
 
-    Returns sum_k K_k y_k at its end; and with the weights of the table over those at its start, the sums of y_k for
-    the mean force, and of y_k^2 and y_k for the heat.
+    Returns sum_k K_k y_k at its end; and of the stretches at its start, as the table weighs them, the sum for the
+    mean force, and those of squares and of stretches for the heat.
     """
     pull = push = square = cross = 0.0
     for k in range(y.size):
@@ -236,7 +241,7 @@ def _pressed(
     per_pixel = 1.0 / pixel
     while i < heights.size - 1:
         here, there = depth - heights[i], depth - heights[i + 1]
-        rise = there - here
+        rise = heights[i] - heights[i + 1]
         pull, push, square, cross = _stretched(y, rise, table, moduli, ahead)
         dragged = drag * rise * per_pixel
         if there + dragged + pull <= 0.0:

@@ -163,7 +163,9 @@ class LineFamily:
                 own[-1] = 2 * real if self.gaussian else np.copysign(waves[-1] / sqrt(2), real)
             drawn.append(waves)
         heights = irfft(spread, n=self.nodes, norm="forward", overwrite_x=True)
-        return [Surface(each, self.pixel, waves, self.shortest) for each, waves in zip(heights, drawn, strict=True)]
+        return [
+            Surface(each, self.pixel, waves, self.shortest) for each, waves in zip(heights, drawn, strict=True)
+        ]
 
 
 def family_of(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> LineFamily:
