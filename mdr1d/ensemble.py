@@ -6,7 +6,7 @@ period.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from math import nan, sqrt
 from typing import Any
 
@@ -17,12 +17,14 @@ from scene.protocol import trusted
 from scene.scales import elastic_contact
 
 from .domain import whole
-from .foundation import compiled, press_many
+from .foundation import press_many, summed
 from .indentation import ACCEPTED
 from .surface import MOST_NODES, Surface, family_of, nodes_needed
 
 # Relative misfit of the load at which a search stops: friction needs no more.
 _AIM = 1e-11
+# Profiles that are drawn at once.
+_TOGETHER = 4
 # Of a scene, no more and no less.
 _PARTS = {"indenter", "elastomer", "motion", "roughness"}
 
@@ -69,20 +71,26 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
     for i, (scene, count) in enumerate(zip(scenes, points, strict=True)):
         rough: Any = scene.roughness
         unit = replace(rough, rms_height=1.0, seed=0)
-        members.setdefault((unit, count, scene.indenter.exponent), []).append(i)
+        members.setdefault((count, unit, scene.indenter.exponent), []).append(i)
+    # One after the other what has as many points: transforms of one length share their factors.
     series = [
-        (indices, family_of(unit, count), _Series([scenes[i] for i in indices], count))
-        for (unit, count, _), indices in members.items()
+        (indices, unit, family_of(unit, count), _Series([scenes[i] for i in indices], count))
+        for (count, unit, _), indices in sorted(members.items(), key=lambda member: member[0][0])
     ]
-    answers = Answers(*(np.full((len(scenes), len(seeds)), nan) for _ in fields(Answers)))
-    # All spectra of one seed together: their phases are the same.
-    for column, seed in enumerate(seeds):
-        ratio = 1.0
-        for indices, family, each in series:
-            found, ratio = each.solve(family.drawn(seed), ratio)
-            for field, values in zip(fields(Answers), found, strict=True):
-                getattr(answers, field.name)[indices, column] = values
-    return answers
+    found = np.full((len(scenes), len(seeds), 6), nan)
+    slopes = np.full((len(scenes), len(seeds)), nan)
+    # All spectra of some seeds together: their phases are the same.
+    for first in range(0, len(seeds), _TOGETHER):
+        columns = range(len(seeds))[first : first + _TOGETHER]
+        ratios: dict[tuple, float] = {}
+        for indices, unit, family, each in series:
+            surfaces = family.drawn_together([seeds[column] for column in columns])
+            for column, surface in zip(columns, surfaces, strict=True):
+                start = ratios.get((unit, column), 1.0)
+                found[indices, column], slopes[indices, column], ratios[unit, column] = each.solve(surface, start)
+    misfit, friction, depth, length, span, sweeps = np.moveaxis(found, -1, 0)
+    answers = (friction, depth, length, span, slopes, sweeps)
+    return Answers(*(np.where(misfit <= ACCEPTED, answer, nan) for answer in answers))
 
 
 class _Series:
@@ -97,28 +105,31 @@ class _Series:
         self.memory = np.array([scene.motion.speed * scene.elastomer.relaxation_time for scene in scenes])
         self.load = np.array([scene.motion.load / scene.elastomer.indentation_modulus for scene in scenes])
         smooth = [elastic_contact(scene) for scene in scenes]
-        self.radius = np.array([contact.radius for contact in smooth])
+        radius = np.array([contact.radius for contact in smooth])
         self.depth = np.array([contact.depth for contact in smooth])
+        # A chord between nodes lies above the shape, and nowhere above the shape a pixel farther out.
+        self.enough = self.coefficient * (radius + self.pixel) ** self.exponent
 
     def solve(self, surface: Surface, ratio: float):
-        """The columns of Answers on one profile, drawn with a unit rms height, and the last ratio.
+        """What press_many finds on one profile, drawn with a unit rms height; its rms slope; and the last ratio.
 
         ratio : of the depth to the smooth one, from which the first search starts
         """
-        top, bottom, rms_slope = _extremes(surface.heights, self.pixel)
-        # A chord between nodes lies above the shape, and nowhere above the shape a pixel farther out.
-        enough = self.coefficient * (self.radius + self.pixel) ** self.exponent
-        rise = enough + (top - bottom) * self.rms
+        heights = surface.heights
+        top, rms_slope = heights.max(), sqrt(_squared_steps(heights) / heights.size) / self.pixel
+        rise = self.enough + (top - heights.min()) * self.rms
         half = np.ceil((rise / self.coefficient) ** (1 / self.exponent) / self.pixel) + 1
-        if half.max() > MOST_NODES:
+        farthest = half.max()
+        if farthest > MOST_NODES:
             raise SolveError(
-                f"contact may take {2 * half.max():.2g} pixels of {self.pixel:g} m, more than {2 * MOST_NODES}: "
+                f"contact may take {2 * farthest:.2g} pixels of {self.pixel:g} m, more than {2 * MOST_NODES}: "
                 "take fewer points, a longer period or a lesser load"
             )
         found = np.empty((self.rms.size, 6))
         ratio = press_many(
-            surface.heights,
-            self._powers(int(half.max()) + 1),
+            heights,
+            top,
+            self._powers(int(farthest) + 1),
             self.pixel,
             half.astype(int),
             self.coefficient,
@@ -126,15 +137,13 @@ class _Series:
             self.memory,
             self.load,
             self.depth,
-            enough,
+            self.enough,
             ratio,
             _AIM,
             ACCEPTED,
             found,
         )
-        misfit, friction, depth, length, span, sweeps = found.T
-        columns = (friction, depth, length, span, rms_slope * self.rms, sweeps)
-        return [np.where(misfit <= ACCEPTED, column, nan) for column in columns], ratio
+        return found, rms_slope * self.rms, ratio
 
     def _powers(self, nodes):
         """|x|^n at so many nodes from the tip on, or more: kept, as all profiles reach about as far."""
@@ -143,16 +152,12 @@ class _Series:
         return self.powers
 
 
-@compiled
-def _extremes(heights, pixel):
-    """Highest and lowest node of a period and its rms slope in one pass; Surface takes as long as a sweep."""
-    top = bottom = heights[0]
-    squares, before = 0.0, heights[-1]
-    for height in heights:
-        top, bottom = max(top, height), min(bottom, height)
-        squares += (height - before) ** 2
-        before = height
-    return top, bottom, sqrt(squares / heights.size) / pixel
+@summed
+def _squared_steps(heights):
+    total = (heights[0] - heights[-1]) ** 2
+    for k in range(heights.size - 1):
+        total += (heights[k + 1] - heights[k]) ** 2
+    return total
 
 
 def _check(scene):

@@ -15,8 +15,16 @@ from numba import njit
 
 # How every loop of this package is compiled: this module is its only door to numba.
 compiled = njit(cache=True, nogil=True, error_model="numpy")
+# Of short loops that only sum: side by side, in whatever order that takes, at the place of the call.
+summed = njit(
+    cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"}, forceinline=True
+)
 
 NOWHERE = -1.0
+# Part of the lengths of an interval that squared is none.
+_CLOSE = 1e-9
+# Intervals of which it is asked together whether they touch throughout.
+_TOGETHER = 64
 
 
 class Contact(NamedTuple):
@@ -50,64 +58,111 @@ class Contact(NamedTuple):
 
 @compiled
 def _landing(here, there, slope, pixel, u, memory, decay):
-    """Where in an interval the free surface meets the profile, from its left node; NOWHERE if it does not.
+    """Where in an interval the free surface meets the profile, from its left node, and its height there.
 
-    here, there : d - g at the left and the right node; u : displacement of the free surface at the left node.
-    The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from the left never oversteps.
+    NOWHERE if it does not. here, there : d - g at the left and the right node; u : displacement of the free
+    surface at the left node. The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from
+    the left never oversteps.
     """
     if u == 0.0:
         if here > 0.0:
-            return 0.0
-        return min(here / slope, pixel) if there > 0.0 else NOWHERE
+            return 0.0, u
+        return (min(here / slope, pixel) if there > 0.0 else NOWHERE), u
     if memory * slope >= u:
-        return NOWHERE
-    clearance = u - here
+        return NOWHERE, u
+    clearance, u_end = u - here, u * decay
     if clearance <= 0.0:
-        return 0.0
-    closest = memory * log(u / (memory * slope)) if slope > 0.0 else inf
-    if closest < pixel:
-        met = -clearance - slope * closest - u * expm1(-closest / memory) > 0.0
+        return 0.0, u
+    closest = pixel
+    if memory * slope <= u_end:
+        met = there > u_end
     else:
-        closest = pixel
-        met = there > u * decay
+        # It lies above its tangents at both nodes: only if those meet below zero is there anything to search.
+        rate, rate_end = slope - u / memory, slope - u_end / memory
+        meet = (u_end - there - rate_end * pixel - clearance) / (rate - rate_end)
+        if u_end > there and clearance + rate * meet > 0.0:
+            return NOWHERE, u
+        closest = min(memory * log(u / (memory * slope)), pixel)
+        met = -clearance - slope * closest - u * expm1(-closest / memory) > 0.0
     if not met:
-        return NOWHERE
+        return NOWHERE, u
     t = min(here / slope, pixel) if slope < 0.0 and here < 0.0 else 0.0
+    fallen = 0.0
     for _ in range(100):
-        overlap = -clearance - slope * t - u * expm1(-t / memory)
-        rate = u / memory * exp(-t / memory) - slope
+        fallen = -u * expm1(-t / memory)
+        overlap = fallen - clearance - slope * t
+        rate = (u - fallen) / memory - slope
         if overlap >= 0.0 or rate <= 0.0:
             break
-        next_t = t - overlap / rate
-        if next_t >= closest:
-            return closest
-        if next_t <= t:
+        step = -overlap / rate
+        if t + step >= closest:
+            return closest, u * exp(-closest / memory)
+        # The error of Newton's method is the square of its step.
+        if step <= _CLOSE * min(pixel, memory) or t + step == t:
+            return t + step, (u - fallen) * (1.0 - step / memory)
+        t += step
+    return t, u - fallen
+
+
+@compiled
+def _clear(heights, i, depth, u, decay, displacement):
+    """From a free node on, the intervals in which the profile stays above the free surface at their end.
+
+    Returns the one after them, and u at its left node.
+    """
+    while i < heights.size - 1:
+        u_end = u * decay
+        if depth - min(heights[i], heights[i + 1]) > u_end:
             break
-        t = next_t
-    return t
+        if displacement is not None:
+            displacement[i] = u
+        u = u_end
+        i += 1
+    return i, u
+
+
+@compiled
+def _releases(heights, pixel, memory, depth):
+    """In how many intervals contact ends that begins at their left node."""
+    count, per_pixel = 0, 1.0 / pixel
+    for k in range(heights.size - 1):
+        slope = (heights[k + 1] - heights[k]) * per_pixel
+        count += 1 if depth - heights[k + 1] <= memory * slope else 0
+    return count
+
+
+@summed
+def _sums(heights, pixel, memory, depth):
+    """Force, traction and squared slopes, each over the pixel, of intervals that touch throughout."""
+    force = traction = squares = 0.0
+    per_pixel = 1.0 / pixel
+    for k in range(heights.size - 1):
+        slope = (heights[k + 1] - heights[k]) * per_pixel
+        mean = depth - 0.5 * (heights[k] + heights[k + 1]) - memory * slope
+        force += mean
+        traction -= slope * mean
+        squares += slope * slope
+    return force, traction, squares
 
 
 @compiled
 def _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed):
     """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
 
-    Of force, traction and squared slopes, each over the pixel. Most of a sweep is this loop.
+    Most of a sweep are these, and a processor takes some of them at once.
     """
-    force = traction = squares = 0.0
-    while i < heights.size - 1:
-        here, there = depth - heights[i], depth - heights[i + 1]
-        slope = (heights[i + 1] - heights[i]) / pixel
-        if there <= memory * slope:
-            break
-        mean = 0.5 * (here + there) - memory * slope
-        if displacement is not None:
-            displacement[i], touching[i] = here, True
-        if pushed is not None:
-            pushed[i, 0], pushed[i, 1] = pixel, pixel * mean
-        force += mean
-        traction -= slope * mean
-        squares += slope * slope
+    begun, nodes = i, heights.size
+    while i + _TOGETHER < nodes and _releases(heights[i : i + _TOGETHER + 1], pixel, memory, depth) == 0:
+        i += _TOGETHER
+    while i < nodes - 1 and _releases(heights[i : i + 2], pixel, memory, depth) == 0:
         i += 1
+    if displacement is not None:
+        for k in range(begun, i):
+            slope = (heights[k + 1] - heights[k]) / pixel
+            displacement[k], touching[k] = depth - heights[k], True
+            pushed[k, 0] = pixel
+            pushed[k, 1] = pixel * (depth - 0.5 * (heights[k] + heights[k + 1]) - memory * slope)
+    force, traction, squares = _sums(heights[begun : i + 1], pixel, memory, depth)
     return i, force, traction, squares
 
 
@@ -128,8 +183,10 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             traction += pixel * pull
             slope_square += pixel * squares
             length += pixel * (i - begun)
-            if i == nodes - 1:
-                break
+        else:
+            i, u = _clear(heights, i, depth, u, decay, displacement)
+        if i == nodes - 1:
+            break
         here = depth - heights[i]
         there = depth - heights[i + 1]
         slope = (heights[i + 1] - heights[i]) / pixel
@@ -138,16 +195,13 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
             touching[i] = touches
         begin, start = 0.0, here
         if not touches:
-            begin = NOWHERE
-            if here > 0.0 or there > 0.0:
-                begin = _landing(here, there, slope, pixel, u, memory, decay)
+            begin, met = _landing(here, there, slope, pixel, u, memory, decay)
             if begin == NOWHERE:
                 u *= decay
                 i += 1
                 continue
             if begin > 0.0:
                 # Where the free surface meets the flank, the flatter of the two knows the height.
-                met = u * exp(-begin / memory) if u > 0.0 else 0.0
                 start = met if met < memory * abs(slope) or u == 0.0 else max(here - slope * begin, 0.0)
             lost += 0.5 * (left - start) * (left + start)
             reach += memory * (1.0 - start / left) if left > 0.0 else memory
@@ -207,12 +261,28 @@ def nearer(approach, force, stiffness, load, lower, upper, most):
 
 
 @compiled
+def _raise_heights(unit, powers, coefficient, rms, heights):
+    """Write coefficient * powers + rms * unit on both sides of the tip, above its lowest node, and return that."""
+    half, period = heights.size // 2, unit.size
+    for begin in range(0, half + 1, period):
+        end = min(begin + period, half + 1)
+        rise = powers[begin:end]
+        right, left = heights[half + begin : half + end], heights[half - end + 1 : half - begin + 1]
+        for k in range(rise.size):
+            right[k] = coefficient * rise[k] + rms * unit[k]
+            left[rise.size - 1 - k] = coefficient * rise[k] + rms * unit[-k]
+    lowest = heights.min()
+    heights -= lowest
+    return lowest
+
+
+@compiled
 def press_many(
-    unit, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
+    unit, top, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
 ):
     """Press profiles coefficient * powers + rms * unit down with loads, as many as there are.
 
-    unit : one period of roughness (M,); powers : |x|^n at the nodes from the tip on
+    unit : one period of roughness (M,), top : its highest node; powers : |x|^n at the nodes from the tip on
     half : nodes that contact may reach on each side; coefficient, rms, memory; load, over K [m^2]; smooth, the
         depth of the smooth relaxed contact, and enough, one that surely carries the load on chords between the
         nodes: all (scenes,)
@@ -222,17 +292,10 @@ def press_many(
     Each search starts from a ratio of the depth to the smooth one, where that makes sense: the ratio found before,
     and at first the one given. The last is returned.
     """
-    top = unit.max()
     room = np.empty(2 * half.max() + 1)
     for s in range(load.size):
         heights = room[: 2 * half[s] + 1]
-        k = (-half[s]) % unit.size
-        lowest = inf
-        for i in range(heights.size):
-            heights[i] = coefficient[s] * powers[abs(i - half[s])] + rms[s] * unit[k]
-            lowest = min(lowest, heights[i])
-            k = k + 1 if k + 1 < unit.size else 0
-        heights -= lowest
+        lowest = _raise_heights(unit, powers, coefficient[s], rms[s], heights)
         # Beside the heights of roughness a tiny depth may be lost to rounding.
         surely = max(enough[s] + rms[s] * top - lowest, enough[s])
         approach = ratio * smooth[s] - lowest
@@ -269,7 +332,7 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
     displacement = np.empty(heights.size)
-    touching = np.empty(heights.size, dtype=np.bool_)
+    touching = np.zeros(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))
     sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
     return Contact._make((*sums, displacement, touching, pushed))

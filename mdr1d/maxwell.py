@@ -24,49 +24,114 @@ from math import exp, expm1, inf, nan
 
 import numpy as np
 
-from .foundation import NOWHERE, Contact, compiled
+from .foundation import NOWHERE, Contact, compiled, summed
 from .modes import Modes
 
 # What is compiled stays in one file: numba's cache of a function does not see a change of another file.
 _MOST_STEPS = 1000
 # Shorter lengths than this part of a pixel count as this: their quotients stay finite, their effect is zero.
 _SHORTEST = 1e-100
-# Rows of the table of factors: what an interval does to a branch.
-_KEPT, _LOST, _MEAN, _RAMP, _HEAT = range(5)
+# Beside one, a term that leaves no trace.
+_NOTHING = 1e-18
+# Rows of the table of an interval: what a branch keeps of its stretch and gains of a rise of u, and what a unit of
+# stretch adds to the mean force; to the heat its square adds, and its product with the rise.
+_KEPT, _GAINED, _PUSH, _SQUARE, _CROSS = range(5)
 
 
 @compiled
-def _factors(width, lengths, table):
-    """Fill the table for z = width / lengths: e = exp(-z), 1 - e, and (1 - e)/z = M, (1 - M)/z = int_0^1 (1 - t)
-    exp(-zt) dt, and z int_0^1 [int_0^t exp(-zs) ds]^2 dt, by series where these cancel."""
+def _factors(width, lengths, moduli, table):
+    """Fill the table of an interval; returns what a unit rise adds to the mean force, and its square to the heat.
+
+    For z = width / lengths of e = exp(-z), 1 - e, and (1 - e)/z = M, (1 - M)/z = int_0^1 (1 - t) exp(-zt) dt, and
+    z int_0^1 [int_0^t exp(-zs) ds]^2 dt, by series where these cancel.
+    """
+    of_rise = heat_of_rise = 0.0
     for k in range(lengths.size):
         z = width / lengths[k]
-        lost = -expm1(-z)
         if z < 0.5:
             mean = ramp = heat = 0.0
-            term = 1.0  # (-z)^n / (n + 1)!
+            term, doubled = 1.0, 4.0  # (-z)^n / (n + 1)! and 2^(n + 2)
             for n in range(20):
                 mean += term
-                ramp += term / (n + 2)
-                heat += z * term * (2.0 ** (n + 2) - 2.0) / ((n + 2) * (n + 3))
-                term *= -z / (n + 2)
+                term /= n + 2
+                ramp += term
+                heat += term * (doubled - 2.0) / (n + 3)
+                term *= -z
+                doubled *= 2.0
+                if abs(term) * doubled < _NOTHING:
+                    break
+            heat *= z
+            lost = z * mean
+            kept = 1.0 - lost
         else:
+            kept = exp(-z)
+            lost = 1.0 - kept
             mean = lost / z
             ramp = (1.0 - mean) / z
             heat = (1.0 - mean * (1.0 + 0.5 * lost)) / z
-        table[_KEPT, k] = exp(-z)
-        table[_LOST, k] = lost
-        table[_MEAN, k] = mean
-        table[_RAMP, k] = ramp
-        table[_HEAT, k] = heat
+        table[_KEPT, k] = kept
+        table[_GAINED, k] = mean
+        table[_PUSH, k] = moduli[k] * mean
+        table[_SQUARE, k] = moduli[k] * lost * (1.0 - 0.5 * lost)
+        table[_CROSS, k] = moduli[k] * mean * lost
+        of_rise += moduli[k] * ramp
+        heat_of_rise += moduli[k] * heat
+    return of_rise, heat_of_rise
+
+
+@summed
+def _sum(a, b):
+    total = 0.0
+    for k in range(a.size):
+        total += a[k] * b[k]
+    return total
+
+
+@summed
+def _fading(pushes, decay, ahead):
+    """Let the free surface relax over an interval, into ahead: u at its end."""
+    u = 0.0
+    for j in range(pushes.size):
+        ahead[j] = pushes[j] * decay[j]
+        u += ahead[j]
+    return u
 
 
 @compiled
-def _landing(here, there, slope, pixel, u, u_end, r, compliances, lengths, decay):
+def _clear(heights, i, depth, u, pushes, decay, ahead, displacement):
+    """From a free node on, the intervals in which the profile stays above the free surface at their end.
+
+    Returns the one after them, and u at its nodes.
+    """
+    while i < heights.size - 1:
+        u_end = _fading(pushes, decay, ahead) if u > 0.0 else 0.0
+        if depth - min(heights[i], heights[i + 1]) > u_end:
+            break
+        displacement[i] = u
+        if u > 0.0:
+            _move(ahead, pushes)
+        u = u_end
+        i += 1
+    return i, u, u_end
+
+
+@summed
+def _clearance(t, pushes, rates):
+    """How far the free surface falls on its way t, and how fast at its end."""
+    fallen = fall = 0.0
+    for j in range(pushes.size):
+        lost = -expm1(-t * rates[j])
+        fallen += pushes[j] * lost
+        fall += pushes[j] * rates[j] * (1.0 - lost)
+    return fallen, fall
+
+
+@compiled
+def _landing(here, there, slope, pixel, u, u_end, pushes, rates, decay):
     """Where in an interval the free surface meets the profile, from its left node; NOWHERE if it does not.
 
-    u, u_end : free surface at both nodes; r : at the left one. The clearance is convex: Newton from the left never
-    oversteps, and comes to where it rises again if there is no landing.
+    u, u_end : free surface at both nodes; pushes : at the left one. The clearance is convex: Newton from the left
+    never oversteps, and comes to where it rises again if there is no landing.
     """
     if u == 0.0:
         if here > 0.0:
@@ -77,8 +142,8 @@ def _landing(here, there, slope, pixel, u, u_end, r, compliances, lengths, decay
     if u_end > there:
         # It lies above its tangents at both nodes: only if those meet below zero is there anything to search.
         rate, rate_end = slope, slope
-        for j in range(r.size):
-            fall = compliances[j] * r[j] / lengths[j]
+        for j in range(pushes.size):
+            fall = pushes[j] * rates[j]
             rate -= fall
             rate_end -= fall * decay[j]
         if rate >= 0.0 or rate_end <= 0.0:
@@ -88,11 +153,8 @@ def _landing(here, there, slope, pixel, u, u_end, r, compliances, lengths, decay
             return NOWHERE
     t = min(here / slope, pixel) if slope < 0.0 and here < 0.0 else 0.0
     for _ in range(_MOST_STEPS):
-        clearance, rate = u - here + slope * t, slope
-        for j in range(r.size):
-            push = compliances[j] * r[j]
-            clearance += push * expm1(-t / lengths[j])
-            rate -= push / lengths[j] * exp(-t / lengths[j])
+        fallen, fall = _clearance(t, pushes, rates)
+        clearance, rate = u - here + slope * t - fallen, slope - fall
         if clearance <= 0.0:
             return t
         if rate >= 0.0:
@@ -122,8 +184,9 @@ def _release(f, rate, width, y, moduli, lengths):
         now, slope = f + rate * t, rate
         for k in range(y.size):
             b = moduli[k] * (y[k] - lengths[k] * rate)
-            now += b * expm1(-t / lengths[k])
-            slope -= b / lengths[k] * exp(-t / lengths[k])
+            lost = -expm1(-t / lengths[k])
+            now -= b * lost
+            slope -= b / lengths[k] * (1.0 - lost)
         if now > 0.0:
             if t == width:
                 return NOWHERE
@@ -141,46 +204,73 @@ def _release(f, rate, width, y, moduli, lengths):
     return t
 
 
-@compiled
-def _force_ahead(f, rise, y, moduli, table):
-    """f at the end of a stretch of contact, given what of it owes nothing to the branches."""
-    for k in range(y.size):
-        f += moduli[k] * (y[k] * table[_KEPT, k] + rise * table[_MEAN, k])
-    return f
+@summed
+def _stretched(y, rise, table, moduli, ahead):
+    """Move the stretches over an interval of contact, into ahead.
 
-
-@compiled
-def _pressed(start, rate, width, y, moduli, table):
-    """Integrals over a stretch of contact, of u + sum_k K_k y_k and of sum_k K_k y_k^2/m_k; moves y to its end."""
-    rise = rate * width
-    mean, heat = start + 0.5 * rise, 0.0
-    for k in range(y.size):
-        kept, lost, average = table[_KEPT, k], table[_LOST, k], table[_MEAN, k]
-        mean += moduli[k] * (y[k] * average + rise * table[_RAMP, k])
-        heat += moduli[k] * (
-            y[k] * (y[k] * lost * (1.0 - 0.5 * lost) + rise * average * lost) + rise * rise * table[_HEAT, k]
-        )
-        y[k] = y[k] * kept + rise * average
-    return width * mean, heat
-
-
-@compiled
-def _land(apart, r, compliances, retarded, exchange, y):
-    """Write the stretches y at the end of a free stretch.
-
-    apart : its length; r : at its start. Returns the energy lost in it, u at its end, and how fast u falls there.
+    Returns sum_k K_k y_k at its end; and of the stretches at its start, as the table weighs them, the sum for the
+    mean force, and those of squares and of stretches for the heat.
     """
-    y[:] = 0.0
-    lost = u = fall = 0.0
+    pull = push = square = cross = 0.0
+    for k in range(y.size):
+        stretch = y[k]
+        moved = table[_KEPT, k] * stretch + rise * table[_GAINED, k]
+        ahead[k] = moved
+        pull += moduli[k] * moved
+        push += table[_PUSH, k] * stretch
+        square += table[_SQUARE, k] * stretch * stretch
+        cross += table[_CROSS, k] * stretch
+    return pull, push, square, cross
+
+
+@summed
+def _move(source, target):
+    for k in range(target.size):
+        target[k] = source[k]
+
+
+@compiled
+def _pressed(
+    heights, i, pixel, depth, drag, y, table, of_rise, heat_of_rise, moduli, ahead, displacement, touching, pushed
+):
+    """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
+
+    Of force, heat, traction and squared slopes. Most of a sweep is this loop.
+    """
+    force = heat = traction = squares = 0.0
+    per_pixel = 1.0 / pixel
+    while i < heights.size - 1:
+        here, there = depth - heights[i], depth - heights[i + 1]
+        rise = heights[i] - heights[i + 1]
+        pull, push, square, cross = _stretched(y, rise, table, moduli, ahead)
+        dragged = drag * rise * per_pixel
+        if there + dragged + pull <= 0.0:
+            break
+        mean = 0.5 * (here + there) + push + rise * of_rise + dragged
+        displacement[i], touching[i] = here, True
+        pushed[i, 0], pushed[i, 1] = pixel, pixel * mean
+        force += mean
+        heat += square + rise * (cross + rise * heat_of_rise)
+        traction += rise * mean
+        squares += rise * rise
+        _move(ahead, y)
+        i += 1
+    return i, pixel * force, heat, traction, squares * per_pixel
+
+
+@compiled
+def _land(kept, r, compliances, exchange, pushes, y):
+    """Write what is left of J_j r_j at the end of a free stretch, and the stretches y there; returns u there.
+
+    kept : of each r_j; r : at the start
+    """
+    u = 0.0
     for j in range(r.size):
-        push = compliances[j] * r[j]
-        lost -= 0.5 * push * r[j] * expm1(-2.0 * apart / retarded[j])
-        push *= exp(-apart / retarded[j])
-        u += push
-        fall += push / retarded[j]
-        for k in range(y.size):
-            y[k] -= exchange[k, j] * push
-    return lost, u, fall
+        pushes[j] = compliances[j] * r[j] * kept[j]
+        u += pushes[j]
+    for k in range(y.size):
+        y[k] = -_sum(exchange[k], pushes)
+    return u
 
 
 @compiled
@@ -188,28 +278,19 @@ def _leave(u, moduli, y, exchange, r):
     """Write the smoothed forces r of a state in contact."""
     r[:] = u
     for k in range(y.size):
+        pull = moduli[k] * y[k]
         for j in range(r.size):
-            r[j] -= exchange[k, j] * moduli[k] * y[k]
+            r[j] -= exchange[k, j] * pull
 
 
 @compiled
 def _firmness(stretch, shift, moduli, lengths, exchange, table, shift_left):
     """d(force)/d(depth) of a stretch of contact past its landing; writes d(r)/d(depth) at its end."""
-    _factors(stretch, lengths, table)
-    firm = 1.0
-    for k in range(shift.size):
-        firm += moduli[k] * shift[k] * table[_MEAN, k]
-        shift[k] *= table[_KEPT, k]
+    _factors(stretch, lengths, moduli, table)
+    firm = 1.0 + _sum(table[_PUSH], shift)
+    shift *= table[_KEPT]
     _leave(1.0, moduli, shift, exchange, shift_left)
     return stretch * firm
-
-
-@compiled
-def _sum(a, b):
-    total = 0.0
-    for k in range(a.size):
-        total += a[k] * b[k]
-    return total
 
 
 @compiled
@@ -230,92 +311,118 @@ def _sweep(
     n, q = moduli.size, compliances.size
     stiff = 1.0 + moduli.sum()  # against a jump of u: glassy but for the dashpot
     full, part = np.empty((5, n)), np.empty((5, n))
-    _factors(pixel, lengths, full)
-    decay = np.exp(-pixel / retarded)
-    y, r, left = np.zeros(n), np.zeros(q), np.zeros(q)  # left : r at the last release
+    of_rise_full, heat_full = _factors(pixel, lengths, moduli, full)
+    rates = 1.0 / retarded
+    decay = np.exp(-pixel * rates)
+    y, left = np.zeros(n), np.zeros(q)  # left : r at the last release
+    pushes = np.zeros(q)  # J_j r_j of the free surface at the node
+    y_ahead, pushes_ahead = np.empty(n), np.empty(q)
     shift, shift_left = np.zeros(n), np.zeros(q)  # derivatives of y, from the landing on, and of `left`
     force = lost = traction = stiffness = length = slope_square = 0.0
     stretch = apart = 0.0  # in contact since it landed, free since it left
     u = 0.0  # of the free surface at the node
     first = last = nan
     touches = False
-    for i in range(heights.size - 1):
+    i, nodes = 0, heights.size
+    while i < nodes - 1:
+        begun = i
+        if touches:
+            i, push, heat, pull, squares = _pressed(
+                heights,
+                i,
+                pixel,
+                depth,
+                drag,
+                y,
+                full,
+                of_rise_full,
+                heat_full,
+                moduli,
+                y_ahead,
+                displacement,
+                touching,
+                pushed,
+            )
+            width = pixel * (i - begun)
+            force += push
+            lost += heat + drag * squares
+            traction += pull
+            slope_square += squares
+            length += width
+            stretch += width
+        else:
+            i, u, u_end = _clear(heights, i, depth, u, pushes, decay, pushes_ahead, displacement)
+            apart += pixel * (i - begun)
+        if i == nodes - 1:
+            break
         here = depth - heights[i]
         there = depth - heights[i + 1]
         rate = (heights[i] - heights[i + 1]) / pixel
         displacement[i] = here if touches else u
         touching[i] = touches
         begin, width, start = 0.0, pixel, here
-        table = full
         if touches:
             f = here + drag * rate + _sum(moduli, y)
-            touches = _force_ahead(there + drag * rate, rate * pixel, y, moduli, full) > 0.0
         else:
-            u_end = fall = 0.0
-            if u > 0.0:
-                for j in range(q):
-                    push = compliances[j] * r[j]
-                    u_end += push * decay[j]
-                    fall += push / retarded[j]
-            # Clear at both nodes, and a convex clearance that rises from the left one or is straight.
-            clear = here <= u and there <= u_end and (fall <= -rate or u == 0.0)
-            if not clear:
-                begin = _landing(here, there, -rate, pixel, u, u_end, r, compliances, retarded, decay)
-            if clear or begin == NOWHERE:
+            begin = _landing(here, there, -rate, pixel, u, u_end, pushes, rates, decay)
+            if begin == NOWHERE:
                 apart += pixel
-                if u > 0.0:
-                    u = u_end
-                    for j in range(q):
-                        r[j] *= decay[j]
+                u = u_end
+                _move(pushes_ahead, pushes)
+                i += 1
                 continue
             apart += begin
-            cooled, met, fall = _land(apart, left, compliances, retarded, exchange, y)
+            kept = np.exp(-apart * rates)
+            for j in range(q):
+                lost -= 0.5 * compliances[j] * left[j] * left[j] * expm1(-2.0 * apart * rates[j])
+            slackened = _land(kept, shift_left, compliances, exchange, pushes, shift)
+            met = _land(kept, left, compliances, exchange, pushes, y)
+            fall = _sum(pushes, rates)
             if begin > 0.0:
                 # Where the free surface meets the flank, the flatter of the two knows the height.
                 start = met if fall < abs(rate) else max(here + rate * begin, 0.0)
                 # Of a touch just before a node only the heights know the width.
                 width = min(max((there - start) / rate, 0.0), pixel) if rate > 0.0 else pixel - begin
-            _, kept, _ = _land(apart, shift_left, compliances, retarded, exchange, shift)
-            shift += 1.0 - kept
-            stiffness += drag * (1.0 - kept)
+            shift += 1.0 - slackened
+            stiffness += drag * (1.0 - slackened)
             # Beyond rounding a jump comes only of a profile that is pressed in where the grid starts.
             jump = max(here - u, 0.0) if begin == 0.0 else 0.0
             y += jump
-            lost += cooled - 0.5 * stiff * jump * jump
+            lost -= 0.5 * stiff * jump * jump
             f = stiff * jump + drag * (rate + fall)
             if first != first:
                 first = i * pixel + begin
             stretch = 0.0
-        if not touches:
-            end = _release(f, rate, width, y, moduli, lengths)
-            touches = end == NOWHERE
+        end = _release(f, rate, width, y, moduli, lengths)
+        touches = end == NOWHERE
         if not touches:
             apart = width - end
             width = end
-        if begin > 0.0 or not touches:
-            table = part
-            _factors(width, lengths, part)
-        push, heat = _pressed(start, rate, width, y, moduli, table)
-        push += drag * rate * width
+        of_rise, heat_of_rise = _factors(width, lengths, moduli, part)
+        rise = rate * width
+        _, push, square, cross = _stretched(y, rise, part, moduli, y_ahead)
+        _move(y_ahead, y)
+        push = width * (start + 0.5 * rise + push + rise * of_rise + drag * rate)
         pushed[i, 0] = width
         pushed[i, 1] = push
         force += push
-        lost += heat + drag * rate * rate * width
+        lost += square + rise * (cross + rise * heat_of_rise) + drag * rate * rise
         traction += rate * push
         length += width
         stretch += width
-        slope_square += rate * rate * width
+        slope_square += rate * rise
         if not touches:
             last = i * pixel + begin + width
-            _leave(start + rate * width, moduli, y, exchange, left)
+            _leave(start + rise, moduli, y, exchange, left)
             for j in range(q):
                 if left[j] < 0.0:
                     left[j] = 0.0
             stiffness += _firmness(stretch, shift, moduli, lengths, exchange, part, shift_left)
             u = 0.0
             for j in range(q):
-                r[j] = left[j] * exp(-apart / retarded[j])
-                u += compliances[j] * r[j]
+                pushes[j] = compliances[j] * left[j] * exp(-apart * rates[j])
+                u += pushes[j]
+        i += 1
     i = heights.size - 1
     displacement[i] = depth - heights[i] if touches else u
     touching[i] = touches
@@ -341,7 +448,7 @@ def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float)
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
     displacement = np.empty(heights.size)
-    touching = np.empty(heights.size, dtype=np.bool_)
+    touching = np.zeros(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))
     shortest = _SHORTEST * pixel
     sums = _sweep(

@@ -1,6 +1,7 @@
 """From the three-dimensional indenter to the one-dimensional profile g(x) = c_n |x|^n + h(x), Eqs. 1 and 2."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import ceil
 
 import numpy as np
@@ -17,6 +18,8 @@ _MARGIN = 1.05
 _LEAST_SHARE, _ROOM = 0.2, 1.05
 # Pixels across a contact below which its forces are those of the pixels.
 _LEAST_PIXELS = 5
+# Nodes of a profile up to which it is kept: 50 MB at most, with their surfaces.
+_MOST_KEPT = 2**13
 # Quotients of lengths that are whole numbers but for rounding.
 _ROUNDING = 1e-12
 
@@ -132,18 +135,31 @@ def check_resolved(body: Profile, span: float) -> None:
 
 
 def map_profile(scene: Scene, grid: Grid, spectrum: Spectrum = "mapped") -> Profile:
-    """Map the indenter to its one-dimensional profile and add the rough line, repeated as far as the grid goes."""
-    heights = _macroscopic(scene.indenter, grid.x)
-    if grid.period is None or scene.roughness is None:
-        rim = min(heights[0], heights[-1])
-        return Profile(grid.x, heights, grid.pixel, float(heights.min()), float(rim), None)
-    surface = draw(scene.roughness, grid.period, spectrum)
-    heights += surface.heights[np.arange(-grid.half, grid.half + 1) % grid.period]
-    # The shape only rises outwards and the roughness repeats: the first period beyond has the lowest point.
-    beyond = np.arange(grid.half, grid.half + grid.period)
-    rise = _macroscopic(scene.indenter, beyond * grid.pixel)
-    rim = min((rise + surface.heights[side % grid.period]).min() for side in (beyond, -beyond))
-    return Profile(grid.x, heights, grid.pixel, float(heights.min()), float(rim), surface)
+    """Map the indenter to its one-dimensional profile and add the rough line, repeated as far as the grid goes.
+
+    Scenes in a row often share it: the last ones are kept, and their arrays are read-only.
+    """
+    make = _kept if 2 * grid.half < _MOST_KEPT else _mapped
+    return make(scene.indenter, scene.roughness, grid, spectrum)
+
+
+def _mapped(indenter, roughness, grid, spectrum):
+    x = grid.x
+    heights, surface = _macroscopic(indenter, x), None
+    rim = min(heights[0], heights[-1])
+    if roughness is not None and grid.period is not None:
+        surface = draw(roughness, grid.period, spectrum)
+        heights += surface.heights[np.arange(-grid.half, grid.half + 1) % grid.period]
+        # The shape only rises outwards and the roughness repeats: the first period beyond has the lowest point.
+        beyond = np.arange(grid.half, grid.half + grid.period)
+        rise = _macroscopic(indenter, beyond * grid.pixel)
+        rim = min((rise + surface.heights[side % grid.period]).min() for side in (beyond, -beyond))
+    for array in (x, heights):
+        array.setflags(write=False)
+    return Profile(x, heights, grid.pixel, float(heights.min()), float(rim), surface)
+
+
+_kept = lru_cache(maxsize=256)(_mapped)
 
 
 def _macroscopic(shape, x):

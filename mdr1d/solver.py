@@ -152,8 +152,8 @@ class MDR:
             seconds=seconds,
             measures=measures(reduced, body, contact),
             fields={
-                "x": body.x,
-                "profile": body.heights,
+                "x": body.x.copy(),
+                "profile": body.heights.copy(),
                 "displacement": contact.displacement,
                 "contact": contact.touching,
                 "line_force": modulus / body.pixel * np.append(contact.pushed[:, 1], 0.0),

@@ -1,7 +1,8 @@
 """A rough line drawn from the one-dimensional spectrum of a scene's roughness, and how fine lines are."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import ceil, floor, hypot, nan, pi, sqrt
 from typing import Literal
 
@@ -86,18 +87,18 @@ class Surface:
         """Period [m]."""
         return self.heights.size * self.pixel
 
-    @property
+    @cached_property
     def rms_height(self) -> float:
         """rms of the heights at the nodes over a period [m]."""
         return sqrt(np.mean(np.square(self.heights)))
 
-    @property
+    @cached_property
     def rms_slope(self) -> float:
         """rms of the finite differences between neighbouring nodes over a period [1]."""
         steps = np.diff(self.heights, append=self.heights[0])
         return sqrt(np.mean(np.square(steps))) / self.pixel
 
-    @property
+    @cached_property
     def rms_slope_spectral(self) -> float:
         """rms slope of the sum of waves [1]; finite differences cut the shortest ones short."""
         k = np.arange(1, self.amplitudes.size + 1)
@@ -146,16 +147,25 @@ class LineFamily:
         the height that keeps its variance; a Gaussian one is left with its real part, a Gaussian height of that
         variance.
         """
-        waves = self.amplitudes
-        if self.gaussian:
-            waves = waves * np.sqrt(_stream(seed, _MODULI).standard_exponential(waves.size))
-        spread = np.zeros(self.nodes // 2 + 1, complex)
-        spread[1 : waves.size + 1] = waves / 2 * _phasors(seed, waves.size)
-        if 2 * waves.size == self.nodes:
-            real = spread[-1].real
-            spread[-1] = 2 * real if self.gaussian else np.copysign(waves[-1] / sqrt(2), real)
-        heights = irfft(spread, n=self.nodes, norm="forward")
-        return Surface(heights, self.pixel, waves, self.shortest)
+        return self.drawn_together([seed])[0]
+
+    def drawn_together(self, seeds: Sequence[int]) -> list[Surface]:
+        """The lines of some seeds, by one transform."""
+        # Not zeros(): fresh pages of memory would take longer than the waves.
+        spread, drawn = np.full((len(seeds), self.nodes // 2 + 1), 0j), []
+        for own, seed in zip(spread, seeds, strict=True):
+            waves = self.amplitudes
+            if self.gaussian:
+                waves = waves * np.sqrt(_stream(seed, _MODULI).standard_exponential(waves.size))
+            np.multiply(_phasors(seed, waves.size), waves / 2, out=own[1 : waves.size + 1])
+            if 2 * waves.size == self.nodes:
+                real = own[-1].real
+                own[-1] = 2 * real if self.gaussian else np.copysign(waves[-1] / sqrt(2), real)
+            drawn.append(waves)
+        heights = irfft(spread, n=self.nodes, norm="forward", overwrite_x=True)
+        return [
+            Surface(each, self.pixel, waves, self.shortest) for each, waves in zip(heights, drawn, strict=True)
+        ]
 
 
 def family_of(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> LineFamily:
@@ -195,7 +205,8 @@ def _kept_phasors(seed, count):
 
 
 def _drawn_phasors(seed, count):
-    return np.exp(2j * pi * _stream(seed, _PHASES).random(count))
+    phases = 2 * pi * _stream(seed, _PHASES).random(count)
+    return np.cos(phases) + 1j * np.sin(phases)
 
 
 def _stream(seed, key):

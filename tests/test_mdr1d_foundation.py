@@ -111,3 +111,35 @@ def test_the_depth_found_for_a_load_carries_that_load(elastomer, roughness):
         by_depth = fixed.solve(replace(scene, motion=Slide(speed=speed, depth=by_load.depth)))
         assert by_depth.normal_force == pytest.approx(1.0, rel=ROUNDING)
         assert by_depth.friction_force == pytest.approx(by_load.friction_force, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("nodes", [2, 3, 64, 65, 66, 129, 200])
+@pytest.mark.parametrize("memory", [0.0, 1e-5, 1e-3])
+def test_a_line_that_touches_throughout_has_the_sums_over_its_nodes_however_many(nodes, memory):
+    """Tolerance: rounding of as many terms. It pulls on every flank: slopes are small beside depth over memory."""
+    pixel, depth = 1e-5, 1e-4
+    heights = 1e-6 * np.random.default_rng(nodes).random(nodes) * min(1.0, pixel / max(memory, pixel))
+    found = sweep(heights, pixel, memory, depth)
+    slopes, means = np.diff(heights) / pixel, depth - (heights[1:] + heights[:-1]) / 2
+    forces = pixel * (means - memory * slopes)
+    # It comes undisturbed to the first node.
+    assert found.touching[1:].all()
+    assert (forces > 0).all()
+    assert found.length == pytest.approx((nodes - 1) * pixel, rel=ROUNDING)
+    assert found.force == pytest.approx(forces.sum(), rel=ROUNDING)
+    assert found.traction == pytest.approx(-slopes @ forces, rel=ROUNDING, abs=ROUNDING * found.force)
+    assert found.slope_square == pytest.approx(pixel * slopes @ slopes, rel=ROUNDING)
+    np.testing.assert_allclose(found.pushed[:, 1], forces, rtol=ROUNDING)
+    np.testing.assert_allclose(found.displacement[1:], (depth - heights)[1:], rtol=ROUNDING)
+
+
+def test_nodes_between_those_of_a_line_change_nothing():
+    """The flow past a line of straight pieces is exact on any nodes: tolerance rounding."""
+    heights, pixel = rough_profile()
+    finer = np.interp(np.arange(3 * heights.size - 2) / 3, np.arange(heights.size), heights)
+    for memory in (0.0, 1e-7, 1e-5, 1e-3):
+        depth = heights.min() + 3e-5
+        coarse, fine = sweep(heights, pixel, memory, depth), sweep(finer, pixel / 3, memory, depth)
+        assert np.count_nonzero(np.diff(coarse.touching.astype(int)) == 1) >= 2
+        for name in ("force", "dissipation", "stiffness", "length", "first", "last"):
+            assert getattr(fine, name) == pytest.approx(getattr(coarse, name), rel=1e-9), name

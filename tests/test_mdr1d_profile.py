@@ -159,3 +159,18 @@ def test_an_asperity_that_follows_its_equal_is_not_counted_again(elastomer, appr
         contact = sweep(heights, body.pixel, 1e9 * KELVIN.relaxation_time, approach)
     # The force is a convex function of the approach, from zero on: no less than in proportion to it.
     assert contact.stiffness * approach >= contact.force * (1 - ROUNDING)
+
+
+def test_scenes_of_one_body_share_its_profile_and_no_result_changes_that_of_another():
+    slow, fast = (replace(PAPER, motion=replace(PAPER.motion, speed=speed)) for speed in (1e-3, 1.0))
+    grid = lay_out(slow, 1000, None)
+    assert map_profile(slow, grid) is map_profile(fast, grid)
+    other = replace(slow, roughness=replace(slow.roughness, seed=slow.roughness.seed + 1))
+    assert not np.allclose(map_profile(other, grid).heights, map_profile(slow, grid).heights)
+    before = MDR(points=1000).solve(slow)
+    depth = before.depth
+    for values in before.fields.values():
+        values[:] = 0
+    assert MDR(points=1000).solve(slow).depth == depth
+    with pytest.raises(ValueError, match="read-only"):
+        map_profile(slow, grid).heights[0] = 0.0

@@ -26,7 +26,7 @@ from .conditions import over_profiles, regime_of, with_conditions, with_ends
 NODE = "parameter-studies/MDR"
 # Profiles of one task: some seconds of work are lost at most in an interruption, and to prepare the scenes takes
 # little of them.
-TOGETHER = 20
+TOGETHER = 25
 # Eq. 17 is the limit of Eq. 19: at this xi that lies 0.7 % lower.
 SLOW = 0.05
 # Arrays of mdr1d.ensemble.Answers by the names of a Dataset.
