@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from mdr1d import MDR, lay_out, map_profile, sweep
+from mdr1d.foundation import NOWHERE, _landing
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 MODULUS = 1e6
@@ -143,3 +144,19 @@ def test_nodes_between_those_of_a_line_change_nothing():
         assert np.count_nonzero(np.diff(coarse.touching.astype(int)) == 1) >= 2
         for name in ("force", "dissipation", "stiffness", "length", "first", "last"):
             assert getattr(fine, name) == pytest.approx(getattr(coarse, name), rel=1e-9), name
+
+
+@pytest.mark.parametrize("memory", [0.03, 1.0, 40.0])
+def test_a_free_surface_lands_where_it_meets_the_profile(memory):
+    """Both are as high there, and nowhere before it is the profile the higher one."""
+    rng, pixel, landed = np.random.default_rng(5), 0.7, 0
+    for here, there, more in rng.uniform(-1, 1, (500, 3)):
+        u, slope = max(here, 0.0) + abs(more), (here - there) / pixel
+        t, height = _landing(here, there, slope, pixel, u, memory, np.exp(-pixel / memory))
+        before = np.linspace(0.0, pixel if t == NOWHERE else t, 200)[:-1]
+        assert (u * np.exp(-before / memory) >= here - slope * before - 1e-12).all()
+        if t != NOWHERE and t > 0:
+            landed += 1
+            assert height == pytest.approx(u * np.exp(-t / memory), rel=1e-12)
+            assert height == pytest.approx(here - slope * t, rel=1e-10, abs=1e-12)
+    assert landed > 50
