@@ -16,6 +16,7 @@ from . import kernels
 Library = Literal["ducc0", "fftw", "cupy"]
 SMALL = 2**16  # points of a padded plane that is transformed at once: half a megabyte
 BLOCK = 32  # lines transformed at a time: half a megabyte at 512 points, padded
+SHARED = 128  # lines at a time of each of several threads: they wait less for one another
 
 
 class Unavailable(RuntimeError):
@@ -106,10 +107,10 @@ class Engine:
         (ny, mx), my = kernel.shape, padded[0]
         rows, columns = _DOUBLE.lines(ny, mx, real=True), _DOUBLE.lines(mx // 2 + 1, my, real=False)
         waves = np.empty((ny, mx // 2 + 1), complex)
-        for block in _blocks(ny):
+        for block in _DOUBLE.blocks(ny):
             waves[block] = rows.forward(kernel[block])
         symbol = np.empty((my // 2 + 1, mx // 2 + 1), complex)
-        for block in _blocks(mx // 2 + 1):
+        for block in _DOUBLE.blocks(mx // 2 + 1):
             whole = np.zeros((waves[:, block].shape[1], my), complex)
             whole[:, :ny] = waves[:, block].T
             whole[:, my - ny + 1 :] = whole[:, ny - 1 : 0 : -1]
@@ -117,8 +118,14 @@ class Engine:
         return symbol
 
     def lines(self, count, length, real):
-        """Transforms of up to BLOCK of `count` lines at a time, of `length` points."""
-        return {"ducc0": _Ducc, "fftw": _Fftw}[self.library](min(BLOCK, count), length, self, real)
+        """Transforms of a block of `count` lines at a time, of `length` points."""
+        block = self.blocks(count)[0]
+        return {"ducc0": _Ducc, "fftw": _Fftw}[self.library](block.stop, length, self, real)
+
+    def blocks(self, count):
+        """Slices of as many lines as a thread takes at a time."""
+        size = BLOCK if self.threads == 1 else SHARED
+        return [slice(start, min(start + size, count)) for start in range(0, count, size)]
 
     def good_size(self, least: int) -> int:
         """An even length of quick transforms, at least `least`."""
@@ -240,7 +247,7 @@ class _ByBlocks:
         width = mx // 2 + 1
         self._symbols = [self._laid_out(symbol, engine) for symbol in symbols]
         self._waves = [_staggered(ny, width, engine.complex) for _ in range(planes)]
-        self._threads = engine.threads
+        self._engine = engine
         self._pool = ThreadPoolExecutor(engine.threads) if engine.threads > 1 else None
         self._rows = [engine.lines(ny, mx, real=True) for _ in range(engine.threads)]
         self._columns = [
@@ -257,13 +264,13 @@ class _ByBlocks:
         """work(block, lines) on all blocks of so many lines; each thread has lines of its own."""
 
         def of_one(thread):
-            for block in _blocks(count)[thread :: self._threads]:
+            for block in self._engine.blocks(count)[thread :: self._engine.threads]:
                 work(block, lines[thread])
 
         if self._pool is None:
             of_one(0)
         else:
-            list(self._pool.map(of_one, range(self._threads)))
+            list(self._pool.map(of_one, range(self._engine.threads)))
 
     def _along_rows(self, plane, waves):
         def forward(rows, lines):
@@ -346,10 +353,6 @@ class BlockedPair(_ByBlocks):
 def _staggered(count, length, kind):
     """Rows a little wider than needed: of a power of two, all would share the same lines of the cache."""
     return np.zeros((count, length + 8), kind)[:, :length]
-
-
-def _blocks(count):
-    return [slice(start, min(start + BLOCK, count)) for start in range(0, count, BLOCK)]
 
 
 class _Ducc:
