@@ -226,7 +226,7 @@ class BEM:
             better = window.improved(problem, grid, answer)
             if better is None:
                 return grid, answer
-            grid, start, beside = better, problem.start(grid, answer.pressure), None
+            grid, start, beside = better, None, None
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
     def _on(self, problem, grid, start, beside):

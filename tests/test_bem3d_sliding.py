@@ -6,9 +6,26 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from bem3d.cell import Cell
+from bem3d.convolution import FreeConvolution
+from bem3d.engine import Engine
 from bem3d.grid import Grid
+from bem3d.halfspace import HalfSpace
+from bem3d.influence import flowing
 from bem3d.sliding import Flow
-from scene import Cone, Elastic, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import (
+    Cone,
+    Elastic,
+    Kelvin,
+    Plane,
+    PowerLaw,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
 
 G, R, TAU = 1e6, 10e-3, 1e-3
 D = 1e-4
@@ -206,3 +223,30 @@ def test_the_work_is_bounded_on_512_points_at_every_speed(shape, roughness, soli
     result = BEM(points=512, extent=extent).solve(scene)
     assert result.residual <= 1e-5
     assert result.applications <= WORK
+
+
+@pytest.mark.parametrize(
+    "solid", [Kelvin(1e6, 1e-3), Prony(1e6, (3e6, 1e7), (1e-3, 1e-2))], ids=["kelvin", "prony"]
+)
+@pytest.mark.parametrize("indenter", [Sphere(R), Plane()], ids=["free", "periodic"])
+def test_what_a_pressure_loses_is_its_work_on_the_slope_of_its_displacement(indenter, solid):
+    """By the product with its kernel on a free surface, by the sum over all waves on one that repeats."""
+    flow, grid = Flow.of(solid, 2.0), Grid(16, 16e-3)
+    pressure = np.random.default_rng(1).random(grid.shape)
+    if isinstance(indenter, Plane):
+        medium, (ny, nx) = Cell(flow, Engine()), grid.shape
+        q = 2 * np.pi * np.stack(np.meshgrid(np.fft.fftfreq(ny), np.fft.fftfreq(nx), indexing="ij"))
+        spectrum, length = np.square(np.abs(np.fft.fft2(pressure))) / pressure.size, np.hypot(*q)
+        length[0, 0] = np.inf
+        lossy = -2 / length * spectrum * np.abs(flow.compliance(np.abs(q[1]), grid.pixel).imag)
+        expected = [-np.sum(lossy * step) for step in (np.abs(q[1]), np.sin(np.abs(q[1])))]
+    else:
+        medium = HalfSpace(flow, Engine())
+        shares, lengths = flow.shares, flow.in_pixels(grid)
+        moved = FreeConvolution(flowing(18, 16, 0.0, shares, lengths, 0.0))(
+            np.pad(pressure, ((0, 0), (1, 1)))[:, :]
+        )
+        rates = shares / lengths
+        slope = FreeConvolution(flowing(16, 16, rates.sum(), -rates, lengths, 0.0))(pressure)
+        expected = [np.sum(pressure * slope), np.sum(pressure * (moved[:, 2:] - moved[:, :-2]) / 2)]
+    np.testing.assert_allclose(medium.lost(grid, pressure), expected, rtol=1e-10)

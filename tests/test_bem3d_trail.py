@@ -99,14 +99,29 @@ def test_a_start_presses_where_it_pressed_and_sinks_the_foundation_as_much(befor
     old, new = Grid(32, 4e-3), Grid(48, 3e-3, (3e-4, 0.0))
     pressure = np.maximum(1 - (old.x**2 + old.y[:, None] ** 2) / 1e-6, 0.0)
     one, other = problem(before), problem(after)
-    foundation = other.medium.foundation(new)
-    taken = one.start(old, pressure).on(new, foundation)
-    assert (taken[new.resampled_contact(pressure, old) == 0] == 0).all()
-    if before == after == 0:
-        np.testing.assert_allclose(taken, new.resampled_contact(pressure, old))
-    sunk = one.start(old, pressure).on(new, None)  # at rest what sinks is the pressure
+    foundations = one.medium.foundation(old), other.medium.foundation(new)
+    taken, sunk = one.start(old, pressure).on(new, foundations[1]), pressure.copy()
     there = taken > 0
-    if foundation is not None:
-        Fused().sink(taken, foundation)
     assert there.sum() > 300
-    np.testing.assert_allclose(taken[there], sunk[there], rtol=1e-9)
+    assert (taken[new.resampled_contact(pressure, old) == 0] == 0).all()
+    for plane, foundation in zip((sunk, taken), foundations, strict=True):
+        if foundation is not None:  # at rest what sinks is the pressure
+            Fused().sink(plane, foundation)
+    np.testing.assert_allclose(taken[there], new.resample(sunk, old)[there], rtol=1e-9)
+
+
+def test_a_trail_knows_where_the_scene_is_and_its_coarser_contacts_until_the_next_scene():
+    trail = Trail()
+    for scene in (SLIDING, at(0.1)):
+        problem = Problem(scene, Engine())
+        trail.turn_to(scene)
+        assert trail.coarser(128) is None
+        placed = trail.placed(problem, 64)
+        assert trail.placed(problem, 128) is placed  # both are sought on as many points
+        assert trail.placed(problem, 32) is not placed
+        for points in (32, 64, 128):
+            trail.leave(problem.start(Grid(points, 4e-3), np.ones((points, points))))
+        assert [trail.coarser(each).grid.points for each in (64, 128, 256)] == [32, 64, 128]
+        assert trail.coarser(32) is None
+    assert trail.beside(64).foundation.kept == problem.medium.foundation(Grid(64, 4e-3)).kept
+    assert trail.beside(48) is None

@@ -29,7 +29,8 @@ ROUGH = SelfAffine(hurst=0.2, rms_height=2e-4, longest=1e-2, shortest=5e-4, seed
 LIGHT = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1e-2), ROUGH)
 
 
-@pytest.mark.parametrize(("seed", "load"), [(1, 1e-2), (2, 0.1), (3, 1.0)])
+# Of the last two the window that is found first leaves asperities out.
+@pytest.mark.parametrize(("seed", "load"), [(1, 1e-2), (2, 0.1), (3, 1.0), (9, 0.03), (35, 0.03)])
 def test_fitted_window_leaves_no_asperity_out(seed, load):
     # the same pixels on a window far larger than any contact
     scene = replace(LIGHT, motion=Indent(load=load), roughness=replace(ROUGH, seed=seed))
@@ -59,6 +60,9 @@ def test_a_grid_knows_its_points_their_boxes_and_values_in_between():
     )
     assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner, grid)[3])) == [2, 3, 4, 5]
     assert list(np.flatnonzero(fine.resampled_contact(1.0 * inner, grid)[:, 3])) == [2, 3]
+    # and nothing is known to press beyond the other grid
+    wider = Grid(8, 16.0, (1.0, -2.0)).resampled_contact(np.ones((4, 4)), grid)
+    assert np.count_nonzero(wider) == 16
     last = np.outer(np.ones(3), [0.0, 0.0, 1.0])
     assert (Grid(5, 5.0).resampled_contact(last, Grid(3, 5.0)) > 0).any(axis=0).tolist() == [False] * 3 + [
         True
