@@ -45,6 +45,13 @@ def test_another_body_or_load_before_changes_no_answer():
         assert_alike(solver.solve(SLIDING, trail), solver.solve(SLIDING))
 
 
+def test_a_contact_so_small_that_the_next_grid_misses_it_starts_nothing():
+    trail, solver = Trail(), BEM(points=64)
+    small, large = (replace(SLIDING, roughness=None, motion=Slide(speed=0.05, load=load)) for load in (1e-9, 50.0))
+    solver.solve(small, trail)
+    assert_alike(solver.solve(large, trail), solver.solve(large))
+
+
 def pairs(*answers):
     """Transform pairs, in those of the finest grid."""
     finest = max(each.settings["points"] for each in answers)
