@@ -137,7 +137,7 @@ def rough_cells(largest: int) -> str:
 
 def other_surfaces(largest: int) -> str:
     """The same comparison on surfaces of other Hurst exponents and seeds."""
-    n = min(1024, largest)
+    n = min(512, largest)
     codes = {name: code for name, code in CODES.items() if name != "ContactMechanics"}
 
     def rows():
