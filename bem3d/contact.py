@@ -133,7 +133,7 @@ def first_guess(heights: np.ndarray, count: int) -> np.ndarray:
 
 
 def _levels(displacement, heights, where):
-    """Of the points of contact: the depth at which their mean gap is zero, and their greatest height."""
+    """Depth at which the mean gap of the points of contact is zero, and their greatest height."""
     touched = heights.reshape(-1)[where]
     return float((displacement.reshape(-1)[where] + touched).mean()), float(touched.max())
 

@@ -89,7 +89,7 @@ class Grid:
         return self.resample(pressure, given) * contact
 
     def _positions(self, given):
-        """Of the rows and columns of this grid among those of another."""
+        """Positions of the rows, then of the columns, of this grid among those of another, in its pixels."""
         yield (self.y - given.y[0]) / given.pixel
         yield (self.x - given.x[0]) / given.pixel
 

@@ -13,8 +13,8 @@ class Trail:
     """What solves leave behind for those that follow: of the same scene on other grids, and of its neighbours.
 
     A scene is placed once for all grids. A contact starts from the next coarser one of the same scene, or from the
-    last on as many points, where that is nearer. Whatever the trail, the answer is that of a solve alone, to the
-    tolerance.
+    last on as many points, where that is nearer. Whatever the trail holds, the answer is that of a solve alone,
+    to the tolerance.
     """
 
     _scene: Scene | None = None
@@ -23,7 +23,7 @@ class Trail:
     _last: dict[int, Start] = field(default_factory=dict)
 
     def turn_to(self, scene: Scene) -> None:
-        """The scene that is solved next."""
+        """Say which scene is solved next; windows and coarser contacts of another are forgotten."""
         if scene != self._scene:
             self._scene = scene
             self._placed.clear()
@@ -46,5 +46,5 @@ class Trail:
         return self._last.get(points)
 
     def leave(self, start: Start) -> None:
-        """A contact of the scene."""
+        """Keep a contact of the scene for the solves that follow."""
         self._own[start.grid.points] = self._last[start.grid.points] = start
