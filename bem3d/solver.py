@@ -176,8 +176,9 @@ class BEM:
     def solve(self, scene: Scene, trail: Trail | None = None) -> Result:
         """Pressure, gap and forces. Raises Refused, or SolveError where the result could not be trusted.
 
-        trail : contacts of the same body and surface, at other speeds and loads or on other grids. The solve begins
-            where they were and adds its own contact; the answer is the same to the tolerance. A Program ignores it
+        trail : contacts of the same body and surface, at other speeds and loads or on other grids. The solve
+            begins where they were and adds its own contact; the answer is the same to the tolerance. A Program
+            ignores it
         """
         refuse(self, scene)
         solve = partial(self._solved, trail=trail)
