@@ -1,0 +1,128 @@
+"""Scenes of the campaign: each a point of a unit cube, over dimensionless groups alone.
+
+Lengths come in units of the radius a of the smooth relaxed contact, moduli in units of the relaxed one. Nothing
+else matters: in the linear theory heights may be stretched together, body and roughness, without a change of any
+ratio of two answers.
+"""
+
+from functools import cache
+from math import exp, log, log10
+
+import numpy as np
+from scipy.stats import qmc
+
+from scene import (
+    Cone,
+    Fractional,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
+from scene.indenter import Axisymmetric
+from scene.rheology import Elastomer
+
+RADIUS, DEPTH, MODULUS, SPEED = 1e-3, 1e-4, 1e6, 1.0
+# Ranges of the groups, from least to greatest.
+EXPONENTS = 1.0, 12.0
+STIFFENING = 2.0, 1e4
+HEIGHTS = 2e-3, 1.0
+WAVES = 0.7, 16.0
+PERIODS = 1.0, 10.0
+SPEEDS = 1e-3, 1e3
+DIMENSIONS = 16
+# Shares of the scenes that are smooth, and that slide.
+SMOOTH, SLIDING = 0.1, 0.88
+# Seeds of the points to learn from, and of those that are held out.
+LEARNED, HELD_OUT = 20, 1120
+
+
+@cache
+def learned_points() -> np.ndarray:
+    """Points to choose from (4096, DIMENSIONS): a Sobol sequence, which fills the cube evenly."""
+    return qmc.Sobol(DIMENSIONS, seed=LEARNED).random(4096)
+
+
+@cache
+def held_out_points() -> np.ndarray:
+    """Points held out (2000, DIMENSIONS), drawn evenly."""
+    return np.random.default_rng(HELD_OUT).random((2000, DIMENSIONS))
+
+
+def scene_at(point: np.ndarray, seed: int = 0) -> Scene:
+    """Scene of a point of the cube (DIMENSIONS,); seed : of its first surface."""
+    (shape, exponent, kind, loss, spread, tilt, branches, pressed, smooth, height, waves, hurst, period, rolled,
+     rolloff, speed) = (float(each) for each in point)  # fmt: skip
+    indenter = _indenter(shape, exponent)
+    rough = None if smooth < SMOOTH else _rough(height, waves, hurst, period, rolled, rolloff, seed)
+    wave = RADIUS / _between(WAVES, waves)
+    solid = _solid(kind, loss, spread, tilt, branches, speed, wave)
+    rests = speed >= SLIDING
+    stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
+    given = {"load": stiffness} if pressed < 0.6 else {"depth": DEPTH}
+    return Scene(indenter, solid, Indent(**given) if rests else Slide(speed=SPEED, **given), rough)
+
+
+def _between(ends, place):
+    low, high = ends
+    return exp(log(low) + place * log(high / low))
+
+
+def _indenter(shape, exponent) -> Axisymmetric:
+    if shape < 0.3:
+        return Cone(np.arctan(DEPTH / RADIUS / Cone(angle=np.pi / 4).mdr_coefficient))
+    if shape < 0.6:
+        return Sphere(RADIUS**2 / DEPTH)
+    n = _between(EXPONENTS, exponent)
+    return PowerLaw(DEPTH / PowerLaw(RADIUS**-n, n).mdr_coefficient * RADIUS**-n * RADIUS**-n, n)
+
+
+def _rough(height, waves, hurst, period, rolled, rolloff, seed) -> SelfAffine:
+    shortest = RADIUS / _between(WAVES, waves)
+    longest = _between((max(PERIODS[0] * RADIUS, 2 * shortest), PERIODS[1] * RADIUS), period)
+    return SelfAffine(
+        hurst=hurst,
+        rms_height=DEPTH * _between(HEIGHTS, height),
+        longest=longest,
+        rolloff=_between((shortest, longest), max(rolloff, 1e-3)) if rolled < 0.5 else None,
+        shortest=shortest,
+        seed=seed,
+    )
+
+
+def _solid(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
+    """Solid whose times lie so that the speed runs from where friction grows with it to beyond its peak."""
+    place = min(speed / SLIDING, 1.0)
+    stiffening = _between(STIFFENING, loss)
+    if kind < 0.25:
+        return Kelvin(MODULUS, wave / SPEED * _between(SPEEDS, place))
+    if kind < 0.6:
+        # From slow on the scale of retardation to fast on that of relaxation.
+        time = wave / SPEED * _between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place)
+        return StandardLinearSolid(MODULUS, MODULUS * stiffening, time)
+    if kind < 0.8:
+        exponent = 0.1 + 0.8 * loss
+        decades = 2.5 * max(exponent, 0.4) / exponent * (2 * place - 1)
+        slow, fast = SPEED / RADIUS, SPEED / wave
+        return Fractional(
+            modulus=MODULUS,
+            relaxation_time=wave / SPEED * 10**decades,
+            exponent=exponent,
+            lowest_frequency=1e-3 * slow,
+            highest_frequency=1e3 * fast,
+        )
+    width = 0.5 + 5.5 * spread
+    count = 2 + int(5 * branches)
+    steps = np.linspace(-0.5, 0.5, count)
+    moduli = 10 ** ((2 * tilt - 1) * width / 2 * steps)
+    middle = log10(wave / SPEED * _between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place))
+    return Prony(
+        MODULUS,
+        tuple((MODULUS * (stiffening - 1) * moduli / moduli.sum()).tolist()),
+        tuple((10 ** (middle + width * steps)).tolist()),
+    )

@@ -1,0 +1,150 @@
+"""Model of one quantity: the ratio of 1D over 3D from groups, learned from scenes that both have solved."""
+
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+import numpy as np
+from scipy.special import digamma, polygamma
+
+from .groups import Groups
+from .regression import Process, Scales
+
+NAMES = tuple(each.name for each in fields(Groups))
+# Estimate in closed form, of which the model learns the rest: exact where the body is smooth, and in full contact.
+ESTIMATES = {"friction": "friction", "depth": "smooth_depth", "force": "smooth_force"}
+# Change of the grid that is taken where half the points have no answer.
+UNKNOWN_GRID = 0.02
+# Noise beyond which a measured ratio says nothing, and surfaces below which it has no scatter.
+MOST_NOISE, LEAST_SURFACES = 0.25, 3
+LEAST_VARIANCE = 1e-8
+# Scenes from which the scatter of one surface is learned, and groups of scenes whose intervals are widened alike.
+SCATTERED, WIDENED = 600, 5
+NORMAL = 1.959964
+
+
+class Foretold(NamedTuple):
+    """Logarithm of the ratio, its standard error, and the relative scatter of one surface (M,)."""
+
+    logarithm: np.ndarray
+    error: np.ndarray
+    scatter: np.ndarray
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Ratios of one quantity as measured on scenes.
+
+    groups : of each scene (N, D), in the order of NAMES
+    logarithm : of the ratio (N,); nan where it has none
+    line_error, scatter, grid : relative (N,), see `ratio.Ratio`
+    surfaces : (N,)
+    """
+
+    groups: np.ndarray
+    logarithm: np.ndarray
+    line_error: np.ndarray
+    scatter: np.ndarray
+    surfaces: np.ndarray
+    grid: np.ndarray
+
+    def taken(self, chosen: np.ndarray) -> "Measurements":
+        """Measurements on some scenes: a mask or numbers of scenes."""
+        return Measurements(*(getattr(self, each.name)[chosen] for each in fields(self)))
+
+    def variance(self, scatter: np.ndarray) -> np.ndarray:
+        """Variance of each logarithm; scatter : of one surface as foretold, for four of them hardly know it."""
+        grid = np.nan_to_num(self.grid, nan=UNKNOWN_GRID)
+        return np.maximum(self.line_error**2 + scatter**2 / self.surfaces + grid**2 / 2, LEAST_VARIANCE)
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """What is fitted of a model: with the measurements it is all of it.
+
+    process : scales of what is measured beyond the estimate in closed form
+    scatter : scales of the logarithm of the scatter of one surface
+    errors, widening : standard errors of the process (K,), and factors that widen them so that 95 % hold
+    """
+
+    process: Scales
+    scatter: Scales
+    errors: np.ndarray
+    widening: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Model of the ratio of one quantity.
+
+    process, scatter : through what was measured, see `Fitted`
+    """
+
+    quantity: str
+    process: Process
+    scatter: Process
+    fitted: Fitted
+
+    @classmethod
+    def of(cls, quantity: str, measured: Measurements, fitted: Fitted) -> "Model":
+        """Model of measurements to which it was fitted."""
+        measured = _usable(measured)
+        scatter = Process(*_scattered(measured), fitted.scatter)
+        return cls(quantity, Process(*_learned(quantity, measured, scatter), fitted.process), scatter, fitted)
+
+    @classmethod
+    def fit(cls, quantity: str, measured: Measurements) -> "Model":
+        """Model fitted to measurements; takes minutes for two thousand scenes."""
+        usable = _usable(measured)
+        scatter = Process.fitted(*_scattered(usable))
+        process = Process.fitted(*_learned(quantity, usable, scatter))
+        return cls(quantity, process, scatter, Fitted(process.scales, scatter.scales, *_widening(process)))
+
+    def foretold(self, groups: np.ndarray) -> Foretold:
+        """Ratios at groups (M, D)."""
+        rest, variance = self.process.foretold(groups)
+        error = np.sqrt(variance)
+        error = error * np.interp(np.log(error), np.log(self.fitted.errors), self.fitted.widening)
+        logarithm, spread = self.scatter.foretold(groups)
+        return Foretold(estimate(self.quantity, groups) + rest, error, np.exp(logarithm + spread / 2))
+
+
+def estimate(quantity: str, groups: np.ndarray) -> np.ndarray:
+    """Estimates in closed form of the logarithm of the ratio (M,)."""
+    return groups[:, NAMES.index(ESTIMATES[quantity])]
+
+
+def _usable(measured):
+    return measured.taken(np.isfinite(measured.logarithm) & (measured.surfaces >= LEAST_SURFACES))
+
+
+def _scattered(measured):
+    """Groups, logarithms of the scatter without the bias of few surfaces, and their variances: of chi squared."""
+    known = np.flatnonzero(measured.scatter > 0)
+    known = known[np.linspace(0, known.size - 1, min(SCATTERED, known.size)).astype(int)]
+    measured = measured.taken(known)
+    half = (measured.surfaces - 1) / 2
+    unbiased = np.log(measured.scatter) - (digamma(half) - np.log(half)) / 2
+    return measured.groups, unbiased, polygamma(1, half) / 4
+
+
+def _learned(quantity, measured, scatter):
+    """Groups, what was measured beyond the estimate, and its variance, where the noise lets it say something."""
+    variance = measured.variance(np.exp(scatter.foretold(measured.groups)[0]))
+    telling = variance < MOST_NOISE**2
+    measured = measured.taken(telling)
+    return measured.groups, measured.logarithm - estimate(quantity, measured.groups), variance[telling]
+
+
+def _widening(process):
+    """Factors by which errors grow for 95 % of the values left out to lie within, in groups of like error."""
+    error, variance = process.left_out()
+    own = np.maximum(variance - process.variances, LEAST_VARIANCE)
+    order = np.array_split(np.argsort(own), WIDENED)
+    factors = [_factor(error[few], own[few], process.variances[few]) for few in order]
+    return np.array([np.sqrt(np.median(own[few])) for few in order]), np.array(factors)
+
+
+def _factor(error, own, noise):
+    """Least factor of 1 or more on a standard error under which 95 % hold."""
+    needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - noise, 0) / own)
+    return max(1.0, float(np.quantile(needed, 0.95)))

@@ -1,0 +1,140 @@
+"""Regression of a Gaussian process on some hundred measured points, each with the variance of its own noise."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import cho_solve, cholesky, solve_triangular
+from scipy.optimize import minimize
+
+# Where the search for scales begins, and how far it may go: of the inputs in standard deviations, of the values.
+_START, _SHORTEST, _LONGEST, _LEAST = 3.0, 0.1, 100.0, 1e-4
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Scales of a process: what is fitted, and nothing else.
+
+    lengths : over which values change, of each input in its standard deviations (D,)
+    amplitude : of the changes
+    slope : of the straight part along each input
+    noise : standard deviation that the stated noise leaves out
+    """
+
+    lengths: np.ndarray
+    amplitude: float
+    slope: float
+    noise: float
+
+    @classmethod
+    def of(cls, logarithms: np.ndarray) -> "Scales":
+        """Scales of their logarithms (D + 3,)."""
+        *lengths, amplitude, slope, noise = np.exp(logarithms).tolist()
+        return cls(np.array(lengths), amplitude, slope, noise)
+
+
+@dataclass(frozen=True, eq=False)
+class Process:
+    """Gaussian process through measured points.
+
+    inputs : of the points (N, D)
+    values : measured (N,)
+    variances : of the noise of each value (N,)
+    scales : fitted
+    """
+
+    inputs: np.ndarray
+    values: np.ndarray
+    variances: np.ndarray
+    scales: Scales
+
+    @classmethod
+    def fitted(cls, inputs: np.ndarray, values: np.ndarray, variances: np.ndarray) -> "Process":
+        """Process of the scales under which the values are likeliest."""
+        count = inputs.shape[1]
+        start = np.log([_START] * count + [np.std(values), 0.1 * np.std(values), 10 * _LEAST])
+        bounds = [(np.log(_SHORTEST), np.log(_LONGEST))] * count + [(np.log(_LEAST), np.log(_LONGEST))] * 3
+        given = _standard(inputs, inputs), values - values.mean(), variances
+        found = minimize(_unlikeliness, start, given, "L-BFGS-B", jac=True, bounds=bounds)
+        return cls(inputs, values, variances, Scales.of(found.x))
+
+    def foretold(self, inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Means (M,) and variances (M,) at new inputs (M, D), without the noise of a measurement."""
+        standard = self._standard(inputs)
+        common = _covariance(standard, self._standard(self.inputs), self.scales)
+        left = solve_triangular(self._factor, common.T, lower=True, check_finite=False)
+        scales = self.scales
+        own = scales.amplitude**2 + scales.slope**2 * np.sum(standard**2, axis=1) + 1
+        return common @ self._weights + self.values.mean(), own - np.sum(left**2, axis=0) + scales.noise**2
+
+    def left_out(self) -> tuple[np.ndarray, np.ndarray]:
+        """Errors (N,) of each value foretold from all others, and their variances (N,), its noise included."""
+        inverse = np.diag(cho_solve((self._factor, True), np.eye(self.values.size)))
+        return self._weights / inverse, 1 / inverse
+
+    def distances(self, place: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """Distances (M,) of inputs (D,) from points (M, D), in lengths over which values change."""
+        apart = self._standard(points) - self._standard(place[None])
+        return np.sqrt(np.sum((apart / self.scales.lengths) ** 2, axis=1))
+
+    def _standard(self, inputs):
+        return _standard(inputs, self.inputs)
+
+    @cached_property
+    def _factor(self):
+        standard = self._standard(self.inputs)
+        matrix = _covariance(standard, standard, self.scales)
+        matrix[np.diag_indices(self.values.size)] += self.variances + self.scales.noise**2
+        return cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
+
+    @cached_property
+    def _weights(self):
+        return cho_solve((self._factor, True), self.values - self.values.mean(), check_finite=False)
+
+
+def _standard(inputs, among):
+    """Inputs (M, D) in standard deviations of those of many (N, D); one that never varies stays as it is."""
+    spread = among.std(axis=0)
+    return (inputs - among.mean(axis=0)) / np.where(spread > 0, spread, 1.0)
+
+
+def _squares(first, second):
+    """Squared distances (N, M) between points (N, D), (M, D)."""
+    found = np.sum(first**2, axis=1)[:, None] + np.sum(second**2, axis=1) - 2 * first @ second.T
+    return np.maximum(found, 0.0, out=found)
+
+
+def _bell(squares):
+    return np.exp(-squares / 2)
+
+
+def _covariance(first, second, scales):
+    """Covariances (N, M) between standard inputs (N, D), (M, D); a constant of variance 1 is not known before."""
+    bell = _bell(_squares(first / scales.lengths, second / scales.lengths))
+    return scales.amplitude**2 * bell + scales.slope**2 * (first @ second.T) + 1
+
+
+def _unlikeliness(logarithms, inputs, values, variances):
+    """Minus the logarithm of the likelihood, and its gradient with the logarithms of the scales."""
+    scales, diagonal = Scales.of(logarithms), np.diag_indices(values.size)
+    scaled = inputs / scales.lengths
+    bell, straight = scales.amplitude**2 * _bell(_squares(scaled, scaled)), scales.slope**2 * (inputs @ inputs.T)
+    matrix = bell + straight + 1
+    matrix[diagonal] += variances + scales.noise**2
+    factor = cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
+    inverse = cho_solve((factor, True), np.eye(values.size), overwrite_b=True, check_finite=False)
+    weights = inverse @ values
+    slack = inverse - np.outer(weights, weights)
+    weighted = slack * bell
+    lengths = np.sum(scaled**2 * weighted.sum(axis=1)[:, None], axis=0) - np.sum(
+        scaled * (weighted @ scaled), axis=0
+    )
+    # Lengths are expected near _START: one that nothing decides stays there.
+    apart = (logarithms[:-3] - np.log(_START)) / 1.5
+    gradient = [-0.0 + lengths + apart / 1.5]
+    return (
+        values @ weights / 2 + np.sum(np.log(np.diag(factor))) + np.sum(apart**2) / 2,
+        np.concatenate(
+            [*gradient, [np.sum(weighted), np.sum(slack * straight), np.trace(slack) * scales.noise**2]]
+        ),
+    )

@@ -1,0 +1,35 @@
+"""The models that come with the package: measured tables, and what was fitted to them."""
+
+import json
+from dataclasses import asdict
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from .model import Fitted, Model
+from .regression import Scales
+from .table import LEARNED, measurements, read
+
+FITTED = Path(__file__).with_name("fitted.json")
+
+
+@cache
+def model(quantity: str) -> Model:
+    """Model of friction, depth or force; the same object each time."""
+    told = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
+    scales = (
+        Scales(np.array(each["lengths"]), each["amplitude"], each["slope"], each["noise"])
+        for each in (told["process"], told["scatter"])
+    )
+    fitted = Fitted(*scales, np.array(told["errors"]), np.array(told["widening"]))
+    return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
+
+
+def as_json(models: dict[str, Model]) -> str:
+    """What is fitted of models, as the file holds it."""
+    return json.dumps({name: asdict(each.fitted) for name, each in models.items()}, default=_rounded, indent=1)
+
+
+def _rounded(array):
+    return [float(f"{each:.5g}") for each in array]

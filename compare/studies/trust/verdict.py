@@ -1,0 +1,271 @@
+"""What the 1D answer to a scene is worth: use it, multiply it, or solve in 3D."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, astuple, dataclass, replace
+from functools import cache
+from math import exp, hypot, log, nan
+from typing import Literal
+
+import numpy as np
+
+from scene import Cone, Indent, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, markup
+
+from . import shipped, table
+from .groups import LINE, SPACE, Groups, Smooth
+from .model import NAMES, NORMAL
+from .ratio import QUANTITIES, asked_of
+
+Advice = Literal["use", "multiply", "solve"]
+USE, MULTIPLY, SOLVE = "use", "multiply", "solve"
+# Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
+SMALL, WIDE = 0.05, 0.15
+# Of the range of a group, what may be missing to it.
+SLACK = 0.02
+NEAREST = 3
+# Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
+LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening"
+LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure"
+# What places a scene on the map, for people.
+SAID = {
+    "height": "h0/d",
+    "waves": "a/λ_s",
+    "pressure": "p/(E* h')",
+    "slope": "slope of the body/h'",
+    "lost_waves": "G''(v q_s)/G0",
+    "lost_contact": "G''(v/a)/G0",
+    "stiffening": "E_g/E_r",
+}
+ABSENT = "layer", "interface", "heating"
+# Groups that are no logarithms.
+PLAIN = "shape", "prescribed", "hurst", "full_share", "share"
+# Height over depth, and radius over the shortest wave, from which on the reason names them.
+LOST, FEW = 0.3, 2.0
+
+
+@dataclass(frozen=True)
+class Worth:
+    """What the 1D answer of one quantity is worth.
+
+    ratio : mean over profiles in 1D over mean over surfaces in 3D; nan if not known
+    low, high : its interval of 95 %
+    surface_low, surface_high : interval of 95 % of the mean in 1D over one single surface in 3D
+    advice : "use" 1D as it is, "multiply" it by 1 / ratio, or "solve" in 3D
+    reason : in one sentence
+    """
+
+    ratio: float
+    low: float
+    high: float
+    surface_low: float
+    surface_high: float
+    advice: Advice
+    reason: str
+
+    @property
+    def factor(self) -> float:
+        """What 1D is multiplied by: 1 / ratio."""
+        return 1 / self.ratio
+
+    def __str__(self) -> str:
+        if self.advice == SOLVE:
+            return f"solve in 3D. {self.reason}"
+        told = "use 1D as it is" if self.advice == USE else f"multiply 1D by {self.factor:.3g}"
+        return f"{told} (95 %: {1 / self.high:.3g} to {1 / self.low:.3g}). {self.reason}"
+
+
+@dataclass(frozen=True)
+class Neighbour:
+    """A scene that was measured.
+
+    point : its number in the design
+    distance : in lengths over which the ratio changes
+    ratio : of 1D over 3D, as measured
+    groups : by name, as numbers
+    """
+
+    point: int
+    distance: float
+    ratio: float
+    groups: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Trust:
+    """What 1D is worth for a scene; None where a quantity is prescribed or zero.
+
+    friction, depth, force : of the coefficient of friction, the depth under a load, the force at a depth
+    groups : dimensionless groups by name, as numbers; empty of a smooth body and off the map
+    nearest : scenes that were measured, the nearest first, of the first quantity
+    """
+
+    friction: Worth | None
+    depth: Worth | None
+    force: Worth | None
+    groups: Mapping[str, float]
+    nearest: tuple[Neighbour, ...]
+
+    @property
+    def worths(self) -> dict[str, Worth]:
+        """Quantities that the scene has, by name."""
+        return {name: worth for name in QUANTITIES if (worth := getattr(self, name))}
+
+    def __str__(self) -> str:
+        lines = [f"{name}: {worth}" for name, worth in self.worths.items()]
+        if self.groups:
+            lines.append(f"place on the map: {_placed(self.groups)}")
+        first = next(iter(self.worths), "")
+        lines += [
+            f"measured near it: {first} 1D/3D = {each.ratio:.3g} at {_placed(each.groups)}"
+            for each in self.nearest
+        ]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (name, worth.advice, worth.ratio, worth.low, worth.high, worth.reason)
+            for name, worth in self.worths.items()
+        ]
+        return markup.table(rows, ("quantity", "advice", "1D/3D", "low", "high", "reason"), "What 1D is worth")
+
+
+def trust(scene: Scene) -> Trust:
+    """What 1D is worth for a scene, from its groups and the smooth body in its place; nothing rough is solved."""
+    if reasons := unmeasured(scene):
+        return _unknown(scene, f"Off the map: {'; '.join(reasons)}.")
+    try:
+        if scene.roughness is None or scene.roughness.flat:
+            return _smooth(scene)
+        smooth = Smooth.of(scene)
+        groups = Groups.of(scene, smooth)
+    except (SolveError, ArithmeticError, ValueError) as error:
+        return _unknown(scene, f"Off the map: the smooth body has no answer, {error}.")
+    place = np.array(astuple(groups))
+    named = {name: value if name in PLAIN else exp(value) for name, value in asdict(groups).items()}
+    if beyond := list(_beyond(place)):
+        return replace(_unknown(scene, f"Off the map: {'; '.join(beyond)}."), groups=named)
+    place = np.clip(place, *_limits())
+    asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
+    worths = {name: _foretold(name, place, groups) for name in asked}
+    return Trust(**_all(worths), groups=named, nearest=tuple(_nearest(asked[0], place)))
+
+
+def unmeasured(scene: Scene) -> list[str]:
+    """What of a scene was never measured, a reason each; empty if all of it was."""
+    reasons = [
+        f"{name} = {type(part).__name__} was not measured" for name in ABSENT if (part := getattr(scene, name))
+    ]
+    if not isinstance(scene.indenter, Sphere | Cone | PowerLaw):
+        reasons.append(f"indenter = {type(scene.indenter).__name__} is no body of revolution")
+    if not isinstance(scene.motion, Indent | Slide):
+        reasons.append(f"motion = {type(scene.motion).__name__} was not measured, Indent and Slide were")
+    rough = scene.roughness
+    if isinstance(rough, SelfAffine) and not rough.flat:
+        if rough.shortest is None:
+            reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")
+        if rough.amplitudes != "fixed":
+            reasons.append(f"roughness.amplitudes = {rough.amplitudes!r} were not measured, fixed ones were")
+    elif rough is not None and not rough.flat:
+        reasons.append(f"roughness = {type(rough).__name__} was not measured, SelfAffine was")
+    return reasons
+
+
+def _unknown(scene, reason):
+    worth = Worth(nan, nan, nan, nan, nan, SOLVE, reason)
+    asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else QUANTITIES
+    return Trust(**_all(dict.fromkeys(asked, worth)), groups={}, nearest=())
+
+
+def _all(worths: Mapping[str, Worth]) -> dict[str, Worth | None]:
+    return {name: worths.get(name) for name in QUANTITIES}
+
+
+def _smooth(scene) -> Trust:
+    """Solved in both dimensionalities, on two grids in 3D: their change is the interval."""
+    finer = replace(SPACE, points=2 * SPACE.points)
+    line = LINE.solve(replace(scene, roughness=None))
+    fine, coarse = (
+        Smooth.of(scene, line, solver.solve(replace(scene, roughness=None))) for solver in (finer, SPACE)
+    )
+    worths = {}
+    for name in asked_of(scene):
+        if name == "friction" and not fine.friction_coefficient:
+            continue
+        ratio, other = getattr(fine, name), getattr(coarse, name)
+        error = abs(log(ratio / other)) / NORMAL
+        worths[name] = _worth(ratio, error, 0.0, "The body is smooth, and both solvers answered it.")
+    return Trust(**_all(worths), groups={}, nearest=())
+
+
+def _foretold(name, place, groups):
+    found = shipped.model(name).foretold(place[None])
+    logarithm, error, scatter = (float(each[0]) for each in found)
+    return _worth(exp(logarithm), error, scatter, _because(name, groups))
+
+
+def _worth(ratio, error, scatter, because):
+    half, whole = NORMAL * error, NORMAL * hypot(error, scatter)
+    low, high = ratio * exp(-half), ratio * exp(half)
+    if low >= 1 - SMALL and high <= 1 + SMALL:
+        advice, reason = USE, f"1D is within {100 * SMALL:.0f} % of 3D."
+    elif half <= WIDE:
+        advice, reason = MULTIPLY, f"1D is {ratio:.3g} times 3D."
+    else:
+        advice, reason = SOLVE, f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}."
+    return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, f"{reason} {because}")
+
+
+def _because(name, groups):
+    """What decides the ratio in this part of the map."""
+    if name == "depth" and groups.sliding_height > log(LOST):
+        return "The roughness is nearly as high as the body is deep."
+    if groups.sliding_waves < log(FEW):
+        return "Few waves of the roughness lie in the contact."
+    if name == "friction" and groups.share > 0.5:
+        return "Roughness makes most of the friction."
+    if groups.sliding_pressure > 0:
+        return "The roughness is pressed flat, and the body decides."
+    return "Roughness and body decide together."
+
+
+def _placed(groups):
+    return ", ".join(f"{said} = {groups[name]:.2g}" for name, said in SAID.items())
+
+
+@cache
+def _ranges():
+    """Least and greatest of each group that was measured (2, D)."""
+    groups = table.groups(table.read(table.LEARNED))
+    return np.array([groups.min(axis=0), groups.max(axis=0)])
+
+
+@cache
+def _limits():
+    """Ends to which groups are moved that have a limit beyond."""
+    low, high = _ranges()
+    below, above = np.isin(NAMES, LIMITED_BELOW), np.isin(NAMES, LIMITED_ABOVE)
+    return np.where(below, low, -np.inf), np.where(above, high, np.inf)
+
+
+def _beyond(place) -> Iterator[str]:
+    """Groups beyond what was measured, a reason each."""
+    (low, high), (least, greatest) = _ranges(), _limits()
+    slack = SLACK * (high - low)
+    for name, value, start, end in zip(
+        NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True
+    ):
+        if not start <= value <= end:
+            number, *ends = (each if name in PLAIN else exp(each) for each in (value, start, end))
+            yield f"{name} = {number:.3g}, where {ends[0]:.3g} to {ends[1]:.3g} was measured"
+
+
+def _nearest(name, place):
+    """Scenes that were measured, the nearest first."""
+    measured = table.read(table.LEARNED)
+    rows, found = table.measurements(measured, name)
+    process = shipped.model(name).process
+    apart = process.distances(place, found.groups)
+    for row in np.argsort(apart)[:NEAREST]:
+        groups = {
+            key: value if key in PLAIN else exp(value) for key, value in zip(NAMES, found.groups[row], strict=True)
+        }
+        yield Neighbour(int(measured["point"][rows[row]]), float(apart[row]), exp(found.logarithm[row]), groups)
