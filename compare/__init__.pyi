@@ -17,6 +17,7 @@ from .commands import stability as stability
 from .commands import study as study
 from .commands import sweep as sweep
 from .commands import topography as topography
+from .commands import trust as trust
 from .commands import workprecision as workprecision
 from .declaration import Study as Study
 from .finding import Claim as Claim

@@ -151,6 +151,7 @@ def _schema(found: Mapping[str, Any]) -> str:
 
 COMMANDS = (
     Command(commands.run),
+    Command(commands.trust),
     Command(commands.study),
     Command(commands.paper),
     Command(commands.workprecision),

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from .planning import Plans
     from .quantity import Quantity
     from .report import Report
+    from .studies.trust.verdict import Trust
 
 
 class Options(TypedDict, total=False):
@@ -89,9 +90,12 @@ def study(
     size : how much is solved, quick (minutes), standard (up to an hour) or full (up to a day)
     """
     from .studies.claimstudy import ClaimStudy
+    from .studies.trust.study import TrustStudy
 
     if name is None:
         return ClaimStudy.listing()
+    if name == TrustStudy.name:
+        return solve(TrustStudy.of(size), output, **options)
     return solve(ClaimStudy.of(str(name), size), output, **options)
 
 
@@ -222,6 +226,19 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
     from .studies.sweep import figure_of
 
     return figure_of(dataset)
+
+
+def trust(scene: Asked) -> Trust:
+    """Say what the 1D answer to a scene is worth: use it, multiply it, or solve in 3D; nothing rough is solved.
+
+    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
+    """
+    from scene import Scene
+
+    from .inputs import case_of
+    from .studies.trust.verdict import trust
+
+    return trust(scene if isinstance(scene, Scene) else case_of(scene).scene)
 
 
 def plan(scene: Asked) -> Plans:

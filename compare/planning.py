@@ -1,4 +1,4 @@
-"""What both solvers would do about a scene."""
+"""What both solvers would do about a scene, and what the 1D answer would be worth."""
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -6,10 +6,11 @@ from scene import Refused, Scene, SolveError, markup
 from scene.plan import Plan
 
 from .inputs import Asked, case_of
+from .studies.trust.verdict import Trust, trust
 
 
-class Plans(dict[str, Plan | str]):
-    """By the names of the solvers, the plan, or why there is none. Printed, it is a page."""
+class Plans(dict[str, Plan | str | Trust]):
+    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, a page."""
 
     @property
     def feasible(self) -> bool:
@@ -20,9 +21,7 @@ class Plans(dict[str, Plan | str]):
         return "\n\n".join(map(str, self.values()))
 
     def _repr_html_(self) -> str:
-        parts = (
-            each._repr_html_() if isinstance(each, Plan) else markup.paragraph(each) for each in self.values()
-        )
+        parts = (markup.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values())
         return "".join(parts)
 
 
@@ -32,7 +31,10 @@ def plans(asked: Asked) -> Plans:
     Raises InvalidInput.
     """
     case = case_of(asked)
-    return Plans({solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)})
+    made: dict[str, Plan | str | Trust] = {
+        solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
+    }
+    return Plans(made | {"trust": trust(case.scene)})
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:

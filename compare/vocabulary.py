@@ -63,6 +63,17 @@ draws : Number of rough surfaces behind a number; 0 of smooth bodies. [1]
 regime : Range of the dimensionless groups in which a number was measured.
 plot : Figure that shows it.
 
+Of the trust map: ratios of 1D over 3D, foretold and measured.
+advice : What to do with the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D.
+surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D. [1]
+surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D. [1]
+group : Name of a dimensionless group of a rough scene.
+groups : Dimensionless groups, logarithms but for shape, prescribed, hurst and shares. [1]
+point : Number of a scene in the design of the campaign. [1]
+logarithm : Logarithm of the ratio of the means in 1D and in 3D. [1]
+line_error : Relative standard error of the mean over profiles in 1D. [1]
+smooth : Logarithm of the ratio of the smooth body. [1]
+
 Of points, and of curves through them.
 solver : MDR: the method of dimensionality reduction, 1D. BEM: boundary elements, 3D. exact: closed form.
 body : Rough, or smooth: the same body without its roughness.

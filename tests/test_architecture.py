@@ -33,8 +33,8 @@ FLOORS = (
     {"task", "path", "finding", "exact", "page", "describe"},
     {"store", "workers", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
     {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film"},
-    {"declaration", "results", "report", "pipeline", "planning", "animation", "tables"},
-    {"studies", "json_schema"},
+    {"declaration", "results", "report", "pipeline", "animation", "tables"},
+    {"studies", "planning", "json_schema"},
     {"commands", "console", "cli", "__init__", "__main__"},
 )
 FILES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))

@@ -148,7 +148,7 @@ def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder
 def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
     of_scene = compare.plan(SLIDING)
     assert of_scene.feasible
-    assert {*of_scene} == {"MDR", "BEM"}
+    assert {*of_scene} == {"MDR", "BEM", "trust"}
     assert str(compare.plan(TINY)["BEM"]) == str(TINY.bem.plan(SLIDING))
     assert all(str(each) in str(of_scene) for each in of_scene.values())
 

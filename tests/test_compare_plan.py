@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 from bem3d import BEM
 from compare.cli import app
 from compare.planning import plans
+from compare.studies.trust.verdict import trust
 from mdr1d import MDR
 from scene import Scene
 from scene.plan import Plan
@@ -52,7 +53,8 @@ def test_both_plans_of_a_scene_are_printed_and_are_those_of_the_solvers(written)
     assert answer.exit_code == 0
     case = written(SCENE)
     scene = read(case, Scene)
-    assert answer.output == f"{MDR(points=700).plan(scene)}\n\n{BEM(points=96).plan(scene)}\n"
+    plans = MDR(points=700).plan(scene), BEM(points=96).plan(scene), trust(scene)
+    assert answer.output == "\n\n".join(map(str, plans)) + "\n"
 
 
 def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):

@@ -29,6 +29,7 @@ from .inputs import study_of
 from .judgement import JudgedSeries, judge_series
 from .points import failures, points
 from .series import SOLVERS, Contacts, Series
+from .trust.study import TrustStudy
 
 ALL = "all"
 UNMATCHED = (
@@ -93,7 +94,8 @@ class ClaimStudy(Study):
     def listing(cls) -> Listing:
         """Studies that come with the package."""
         return Listing(
-            STUDIES, end=f"`crosscheck study {ALL}` does all of them; a file of your own is a study too."
+            {**STUDIES, TrustStudy.name: TrustStudy},
+            end=f"`crosscheck study {ALL}` does all of them; a file of your own is a study too.",
         )
 
     @property

@@ -42,6 +42,7 @@ from .casecurves import (
     slow_friction,
 )
 from .casefindings import DIMENSIONS, ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
+from .trust.verdict import Trust, trust
 
 FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"
 
@@ -124,22 +125,36 @@ class Run(Study):
         }
         return CaseFindings(name, slug(name), self.cases[name], datasets)
 
+    @cached_property
+    def trusts(self) -> Mapping[str, Trust]:
+        """What 1D is worth by the trust map, by case: foretold, and not from what is solved here."""
+        return {name: trust(case.scene) for name, case in self.cases.items()}
+
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return finding.sentences(finding.claimed(findings))
+        worth = [
+            f"{name}, {quantity}: {each}"
+            for name, found in self.trusts.items()
+            for quantity, each in found.worths.items()
+        ]
+        return [*finding.sentences(finding.claimed(findings)), *worth]
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
     ) -> Sequence[Block]:
         cases = self.judged(answers)
-        sections = [Section(case.case.title or case.name, _blocks(case, answers[case.folder])) for case in cases]
+        sections = [
+            Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
+            for case in cases
+        ]
         return [Table("summary", summary(cases), "Every claim in every case."), *sections]
 
 
-def _blocks(found: CaseFindings, answers) -> list[Block]:
+def _blocks(found: CaseFindings, answers, trusted: Trust) -> list[Block]:
     case, folder = found.case, f"{found.folder}/"
     others = [each for each in found.claims if each.verdict == finding.REPORTED]
     blocks: list[Block] = [
         Text(_asked(case)),
+        Table(f"{folder}trust", trusted.table(), "What 1D is worth by the trust map, foretold without solving."),
         *_plots(found, answers),
         Findings(
             finding.claimed(found.claims),

@@ -90,8 +90,8 @@ class Contact:
 
     def _drawn(self, solver: MDR | BEM, most: int) -> Iterator[Row]:
         """Rows of the fine grid, a block after the other, then of the first draws on half the points."""
-        block, rows = BLOCK[solver.name], []
-        scenes = draws_of(self.scene, most)
+        block, scenes = BLOCK[solver.name], draws_of(self.scene, most)
+        rows: list[Row] = []
         while len(rows) < len(scenes) and not self._known(rows):
             rows += SceneTask(solver, scenes[len(rows) : len(rows) + block]).solve().rows
         half = replace(solver, points=solver.points // 2)

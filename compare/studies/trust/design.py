@@ -9,7 +9,6 @@ from functools import cache
 from math import exp, log, log10
 
 import numpy as np
-from scipy.stats import qmc
 
 from scene import (
     Cone,
@@ -24,7 +23,6 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
-from scene.indenter import Axisymmetric
 from scene.rheology import Elastomer
 
 RADIUS, DEPTH, MODULUS, SPEED = 1e-3, 1e-4, 1e6, 1.0
@@ -36,15 +34,19 @@ WAVES = 0.7, 16.0
 PERIODS = 1.0, 10.0
 SPEEDS = 1e-3, 1e3
 DIMENSIONS = 16
-# Shares of the scenes that are smooth, and that slide.
-SMOOTH, SLIDING = 0.1, 0.88
+# Shares of the scenes that are smooth, slide, and are pressed by a load.
+SMOOTH, SLIDING, UNDER_LOAD = 0.1, 0.88, 0.6
 # Seeds of the points to learn from, and of those that are held out.
 LEARNED, HELD_OUT = 20, 1120
+# Surfaces that a point may have.
+SEEDS = 1000
 
 
 @cache
 def learned_points() -> np.ndarray:
     """Points to choose from (4096, DIMENSIONS): a Sobol sequence, which fills the cube evenly."""
+    from scipy.stats import qmc  # takes half a second, which the verdict on a scene does not have
+
     return qmc.Sobol(DIMENSIONS, seed=LEARNED).random(4096)
 
 
@@ -52,6 +54,16 @@ def learned_points() -> np.ndarray:
 def held_out_points() -> np.ndarray:
     """Points held out (2000, DIMENSIONS), drawn evenly."""
     return np.random.default_rng(HELD_OUT).random((2000, DIMENSIONS))
+
+
+def learned(point: int) -> Scene:
+    """Scene of a number of a point to learn from; each has surfaces of its own, so that none scatter together."""
+    return scene_at(learned_points()[point], SEEDS * point)
+
+
+def held_out(point: int) -> Scene:
+    """Scene of a number of a point held out."""
+    return scene_at(held_out_points()[point], 10_000 * SEEDS + SEEDS * point)
 
 
 def scene_at(point: np.ndarray, seed: int = 0) -> Scene:
@@ -64,8 +76,9 @@ def scene_at(point: np.ndarray, seed: int = 0) -> Scene:
     solid = _solid(kind, loss, spread, tilt, branches, speed, wave)
     rests = speed >= SLIDING
     stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
-    given = {"load": stiffness} if pressed < 0.6 else {"depth": DEPTH}
-    return Scene(indenter, solid, Indent(**given) if rests else Slide(speed=SPEED, **given), rough)
+    load, depth = (stiffness, None) if pressed < UNDER_LOAD else (None, DEPTH)
+    motion = Indent(load=load, depth=depth) if rests else Slide(speed=SPEED, load=load, depth=depth)
+    return Scene(indenter, solid, motion, rough)
 
 
 def _between(ends, place):
@@ -73,7 +86,7 @@ def _between(ends, place):
     return exp(log(low) + place * log(high / low))
 
 
-def _indenter(shape, exponent) -> Axisymmetric:
+def _indenter(shape, exponent) -> Sphere | Cone | PowerLaw:
     if shape < 0.3:
         return Cone(np.arctan(DEPTH / RADIUS / Cone(angle=np.pi / 4).mdr_coefficient))
     if shape < 0.6:

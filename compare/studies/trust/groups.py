@@ -1,5 +1,6 @@
 """Dimensionless groups of a rough scene, from which the ratio of 1D over 3D is foretold."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import erf, log, pi, sqrt
 from typing import Protocol
@@ -8,7 +9,7 @@ import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Scene
+from scene import Scene, SelfAffine
 from scene.scales import elastic_contact
 
 from ...exact.full_contact import complex_stiffness
@@ -24,15 +25,17 @@ _WAVES, _DIRECTIONS = 48, 24
 class Answer(Protocol):
     """What is taken of the answer to a scene: a Result, or a row of an outcome."""
 
-    normal_force: float
-    friction_force: float
-    depth: float
+    @property
+    def normal_force(self) -> float: ...
+
+    @property
+    def depth(self) -> float: ...
 
     @property
     def friction_coefficient(self) -> float: ...
 
     @property
-    def measures(self): ...
+    def measures(self) -> Mapping[str, float]: ...
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,8 @@ class Smooth:
     def of(cls, scene: Scene, line: Answer | None = None, space: Answer | None = None) -> "Smooth":
         """Smooth body of a scene; line, space : its answers, solved here if absent. Raises SolveError."""
         smooth = replace(scene, roughness=None)
-        line, space = line or LINE.solve(smooth), space or SPACE.solve(smooth)
+        line = LINE.solve(smooth) if line is None else line
+        space = SPACE.solve(smooth) if space is None else space
         rest, moved = elastic_contact(smooth), space.friction_coefficient
         return cls(
             friction=line.friction_coefficient / moved if moved else 1.0,
@@ -91,8 +95,8 @@ class FullContact:
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> "FullContact":
         """Full contact of a rough scene."""
-        rough, speed, rest = scene.roughness, scene.motion.speed, elastic_contact(scene)
-        q_s = 2 * pi / rough.shortest
+        rough, speed, rest = _roughness(scene), scene.motion.speed, elastic_contact(scene)
+        q_s = rough.q_max(0.0)
         nodes, weights = np.polynomial.legendre.leggauss(_WAVES)
         angles, shares = np.polynomial.legendre.leggauss(_DIRECTIONS)
         half = log(q_s / rough.q_min) / 2
@@ -154,9 +158,9 @@ class Groups:
     @classmethod
     def of(cls, scene: Scene, smooth: Smooth) -> "Groups":
         """Groups of a rough scene."""
-        rough, rest, solid = scene.roughness, elastic_contact(scene), scene.solid
+        rough, rest, solid = _roughness(scene), elastic_contact(scene), scene.solid
         speed, a, n = scene.motion.speed, rest.radius, scene.indenter.exponent
-        q_s = 2 * pi / rough.shortest
+        q_s = rough.q_max(0.0)
         slope = rough.rms_slope(q_s)
         modulus = complex_stiffness(solid, speed * np.array([q_s, 1 / a])) / solid.indentation_modulus
         (stored_waves, stored_contact), (lost_waves, lost_contact) = (
@@ -172,10 +176,10 @@ class Groups:
             shape=1 / n,
             prescribed=float(scene.motion.pressed_by == "depth"),
             height=log(rough.rms_height / rest.depth),
-            waves=log(a / rough.shortest),
+            waves=log(a * q_s / (2 * pi)),
             hurst=rough.hurst,
             period=log(rough.longest / a),
-            rolloff=log((rough.rolloff or rough.longest) / rough.shortest),
+            rolloff=log(q_s / rough.q_rolloff),
             pressure=log(rest.load / (pi * a**2) / solid.indentation_modulus / slope),
             slope=log(n * rest.depth / a / slope),
             stored_waves=stored_waves,
@@ -188,7 +192,7 @@ class Groups:
             smooth_force=log(smooth.force),
             sliding_radius=log(smooth.radius),
             sliding_height=log(rough.rms_height / (smooth.sunk * rest.depth)),
-            sliding_waves=log(smooth.radius * a / rough.shortest),
+            sliding_waves=log(smooth.radius * a * q_s / (2 * pi)),
             sliding_pressure=-log(full.pressure),
             line_pressure=-log(full.line_pressure),
             full_friction=log(line / space) if space else 0.0,
@@ -196,3 +200,10 @@ class Groups:
             friction=log((smooth_line + line_touching) / (smooth_space + touching)) if space else 0.0,
             share=touching / (smooth_space + touching) if space else 0.0,
         )
+
+
+def _roughness(scene: Scene) -> SelfAffine:
+    """Roughness that has groups. Raises TypeError for a scene without."""
+    if not isinstance(scene.roughness, SelfAffine):
+        raise TypeError(f"roughness = {scene.roughness!r} has no groups, SelfAffine has")
+    return scene.roughness

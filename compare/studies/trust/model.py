@@ -1,7 +1,7 @@
 """Model of one quantity: the ratio of 1D over 3D from groups, learned from scenes that both have solved."""
 
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from scipy.special import digamma, polygamma
@@ -20,6 +20,8 @@ LEAST_VARIANCE = 1e-8
 # Scenes from which the scatter of one surface is learned, and groups of scenes whose intervals are widened alike.
 SCATTERED, WIDENED = 600, 5
 NORMAL = 1.959964
+# Inputs, values and variances of a process.
+Points: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class Foretold(NamedTuple):
@@ -117,7 +119,7 @@ def _usable(measured):
     return measured.taken(np.isfinite(measured.logarithm) & (measured.surfaces >= LEAST_SURFACES))
 
 
-def _scattered(measured):
+def _scattered(measured) -> Points:
     """Groups, logarithms of the scatter without the bias of few surfaces, and their variances: of chi squared."""
     known = np.flatnonzero(measured.scatter > 0)
     known = known[np.linspace(0, known.size - 1, min(SCATTERED, known.size)).astype(int)]
@@ -127,7 +129,7 @@ def _scattered(measured):
     return measured.groups, unbiased, polygamma(1, half) / 4
 
 
-def _learned(quantity, measured, scatter):
+def _learned(quantity, measured, scatter) -> Points:
     """Groups, what was measured beyond the estimate, and its variance, where the noise lets it say something."""
     variance = measured.variance(np.exp(scatter.foretold(measured.groups)[0]))
     telling = variance < MOST_NOISE**2

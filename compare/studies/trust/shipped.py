@@ -18,11 +18,11 @@ FITTED = Path(__file__).with_name("fitted.json")
 def model(quantity: str) -> Model:
     """Model of friction, depth or force; the same object each time."""
     told = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
-    scales = (
+    process, scatter = (
         Scales(np.array(each["lengths"]), each["amplitude"], each["slope"], each["noise"])
         for each in (told["process"], told["scatter"])
     )
-    fitted = Fitted(*scales, np.array(told["errors"]), np.array(told["widening"]))
+    fitted = Fitted(process, scatter, np.array(told["errors"]), np.array(told["widening"]))
     return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
 
 

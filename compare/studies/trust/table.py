@@ -1,16 +1,22 @@
 """What was measured for the trust map, as tables: a row for each rough scene, its groups and its ratios."""
 
+from __future__ import annotations
+
 import gzip
 import io
 from collections.abc import Mapping
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .model import NAMES, Measurements
 from .ratio import QUANTITIES, Ratio
+
+if TYPE_CHECKING:
+    import xarray
 
 HERE = Path(__file__).parent
 LEARNED, HELD_OUT = HERE / "learned.csv.gz", HERE / "held-out.csv.gz"
@@ -43,6 +49,18 @@ def read(path: Path) -> dict[str, np.ndarray]:
         names = file.readline().strip().split(",")
         rows = np.array([[float(each or "nan") for each in line.rstrip("\n").split(",")] for line in file])
     return dict(zip(names, rows.T, strict=True))
+
+
+def columns(dataset: xarray.Dataset) -> dict[str, np.ndarray]:
+    """Columns of a Dataset of scenes, as the tables have them, of the rough ones alone."""
+    rough = dataset.isel(scene=np.isfinite(dataset["groups"].values).all(axis=1))
+    found = {"point": rough["point"].values}
+    found |= {name: rough["groups"].sel(group=name).values for name in NAMES}
+    return found | {
+        column(quantity, number): rough[number].sel(quantity=quantity).values
+        for quantity in QUANTITIES
+        for number in NUMBERS
+    }
 
 
 def groups(table: Mapping[str, np.ndarray]) -> np.ndarray:

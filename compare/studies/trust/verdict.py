@@ -1,10 +1,12 @@
 """What the 1D answer to a scene is worth: use it, multiply it, or solve in 3D."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, astuple, dataclass, replace
 from functools import cache
 from math import exp, hypot, log, nan
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -15,13 +17,19 @@ from .groups import LINE, SPACE, Groups, Smooth
 from .model import NAMES, NORMAL
 from .ratio import QUANTITIES, asked_of
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
 Advice = Literal["use", "multiply", "solve"]
-USE, MULTIPLY, SOLVE = "use", "multiply", "solve"
+USE: Advice = "use"
+MULTIPLY: Advice = "multiply"
+SOLVE: Advice = "solve"
 # Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
 SMALL, WIDE = 0.05, 0.15
 # Of the range of a group, what may be missing to it.
 SLACK = 0.02
 NEAREST = 3
+HEADINGS = "quantity", "ratio", "low", "high", "surface_low", "surface_high", "advice", "reason"
 # Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
 LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening"
 LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure"
@@ -30,7 +38,6 @@ SAID = {
     "height": "h0/d",
     "waves": "a/λ_s",
     "pressure": "p/(E* h')",
-    "slope": "slope of the body/h'",
     "lost_waves": "G''(v q_s)/G0",
     "lost_contact": "G''(v/a)/G0",
     "stiffening": "E_g/E_r",
@@ -38,8 +45,8 @@ SAID = {
 ABSENT = "layer", "interface", "heating"
 # Groups that are no logarithms.
 PLAIN = "shape", "prescribed", "hurst", "full_share", "share"
-# Height over depth, and radius over the shortest wave, from which on the reason names them.
-LOST, FEW = 0.3, 2.0
+# Height over depth, share of friction, and radius over the shortest wave at which the reason names them.
+LOST, MOST, FEW = 0.3, 0.5, 2.0
 
 
 @dataclass(frozen=True)
@@ -114,18 +121,19 @@ class Trust:
         if self.groups:
             lines.append(f"place on the map: {_placed(self.groups)}")
         first = next(iter(self.worths), "")
-        lines += [
-            f"measured near it: {first} 1D/3D = {each.ratio:.3g} at {_placed(each.groups)}"
-            for each in self.nearest
-        ]
+        lines += [f"measured: {first} 1D/3D = {each.ratio:.3g} at {_placed(each.groups)}" for each in self.nearest]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        rows = [
-            (name, worth.advice, worth.ratio, worth.low, worth.high, worth.reason)
-            for name, worth in self.worths.items()
-        ]
-        return markup.table(rows, ("quantity", "advice", "1D/3D", "low", "high", "reason"), "What 1D is worth")
+        return markup.table(
+            [(name, *astuple(worth)) for name, worth in self.worths.items()], HEADINGS, "Trust map"
+        )
+
+    def table(self) -> DataFrame:
+        """A row for each quantity."""
+        from pandas import DataFrame
+
+        return DataFrame([(name, *astuple(worth)) for name, worth in self.worths.items()], columns=HEADINGS)
 
 
 def trust(scene: Scene) -> Trust:
@@ -202,15 +210,23 @@ def _foretold(name, place, groups):
     return _worth(exp(logarithm), error, scatter, _because(name, groups))
 
 
+def advice_on(ratio: float, error: float) -> Advice:
+    """Advice on a ratio whose logarithm has a standard error."""
+    half = NORMAL * error
+    if ratio * exp(-half) >= 1 - SMALL and ratio * exp(half) <= 1 + SMALL:
+        return USE
+    return MULTIPLY if half <= WIDE else SOLVE
+
+
 def _worth(ratio, error, scatter, because):
     half, whole = NORMAL * error, NORMAL * hypot(error, scatter)
     low, high = ratio * exp(-half), ratio * exp(half)
-    if low >= 1 - SMALL and high <= 1 + SMALL:
-        advice, reason = USE, f"1D is within {100 * SMALL:.0f} % of 3D."
-    elif half <= WIDE:
-        advice, reason = MULTIPLY, f"1D is {ratio:.3g} times 3D."
-    else:
-        advice, reason = SOLVE, f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}."
+    advice = advice_on(ratio, error)
+    reason = {
+        USE: f"1D is within {100 * SMALL:.0f} % of 3D.",
+        MULTIPLY: f"1D is {ratio:.3g} times 3D.",
+        SOLVE: f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}.",
+    }[advice]
     return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, f"{reason} {because}")
 
 
@@ -218,13 +234,11 @@ def _because(name, groups):
     """What decides the ratio in this part of the map."""
     if name == "depth" and groups.sliding_height > log(LOST):
         return "The roughness is nearly as high as the body is deep."
-    if groups.sliding_waves < log(FEW):
-        return "Few waves of the roughness lie in the contact."
-    if name == "friction" and groups.share > 0.5:
-        return "Roughness makes most of the friction."
-    if groups.sliding_pressure > 0:
-        return "The roughness is pressed flat, and the body decides."
-    return "Roughness and body decide together."
+    flat = "is pressed flat" if groups.sliding_pressure > 0 else "touches in part"
+    if name == "friction" and groups.share > MOST:
+        return f"The roughness {flat} and makes most of the friction."
+    few = ", with few waves in the contact" if groups.sliding_waves < log(FEW) else ""
+    return f"The roughness {flat}{few}."
 
 
 def _placed(groups):

@@ -1,0 +1,64 @@
+"""How well a model foretells scenes that it never saw: errors, what of them is scatter of the truth, coverage."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.special import ndtri
+
+from .model import NORMAL, Foretold, Measurements
+from .verdict import SOLVE, advice_on
+
+# Quantiles of a normal distribution that stand for it.
+_QUANTILES = ndtri((np.arange(99) + 0.5) / 99)
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Ratios foretold beside measured ones, of scenes with one quantity (N,).
+
+    measured : with a ratio each
+    foretold : of the same scenes
+    """
+
+    measured: Measurements
+    foretold: Foretold
+
+    def taken(self, chosen: np.ndarray) -> "Score":
+        """Score of some scenes: a mask or numbers of scenes."""
+        return Score(self.measured.taken(chosen), Foretold(*(each[chosen] for each in self.foretold)))
+
+    @cached_property
+    def variance(self) -> np.ndarray:
+        """Variance of the measured logarithms (N,)."""
+        return self.measured.variance(self.foretold.scatter)
+
+    @cached_property
+    def advice(self) -> np.ndarray:
+        """Advice on each scene (N,)."""
+        ratio, error = np.exp(self.foretold.logarithm), self.foretold.error
+        return np.array([advice_on(*each) for each in zip(ratio, error, strict=True)])
+
+    @property
+    def usable(self) -> np.ndarray:
+        """Which scenes get "use" or "multiply" (N,)."""
+        return self.advice != SOLVE
+
+    @cached_property
+    def errors(self) -> np.ndarray:
+        """Relative errors of corrected 1D (N,), the scatter of the truth in them."""
+        return np.expm1(self.measured.logarithm - self.foretold.logarithm)
+
+    @cached_property
+    def own(self) -> np.ndarray:
+        """Errors of the map alone (N, 99), as quantiles: each measured error is split as variances stand."""
+        apart = self.measured.logarithm - self.foretold.logarithm
+        model = self.foretold.error**2
+        share = model / (model + self.variance)
+        return np.expm1((apart * share)[:, None] + np.sqrt(self.variance * share)[:, None] * _QUANTILES)
+
+    @property
+    def covered(self) -> float:
+        """Share of the measured ratios within the interval of 95 %, widened by the noise of the truth."""
+        apart = self.measured.logarithm - self.foretold.logarithm
+        return float(np.mean(np.abs(apart) < NORMAL * np.sqrt(self.foretold.error**2 + self.variance)))

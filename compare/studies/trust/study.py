@@ -1,0 +1,286 @@
+"""The trust map, made again: scenes solved in both dimensionalities, and errors on scenes held out."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from math import log
+from typing import Any
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from scene import Scene
+
+from ...declaration import Study
+from ...finding import Claim, Finding
+from ...outcome import Outcome
+from ...page import Block, Findings, Plot, Section, Table, Text
+from ...suggest import known
+from ...task import Batch, SceneTask, Task
+from ...vocabulary import attributes
+from . import design, shipped, table
+from .contact import Contact
+from .groups import LINE, SPACE, Groups, Smooth
+from .model import NAMES, Model
+from .ratio import QUANTITIES, Ratio, asked_of, ratio_of
+from .regions import BODIES, REGIONS, ROUGHNESS, SPEEDS
+from .scoring import Score
+
+LEARNED, HELD_OUT = "learned", "held-out"
+ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on
+surfaces until its scatter is known. Gaussian processes learn the ratio of 1D over 3D from these scenes alone.
+Those held out were drawn by another seed, and neither fitted nor chosen by: nobody saw them.
+
+Errors are of all held-out scenes whose advice is "use" or "multiply". In each measured error lies the scatter of
+the surfaces behind the truth; the error of the map alone is what remains when it is split as the variances of both
+stand."""
+# What the map is to keep, of each quantity: median error, error of nine in ten.
+WANTED = {"friction": (0.02, 0.08), "depth": (0.01, 0.05), "force": (0.01, 0.05)}
+BOOTSTRAPS = 200
+
+
+@dataclass(frozen=True)
+class Size:
+    """Size of the campaign.
+
+    learned : points of the design to learn from; none, and the models that come with the package are scored
+    held_out : number of points held out
+    closer : how much closer scenes are known than those of the package
+    """
+
+    learned: tuple[int, ...]
+    held_out: int
+    closer: float = 1.0
+
+
+def _size(name: str) -> Size:
+    points = tuple(int(each) for each in table.read(table.LEARNED)["point"])
+    held_out = int(table.read(table.HELD_OUT)["point"].max()) + 1
+    return {"quick": Size((), 24), "standard": Size(points, held_out), "full": Size(points, held_out, 2.0)}[name]
+
+
+SIZES = "quick", "standard", "full"
+
+
+@dataclass(frozen=True)
+class TrustStudy(Study):
+    """The campaign behind the trust map, at a size."""
+
+    size: str = "quick"
+    _judged: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    command, name = "study", "trust"
+    title = "When can one dimension be trusted?"
+    about = "The ratio of 1D over 3D, learned from scenes that both solved, and its errors on scenes it never saw."
+
+    @classmethod
+    def of(cls, size: str) -> "TrustStudy":
+        """Study of a size. Raises InvalidInput where there is no such size."""
+        known("size", size, SIZES)
+        return cls(size)
+
+    @property
+    def place(self) -> str:  # type: ignore[override]
+        return f"{self.name}-{self.size}"
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return {"name": self.name, "size": self.size}
+
+    def contacts(self) -> dict[str, dict[int, Contact]]:
+        """Task of each scene, by set and point."""
+        size = _size(self.size)
+        sets = {
+            LEARNED: (design.learned, size.learned, 0.015, 16),
+            HELD_OUT: (design.held_out, range(size.held_out), 0.01, 24),
+        }
+        return {
+            name: {k: Contact(scene(k), wanted / size.closer, round(most * size.closer**2)) for k in points}
+            for name, (scene, points, wanted, most) in sets.items()
+        }
+
+    def batches(self) -> Sequence[Batch]:
+        """Scenes, and their smooth bodies."""
+        contacts = [each for found in self.contacts().values() for each in found.values()]
+        return (Batch([task for each in contacts for task in (each, *_smooth(each.scene))]),)
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Groups and ratios of the scenes of each set."""
+        sets = {
+            name: _dataset([_row(point, each, outcomes) for point, each in found.items()])
+            for name, found in self.contacts().items()
+            if found
+        }
+        return xarray.DataTree.from_dict({f"/{name}": each for name, each in sets.items()})
+
+    def models(self, answers: xarray.DataTree) -> dict[str, Model]:
+        """Models of all quantities: fitted to what was learned, or those that come with the package."""
+        if self._judged.get("answers") is not answers:
+            models = {name: shipped.model(name) for name in QUANTITIES}
+            if LEARNED in answers:
+                learned = table.columns(answers[LEARNED].to_dataset())
+                models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
+            self._judged.update(answers=answers, models=models)
+        return self._judged["models"]
+
+    def scores(self, answers: xarray.DataTree) -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
+        """Score of each quantity on the scenes held out, and the groups of these by name."""
+        held_out = table.columns(answers[HELD_OUT].to_dataset())
+        found: dict[str, tuple[Score, Mapping[str, np.ndarray]]] = {}
+        for name, model in self.models(answers).items():
+            rows, measured = table.measurements(held_out, name)
+            has = np.isfinite(measured.logarithm)
+            rows, measured = rows[has], measured.taken(has)
+            groups = {each: held_out[each][rows] for each in NAMES} | {
+                "slides": held_out[table.column("friction", "surfaces")][rows] > 0
+            }
+            found[name] = Score(measured, model.foretold(measured.groups)), groups
+        return found
+
+    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
+        return [each for name, (score, _) in self.scores(answers).items() for each in _findings(name, score)]
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """A sentence for each finding."""
+        return [f"{each.verdict}: {each.claim.sentence}: {each.found()}." for each in findings]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        scores = self.scores(answers)
+        return [
+            Text(ABOUT),
+            *plots,
+            Table(
+                "advice", DataFrame(list(_advice(scores))), "Advice by body and regime, of the scenes held out."
+            ),
+            Findings(findings, "Errors on scenes held out, with intervals of 95 % over these scenes."),
+            Section(
+                "Errors by region",
+                [
+                    Table(f"regions-{name}", DataFrame(list(_regions(*scores[name]))), f"{name.capitalize()}.")
+                    for name in scores
+                ],
+            ),
+        ]
+
+
+def _smooth(scene: Scene) -> tuple[SceneTask, SceneTask]:
+    """Tasks of the smooth body of a scene in both dimensionalities."""
+    smooth = (replace(scene, roughness=None),)
+    return SceneTask(LINE, smooth, work=1e4), SceneTask(SPACE, smooth, work=1e5)
+
+
+def _row(point: int, contact: Contact, outcomes: Mapping[Task, Outcome]) -> dict[str, Any]:
+    """Point, groups, and the numbers of each ratio of a scene."""
+    scene = contact.scene
+    line, space = (outcomes[each].rows[0] for each in _smooth(scene))
+    groups, smooth = {}, dict.fromkeys(QUANTITIES, np.nan)
+    if not (line.reason or space.reason):
+        body = Smooth.of(scene, line, space)
+        smooth = {name: log(getattr(body, name)) for name in QUANTITIES}
+        groups = {} if scene.roughness is None else asdict(Groups.of(scene, body))
+    none = Ratio(np.nan, np.nan, np.nan, 0, np.nan)
+    ratios = {name: ratio_of(outcomes[contact], name) for name in asked_of(scene)}
+    return {
+        "point": point,
+        "groups": [groups.get(name, np.nan) for name in NAMES],
+        "smooth": [smooth[name] for name in QUANTITIES],
+        **{number: [getattr(ratios.get(name, none), number) for name in QUANTITIES] for number in table.NUMBERS},
+    }
+
+
+def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
+    """Rows as a Dataset with the dimensions scene, group and quantity."""
+    made = {name: np.array([row[name] for row in rows], float) for name in rows[0]}
+    dims = {"point": ("scene",), "groups": ("scene", "group")}
+    dataset = xarray.Dataset(
+        {name: (dims.get(name, ("scene", "quantity")), values) for name, values in made.items()},
+        {"group": list(NAMES), "quantity": list(QUANTITIES)},
+    )
+    for name in dataset.variables:
+        dataset[name].attrs = attributes(str(name))
+    return dataset
+
+
+def _findings(name: str, score: Score) -> Iterator[Finding]:
+    """What becomes of each claim on one quantity."""
+    used = score.taken(score.usable)
+    rng = np.random.default_rng(0)
+    draws = [rng.integers(0, used.usable.size, used.usable.size) for _ in range(BOOTSTRAPS)]
+    half, most = WANTED[name]
+    own = np.abs(used.own)
+
+    def claimed(id, sentence, expected, tolerance, measure, meaning):
+        claim = Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning)
+        low, high = np.quantile([measure(draw) for draw in draws], (0.025, 0.975))
+        every = np.arange(used.usable.size)
+        return Finding(claim, measure(every), (float(low), float(high)), 0.0, "exact", draws=used.usable.size)
+
+    split = "Quantile of the relative error over held-out scenes with advice use or multiply"
+    for id, share, bound in (("median", 0.5, half), ("nine-in-ten", 0.9, most)):
+        told = "Half" if share == 0.5 else "Nine in ten"
+        yield claimed(
+            id, f"{told} of the {name} errors of corrected 1D are at most {100 * bound:g} %", 0.0, bound,
+            lambda draw, share=share: float(np.quantile(own[draw], share)),
+            f"{split}, the scatter of the surfaces of the truth taken out",
+        )  # fmt: skip
+        yield claimed(
+            f"{id}-raw", f"{told} of these, the scatter of the truth in them", 0.0, np.nan,
+            lambda draw, share=share: float(np.quantile(np.abs(used.errors[draw]), share)), split,
+        )  # fmt: skip
+    yield claimed(
+        "coverage", f"95 % of the {name} ratios lie within their interval", 0.95, 0.02,
+        lambda draw: used.taken(draw).covered, "Share within the interval, which the scatter of the truth widens",
+    )  # fmt: skip
+    whole = [rng.integers(0, score.usable.size, score.usable.size) for _ in range(BOOTSTRAPS)]
+    shares = [score.usable[draw].mean() for draw in whole]
+    low, high = np.quantile(shares, (0.025, 0.975))
+    claim = Claim(
+        f"trust.{name}.usable", f"At least 80 % of the scenes need no 3D for their {name}", 1.0, 0.2,
+        "Share of the held-out scenes with advice use or multiply",
+    )  # fmt: skip
+    yield Finding(
+        claim, float(score.usable.mean()), (float(low), float(high)), 0.0, "exact", draws=score.usable.size
+    )
+
+
+def _regions(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, Any]]:
+    """Errors in each region."""
+    for kind, regions in REGIONS.items():
+        for region, condition in regions.items():
+            here = condition(groups)
+            if not here.any():
+                continue
+            part = score.taken(here)
+            used = part.taken(part.usable)
+            row = {"kind": kind, "region": region, "scenes": int(here.sum()), "usable": part.usable.mean()}
+            if part.usable.any():
+                own = np.abs(used.own)
+                row |= {
+                    "median error": np.median(own),
+                    "nine in ten": np.quantile(own, 0.9),
+                    "median, raw": np.median(np.abs(used.errors)),
+                    "nine in ten, raw": np.quantile(np.abs(used.errors), 0.9),
+                    "in 95 %": used.covered,
+                }
+            yield row
+
+
+def _advice(scores) -> Iterator[dict[str, Any]]:
+    """Ratios and shares of each advice by quantity, body, speed and roughness."""
+    for name, (score, groups) in scores.items():
+        ratio = np.exp(score.foretold.logarithm)
+        for body, of_body in BODIES.items():
+            for speed, of_speed in SPEEDS.items():
+                for roughness, of_roughness in ROUGHNESS.items():
+                    here = of_body(groups) & of_speed(groups) & of_roughness(groups)
+                    if here.sum() < 5:
+                        continue
+                    low, middle, high = np.quantile(ratio[here], (0.05, 0.5, 0.95))
+                    counts = {kind: np.mean(score.advice[here] == kind) for kind in ("use", "multiply", "solve")}
+                    yield {
+                        "quantity": name, "body": body, "speed": speed, "roughness": roughness,
+                        "scenes": int(here.sum()), "1D/3D": middle, "from": low, "to": high, **counts,
+                        "interval": np.median(np.expm1(1.96 * score.foretold.error[here])),
+                    }  # fmt: skip
