@@ -102,7 +102,9 @@ class FullContact:
         half = log(q_s / rough.q_min) / 2
         q = rough.q_min * np.exp(half * (1 + nodes))
         weights = weights * half * q
-        on_line, on_surface = weights * rough.density_1d(q, q_s), weights * q * rough.density_2d(q, q_s)
+        # Of unit height: the square of a tiny one would vanish.
+        unit, height = replace(rough, rms_height=1.0), rough.rms_height
+        on_line, on_surface = weights * unit.density_1d(q, q_s), weights * q * unit.density_2d(q, q_s)
         cosine, shares = np.cos(pi / 4 * (1 + angles)), pi * shares
         along = complex_stiffness(scene.solid, speed * q)
         around = complex_stiffness(scene.solid, speed * q[:, None] * cosine)
@@ -110,12 +112,16 @@ class FullContact:
         line_load = load * smooth.force / (2 * smooth.line_radius * rest.radius)
         pressure = load / (pi * (smooth.radius * rest.radius) ** 2)
         return cls(
-            line_friction=float(2 * np.sum(on_line * q * along.imag) / line_load),
-            line_pressure=sqrt(2 * np.sum(on_line * abs(along) ** 2)) / line_load,
+            line_friction=float(height**2 * 2 * np.sum(on_line * q * along.imag) / line_load),
+            line_pressure=height * sqrt(2 * np.sum(on_line * abs(along) ** 2)) / line_load,
             friction=float(
-                np.sum(on_surface * q**2 / 2 * np.sum(shares * cosine * around.imag, axis=1)) / pressure
+                height**2
+                * np.sum(on_surface * q**2 / 2 * np.sum(shares * cosine * around.imag, axis=1))
+                / pressure
             ),
-            pressure=sqrt(np.sum(on_surface * q**2 / 4 * np.sum(shares * abs(around) ** 2, axis=1))) / pressure,
+            pressure=height
+            * sqrt(np.sum(on_surface * q**2 / 4 * np.sum(shares * abs(around) ** 2, axis=1)))
+            / pressure,
         )
 
 

@@ -9,6 +9,8 @@ from scipy.optimize import minimize
 
 # Where the search for scales begins, and how far it may go: of the inputs in standard deviations, of the values.
 _START, _SHORTEST, _LONGEST, _LEAST = 3.0, 0.1, 100.0, 1e-4
+# Least standard deviation of an input: below it is what solvers leave.
+_VARIES = 1e-4
 
 
 @dataclass(frozen=True)
@@ -93,9 +95,9 @@ class Process:
 
 
 def _standard(inputs, among):
-    """Inputs (M, D) in standard deviations of those of many (N, D); one that never varies stays as it is."""
+    """Inputs (M, D) in standard deviations of those of many (N, D); one that rounding alone moves is dropped."""
     spread = among.std(axis=0)
-    return (inputs - among.mean(axis=0)) / np.where(spread > 0, spread, 1.0)
+    return (inputs - among.mean(axis=0)) * np.where(spread > _VARIES, 1 / np.maximum(spread, _VARIES), 0.0)
 
 
 def _squares(first, second):
