@@ -17,8 +17,7 @@ _QUANTILES = ndtri((np.arange(99) + 0.5) / 99)
 class Score:
     """Ratios foretold beside measured ones, of scenes with one quantity (N,).
 
-    measured : with a ratio each
-    foretold : of the same scenes
+    measured, foretold : of the same scenes; where a mean is not above zero there is no ratio, and no error
     """
 
     measured: Measurements
@@ -43,6 +42,11 @@ class Score:
     def usable(self) -> np.ndarray:
         """Which scenes get "use" or "multiply" (N,)."""
         return self.advice != SOLVE
+
+    @property
+    def used(self) -> "Score":
+        """Score of the scenes that are usable and have a ratio: whose errors count."""
+        return self.taken(self.usable & np.isfinite(self.measured.logarithm))
 
     @cached_property
     def errors(self) -> np.ndarray:

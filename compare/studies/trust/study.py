@@ -129,8 +129,6 @@ class TrustStudy(Study):
         found: dict[str, tuple[Score, Mapping[str, np.ndarray]]] = {}
         for name, model in self.models(answers).items():
             rows, measured = table.measurements(held_out, name)
-            has = np.isfinite(measured.logarithm)
-            rows, measured = rows[has], measured.taken(has)
             groups = {each: held_out[each][rows] for each in NAMES} | {
                 "slides": held_out[table.column("friction", "surfaces")][rows] > 0
             }
@@ -205,7 +203,7 @@ def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
 
 def _findings(name: str, score: Score) -> Iterator[Finding]:
     """What becomes of each claim on one quantity."""
-    used = score.taken(score.usable)
+    used = score.used
     rng = np.random.default_rng(0)
     draws = [rng.integers(0, used.usable.size, used.usable.size) for _ in range(BOOTSTRAPS)]
     half, most = WANTED[name]
@@ -253,9 +251,9 @@ def _regions(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[st
             if not here.any():
                 continue
             part = score.taken(here)
-            used = part.taken(part.usable)
+            used = part.used
             row = {"kind": kind, "region": region, "scenes": int(here.sum()), "usable": part.usable.mean()}
-            if part.usable.any():
+            if used.usable.any():
                 own = np.abs(used.own)
                 row |= {
                     "median error": np.median(own),
