@@ -19,7 +19,8 @@ from scene import Layer
 from scene.scales import elastic_contact
 
 SAMPLE = Path(__file__).parent / "plots" / "regime_map-figure" / "regime-map.csv"
-PRESSURES, MEMORIES = (0.06, 0.3, 1.0, 4.0, 30.0), (0.01, 3.0, 1000.0)
+# The first is off the map; at the last the rms height is below all that were measured, as flat as the limit.
+PRESSURES, MEMORIES = (0.06, 0.3, 1.0, 30.0, 300.0), (0.01, 3.0, 1000.0)
 # What the map may miss of the smooth body on roughness pressed flat, of one: its own errors beside the data.
 FLAT = 0.03
 ROUNDING = 1e-9
@@ -74,7 +75,7 @@ def lines(axes):
     return {float(f"{np.exp(level):.3g}"): path.vertices for level, path in paths}
 
 
-@pytest.mark.parametrize(("pressure", "memory"), [(0.3, 0.01), (1.0, 3.0), (30.0, 1000.0)])
+@pytest.mark.parametrize(("pressure", "memory"), [(0.3, 0.01), (1.0, 3.0), (300.0, 1000.0)])
 def test_a_row_is_what_is_said_of_its_scene(table, pressure, memory):
     row = table.set_index(["pressure_over_slope", "memory_over_shortest"]).loc[(pressure, memory)]
     said = trust(scene_at(pressure, memory)).friction
@@ -98,7 +99,7 @@ def test_the_strip_is_the_smooth_body(table):
 def test_the_map_tends_to_the_smooth_body_as_the_roughness_is_pressed_flat(table):
     ratios = table.pivot(index="memory_over_shortest", columns="pressure_over_slope", values="ratio")
     apart = np.abs(np.log(ratios.div(ratios[inf], axis=0)))
-    assert (apart[30.0] < FLAT).all()
+    assert (apart[[30.0, 300.0]] < FLAT).all(axis=None)
     assert (apart[0.3] > 3 * FLAT).all()
 
 
@@ -149,14 +150,14 @@ def test_what_is_to_be_solved_in_3d_is_hatched():
     known = of_law(lambda p, m: min(p, 5.0))
     assert hatched(drawn(known)[0]) is None
     assert drawn(known)[0].get_legend() is None
-    unsure = known.copy()
-    low = unsure["pressure_over_slope"] < 0.5
-    unsure.loc[low, "ratio_high"] *= np.exp(4 * WIDE)
+    pressure = known["pressure_over_slope"]
+    half = WIDE * 0.5 / pressure
+    unsure = known.assign(ratio_low=known["ratio"] * np.exp(-half), ratio_high=known["ratio"] * np.exp(half))
     axes, _ = drawn(unsure)
-    assert hatched(axes).x1 == pytest.approx(0.5, rel=0.05)
+    assert hatched(axes).x1 == pytest.approx(0.5, rel=CELL)
     assert axes.get_legend().get_texts()[0].get_text() == "solve in 3D"
-    unsure.loc[low, ["ratio", "ratio_low", "ratio_high"]] = nan
-    assert hatched(drawn(unsure)[0]).x1 == pytest.approx(0.5, rel=0.05)
+    known.loc[pressure < 0.5, ["ratio", "ratio_low", "ratio_high"]] = nan
+    assert hatched(drawn(known)[0]).x1 == pytest.approx(0.5, rel=0.05)
 
 
 def test_no_label_is_cut_by_the_frame():
