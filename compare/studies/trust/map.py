@@ -1,0 +1,69 @@
+"""Regime map: friction of 1D over 3D against pressure and speed, foretold for a family of scenes."""
+
+from collections.abc import Sequence
+from dataclasses import astuple, replace
+from math import inf, nan
+
+import numpy as np
+from pandas import DataFrame
+
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+
+from ...exact import mean_lag
+from . import shipped, verdict
+from .groups import Groups, Smooth
+from .model import NORMAL
+
+COLUMNS = "pressure_over_slope", "memory_over_shortest", "ratio", "ratio_low", "ratio_high"
+RADIUS, DEPTH, SOLID = 1e-3, 1e-4, Kelvin(1e6, 1.0)
+# A family, as a scene and in words; its smooth contact at rest has the radius and the depth.
+FAMILY = Scene(
+    Sphere(RADIUS**2 / DEPTH),
+    SOLID,
+    Slide(speed=1.0, load=4 / 3 * SOLID.indentation_modulus * DEPTH * RADIUS),
+    SelfAffine(hurst=0.7, rms_height=DEPTH, longest=4 * RADIUS, shortest=RADIUS / 4, seed=0),
+)
+ABOUT = "spheres on Kelvin solids under a load (H = 0.7, a/λ_s = 4, longest wave 4 a, no roll-off)"
+PRESSURES = tuple(np.geomspace(0.05, 30, 51).tolist())
+MEMORIES = tuple(np.geomspace(1e-2, 1e3, 41).tolist())
+
+
+def regime_table(
+    family: Scene = FAMILY, pressures: Sequence[float] = PRESSURES, memories: Sequence[float] = MEMORIES
+) -> DataFrame:
+    """Friction of 1D over 3D with its interval of 95 % on a rectangle of scenes; nan off the map.
+
+    family : a rough scene that slides; its rms height and its speed are replaced
+    pressures : p / (E* h'), set by the rms height
+    memories : v tau q_s, set by the speed
+
+    Rows of infinite pressure are the smooth body, solved in both dimensionalities. Raises ValueError of a family
+    that was not measured, SolveError where the smooth body has no answer.
+    """
+    if reasons := verdict.unmeasured(family):
+        raise ValueError("; ".join(reasons))
+    rows: list[tuple[float, ...]] = []
+    for memory in memories:
+        speed = memory / (mean_lag(family.solid) * family.roughness.q_max(0.0))
+        slides = replace(family, motion=replace(family.motion, speed=speed))
+        flat = verdict.trust(replace(slides, roughness=None)).friction
+        found = _foretold(slides, pressures)
+        rows += [(pressure, memory, *each) for pressure, each in zip(pressures, found, strict=True)]
+        rows.append((inf, memory, flat.ratio, flat.low, flat.high))
+    return DataFrame(rows, columns=COLUMNS)
+
+
+def _foretold(scene, pressures):
+    """Ratio, low and high (N, 3) of a scene at the heights of pressures."""
+    smooth, rough = Smooth.of(scene), scene.roughness
+    own = np.exp(Groups.of(scene, smooth).pressure)
+    places = np.array(
+        [
+            astuple(Groups.of(replace(scene, roughness=replace(rough, rms_height=height)), smooth))
+            for height in rough.rms_height * own / np.array(pressures)
+        ]
+    )
+    known = [not any(verdict._beyond(place)) for place in places]
+    logarithm, error, _ = shipped.model("friction").foretold(np.clip(places, *verdict._limits()))
+    ratios = np.exp(logarithm + NORMAL * np.outer((0, -1, 1), error))
+    return np.where(known, ratios, nan).T
