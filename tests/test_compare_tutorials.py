@@ -14,6 +14,7 @@ NAMES = [
     "regression",
     pytest.param("study", marks=pytest.mark.slow),
     pytest.param("sweep", marks=pytest.mark.slow),
+    "trust",
 ]
 
 

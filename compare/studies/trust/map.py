@@ -12,7 +12,7 @@ from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 from ...exact import mean_lag
 from . import shipped, verdict
 from .groups import Groups, Smooth
-from .model import NORMAL
+from .model import NORMAL, Model
 
 COLUMNS = "pressure_over_slope", "memory_over_shortest", "ratio", "ratio_low", "ratio_high"
 RADIUS, DEPTH, SOLID = 1e-3, 1e-4, Kelvin(1e6, 1.0)
@@ -29,13 +29,17 @@ MEMORIES = tuple(np.geomspace(1e-2, 1e3, 41).tolist())
 
 
 def regime_table(
-    family: Scene = FAMILY, pressures: Sequence[float] = PRESSURES, memories: Sequence[float] = MEMORIES
+    family: Scene = FAMILY,
+    pressures: Sequence[float] = PRESSURES,
+    memories: Sequence[float] = MEMORIES,
+    model: Model | None = None,
 ) -> DataFrame:
     """Friction of 1D over 3D with its interval of 95 % on a rectangle of scenes; nan off the map.
 
     family : a rough scene that slides; its rms height and its speed are replaced
     pressures : p / (E* h'), set by the rms height
     memories : v tau q_s, set by the speed
+    model : of friction; that of the package if absent
 
     Rows of infinite pressure are the smooth body, solved in both dimensionalities. Raises ValueError of a family
     that was not measured, SolveError where the smooth body has no answer.
@@ -47,13 +51,13 @@ def regime_table(
         speed = memory / (mean_lag(family.solid) * family.roughness.q_max(0.0))
         slides = replace(family, motion=replace(family.motion, speed=speed))
         flat = verdict.trust(replace(slides, roughness=None)).friction
-        found = _foretold(slides, pressures)
+        found = _foretold(slides, pressures, model or shipped.model("friction"))
         rows += [(pressure, memory, *each) for pressure, each in zip(pressures, found, strict=True)]
         rows.append((inf, memory, flat.ratio, flat.low, flat.high))
     return DataFrame(rows, columns=COLUMNS)
 
 
-def _foretold(scene, pressures):
+def _foretold(scene, pressures, model):
     """Ratio, low and high (N, 3) of a scene at the heights of pressures."""
     smooth, rough = Smooth.of(scene), scene.roughness
     own = np.exp(Groups.of(scene, smooth).pressure)
@@ -64,6 +68,6 @@ def _foretold(scene, pressures):
         ]
     )
     known = [not any(verdict._beyond(place)) for place in places]
-    logarithm, error, _ = shipped.model("friction").foretold(np.clip(places, *verdict._limits()))
+    logarithm, error, _ = model.foretold(np.clip(places, *verdict._limits()))
     ratios = np.exp(logarithm + NORMAL * np.outer((0, -1, 1), error))
     return np.where(known, ratios, nan).T

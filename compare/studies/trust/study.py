@@ -15,16 +15,20 @@ from ...declaration import Study
 from ...finding import Claim, Finding
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Table, Text
+from ...plots import regime_map
 from ...suggest import known
 from ...task import Batch, SceneTask, Task
 from ...vocabulary import attributes
 from . import design, shipped, table
 from .contact import Contact
 from .groups import LINE, SPACE, Groups, Smooth
+from .map import ABOUT as ABOUT_FAMILY
+from .map import regime_table
 from .model import NAMES, Model
 from .ratio import QUANTITIES, Ratio, asked_of, ratio_of
 from .regions import BODIES, REGIONS, ROUGHNESS, SPEEDS
 from .scoring import Score
+from .verdict import WIDE
 
 LEARNED, HELD_OUT = "learned", "held-out"
 ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on
@@ -137,6 +141,11 @@ class TrustStudy(Study):
 
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
         return [each for name, (score, _) in self.scores(answers).items() for each in _findings(name, score)]
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
+        """The regime map."""
+        friction = self.models(answers)["friction"]
+        return [regime_map.plot(regime_table(model=friction), ABOUT_FAMILY, WIDE)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         """A sentence for each finding."""
