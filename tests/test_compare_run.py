@@ -247,7 +247,7 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
     assert plots == {f"small-sphere/{name}" for name in {"contact", "contact-maps", "force-depth"} | friction}
     tables = {table.name: table.frame for table in page.every(Table)}
-    assert set(tables) == {"summary", "small-sphere/points", "small-sphere/times"}
+    assert set(tables) == {"summary", "small-sphere/trust", "small-sphere/points", "small-sphere/times"}
     shown = [each for block in page.every(Findings) for each in block.findings]
     places = [
         [(each.claim.id, each.dimension, each.where) for each in told] for told in (shown, run.findings(answers))

@@ -149,9 +149,9 @@ def trust(scene: Scene) -> Trust:
         return _unknown(scene, f"Off the map: the smooth body has no answer, {error}.")
     place = np.array(astuple(groups))
     named = {name: value if name in PLAIN else exp(value) for name, value in asdict(groups).items()}
-    if beyond := list(_beyond(place)):
+    if beyond := list(beyond_measured(place)):
         return replace(_unknown(scene, f"Off the map: {'; '.join(beyond)}."), groups=named)
-    place = np.clip(place, *_limits())
+    place = np.clip(place, *limits())
     asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
     worths = {name: _foretold(name, place, groups) for name in asked}
     return Trust(**_all(worths), groups=named, nearest=tuple(_nearest(asked[0], place)))
@@ -253,16 +253,16 @@ def _ranges():
 
 
 @cache
-def _limits():
+def limits():
     """Ends to which groups are moved that have a limit beyond."""
     low, high = _ranges()
     below, above = np.isin(NAMES, LIMITED_BELOW), np.isin(NAMES, LIMITED_ABOVE)
     return np.where(below, low, -np.inf), np.where(above, high, np.inf)
 
 
-def _beyond(place) -> Iterator[str]:
+def beyond_measured(place) -> Iterator[str]:
     """Groups beyond what was measured, a reason each."""
-    (low, high), (least, greatest) = _ranges(), _limits()
+    (low, high), (least, greatest) = _ranges(), limits()
     slack = SLACK * (high - low)
     for name, value, start, end in zip(
         NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True
