@@ -134,6 +134,9 @@ density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_1D = π q
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
 ratio : Number in one dimension over that in three. [1]
+friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map foretells it. [1]
+depth_ratio : Depth in one dimension over that in three, as the trust map foretells it. [1]
+force_ratio : Normal force in one dimension over that in three, as the trust map foretells it. [1]
 deviation : Number in one dimension over that in three, less one. [1]
 v_tau_over_a : Speed times retardation time over the radius of the smooth relaxed contact. [1]
 friction_over_slope : Friction over the slope of the body at the edge of the contact. [1]
@@ -281,6 +284,7 @@ ENDINGS = {
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_deviation": "Standard deviation of one surface. ",
+    "_surface": "Of one surface, not of the mean. ",
     "_least": "Lower end of the interval of 95 %. ",
     "_most": "Upper end of the interval of 95 %. ",
     "_1d": "In one dimension (MDR). ",
