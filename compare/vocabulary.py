@@ -44,7 +44,8 @@ claim : Name of the claim, which never changes.
 sentence : What is claimed.
 meaning : How the number is measured, and what a deviation from it says.
 where : Case, series or diagram in which it was measured.
-dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio.
+dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
+    corrected: over the ratio that the trust map foretells.
 verdict : holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it does;
     undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value
     the verdict is whether the number is within its bound.
@@ -64,7 +65,8 @@ regime : Range of the dimensionless groups in which a number was measured.
 plot : Figure that shows it.
 
 Of points, and of curves through them.
-solver : MDR: the method of dimensionality reduction, 1D. BEM: boundary elements, 3D. exact: closed form.
+solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
+    boundary elements, 3D. exact: closed form.
 body : Rough, or smooth: the same body without its roughness.
 curve : Curve that a point belongs to.
 friction : Coefficient of friction: mean friction force over mean normal force. [1] | μ = F_x / F_N | theory, Eq. 2
@@ -103,6 +105,7 @@ truth_grid_error : Error of discretisation of the best estimate, relative. [1]
 plan : Sampling plan: points a side, or two grids of which the coarser has most surfaces.
 coarser_points : Points a side of the coarser of two grids; 0 without one. [1]
 bias : Relative error that more surfaces do not take away. [1]
+setup : Processor time before the first surface: that of the trust map. [s]
 scatter_freedom : Degrees of freedom of the scatter. [1]
 failed : Solves that ended with an error. [1]
 first_surfaces : Surfaces on the coarser grid of a plan. [1]
@@ -285,6 +288,7 @@ ENDINGS = {
     "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_deviation": "Standard deviation of one surface. ",
     "_surface": "Of one surface, not of the mean. ",
+    "_corrected": "Corrected by the trust map. ",
     "_least": "Lower end of the interval of 95 %. ",
     "_most": "Upper end of the interval of 95 %. ",
     "_1d": "In one dimension (MDR). ",
