@@ -27,4 +27,5 @@ from .rectangle import Rectangle as Rectangle
 from .report import Report as Report
 from .studies.regress import check as check
 from .studies.regress import update as update
+from .studies.trust.corrected import CorrectedMDR as CorrectedMDR
 from .task import SceneTask as SceneTask

@@ -33,6 +33,7 @@ PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
 # Of a file that is being written: name of the file, process, and some letters.
 TEMPORARY = re.compile(r"\..+\.([1-9][0-9]*)\.[a-z0-9_]{8}")
 DIGEST = 32  # letters of a digest
+SOURCES = {".py", ".json", ".gz"}  # what answers are made of
 HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
 
 
@@ -338,8 +339,9 @@ def _digest(content: bytes) -> str:
 
 
 def code_digest(folder: Path) -> str:
-    """Digest of every Python source below a folder, or of one file: names and content."""
-    sources = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*.py")}
+    """Digest of every source below a folder, what was measured included, or of one file: names and content."""
+    files = (path for path in folder.rglob("*") if path.suffix in SOURCES)
+    sources = {path.relative_to(folder).as_posix(): path for path in files}
     whole = hashlib.sha256()
     for name, path in sorted(sources.items() if folder.is_dir() else [(folder.name, folder)]):
         content = path.read_bytes()

@@ -90,9 +90,9 @@ class SceneTask:
 
     @property
     def packages(self) -> tuple[str, ...]:
-        """Packages of the scenes and of the solver."""
+        """Packages of the scenes and of the solver, which names them where it has several."""
         module = type(self.solver).__module__
-        return "scene", module.rpartition(".")[0] or module
+        return "scene", *getattr(self.solver, "packages", (module.rpartition(".")[0] or module,))
 
     def solve(self, *trail: Any) -> Outcome:
         """Solve every scene, one after the other.

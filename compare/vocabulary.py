@@ -44,7 +44,8 @@ claim : Name of the claim, which never changes.
 sentence : What is claimed.
 meaning : How the number is measured, and what a deviation from it says.
 where : Case, series or diagram in which it was measured.
-dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio.
+dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
+    corrected: over the ratio that the trust map foretells.
 verdict : holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it does;
     undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value
     the verdict is whether the number is within its bound.
@@ -75,7 +76,8 @@ line_error : Relative standard error of the mean over profiles in 1D. [1]
 smooth : Logarithm of the ratio of the smooth body. [1]
 
 Of points, and of curves through them.
-solver : MDR: the method of dimensionality reduction, 1D. BEM: boundary elements, 3D. exact: closed form.
+solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
+    boundary elements, 3D. exact: closed form.
 body : Rough, or smooth: the same body without its roughness.
 curve : Curve that a point belongs to.
 friction : Coefficient of friction: mean friction force over mean normal force. [1] | μ = F_x / F_N | theory, Eq. 2
@@ -114,6 +116,7 @@ truth_grid_error : Error of discretisation of the best estimate, relative. [1]
 plan : Sampling plan: points a side, or two grids of which the coarser has most surfaces.
 coarser_points : Points a side of the coarser of two grids; 0 without one. [1]
 bias : Relative error that more surfaces do not take away. [1]
+setup : Processor time before the first surface: that of the trust map. [s]
 scatter_freedom : Degrees of freedom of the scatter. [1]
 failed : Solves that ended with an error. [1]
 first_surfaces : Surfaces on the coarser grid of a plan. [1]
@@ -145,6 +148,9 @@ density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_1D = π q
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
 ratio : Number in one dimension over that in three. [1]
+friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map foretells it. [1]
+depth_ratio : Depth in one dimension over that in three, as the trust map foretells it. [1]
+force_ratio : Normal force in one dimension over that in three, as the trust map foretells it. [1]
 deviation : Number in one dimension over that in three, less one. [1]
 v_tau_over_a : Speed times retardation time over the radius of the smooth relaxed contact. [1]
 friction_over_slope : Friction over the slope of the body at the edge of the contact. [1]
@@ -292,6 +298,8 @@ ENDINGS = {
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_deviation": "Standard deviation of one surface. ",
+    "_surface": "Of one surface, not of the mean. ",
+    "_corrected": "Corrected by the trust map. ",
     "_least": "Lower end of the interval of 95 %. ",
     "_most": "Upper end of the interval of 95 %. ",
     "_1d": "In one dimension (MDR). ",

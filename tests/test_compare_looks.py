@@ -244,9 +244,9 @@ def test_every_axis_says_its_unit(name):
 
 @every_figure
 def test_a_style_and_colours_of_ones_own_hold_in_every_figure(name):
-    """A quarter more text, twice the lines, in another font, and other colours of both dimensionalities."""
+    """A quarter more text, twice the lines, in another font, and other colours of the solvers."""
     sheet = {"font.size": 10, "lines.linewidth": 2.2, "lines.markersize": 8, "font.family": "serif"}
-    own = {"MDR": "#117733", "BEM": "#AA4499"}
+    own = {"MDR": "#117733", "CorrectedMDR": "#999933", "BEM": "#AA4499"}
     styled = drawn(name, style.Look(sheet=sheet, colours=own))
     sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(name), styled))
     assert larger == pytest.approx(1.25 * sizes, rel=ROUNDING)
@@ -317,7 +317,7 @@ def test_what_a_legend_names_is_told_apart_in_grey_and_by_every_reader(name):
 
 
 def test_the_two_dimensionalities_differ_for_every_reader_and_red_and_green_would_not():
-    one, three = style.COLOURS.values()
+    one, three = style.COLOURS["MDR"], style.COLOURS["BEM"]
     for vision in VISION:
         assert difference(one, three, vision) > 3 * APART
         assert (

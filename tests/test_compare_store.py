@@ -453,4 +453,6 @@ def test_the_digest_of_code_changes_with_content_and_name(tmp_path):
     (tmp_path / "a.py").write_text("x = 2\n")
     second = code_digest(tmp_path)
     (tmp_path / "a.py").rename(tmp_path / "b.py")
-    assert len({first, second, code_digest(tmp_path)}) == 3
+    third = code_digest(tmp_path)
+    (tmp_path / "measured.csv.gz").write_bytes(b"1")  # what answers are made of
+    assert len({first, second, third, code_digest(tmp_path)}) == 4

@@ -12,6 +12,7 @@ from compare.outcome import Outcome, Row
 from compare.plots import style
 from compare.plots.workprecision_surfaces import means as drawn_means
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
+from compare.studies.workprecision import regimes
 from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes_of
 from compare.studies.workprecision.convergence import Convergence, Ladder
 from compare.studies.workprecision.ensemble import Ensemble, means, plans_table
@@ -30,6 +31,8 @@ SMOOTH = replace(ROUGH, roughness=None)
 TRUE, SCATTER, FLOOR = 0.1, 0.2, 0.5  # friction of the made ensembles, its scatter between surfaces, error of 1D
 GRID_BIAS = {64: 0.06, 128: 0.02, 256: 0.005}  # relative, of the made ensembles
 SECONDS = {64: 0.1, 128: 0.2, 256: 0.6, 1000: 1e-3}
+SETUP = 0.05  # of the trust map [s]
+OFF_THE_MAP = "Off the map: made so."
 
 
 def plan(bias=0.0, reach=0.0, scatters=(0.2,), seconds=(0.1,), solver="BEM"):
@@ -43,8 +46,11 @@ def ensemble(surfaces=40, **changed):
     return replace(Ensemble("made", "made", ROUGH, (FRICTION,), grids, surfaces, 8, (1000,), 200), **changed)
 
 
-def outcomes_of(asked, seed=1, fails=lambda solver, index: False, timed_fails=lambda solver: False):
-    """Answers as both models might give them: each surface its own, each grid its own bias, 1D a floor."""
+def outcomes_of(asked, seed=1, fails=lambda solver, index: False, timed_fails=lambda solver: False, ratio=nan):
+    """Answers as the models might give them: each surface its own, each grid its own bias, 1D a floor.
+
+    ratio : of 1D over 3D on the trust map; off it if NaN
+    """
     random = np.random.default_rng(seed)
     own = TRUE * (1 + SCATTER * random.standard_normal(asked.surfaces))
     found = {}
@@ -58,11 +64,14 @@ def outcomes_of(asked, seed=1, fails=lambda solver, index: False, timed_fails=la
                 friction = own[k] + TRUE * GRID_BIAS[task.solver.points] * (1 + 0.1 * random.standard_normal())
             rows.append(Row(reason="does not converge") if fails(task.solver, k) else row_of(friction))
         found[task] = Outcome(tuple(rows))
-    for task in asked.timed:
+    *timed, corrected = asked.timed
+    for task in timed:
         costs = dict.fromkeys(("processor", "wall"), SECONDS[task.solver.points]) | {"memory": 1e6}
         failed = timed_fails(task.solver)
         found[task] = Outcome((Row(reason="does not converge") if failed else row_of(TRUE, measures=costs),))
-    return found
+    known = {"friction_ratio": ratio, "processor": SETUP + SECONDS[1000]}
+    row = row_of(TRUE, measures=known) if np.isfinite(ratio) else Row(reason=OFF_THE_MAP)
+    return found | {corrected: Outcome((row,))}
 
 
 def row_of(friction, **others):
@@ -174,7 +183,7 @@ def test_truth_and_floor_are_within_their_intervals_as_often_as_they_say(count):
         found = mean(seed=seed)
         off = abs(found.truth.value - TRUE * (1 + GRID_BIAS[256]))
         scattered = found.truth.error - found.grid_error * found.truth.scale
-        floor = found.floor
+        floor = found.floor()
         covered.append((off <= scattered, off <= found.truth.error, floor.least <= FLOOR <= floor.most))
     by_scatter, *whole = np.mean(covered, axis=0)
     assert by_scatter == pytest.approx(0.95, abs=0.046)
@@ -244,6 +253,45 @@ def test_a_mean_that_lacks_surfaces_is_no_truth(surfaces, known):
     assert verdicts == ({"fails"} if known else {"undecided"})
 
 
+def test_corrected_by_the_true_ratio_one_dimension_keeps_no_error_and_pays_for_the_map_first():
+    found = mean(ratio=1 - FLOOR)
+    (own,), (line,) = found.of("CorrectedMDR"), found.of("MDR")
+    assert found.floor("CorrectedMDR").least == 0.0 < found.floor().least
+    assert own.setup == pytest.approx(SETUP)
+    assert own.levels[0].seconds == line.levels[0].seconds == SECONDS[1000]
+    # Of one profile relative to the true mean, scattered as much more as its mean is less.
+    assert own.levels[0].scatter.value == pytest.approx(line.levels[0].scatter.value / (1 - FLOOR))
+    assert own.least_seconds == pytest.approx(SETUP + SECONDS[1000])
+    assert own.error(SETUP + 25 * SECONDS[1000]) == pytest.approx(own.error_of(25))
+    effort = own.effort(0.3)
+    assert effort.seconds == pytest.approx(SETUP + effort.counts[0] * SECONDS[1000])
+    assert regime(made(ratio=1 - FLOOR)).answer(0.3) == effort
+    assert "profiles" in effort.settings
+
+
+def test_off_the_map_the_corrected_model_has_no_error_and_says_why():
+    found = regime(made())
+    assert np.isnan(found.mean.floor("CorrectedMDR").value)
+    assert found.answer(10.0, "CorrectedMDR") is None
+    (told,) = (row for row in plans_table([found.mean]) if row["solver"] == "CorrectedMDR")
+    assert told["reason"] == OFF_THE_MAP
+    assert cells([found])[0]["best of 1D corrected"] == "not known"
+
+
+def test_a_wrong_ratio_is_an_error_that_no_number_of_profiles_passes():
+    """A third too high: the mean comes out at three quarters."""
+    floor = mean(ratio=(1 - FLOOR) * 4 / 3).floor("CorrectedMDR")
+    assert floor.least < 0.25 < floor.most
+    assert floor.least > 0.1
+
+
+def test_every_smooth_contact_is_answered_by_three_models_and_every_rough_one_too():
+    for each in regimes.smooth("full"):
+        assert [ladder.solves[0].solver.name for ladder in each.ladders] == ["MDR", "BEM", "CorrectedMDR"]
+    for each in regimes.rough("full"):
+        assert {task.solver.name for task in each.timed} == {"MDR", "BEM", "CorrectedMDR"}
+
+
 def test_a_time_of_which_one_surface_failed_is_none():
     asked = ensemble(timed_surfaces=2)
     failed = next(task for task in asked.timed if task.solver.points == 64)
@@ -288,9 +336,10 @@ def test_figures_and_findings_come_of_whatever_was_solved(diagram, fails):
 
 
 def test_plans_are_drawn_from_their_table_alone():
-    (plot,) = SURFACES.plots(node(made()))
-    (drawn,), measured = drawn_means(plot.tables["workprecision-surfaces"]), mean()
+    known = {"ratio": 1 - FLOOR}
+    (plot,) = SURFACES.plots(node(made(**known)))
+    (drawn,), measured = drawn_means(plot.tables["workprecision-surfaces"]), mean(**known)
     for there, here in zip(drawn.plans, measured.plans, strict=True):
-        assert there.levels == here.levels
+        assert (there.levels, there.setup) == (here.levels, here.setup)
         assert there.bias.most == pytest.approx(here.bias.most, rel=1e-12)  # rounding
     assert [*SURFACES.plots(xarray.DataTree()), *MODELS.plots(xarray.DataTree())] == []

@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 SINGLE, DOUBLE = JOURNALS["default"].single, JOURNALS["default"].double
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
-COLOURS = {"MDR": "#0072B2", "BEM": "#D55E00"}
-MARKER = {"MDR": "o", "BEM": "s", "exact": ""}
-LINE = {"MDR": "-", "BEM": "--", "exact": "-"}
-LABEL = {"MDR": "1D (MDR)", "BEM": "3D (BEM)", "exact": "closed form"}
+COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00"}
+MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "exact": ""}
+LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "exact": "-"}
+LABEL = {"MDR": "1D (MDR)", "CorrectedMDR": "1D, corrected", "BEM": "3D (BEM)", "exact": "closed form"}
 SERIES_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 

@@ -1,4 +1,4 @@
-"""Error against the true answer of three dimensions over time: both models in one picture, in several regimes."""
+"""Error against the true answer of three dimensions over time: the models in one picture, in several regimes."""
 
 from collections.abc import Sequence
 from math import ceil, isfinite
@@ -17,6 +17,8 @@ from .lettering import Letter, letter, write
 from .workprecision import Panel, corner, dots, guide, hidden, marks, panels
 from .workprecision_surfaces import means, plan_look
 
+# Models of one dimension, as a legend calls them.
+LINES = {"MDR": "1D", "CorrectedMDR": "corrected 1D"}
 # Size of a panel [inch], and of what surrounds them all.
 HEIGHT, AROUND = 1.75, 0.55
 # Errors below are drawn there: the solvers stop before.
@@ -38,8 +40,9 @@ def plot(name: str, tables: Tables) -> Plot:
         name, figure, tables,
         "Error against the true answer of three dimensions, over processor time. Smooth: points of the grid; "
         "grey, error of the reference. Rough: expected error of a mean of 1, 10, 100, ... surfaces on so many "
-        "points; thick, cheapest plan in 3D. Blue, interval of 95 % of the error that 1D keeps.",
-        "Panels of error over time: 1D is quick and level, 3D slower and falling.",
+        "points; thick, cheapest plan in 3D. Bands, intervals of 95 % of errors that 1D keeps, as it is and "
+        "corrected.",
+        "Panels of error over time: 1D is quick and level, 1D corrected lower, 3D slower and falling.",
         {kind: kinds.get(kind, "") for kind in ("steps", "plans")},
     )  # fmt: skip
 
@@ -96,7 +99,7 @@ def _headed(told) -> str:
 
 
 def _draw_ladders(axes: Axes, panel: Panel):
-    """Errors of both ladders of a smooth contact, and the powers they follow."""
+    """Errors of the ladders of a smooth contact, and the powers they follow."""
     own = panel.first.reference_error
     for curve in panel.curves:
         colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
@@ -114,7 +117,7 @@ def _draw_ladders(axes: Axes, panel: Panel):
 
 def _draw_mean(axes: Axes, mean: Mean):
     """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
-    for own in (mean.plain, mean.of("MDR")[-1:]):
+    for own in (mean.plain, *(mean.of(solver)[-1:] for solver in LINES)):
         for plan in own:
             _mean_curve(axes, plan, plan_look(plan, own))
     every = mean.of("BEM")
@@ -122,9 +125,11 @@ def _draw_mean(axes: Axes, mean: Mean):
     if known:
         seconds = np.geomspace(min(known), LONGEST * min(known), 200)
         axes.plot(seconds, envelope(every, seconds), **_cheapest(), zorder=2)
-    if isfinite(mean.floor.most):
-        band: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.13, "zorder": 0, "linewidth": 0}
-        axes.axhspan(max(mean.floor.least, LEAST), mean.floor.most, **band)
+    for solver in LINES:
+        floor = mean.floor(solver)
+        if isfinite(floor.most):
+            band: dict[str, Any] = {"color": style.COLOUR[solver], "alpha": 0.13, "zorder": 0, "linewidth": 0}
+            axes.axhspan(max(floor.least, LEAST), floor.most, **band)
     if mean.grid_error > 0:
         hidden(axes, LEAST / 10, mean.grid_error)
     if mean.failed:
@@ -161,9 +166,9 @@ def _mean_curve(axes, plan: SamplingPlan, look):
     if not (isfinite(level.seconds) and isfinite(plan.bias.size) and isfinite(level.scatter.value)):
         return
     counts = np.geomspace(1, LONGEST, 120)
-    axes.plot(counts * level.seconds, plan.error_of(counts), **look, zorder=3)
+    axes.plot(plan.setup + counts * level.seconds, plan.error_of(counts), **look, zorder=3)
     marks = {"marker": style.MARKER[plan.solver], "markersize": style.mark(0.65), "color": look["color"]}
-    axes.plot(MARKED * level.seconds, plan.error_of(MARKED), linestyle="none", zorder=4, **marks)
+    axes.plot(plan.setup + MARKED * level.seconds, plan.error_of(MARKED), linestyle="none", zorder=4, **marks)
 
 
 def _cheapest():
@@ -186,11 +191,13 @@ def _share(group: Sequence[Axes], rough):
 
 
 def _legend(drawing, drawn):
-    looks = (style.look(solver, markersize=style.mark(0.8)) for solver in ("MDR", "BEM"))
+    looks = (style.look(solver, markersize=style.mark(0.8)) for solver in (*LINES, "BEM"))
     entries: list = [Line2D([], [], **look) for look in looks]
     if any(map(_rough, drawn)):
         entries.append(Line2D([], [], **_cheapest(), label="cheapest plan in 3D"))
-        entries.append(Patch(color=style.COLOUR["MDR"], alpha=0.2, linewidth=0, label="error that 1D keeps, 95 %"))
+        for solver, name in LINES.items():
+            band = {"color": style.COLOUR[solver], "alpha": 0.2, "linewidth": 0}
+            entries.append(Patch(**band, label=f"error that {name} keeps, 95 %"))
     entries.append(Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"))
     style.legend(drawing, entries, "outside lower center", len(entries))
 

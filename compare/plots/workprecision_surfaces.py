@@ -60,7 +60,8 @@ def _plan(rows: DataFrame) -> SamplingPlan:
         for row in rows.itertuples()
     )
     bias = float(first["bias"])
-    return SamplingPlan(first["solver"], Bias(bias, float(first["bias_most"]) - abs(bias)), levels)
+    reach = float(first["bias_most"]) - abs(bias)
+    return SamplingPlan(first["solver"], Bias(bias, reach), levels, float(first["setup"]))
 
 
 def figure(tables: Tables, plans: str, levels: Sequence[float]) -> Figure:

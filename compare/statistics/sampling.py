@@ -116,11 +116,13 @@ class SamplingPlan:
     Giles, Oper. Res. 56, 607 (2008). Scatter and bias are relative, as errors are.
 
     solver : by name
+    setup : processor time before the first surface [s]
     """
 
     solver: str
     bias: Bias
     levels: tuple[Level, ...]
+    setup: float = 0.0
 
     @property
     def label(self) -> str:
@@ -134,7 +136,7 @@ class SamplingPlan:
 
     def error(self, seconds: np.ndarray | float) -> np.ndarray | float:
         """Error expected after so much processor time [s], with any broken numbers of surfaces."""
-        return np.sqrt(self.bias.size**2 + self._work**2 / seconds)
+        return np.sqrt(self.bias.size**2 + self._work**2 / (seconds - self.setup))
 
     def error_of(self, counts: np.ndarray | float) -> np.ndarray | float:
         """Error expected of so many answers of the first level, corrections aside."""
@@ -157,7 +159,7 @@ class SamplingPlan:
             return None
         shares = [scatter * work / sqrt(each.seconds) / room for scatter, each in drawn]
         counts = tuple(max(1, ceil(share)) for share in shares)
-        seconds = sum(count * each.seconds for count, each in zip(counts, self.levels, strict=True))
+        seconds = self.setup + sum(count * each.seconds for count, each in zip(counts, self.levels, strict=True))
         return Effort(self.solver, self._settings(counts), seconds, counts)
 
     @property
@@ -168,7 +170,7 @@ class SamplingPlan:
             for level in self.levels
             if level.scatter.value > 0
         ]
-        return max([sum(level.seconds for level in self.levels), *shared])
+        return self.setup + max([sum(level.seconds for level in self.levels), *shared])
 
     @property
     def _work(self):
@@ -176,7 +178,7 @@ class SamplingPlan:
 
     def _settings(self, counts):
         """Surfaces and points in words."""
-        what = "profiles" if self.solver == "MDR" else "surfaces"
+        what = "surfaces" if self.solver == "BEM" else "profiles"
         (count, *more), (level, *finer) = counts, self.levels
         told = f"{count:,} {what if count > 1 else what[:-1]} of {level.points[0]} points"
         for number, correction in zip(more, finer, strict=True):
@@ -186,7 +188,7 @@ class SamplingPlan:
 
 @dataclass(frozen=True)
 class Mean:
-    """Mean over surfaces of one quantity of a regime, and where both models stand with it.
+    """Mean over surfaces of one quantity of a regime, and where the models stand with it.
 
     contact, title : of the regime; quantity, label : its name, and for people
     plans : to it; relative to the scale of the truth
@@ -217,10 +219,9 @@ class Mean:
         """Plans of the 3D solver on one grid each."""
         return [plan for plan in self.of("BEM") if not plan.corrected]
 
-    @property
-    def floor(self) -> Bias:
-        """Error of the 1D model on its finest grid: no number of profiles passes it."""
-        own = self.of("MDR")
+    def floor(self, solver: str = "MDR") -> Bias:
+        """Error of a 1D model on its finest grid: no number of profiles passes it."""
+        own = self.of(solver)
         return own[-1].bias if own else Bias(nan, nan)
 
 

@@ -1,4 +1,4 @@
-"""The shortest way to a wanted error of the true answer of three dimensions, in either model."""
+"""The shortest way to a wanted error of the true answer of three dimensions, in any model."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -76,12 +76,12 @@ def regimes_of(node: xarray.DataTree) -> list[Regime]:
 
 def rough_means(node: xarray.DataTree) -> list[MeasuredMean]:
     """Means over surfaces of every quantity of every rough contact."""
-    pairs = (
-        [child.children[name].to_dataset(inherit=False) for name in ("BEM", "MDR")]
+    models = (
+        [child.children[name].to_dataset(inherit=False) for name in ("BEM", "MDR", "CorrectedMDR")]
         for child in node.children.values()
         if child.children
     )
-    return [mean for pair in pairs for mean in means(*pair)]
+    return [mean for each in models for mean in means(*each)]
 
 
 def _smooth(own, method):
@@ -108,7 +108,7 @@ def _falls(ladder):
 
 def _rough(mean):
     """The scatter of profiles would hide whether the 1D model comes ever closer with its points."""
-    floor, grid = mean.floor, mean.grid_error
+    floor, grid = mean.floor(), mean.grid_error
     half = floor.reach - grid
     sure = all(map(isfinite, (floor.value, half, grid)))
     known = {
@@ -135,7 +135,7 @@ def answers_table(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> 
                 "settings": "" if taken is None else taken.settings,
                 "seconds": nan if taken is None else taken.seconds,
                 **{
-                    f"seconds_{label.lower()}": nan if answer is None else answer.seconds
+                    f"seconds_{label.lower().replace(' ', '_')}": nan if answer is None else answer.seconds
                     for label, answer in by_solver.items()
                 },
                 "best_known": each.best(),
@@ -157,6 +157,7 @@ def cells(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dic
             "quantity": each.label,
             **{f"within {share(level)}": _cell(each, level) for level in levels},
             "error that 1D keeps": "none (it converges)" if each.converges else _interval(each.floor),
+            "best of 1D corrected": share(best) if isfinite(best := each.best("CorrectedMDR")) else "not known",
         }
         for each in found
     ]

@@ -27,7 +27,7 @@ STEPS = (
     *("relative_error", "reference", "reference_error"),
     *("processor", "wall", "memory", "applications", "status", "reason"),
 )
-DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+DIMENSIONS = {"MDR": "1D", "CorrectedMDR": "1D corrected", "BEM": "3D"}
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A rough scene whose answer is the mean over its surfaces: draws of both solvers, and plans to the mean."""
+"""A rough scene whose answer is the mean over its surfaces: draws of the solvers, and plans to the mean."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,7 +15,8 @@ from scene import Scene
 from ...rectangle import FAILED, NOT_ASKED, SOLVED
 from ...statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, half_width
 from ...task import SceneTask, Task, draws_of
-from .convergence import described
+from ..trust.corrected import CorrectedMDR
+from .convergence import costs_of, described
 from .reference import Known, Outcomes, Quantity
 from .timed_solve import COSTS, TimedSolve, work
 
@@ -27,7 +28,9 @@ VARIABLES = {"friction": "friction_coefficient", "depth": "depth_reached", "forc
 
 @dataclass(frozen=True)
 class Ensemble:
-    """A rough scene with the grids on which both models answer it; the counterpart of a Convergence.
+    """A rough scene with the grids on which the models answer it; the counterpart of a Convergence.
+
+    The corrected 1D model answers with the profiles of the 1D model on its finest grid.
 
     name, title : see Convergence
     quantities : of which the mean over surfaces is asked for
@@ -55,7 +58,7 @@ class Ensemble:
     @property
     def timed(self) -> list[Task]:
         """Solves that have to be measured alone."""
-        return [task for solver in self._solvers for task in self._timed_of(solver)]
+        return [*(task for solver in self._solvers for task in self._timed_of(solver)), self._corrected]
 
     @property
     def untimed(self) -> list[Task]:
@@ -63,17 +66,25 @@ class Ensemble:
         return [task for solver in self._solvers for task in self._tasks_of(solver)]
 
     def datasets(self, outcomes: Outcomes) -> dict[str, xarray.Dataset]:
-        """Answers (points, draw) of each solver, with the costs (points,) of one draw, at name/solver."""
-        return {
-            f"{self.name}/{name}": self._dataset(
-                name, [each for each in self._solvers if each.name == name], outcomes
-            )
+        """Answers (points, draw) of each solver, with the costs (points,) of one draw, at name/solver.
+
+        Of the corrected model the ratios, with the costs of one profile (step,).
+        """
+        ratios = costs_of([self._corrected], outcomes, *(f"{each.name}_ratio" for each in self.quantities))
+        found = {
+            name: self._dataset(name, [each for each in self._solvers if each.name == name], outcomes)
             for name in ("BEM", "MDR")
         }
+        found[self._corrected.solver.name] = described(xarray.Dataset(ratios), self.scene)
+        return {f"{self.name}/{name}": each for name, each in found.items()}
 
     @property
     def _solvers(self):
         return (*(BEM(points=points) for points in self.grids), *(MDR(points=points) for points in self.lines))
+
+    @property
+    def _corrected(self):
+        return corrected_solve(self.scene, self.lines[-1])
 
     def _timed_of(self, solver):
         count = self.timed_surfaces if isinstance(solver, BEM) else 1
@@ -116,13 +127,18 @@ class Ensemble:
         return dataset
 
 
+def corrected_solve(scene: Scene, points: int) -> TimedSolve:
+    """Solve of the corrected 1D model: the map, and one profile of so many points."""
+    return TimedSolve(CorrectedMDR(MDR(points=points), profiles=1), (scene,), work=work(BEM()))
+
+
 @dataclass(frozen=True)
 class Sample:
     """Answers of one solver on one grid.
 
     values : by the quantity's name, (surfaces,), NaN where a solve failed or nothing touched
     costs : of one surface, the mean of those measured: processor, wall [s], memory [bytes], applications; NaN
-        where one failed
+        where one failed; and setup [s], the processor time before the first surface, if there is any
     reasons : why solves failed, one each
     """
 
@@ -147,6 +163,13 @@ class Sample:
         reasons = tuple(str(reason) for reason in grid["reason"].values if reason)
         return cls(dataset.attrs["solver"], points, values, costs, reasons)
 
+    def over(self, ratios: xarray.Dataset) -> "Sample":
+        """Sample of the corrected 1D model from one of the 1D model; solves that failed are told of that one."""
+        (reason,), (spent,) = ratios["reason"].values, ratios["processor"].values
+        values = {name: each / ratios[f"{name}_ratio"].item() for name, each in self.values.items()}
+        costs = {**self.costs, "setup": spent - self.costs["processor"]}
+        return Sample("CorrectedMDR", self.points, values, costs, (str(reason),) if reason else ())
+
 
 @dataclass(frozen=True)
 class MeasuredMean(Mean):
@@ -155,7 +178,7 @@ class MeasuredMean(Mean):
     truth : mean with its whole error: half of the interval of 95 % and that of the grid; NaN where more than
         MOST_FAILED of the surfaces have no answer
     standard_error : statistical part of that error, relative; freedom : its degrees of freedom
-    samples : of all grids of both solvers
+    samples : of all grids of all solvers
     """
 
     truth: Known
@@ -164,9 +187,10 @@ class MeasuredMean(Mean):
     samples: tuple[Sample, ...]
 
 
-def means(bem: xarray.Dataset, mdr: xarray.Dataset) -> list[MeasuredMean]:
-    """Means of every quantity of a regime."""
+def means(bem: xarray.Dataset, mdr: xarray.Dataset, ratios: xarray.Dataset) -> list[MeasuredMean]:
+    """Means of every quantity of a regime. ratios : of the corrected 1D model"""
     grids, lines = ([Sample.of(each, int(points)) for points in each["points"].values] for each in (bem, mdr))
+    lines.append(lines[-1].over(ratios))
     return [_mean_of(each, bem.attrs, grids, lines) for each in bem.values() if "quantity" in each.attrs]
 
 
@@ -192,6 +216,7 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
                 "plan": plan.label,
                 "points": level.points[0],
                 "coarser_points": level.points[1] if len(level.points) > 1 else 0,
+                "setup": plan.setup,
                 "bias": plan.bias.value,
                 "bias_least": plan.bias.least,
                 "bias_most": plan.bias.most,
@@ -256,14 +281,15 @@ def _mean_of(variable, about, grids, lines):
         return SamplingPlan("BEM", bias(sample), (coarse, fine))
 
     def line(sample):
-        """Plan of the 1D model, its bias its own mean less the truth: two independent numbers."""
+        """Plan of a 1D model, its bias its own mean less the truth: two independent numbers."""
         scatter = Scatter.of(sample.values[name] / unit)
         parts, freedoms = (scatter.of_mean, statistical), (scatter.freedom, freedom)
         error, both = hypot(*parts), 0.0
         if scatter.freedom > 0 and error > 0:
             both = error**4 / sum(p**4 / f for p, f in zip(parts, freedoms, strict=True))
         found = Bias(_mean(sample.values[name]) / unit - value / unit, half_width(error, both) + left)
-        return SamplingPlan("MDR", found, (Level((sample.points,), scatter, sample.costs["processor"]),))
+        level = Level((sample.points,), scatter, sample.costs["processor"])
+        return SamplingPlan(sample.solver, found, (level,), sample.costs.get("setup", 0.0))
 
     plans = (*map(plain, grids), *map(corrected, grids[1:]), *map(line, lines))
     truth = Known(value, unit * (half_width(statistical, freedom) + left), unit)

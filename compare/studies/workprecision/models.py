@@ -1,4 +1,4 @@
-"""Both models against the true answer of three dimensions: which model, which settings, how many surfaces."""
+"""The models against the true answer of three dimensions: which model, which settings, how many surfaces."""
 
 from collections.abc import Iterator
 from math import isfinite, nan
@@ -140,7 +140,9 @@ MODELS = Diagram(
     "Which model for which error",
     "Both models against the true answer of three dimensions: one is fast and keeps the error of the model, "
     "the other is slow and converges. Smooth bodies have one answer; that of rough ones is the mean over "
-    "surfaces, so that the scatter between surfaces counts beside the grid.",
+    "surfaces, so that the scatter between surfaces counts beside the grid. Between them is 1D corrected by the "
+    "trust map: it pays for the map once and keeps the error of the map. Of a smooth body the map solves both "
+    "models, so that nothing is gained; off the map there is no answer.",
     lambda size: [*regimes.smooth(size), *regimes.rough(size)],
     _model_findings,
     _model_plots,

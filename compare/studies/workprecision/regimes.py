@@ -1,4 +1,4 @@
-"""The regimes in which both models are asked for the true answer of three dimensions."""
+"""The regimes in which the models are asked for the true answer of three dimensions."""
 
 from dataclasses import replace
 from typing import Any
@@ -10,7 +10,7 @@ from scene.scales import elastic_contact
 
 from .. import contacts
 from .convergence import Convergence, Ladder
-from .ensemble import Ensemble
+from .ensemble import Ensemble, corrected_solve
 from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
 from .scenes import FULL, QUICK, at
 
@@ -100,9 +100,10 @@ def _sliding(name, title, body, speed, size):
 
 
 def _ladders(scene: Scene, size) -> tuple[Ladder, ...]:
-    return tuple(
-        Ladder.of(solver.name, scene, solver, "points", at(SMOOTH, size)[solver.name]) for solver in (MDR(), BEM())
-    )
+    points = at(SMOOTH, size)
+    mdr, bem = (Ladder.of(each.name, scene, each, "points", points[each.name]) for each in (MDR(), BEM()))
+    line = Ladder.over("CorrectedMDR", "points", points["MDR"], lambda each: corrected_solve(scene, each))
+    return mdr, bem, line
 
 
 def _rough_at_rest(shape, settings):

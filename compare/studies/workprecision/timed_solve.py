@@ -106,7 +106,8 @@ class TimedSolve(SceneTask):
 
         A plane keeps its roughness without its short waves.
         """
-        few = replace(self.solver, **{name: min(most, getattr(self.solver, name)) for name, most in WARM.items()})
+        less = {name: min(most, held) for name, most in WARM.items() if (held := getattr(self.solver, name, 0))}
+        few = replace(self.solver, **less)
         scene, rough = self.scene, self.scene.roughness
         if few.refusals(scene) and isinstance(rough, SelfAffine):
             cut_off = replace(rough, shortest=None) if isinstance(scene.indenter, Plane) else None
