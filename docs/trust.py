@@ -1,28 +1,111 @@
 """What the package has of the trust map, made of its campaign: `python docs/trust.py crosscheck-study`.
 
-The folder is that of `crosscheck study trust --size standard`, with its page in trust-standard. Written are the
-measured tables and what is fitted to those learned from, beside the modules that read them.
+The folder is that of `crosscheck study trust --size standard`. Written are the measured tables, what is fitted to
+those learned from, beside the modules that read them, and the tables of docs/trust.md and the README.
 """
 
+import re
 import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+
+import numpy as np
+import xarray
+from tables import table as markdown
 
 import compare
 from compare.studies.trust import shipped, table
-from compare.studies.trust.model import Model
+from compare.studies.trust.model import NORMAL, Model
 from compare.studies.trust.ratio import QUANTITIES
-from compare.studies.trust.study import HELD_OUT, LEARNED
+from compare.studies.trust.regions import BODIES, ROUGHNESS, SPEEDS
+from compare.studies.trust.scoring import Score
+from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy
+
+PAGE = Path(__file__).with_suffix(".md")
+README = PAGE.parent.parent / "README.md"
+FEWEST = 5
 
 
-def main(folder: Path) -> None:
-    """Write the tables, and models fitted to what they hold: to five digits, as it is read again."""
-    answers = compare.load(folder / "trust-standard")
+def ship(answers: xarray.DataTree) -> None:
+    """Write the tables, and models fitted to what these hold: to five digits, as they are read again."""
     for name, path in ((LEARNED, table.LEARNED), (HELD_OUT, table.HELD_OUT)):
         path.write_bytes(table.written(table.columns(answers[name].to_dataset())))
+    table.read.cache_clear()
     learned = table.read(table.LEARNED)
     models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
     shipped.FITTED.write_text(shipped.as_json(models) + "\n", encoding="utf-8")
+    shipped.model.cache_clear()
+
+
+def scores() -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
+    """Scores of the models that come with the package."""
+    return TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in QUANTITIES})
+
+
+def advice(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, str]]:
+    """A row for each regime, a cell for each body: factor with the range over scenes, interval, share to solve."""
+    for speed, of_speed in SPEEDS.items():
+        for roughness, of_roughness in ROUGHNESS.items():
+            here = of_speed(groups) & of_roughness(groups)
+            cells = {body: _cell(score, here & of_body(groups)) for body, of_body in BODIES.items()}
+            if any(cells.values()):
+                yield {"": f"{speed}, roughness {roughness}", **cells}
+
+
+def _cell(score, here):
+    if here.sum() < FEWEST:
+        return ""
+    part = score.taken(here)
+    factors = np.exp(-part.foretold.logarithm[part.usable])
+    share = {kind: round(100 * float(np.mean(part.advice == kind))) for kind in ("use", "multiply", "solve")}
+    if share["solve"] > 50:
+        return f"**solve** ({share['solve']} %)"
+    low, middle, high = np.quantile(factors, (0.05, 0.5, 0.95))
+    half = 100 * np.median(np.expm1(NORMAL * part.foretold.error[part.usable]))
+    kind = f"**multiply** by {middle:.2f} ({low:.2f} to {high:.2f})" if share["use"] <= 50 else "**use**"
+    return f"{kind}, ±{half:.2g} %" + (f"; solve {share['solve']} %" if share["solve"] else "")
+
+
+def errors(found: Mapping[str, tuple[Score, Mapping[str, np.ndarray]]]) -> Iterator[dict[str, str]]:
+    """A row for each quantity: errors on all held-out scenes that are usable."""
+    for name, (score, _) in found.items():
+        used = score.used
+        own, raw = (np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.own, used.errors))
+        yield {
+            "": name,
+            "held-out scenes": f"{score.usable.size}",
+            "use or multiply": f"{100 * score.usable.mean():.0f} %",
+            "median error, map alone": f"{100 * own[0]:.2g} %",
+            "nine in ten within": f"{100 * own[1]:.2g} %",
+            "the same as measured": f"{100 * raw[0]:.2g} %, {100 * raw[1]:.2g} %",
+            "in their interval of 95 %": f"{100 * used.covered:.1f} %",
+        }
+
+
+def told(rows: Iterator[dict[str, str]]) -> str:
+    """Rows as a Markdown table."""
+    first, *others = rows
+    return markdown("|".join(first), (tuple(row.values()) for row in (first, *others)))
+
+
+def replaced(path: Path, name: str, text: str) -> None:
+    """Replace what stands between two comments of a page."""
+    page = path.read_text(encoding="utf-8")
+    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
+    assert len(pattern.findall(page)) == 1, (path, name)
+    path.write_text(pattern.sub(lambda found: f"{found[1]}{text.strip()}\n{found[2]}", page), encoding="utf-8")
+
+
+def main(folder: Path | None) -> None:
+    """Write everything; without a folder, the tables of the pages alone."""
+    if folder is not None:
+        ship(compare.load(folder / "trust-standard"))
+    found = scores()
+    parts = [f"**{name}**\n\n{told(advice(*each))}" for name, each in found.items()]
+    replaced(PAGE, "advice", "\n\n".join(parts))
+    replaced(PAGE, "errors", told(errors(found)))
+    replaced(README, "friction", told(advice(*found["friction"])))
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else None)

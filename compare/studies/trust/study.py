@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from math import log
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import xarray
@@ -41,6 +41,8 @@ stand."""
 # What the map is to keep, of each quantity: median error, error of nine in ten.
 WANTED = {"friction": (0.02, 0.08), "depth": (0.01, 0.05), "force": (0.01, 0.05)}
 BOOTSTRAPS = 200
+# A score, and the groups of its scenes by name.
+Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -127,15 +129,18 @@ class TrustStudy(Study):
             self._judged.update(answers=answers, models=models)
         return self._judged["models"]
 
-    def scores(self, answers: xarray.DataTree) -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
+    def scores(self, answers: xarray.DataTree) -> dict[str, Scored]:
         """Score of each quantity on the scenes held out, and the groups of these by name."""
-        held_out = table.columns(answers[HELD_OUT].to_dataset())
-        found: dict[str, tuple[Score, Mapping[str, np.ndarray]]] = {}
-        for name, model in self.models(answers).items():
+        return self.scored(table.columns(answers[HELD_OUT].to_dataset()), self.models(answers))
+
+    @staticmethod
+    def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Scored]:
+        """Score of each model on the scenes of a table."""
+        found: dict[str, Scored] = {}
+        for name, model in models.items():
             rows, measured = table.measurements(held_out, name)
-            groups = {each: held_out[each][rows] for each in NAMES} | {
-                "slides": held_out[table.column("friction", "surfaces")][rows] > 0
-            }
+            groups = {each: held_out[each][rows] for each in NAMES}
+            groups["slides"] = held_out[table.column("friction", "surfaces")][rows] > 0
             found[name] = Score(measured, model.foretold(measured.groups)), groups
         return found
 
