@@ -33,6 +33,8 @@ HEIGHTS = 2e-3, 1.0
 WAVES = 0.7, 16.0
 PERIODS = 1.0, 10.0
 SPEEDS = 1e-3, 1e3
+# Points from which on the longest wave is far longer than the contact, as in the paper.
+LONG, LONG_PERIODS = 4096, (8.0, 25.0)
 DIMENSIONS = 16
 # Shares of the scenes that are smooth, slide, and are pressed by a load.
 SMOOTH, SLIDING, UNDER_LOAD = 0.1, 0.88, 0.6
@@ -44,10 +46,10 @@ SEEDS = 1000
 
 @cache
 def learned_points() -> np.ndarray:
-    """Points to choose from (4096, DIMENSIONS): a Sobol sequence, which fills the cube evenly."""
+    """Points to choose from (8192, DIMENSIONS): a Sobol sequence, which fills the cube evenly."""
     from scipy.stats import qmc  # takes half a second, which the verdict on a scene does not have
 
-    return qmc.Sobol(DIMENSIONS, seed=LEARNED).random(4096)
+    return qmc.Sobol(DIMENSIONS, seed=LEARNED).random(8192)
 
 
 @cache
@@ -58,7 +60,7 @@ def held_out_points() -> np.ndarray:
 
 def learned(point: int) -> Scene:
     """Scene of a number of a point to learn from; each has surfaces of its own, so that none scatter together."""
-    return scene_at(learned_points()[point], SEEDS * point)
+    return scene_at(learned_points()[point], SEEDS * point, PERIODS if point < LONG else LONG_PERIODS)
 
 
 def held_out(point: int) -> Scene:
@@ -66,12 +68,15 @@ def held_out(point: int) -> Scene:
     return scene_at(held_out_points()[point], 10_000 * SEEDS + SEEDS * point)
 
 
-def scene_at(point: np.ndarray, seed: int = 0) -> Scene:
-    """Scene of a point of the cube (DIMENSIONS,); seed : of its first surface."""
+def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PERIODS) -> Scene:
+    """Scene of a point of the cube (DIMENSIONS,).
+
+    seed : of its first surface; periods : range of the longest wave over the radius
+    """
     (shape, exponent, kind, loss, spread, tilt, branches, pressed, smooth, height, waves, hurst, period, rolled,
      rolloff, speed) = (float(each) for each in point)  # fmt: skip
     indenter = _indenter(shape, exponent)
-    rough = None if smooth < SMOOTH else _rough(height, waves, hurst, period, rolled, rolloff, seed)
+    rough = None if smooth < SMOOTH else _rough(height, waves, hurst, periods, period, rolled, rolloff, seed)
     wave = RADIUS / _between(WAVES, waves)
     solid = _solid(kind, loss, spread, tilt, branches, speed, wave)
     rests = speed >= SLIDING
@@ -95,9 +100,9 @@ def _indenter(shape, exponent) -> Sphere | Cone | PowerLaw:
     return PowerLaw(DEPTH / PowerLaw(RADIUS**-n, n).mdr_coefficient * RADIUS**-n * RADIUS**-n, n)
 
 
-def _rough(height, waves, hurst, period, rolled, rolloff, seed) -> SelfAffine:
+def _rough(height, waves, hurst, periods, period, rolled, rolloff, seed) -> SelfAffine:
     shortest = RADIUS / _between(WAVES, waves)
-    longest = _between((max(PERIODS[0] * RADIUS, 2 * shortest), PERIODS[1] * RADIUS), period)
+    longest = _between((max(periods[0] * RADIUS, 2 * shortest), periods[1] * RADIUS), period)
     return SelfAffine(
         hurst=hurst,
         rms_height=DEPTH * _between(HEIGHTS, height),
