@@ -1,7 +1,7 @@
 """Answers of three dimensions from one: means over profiles over the ratios that the trust map foretells."""
 
 from collections.abc import Iterator, Sequence
-from math import exp, hypot, isfinite, log
+from math import exp, hypot, isfinite, log, nan
 from time import process_time
 from typing import Annotated, ClassVar
 
@@ -31,7 +31,8 @@ class CorrectedMDR:
     profiles : over which means are taken, of the seeds seed, seed + 1, ...; a smooth body is solved once
 
     Friction coefficient, mean F_x over mean F_N, depth under a load and force at a depth are those in 1D over
-    their ratio 1D/3D as the map foretells it; what is prescribed stays. Where the map knows a ratio but advises to
+    their ratio 1D/3D as the map foretells it; what is prescribed stays. A depth is nan where the roughness lifts
+    the body, so that its mean over profiles is not above zero. Where the map knows a ratio but advises to
     solve in 3D, the interval is wide. Of a smooth body the map solves both dimensions, which costs what 3D costs.
 
     Result.measures, of friction, depth [m] and force [N] as far as they are corrected: friction_ratio, 1D over
@@ -59,7 +60,7 @@ class CorrectedMDR:
         """Solve the profiles, and correct their means.
 
         Raises Refused for what refusals names; EmptyContact if no profile reaches a prescribed depth; SolveError
-        off the map, if a profile fails, and where a mean is not above zero, so that no ratio corrects it.
+        off the map, if a profile fails, and where no mean is above zero, so that no ratio corrects it.
         """
         start = process_time()
         refuse(self, scene)
@@ -76,6 +77,8 @@ class CorrectedMDR:
             raise EmptyContact(f"none of {len(rows)} profiles touches at a depth of {motion.depth:g} m")
         means = {name: _mean(name, rows) for name in worths}
         values = {name: means[name][0] / worth.ratio for name, worth in worths.items()}
+        if not any(map(isfinite, values.values())):
+            raise SolveError(f"no mean over {len(rows)} profiles is above zero, so that no ratio corrects it")
         force = values["force"] if motion.load is None else motion.load
         return Result(
             scene=scene,
@@ -96,12 +99,12 @@ class CorrectedMDR:
 
 
 def _mean(quantity: str, rows: Sequence[Row]) -> tuple[float, float]:
-    """Mean over profiles, and half of its interval of 95 %, relative to it."""
+    """Mean over profiles, and half of its interval of 95 %, relative; nan of a mean that no ratio corrects."""
     values = np.array([getattr(row, TAKEN[quantity]) for row in rows])
     over = np.array([row.normal_force if quantity == "friction" else 1.0 for row in rows])
     mean = float(values.mean() / over.mean())
     if not mean > 0:
-        raise SolveError(f"the mean {quantity} of {len(rows)} profiles is {mean:g}: no ratio corrects it")
+        return nan, nan
     scatter = Scatter.of((values / mean - over) / over.mean())
     return mean, half_width(scatter.of_mean, scatter.freedom)
 
