@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import ndtri
+from scipy.special import ndtr, ndtri
 
 from .model import NORMAL, Foretold, Measurements
 from .verdict import SOLVE, advice_on
@@ -66,3 +66,11 @@ class Score:
         """Share of the measured ratios within the interval of 95 %, widened by the noise of the truth."""
         apart = self.measured.logarithm - self.foretold.logarithm
         return float(np.mean(np.abs(apart) < NORMAL * np.sqrt(self.foretold.error**2 + self.variance)))
+
+    @property
+    def surfaces_covered(self) -> float:
+        """Share of single surfaces within the interval of one surface, by the scatter that was measured."""
+        apart = self.measured.logarithm - self.foretold.logarithm
+        width = NORMAL * np.hypot(self.foretold.error, self.foretold.scatter)
+        scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)
+        return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))

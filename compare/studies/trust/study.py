@@ -246,6 +246,10 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
         "coverage", f"95 % of the {name} ratios lie within their interval", 0.95, 0.02,
         lambda draw: used.taken(draw).covered, "Share within the interval, which the scatter of the truth widens",
     )  # fmt: skip
+    yield claimed(
+        "one-surface", f"95 % of single surfaces have a {name} ratio within theirs", 0.95, 0.02,
+        lambda draw: used.taken(draw).surfaces_covered, "Share within the interval of one surface",
+    )  # fmt: skip
     whole = [rng.integers(0, score.usable.size, score.usable.size) for _ in range(BOOTSTRAPS)]
     shares = [score.usable[draw].mean() for draw in whole]
     low, high = np.quantile(shares, (0.025, 0.975))
