@@ -67,7 +67,7 @@ def _foretold(scene, pressures, model):
             for height in rough.rms_height * own / np.array(pressures)
         ]
     )
-    known = [not any(verdict.beyond_measured(place)) for place in places]
+    known = [not verdict.beyond_measured(place) for place in places]
     logarithm, error, _ = model.foretold(np.clip(places, *verdict.limits()))
     ratios = np.exp(logarithm + NORMAL * np.outer((0, -1, 1), error))
     return np.where(known, ratios, nan).T

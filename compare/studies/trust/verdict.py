@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, astuple, dataclass, replace
 from functools import cache
 from math import exp, hypot, log, nan
@@ -33,8 +33,13 @@ HEADINGS = "quantity", "ratio", "low", "high", "surface_low", "surface_high", "a
 # Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
 LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening"
 LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure"
-# What places a scene on the map, for people.
-SAID = {
+# Standard groups for people, and those of them that place a scene on the map.
+SYMBOLS = {
+    "shape": "1/n",
+    "hurst": "H",
+    "period": "L/a",
+    "rolloff": "λ_r/λ_s",
+    "slope": "slope of the body/h'",
     "height": "h0/d",
     "waves": "a/λ_s",
     "pressure": "p/(E* h')",
@@ -42,7 +47,9 @@ SAID = {
     "lost_contact": "G''(v/a)/G0",
     "stiffening": "E_g/E_r",
 }
-ABSENT = "layer", "interface", "heating"
+PLACED = tuple(SYMBOLS)[-6:]
+# Parts of scenes that were never measured.
+NEVER = "layer", "interface", "heating"
 # Groups that are no logarithms.
 PLAIN = "shape", "prescribed", "hurst", "full_share", "share"
 # Height over depth, share of friction, and radius over the shortest wave at which the reason names them.
@@ -101,7 +108,7 @@ class Trust:
     """What 1D is worth for a scene; None where a quantity is prescribed or zero.
 
     friction, depth, force : of the coefficient of friction, the depth under a load, the force at a depth
-    groups : dimensionless groups by name, as numbers; empty of a smooth body and off the map
+    groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
     nearest : scenes that were measured, the nearest first, of the first quantity
     """
 
@@ -145,12 +152,13 @@ def trust(scene: Scene) -> Trust:
             return _smooth(scene)
         smooth = Smooth.of(scene)
         groups = Groups.of(scene, smooth)
+        named = {name: value if name in PLAIN else exp(value) for name, value in asdict(groups).items()}
     except (SolveError, ArithmeticError, ValueError) as error:
-        return _unknown(scene, f"Off the map: the smooth body has no answer, {error}.")
+        return _unknown(scene, f"Off the map: the smooth body in its place has no answer ({error}).")
     place = np.array(astuple(groups))
-    named = {name: value if name in PLAIN else exp(value) for name, value in asdict(groups).items()}
-    if beyond := list(beyond_measured(place)):
-        return replace(_unknown(scene, f"Off the map: {'; '.join(beyond)}."), groups=named)
+    if beyond := beyond_measured(place):
+        told = [beyond[name] for name in SYMBOLS if name in beyond] or list(beyond.values())
+        return replace(_unknown(scene, f"Off the map: {'; '.join(told)}."), groups=named)
     place = np.clip(place, *limits())
     asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
     worths = {name: _foretold(name, place, groups) for name in asked}
@@ -160,7 +168,7 @@ def trust(scene: Scene) -> Trust:
 def unmeasured(scene: Scene) -> list[str]:
     """What of a scene was never measured, a reason each; empty if all of it was."""
     reasons = [
-        f"{name} = {type(part).__name__} was not measured" for name in ABSENT if (part := getattr(scene, name))
+        f"{name} = {type(part).__name__} was not measured" for name in NEVER if (part := getattr(scene, name))
     ]
     if not isinstance(scene.indenter, Sphere | Cone | PowerLaw):
         reasons.append(f"indenter = {type(scene.indenter).__name__} is no body of revolution")
@@ -242,7 +250,7 @@ def _because(name, groups):
 
 
 def _placed(groups):
-    return ", ".join(f"{said} = {groups[name]:.2g}" for name, said in SAID.items())
+    return ", ".join(f"{SYMBOLS[name]} = {groups[name]:.2g}" for name in PLACED)
 
 
 @cache
@@ -253,23 +261,23 @@ def _ranges():
 
 
 @cache
-def limits():
-    """Ends to which groups are moved that have a limit beyond."""
+def limits() -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest values (D,) to which groups are moved that have a limit beyond."""
     low, high = _ranges()
     below, above = np.isin(NAMES, LIMITED_BELOW), np.isin(NAMES, LIMITED_ABOVE)
     return np.where(below, low, -np.inf), np.where(above, high, np.inf)
 
 
-def beyond_measured(place) -> Iterator[str]:
-    """Groups beyond what was measured, a reason each."""
+def beyond_measured(place: np.ndarray) -> dict[str, str]:
+    """Groups (D,) beyond what was measured, each in words by its name."""
     (low, high), (least, greatest) = _ranges(), limits()
     slack = SLACK * (high - low)
-    for name, value, start, end in zip(
-        NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True
-    ):
+    found = {}
+    for name, *numbers in zip(NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True):
+        value, start, end = numbers if name in PLAIN else np.exp(numbers)
         if not start <= value <= end:
-            number, *ends = (each if name in PLAIN else exp(each) for each in (value, start, end))
-            yield f"{name} = {number:.3g}, where {ends[0]:.3g} to {ends[1]:.3g} was measured"
+            found[name] = f"{SYMBOLS.get(name, name)} = {value:.3g}, where {start:.3g} to {end:.3g} was measured"
+    return found
 
 
 def _nearest(name, place):
