@@ -284,8 +284,8 @@ def _nearest(name, place):
     """Scenes that were measured, the nearest first."""
     measured = table.read(table.LEARNED)
     rows, found = table.measurements(measured, name)
-    process = shipped.model(name).process
-    apart = process.distances(place, found.groups)
+    apart = shipped.model(name).process.distances(place, found.groups)
+    apart[np.isnan(found.logarithm)] = np.inf
     for row in np.argsort(apart)[:NEAREST]:
         groups = {
             key: value if key in PLAIN else exp(value) for key, value in zip(NAMES, found.groups[row], strict=True)
