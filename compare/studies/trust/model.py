@@ -17,8 +17,10 @@ UNKNOWN_GRID = 0.02
 # Noise beyond which a measured ratio says nothing, and surfaces below which it has no scatter.
 MOST_NOISE, LEAST_SURFACES = 0.25, 3
 LEAST_VARIANCE = 1e-8
-# Scenes from which the scatter of one surface is learned, and groups of scenes whose intervals are widened alike.
-SCATTERED, WIDENED = 600, 5
+# Scenes from which the scatter of one surface is learned, and scenes of like error whose intervals widen alike.
+SCATTERED, WIDENED = 600, 150
+# Least factor on an error: noise that is larger says little of it.
+LEAST_FACTOR = 0.5
 NORMAL = 1.959964
 # Inputs, values and variances of a process.
 Points: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -65,7 +67,7 @@ class Fitted:
 
     process : scales of what is measured beyond the estimate in closed form
     scatter : scales of the logarithm of the scatter of one surface
-    errors, widening : standard errors of the process (K,), and factors that widen them so that 95 % hold
+    errors, widening : standard errors of the process (K,), and factors on them under which 95 % hold
     """
 
     process: Scales
@@ -141,12 +143,12 @@ def _widening(process):
     """Factors by which errors grow for 95 % of the values left out to lie within, in groups of like error."""
     error, variance = process.left_out()
     own = np.maximum(variance - process.variances, LEAST_VARIANCE)
-    order = np.array_split(np.argsort(own), WIDENED)
+    order = np.array_split(np.argsort(own), max(1, own.size // WIDENED))
     factors = [_factor(error[few], own[few], process.variances[few]) for few in order]
     return np.array([np.sqrt(np.median(own[few])) for few in order]), np.array(factors)
 
 
 def _factor(error, own, noise):
-    """Least factor of 1 or more on a standard error under which 95 % hold."""
+    """Least factor on a standard error under which 95 % hold."""
     needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - noise, 0) / own)
-    return max(1.0, float(np.quantile(needed, 0.95)))
+    return max(LEAST_FACTOR, float(np.quantile(needed, 0.95)))
