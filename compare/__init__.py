@@ -1,7 +1,7 @@
 """The judge: one scene answered in one and in three dimensions. The command `crosscheck X` is `compare.X` here.
 
 run : solve scenes in both, compare, and write a report
-trust : what the 1D answer to a scene is worth, in less than a second
+trust : what the 1D answer to a scene is worth, without solving anything rough
 sweep : solve a scene at every speed and load in both, as a Dataset; friction_plot draws it
 study : ask the claims of the paper of many contacts
 paper : simulate the paper again in one dimension

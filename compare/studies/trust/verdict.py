@@ -14,7 +14,7 @@ from scene import Cone, Indent, PowerLaw, Scene, SelfAffine, Slide, SolveError, 
 
 from . import shipped, table
 from .groups import LINE, SPACE, Groups, Smooth
-from .model import NAMES, NORMAL
+from .model import NAMES, NORMAL, lost
 from .ratio import QUANTITIES, asked_of
 
 if TYPE_CHECKING:
@@ -52,8 +52,8 @@ PLACED = tuple(SYMBOLS)[-6:]
 NEVER = "layer", "interface", "heating"
 # Groups that are no logarithms.
 PLAIN = "shape", "prescribed", "hurst", "full_share", "share"
-# Height over depth, share of friction, and radius over the shortest wave at which the reason names them.
-LOST, MOST, FEW = 0.3, 0.5, 2.0
+# Share of friction, and radius over the shortest wave at which the reason names them.
+MOST, FEW = 0.5, 2.0
 
 
 @dataclass(frozen=True)
@@ -240,7 +240,7 @@ def _worth(ratio, error, scatter, because):
 
 def _because(name, groups):
     """What decides the ratio in this part of the map."""
-    if name == "depth" and groups.sliding_height > log(LOST):
+    if name == "depth" and lost(np.array([astuple(groups)]))[0]:
         return "The roughness is nearly as high as the body is deep."
     flat = "is pressed flat" if groups.sliding_pressure > 0 else "touches in part"
     if name == "friction" and groups.share > MOST:
