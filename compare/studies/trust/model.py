@@ -147,7 +147,7 @@ def _scattered(measured) -> Points:
 
 def _learned(quantity, measured, scatter) -> Points:
     """Groups, what was measured beyond the estimate, and its variance, where the noise lets it say something."""
-    variance = measured.variance(np.exp(scatter.foretold(measured.groups)[0]))
+    variance = measured.variance(np.exp(scatter.mean(measured.groups)))
     telling = variance < MOST_NOISE**2
     measured = measured.taken(telling)
     return measured.groups, measured.logarithm - estimate(quantity, measured.groups), variance[telling]

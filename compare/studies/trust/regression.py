@@ -9,6 +9,8 @@ from scipy.optimize import minimize
 
 # Where the search for scales begins, and how far it may go: of the inputs in standard deviations, of the values.
 _START, _SHORTEST, _LONGEST, _LEAST = 3.0, 0.1, 100.0, 1e-4
+# Spread of the logarithm of a length that is expected.
+_SPREAD = 1.5
 # Least standard deviation of an input: below it is what solvers leave.
 _VARIES = 1e-4
 
@@ -60,14 +62,16 @@ class Process:
         found = minimize(_unlikeliness, start, given, "L-BFGS-B", jac=True, bounds=bounds)
         return cls(inputs, values, variances, Scales.of(found.x))
 
+    def mean(self, inputs: np.ndarray) -> np.ndarray:
+        """Means (M,) at new inputs (M, D)."""
+        return self._common(inputs) @ self._weights + self.values.mean()
+
     def foretold(self, inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Means (M,) and variances (M,) at new inputs (M, D), without the noise of a measurement."""
-        standard = self._standard(inputs)
-        common = _covariance(standard, self._standard(self.inputs), self.scales)
-        left = solve_triangular(self._factor, common.T, lower=True, check_finite=False)
+        left = solve_triangular(self._factor, self._common(inputs).T, lower=True, check_finite=False)
         scales = self.scales
-        own = scales.amplitude**2 + scales.slope**2 * np.sum(standard**2, axis=1) + 1
-        return common @ self._weights + self.values.mean(), own - np.sum(left**2, axis=0) + scales.noise**2
+        own = scales.amplitude**2 + scales.slope**2 * np.sum(self._standard(inputs) ** 2, axis=1) + 1
+        return self.mean(inputs), own - np.sum(left**2, axis=0) + scales.noise**2
 
     def left_out(self) -> tuple[np.ndarray, np.ndarray]:
         """Errors (N,) of each value foretold from all others, and their variances (N,), its noise included."""
@@ -81,6 +85,9 @@ class Process:
 
     def _standard(self, inputs):
         return _standard(inputs, self.inputs)
+
+    def _common(self, inputs):
+        return _covariance(self._standard(inputs), self._standard(self.inputs), self.scales)
 
     @cached_property
     def _factor(self):
@@ -127,16 +134,13 @@ def _unlikeliness(logarithms, inputs, values, variances):
     inverse = cho_solve((factor, True), np.eye(values.size), overwrite_b=True, check_finite=False)
     weights = inverse @ values
     slack = inverse - np.outer(weights, weights)
+    # sum_ij w_ij (z_i - z_j)^2 over each input, without an array of all three.
     weighted = slack * bell
     lengths = np.sum(scaled**2 * weighted.sum(axis=1)[:, None], axis=0) - np.sum(
         scaled * (weighted @ scaled), axis=0
     )
     # Lengths are expected near _START: one that nothing decides stays there.
-    apart = (logarithms[:-3] - np.log(_START)) / 1.5
-    gradient = [-0.0 + lengths + apart / 1.5]
-    return (
-        values @ weights / 2 + np.sum(np.log(np.diag(factor))) + np.sum(apart**2) / 2,
-        np.concatenate(
-            [*gradient, [np.sum(weighted), np.sum(slack * straight), np.trace(slack) * scales.noise**2]]
-        ),
-    )
+    apart = (logarithms[:-3] - np.log(_START)) / _SPREAD
+    value = values @ weights / 2 + np.sum(np.log(np.diag(factor))) + np.sum(apart**2) / 2
+    others = np.sum(weighted), np.sum(slack * straight), np.trace(slack) * scales.noise**2
+    return value, np.concatenate([lengths + apart / _SPREAD, others])
