@@ -14,7 +14,7 @@ from compare.outcome import Outcome, Row
 from compare.studies.trust import design, scoring, shipped, study, table, verdict
 from compare.studies.trust.contact import Contact
 from compare.studies.trust.groups import FullContact, Smooth
-from compare.studies.trust.model import NAMES, Foretold, Measurements
+from compare.studies.trust.model import NAMES, NORMAL, Foretold, Measurements, lost
 from compare.studies.trust.ratio import QUANTITIES, asked_of, ratio_of
 from compare.studies.trust.regression import Process, Scales, _unlikeliness
 from compare.studies.trust.verdict import Trust, trust
@@ -71,6 +71,31 @@ def test_a_smooth_body_at_rest_is_answered_rightly_in_1d():
         assert list(found.worths) == [name]
         assert getattr(found, name).ratio == pytest.approx(1, rel=GRID)
         assert getattr(found, name).advice == "use"
+
+
+def test_a_fast_smooth_body_has_the_ratios_of_both_solvers():
+    for motion in (Slide(speed=2.0, load=1.0), Slide(speed=2.0, depth=1e-4)):
+        scene = replace(SMOOTH, motion=motion)
+        found, line, space = trust(scene), MDR(points=5000).solve(scene), BEM(points=128).solve(scene)
+        ratios = {
+            "friction": line.friction_coefficient / space.friction_coefficient,
+            "depth": line.depth / space.depth,
+            "force": line.normal_force / space.normal_force,
+        }
+        for name, worth in found.worths.items():
+            assert worth.ratio == pytest.approx(ratios[name], rel=GRID)
+            assert abs(worth.ratio - 1) > 0.1
+
+
+def test_a_depth_that_is_lost_in_the_roughness_asks_for_3d_however_many_scenes_were_near():
+    high = replace(PAPER, roughness=replace(ROUGH, rms_height=1e-4))
+    found = trust(high)
+    assert found.depth.advice == "solve"
+    assert "nearly as high as the body is deep" in found.depth.reason
+    groups = table.groups(table.read(table.LEARNED))
+    hidden = groups[lost(groups)]
+    assert len(hidden) > 100
+    assert (shipped.model("depth").foretold(hidden).error * NORMAL > verdict.WIDE).all()
 
 
 def test_the_paper_s_rough_sphere_agrees_with_what_the_default_run_measured():
