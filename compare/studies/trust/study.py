@@ -33,7 +33,7 @@ from .verdict import WIDE
 LEARNED, HELD_OUT = "learned", "held-out"
 ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on
 surfaces until its scatter is known. Gaussian processes learn the ratio of 1D over 3D from these scenes alone.
-Those held out were drawn by another seed, and neither fitted nor chosen by: nobody saw them.
+Those held out were drawn by another seed, and no model was fitted to them.
 
 Errors are of all held-out scenes whose advice is "use" or "multiply". In each measured error lies the scatter of
 the surfaces behind the truth; the error of the map alone is what remains when it is split as the variances of both
