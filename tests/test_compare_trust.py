@@ -437,4 +437,4 @@ def test_the_campaign_solves_judges_and_resumes(tmp_path, monkeypatch):
     again = compare.study("trust", output=tmp_path, workers=2)
     assert again.swept.solved == 0
     tree = compare.load(tmp_path / "trust-quick")
-    assert tree["held-out"].groups.sizes == {"scene": 4, "group": len(NAMES)}
+    assert tree["held-out"]["groups"].sizes == {"scene": 4, "group": len(NAMES)}

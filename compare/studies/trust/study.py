@@ -219,16 +219,17 @@ def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
 def _findings(name: str, score: Score) -> Iterator[Finding]:
     """What becomes of each claim on one quantity."""
     used = score.used
-    rng = np.random.default_rng(0)
-    draws = [rng.integers(0, used.usable.size, used.usable.size) for _ in range(BOOTSTRAPS)]
     half, most = WANTED[name]
     own = np.abs(used.own)
 
-    def claimed(id, sentence, expected, tolerance, measure, meaning):
+    def claimed(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
         claim = Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning)
-        low, high = np.quantile([measure(draw) for draw in draws], (0.025, 0.975))
-        every = np.arange(used.usable.size)
-        return Finding(claim, measure(every), (float(low), float(high)), 0.0, "exact", draws=used.usable.size)
+        if not count:
+            return Finding(claim, np.nan, reason=f"no {name} of a scene held out is usable")
+        rng = np.random.default_rng(0)
+        draws = [measure(rng.integers(0, count, count)) for _ in range(BOOTSTRAPS)]
+        low, high = np.quantile(draws, (0.025, 0.975))
+        return Finding(claim, measure(np.arange(count)), (float(low), float(high)), 0.0, "exact", draws=count)
 
     split = "Quantile of the relative error over held-out scenes with advice use or multiply"
     for id, share, bound in (("median", 0.5, half), ("nine-in-ten", 0.9, most)):
@@ -250,16 +251,11 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
         "one-surface", f"95 % of single surfaces have a {name} ratio within theirs", 0.95, 0.02,
         lambda draw: used.taken(draw).surfaces_covered, "Share within the interval of one surface",
     )  # fmt: skip
-    whole = [rng.integers(0, score.usable.size, score.usable.size) for _ in range(BOOTSTRAPS)]
-    shares = [score.usable[draw].mean() for draw in whole]
-    low, high = np.quantile(shares, (0.025, 0.975))
-    claim = Claim(
-        f"trust.{name}.usable", f"At least 80 % of the scenes need no 3D for their {name}", 1.0, 0.2,
-        "Share of the held-out scenes with advice use or multiply",
+    yield claimed(
+        "usable", f"At least 80 % of the scenes need no 3D for their {name}", 1.0, 0.2,
+        lambda draw: float(score.usable[draw].mean()),
+        "Share of the held-out scenes with advice use or multiply", score.usable.size,
     )  # fmt: skip
-    yield Finding(
-        claim, float(score.usable.mean()), (float(low), float(high)), 0.0, "exact", draws=score.usable.size
-    )
 
 
 def _smooth_findings(held_out: xarray.Dataset) -> Iterator[Finding]:
