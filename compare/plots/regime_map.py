@@ -15,6 +15,8 @@ NAME = "regime-map"
 # Ratios of labelled lines; one that the map merely grazes, as that of a limit, would show the errors of the map.
 LEVELS = (0.25, 0.4, 0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 4.0)
 GRAZED = 0.05
+# Ratios that are written before all others, where there is no room for all.
+FIRST = "0.8", "1.25", "2", "1"
 # Shades to a factor of e; one lies about 1.
 BANDS = 20
 HATCH, BEHIND = "////", 0.85
@@ -86,7 +88,7 @@ def _hatch(axes, half, wide):
 
 
 def _lines(axes, x, logarithm, levels):
-    """Draw lines of equal ratios through a map or a strip, and write the ratios where the frame cuts none."""
+    """Draw lines of equal ratios through a map or a strip, and write what neither frame nor another ratio cuts."""
     crossed = [level for level in levels if np.nanmin(logarithm) < np.log(level) < np.nanmax(logarithm)]
     if not crossed:
         return
@@ -94,11 +96,13 @@ def _lines(axes, x, logarithm, levels):
     look = {"levels": np.log(crossed), "colors": [style.ink()], "linewidths": widths}
     lines = axes.contour(x, logarithm.index, logarithm, **look)
     written = {"fmt": lambda value: f"{np.exp(value):.3g}", "fontsize": style.small()}
-    inside, whole = axes.get_window_extent(), []
-    for text in axes.clabel(lines, inline=False, **written):
+    inside, whole, boxes = axes.get_window_extent(), [], []
+    for text in sorted(axes.clabel(lines, inline=False, **written), key=lambda text: text.get_text() not in FIRST):
         box = text.get_window_extent()
-        if inside.x0 < box.x0 and box.x1 < inside.x1 and inside.y0 < box.y0 and box.y1 < inside.y1:
+        cut = not (inside.x0 < box.x0 and box.x1 < inside.x1 and inside.y0 < box.y0 and box.y1 < inside.y1)
+        if not cut and not box.count_overlaps(boxes):
             whole.append(text.get_position())
+            boxes.append(box)
         text.remove()
     if whole:
         axes.clabel(lines, manual=whole, **written)
