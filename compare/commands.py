@@ -233,12 +233,10 @@ def trust(scene: Asked) -> Trust:
 
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     """
-    from scene import Scene
-
     from .inputs import case_of
     from .studies.trust.verdict import trust
 
-    return trust(scene if isinstance(scene, Scene) else case_of(scene).scene)
+    return trust(case_of(scene).scene)
 
 
 def plan(scene: Asked) -> Plans:

@@ -8,6 +8,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray
@@ -15,15 +16,14 @@ from tables import table as markdown
 
 import compare
 from compare.studies.trust import shipped, table
-from compare.studies.trust.model import NORMAL, Model
+from compare.studies.trust.model import Model
 from compare.studies.trust.ratio import QUANTITIES
-from compare.studies.trust.regions import BODIES, ROUGHNESS, SPEEDS
+from compare.studies.trust.regions import BODIES
 from compare.studies.trust.scoring import Score
-from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy
+from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy, advice_rows
 
 PAGE = Path(__file__).with_suffix(".md")
 README = PAGE.parent.parent / "README.md"
-FEWEST = 5
 
 
 def ship(answers: xarray.DataTree) -> None:
@@ -42,28 +42,22 @@ def scores() -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
     return TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in QUANTITIES})
 
 
-def advice(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, str]]:
+def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
     """A row for each regime, a cell for each body: factor with the range over scenes, interval, share to solve."""
-    for speed, of_speed in SPEEDS.items():
-        for roughness, of_roughness in ROUGHNESS.items():
-            here = of_speed(groups) & of_roughness(groups)
-            cells = {body: _cell(score, here & of_body(groups)) for body, of_body in BODIES.items()}
-            if any(cells.values()):
-                yield {"": f"{speed}, roughness {roughness}", **cells}
+    cells: dict[tuple[str, str], dict[str, str]] = {}
+    for row in rows:
+        if row["quantity"] == quantity:
+            cells.setdefault((row["speed"], row["roughness"]), {})[row["body"]] = _cell(row)
+    for (speed, roughness), found in cells.items():
+        yield {"": f"{speed}, roughness {roughness}", **{body: found.get(body, "") for body in BODIES}}
 
 
-def _cell(score, here):
-    if here.sum() < FEWEST:
-        return ""
-    part = score.taken(here)
-    factors = np.exp(-part.foretold.logarithm[part.usable])
-    share = {kind: round(100 * float(np.mean(part.advice == kind))) for kind in ("use", "multiply", "solve")}
-    if share["solve"] > 50:
-        return f"**solve** ({share['solve']} %)"
-    low, middle, high = np.quantile(factors, (0.05, 0.5, 0.95))
-    half = 100 * np.median(np.expm1(NORMAL * part.foretold.error[part.usable]))
-    kind = f"**multiply** by {middle:.2f} ({low:.2f} to {high:.2f})" if share["use"] <= 50 else "**use**"
-    return f"{kind}, ±{half:.2g} %" + (f"; solve {share['solve']} %" if share["solve"] else "")
+def _cell(row):
+    if row["solve"] > 0.5:
+        return f"**solve** ({100 * row['solve']:.0f} %)"
+    kind = "use" if row["use"] > 0.5 else f"multiply by {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
+    solve = round(100 * row["solve"])
+    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; solve {solve} %" if solve else "")
 
 
 def errors(found: Mapping[str, tuple[Score, Mapping[str, np.ndarray]]]) -> Iterator[dict[str, str]]:
@@ -101,10 +95,11 @@ def main(folder: Path | None) -> None:
     if folder is not None:
         ship(compare.load(folder / "trust-standard"))
     found = scores()
-    parts = [f"**{name}**\n\n{told(advice(*each))}" for name, each in found.items()]
+    rows = list(advice_rows(found))
+    parts = [f"**{name}**\n\n{told(advice(rows, name))}" for name in found]
     replaced(PAGE, "advice", "\n\n".join(parts))
     replaced(PAGE, "errors", told(errors(found)))
-    replaced(README, "friction", told(advice(*found["friction"])))
+    replaced(README, "friction", told(advice(rows, "friction")))
 
 
 if __name__ == "__main__":

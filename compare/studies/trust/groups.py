@@ -23,7 +23,7 @@ _WAVES, _DIRECTIONS = 48, 24
 
 
 class Answer(Protocol):
-    """What is taken of the answer to a scene: a Result, or a row of an outcome."""
+    """Answer to a smooth scene, as far as groups need it: a Result, or a row of an outcome."""
 
     @property
     def normal_force(self) -> float: ...

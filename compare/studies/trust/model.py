@@ -67,7 +67,7 @@ class Measurements:
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """What is fitted of a model: with the measurements it is all of it.
+    """Fitted part of a model; the measurements are the other part.
 
     process : scales of what is measured beyond the estimate in closed form
     scatter : scales of the logarithm of the scatter of one surface

@@ -35,7 +35,7 @@ class Ratio:
 def asked_of(scene: Scene) -> tuple[str, ...]:
     """Quantities that a scene has: friction if it slides, depth under a load, force at a depth."""
     free = "depth" if scene.motion.pressed_by == "load" else "force"
-    return ("friction", free) if getattr(scene.motion, "speed", 0.0) else (free,)
+    return ("friction", free) if scene.motion.speed else (free,)
 
 
 def ratio_of(outcome: Outcome, quantity: str) -> Ratio:

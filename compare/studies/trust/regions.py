@@ -5,6 +5,8 @@ from math import log
 
 import numpy as np
 
+from .model import LOST
+
 Columns = Mapping[str, np.ndarray]
 Condition = Callable[[Columns], np.ndarray]
 
@@ -21,8 +23,8 @@ SPEEDS: dict[str, Condition] = {
 }
 ROUGHNESS: dict[str, Condition] = {
     "pressed flat": lambda g: g["sliding_pressure"] >= 0,
-    "touching in part": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] < log(0.3)),
-    "as high as the body is deep": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] >= log(0.3)),
+    "touching in part": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] < log(LOST)),
+    "as high as the body is deep": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] >= log(LOST)),
 }
 SOLIDS: dict[str, Condition] = {
     "Kelvin-like, E_g > 10^4 E_r": lambda g: g["stiffening"] > log(1e4),

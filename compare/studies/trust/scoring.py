@@ -1,4 +1,4 @@
-"""How well a model foretells scenes that it never saw: errors, what of them is scatter of the truth, coverage."""
+"""Score of a model on scenes that it never saw: its errors, the scatter of the truth in them, its coverage."""
 
 from dataclasses import dataclass
 from functools import cached_property

@@ -27,7 +27,7 @@ def model(quantity: str) -> Model:
 
 
 def as_json(models: dict[str, Model]) -> str:
-    """What is fitted of models, as the file holds it."""
+    """Fitted parts of models by quantity, as the JSON that the package holds."""
     return json.dumps({name: asdict(each.fitted) for name, each in models.items()}, default=_rounded, indent=1)
 
 

@@ -1,7 +1,9 @@
 """The trust map, made again: scenes solved in both dimensionalities, and errors on scenes held out."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
+from itertools import product
 from math import log
 from typing import Any, TypeAlias
 
@@ -24,11 +26,11 @@ from .contact import Contact
 from .groups import LINE, SPACE, Groups, Smooth
 from .map import ABOUT as ABOUT_FAMILY
 from .map import regime_table
-from .model import NAMES, Model
+from .model import NAMES, NORMAL, Model
 from .ratio import QUANTITIES, Ratio, asked_of, ratio_of
 from .regions import BODIES, REGIONS, ROUGHNESS, SPEEDS
 from .scoring import Score
-from .verdict import WIDE
+from .verdict import MULTIPLY, SOLVE, USE, WIDE
 
 LEARNED, HELD_OUT = "learned", "held-out"
 ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on
@@ -41,6 +43,8 @@ stand."""
 # What the map is to keep, of each quantity: median error, error of nine in ten.
 WANTED = {"friction": (0.02, 0.08), "depth": (0.01, 0.05), "force": (0.01, 0.05)}
 BOOTSTRAPS = 200
+# Scenes of a regime below which nothing is said of it.
+FEWEST = 5
 # A score, and the groups of its scenes by name.
 Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
 
@@ -126,12 +130,16 @@ class TrustStudy(Study):
             if LEARNED in answers:
                 learned = table.columns(answers[LEARNED].to_dataset())
                 models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
+            self._judged.clear()
             self._judged.update(answers=answers, models=models)
         return self._judged["models"]
 
     def scores(self, answers: xarray.DataTree) -> dict[str, Scored]:
-        """Score of each quantity on the scenes held out, and the groups of these by name."""
-        return self.scored(table.columns(answers[HELD_OUT].to_dataset()), self.models(answers))
+        """Score of each quantity on the scenes held out, and the groups of these by name; scored once."""
+        models = self.models(answers)
+        if "scores" not in self._judged:
+            self._judged["scores"] = self.scored(table.columns(answers[HELD_OUT].to_dataset()), models)
+        return self._judged["scores"]
 
     @staticmethod
     def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Scored]:
@@ -165,7 +173,9 @@ class TrustStudy(Study):
             Text(ABOUT),
             *plots,
             Table(
-                "advice", DataFrame(list(_advice(scores))), "Advice by body and regime, of the scenes held out."
+                "advice",
+                DataFrame(list(advice_rows(scores))),
+                "Advice on the scenes held out, by regime and body.",
             ),
             Findings(findings, "Errors on scenes held out, with intervals of 95 % over these scenes."),
             Section(
@@ -223,13 +233,7 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
     own = np.abs(used.own)
 
     def claimed(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
-        claim = Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning)
-        if not count:
-            return Finding(claim, np.nan, reason=f"no {name} of a scene held out is usable")
-        rng = np.random.default_rng(0)
-        draws = [measure(rng.integers(0, count, count)) for _ in range(BOOTSTRAPS)]
-        low, high = np.quantile(draws, (0.025, 0.975))
-        return Finding(claim, measure(np.arange(count)), (float(low), float(high)), 0.0, "exact", draws=count)
+        return _measured(Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning), measure, count)
 
     split = "Quantile of the relative error over held-out scenes with advice use or multiply"
     for id, share, bound in (("median", 0.5, half), ("nine-in-ten", 0.9, most)):
@@ -259,16 +263,29 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
 
 
 def _smooth_findings(held_out: xarray.Dataset) -> Iterator[Finding]:
-    """How far the answers of the smooth body lie from those on more points, of the smooth scenes held out."""
+    """Findings on the smooth scenes held out: their ratios as the map answers them, against more points."""
     smooth = held_out.isel(scene=np.isnan(held_out["groups"].values).all(axis=1))
     for name in QUANTITIES:
-        apart = (smooth["logarithm"] - smooth["smooth"]).sel(quantity=name).dropna("scene").values
+        apart = np.abs((smooth["logarithm"] - smooth["smooth"]).sel(quantity=name).dropna("scene").values)
         claim = Claim(
             f"trust.{name}.smooth", f"The {name} ratio of smooth bodies is known within 1 %", 0.0, 0.01,
             "Error of nine in ten of the smooth scenes held out, on 64 points a side against 128",
         )  # fmt: skip
-        found = float(np.quantile(np.abs(apart), 0.9)) if apart.size else np.nan
-        yield Finding(claim, found, (found, found), 0.0, "exact")
+        yield _measured(claim, partial(_nine_in_ten, apart), apart.size)
+
+
+def _nine_in_ten(errors, draw):
+    return float(np.quantile(errors[draw], 0.9))
+
+
+def _measured(claim: Claim, measure: Callable[[np.ndarray], float], count: int) -> Finding:
+    """Finding of a number measured on some scenes, with its interval over scenes drawn again and again."""
+    if not count:
+        return Finding(claim, np.nan, reason="no scene held out has it")
+    rng = np.random.default_rng(0)
+    draws = [measure(rng.integers(0, count, count)) for _ in range(BOOTSTRAPS)]
+    low, high = np.quantile(draws, (0.025, 0.975))
+    return Finding(claim, measure(np.arange(count)), (float(low), float(high)), 0.0, "exact", draws=count)
 
 
 def _regions(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, Any]]:
@@ -293,20 +310,23 @@ def _regions(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[st
             yield row
 
 
-def _advice(scores) -> Iterator[dict[str, Any]]:
-    """Ratios and shares of each advice by quantity, body, speed and roughness."""
-    for name, (score, groups) in scores.items():
-        ratio = np.exp(score.foretold.logarithm)
-        for body, of_body in BODIES.items():
-            for speed, of_speed in SPEEDS.items():
-                for roughness, of_roughness in ROUGHNESS.items():
-                    here = of_body(groups) & of_speed(groups) & of_roughness(groups)
-                    if here.sum() < 5:
-                        continue
-                    low, middle, high = np.quantile(ratio[here], (0.05, 0.5, 0.95))
-                    counts = {kind: np.mean(score.advice[here] == kind) for kind in ("use", "multiply", "solve")}
-                    yield {
-                        "quantity": name, "body": body, "speed": speed, "roughness": roughness,
-                        "scenes": int(here.sum()), "1D/3D": middle, "from": low, "to": high, **counts,
-                        "interval": np.median(np.expm1(1.96 * score.foretold.error[here])),
-                    }  # fmt: skip
+def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Factor on 1D, half its interval, and share of each advice, by quantity, speed, roughness and body.
+
+    The factor is that of the usable scenes, from the lowest to the highest of nine in ten.
+    """
+    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), BODIES.items()))
+    for (name, (score, groups)), named in product(scores.items(), regimes):
+        here = np.all([condition(groups) for _, condition in named], axis=0)
+        part = score.taken(here)
+        if here.sum() < FEWEST:
+            continue
+        row: dict[str, Any] = dict(zip(("speed", "roughness", "body"), (each for each, _ in named), strict=True))
+        row |= {"quantity": name, "scenes": part.usable.size}
+        row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
+        if part.usable.any():
+            known = part.taken(part.usable).foretold
+            low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
+            half = np.median(np.expm1(NORMAL * known.error))
+            row |= {"factor": middle, "from": low, "to": high, "interval": half}
+        yield row

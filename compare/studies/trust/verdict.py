@@ -132,15 +132,17 @@ class Trust:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        return markup.table(
-            [(name, *astuple(worth)) for name, worth in self.worths.items()], HEADINGS, "Trust map"
-        )
+        return markup.table(self._rows, HEADINGS, "Trust map")
 
     def table(self) -> DataFrame:
         """A row for each quantity."""
         from pandas import DataFrame
 
-        return DataFrame([(name, *astuple(worth)) for name, worth in self.worths.items()], columns=HEADINGS)
+        return DataFrame(self._rows, columns=HEADINGS)
+
+    @property
+    def _rows(self):
+        return [(name, *astuple(worth)) for name, worth in self.worths.items()]
 
 
 def trust(scene: Scene) -> Trust:
@@ -208,7 +210,7 @@ def _smooth(scene) -> Trust:
             continue
         ratio, other = getattr(fine, name), getattr(coarse, name)
         error = abs(log(ratio / other)) / NORMAL
-        worths[name] = _worth(ratio, error, 0.0, "The body is smooth, and both solvers answered it.")
+        worths[name] = _worth(ratio, error, 0.0, "the body is smooth, and both solvers answered it")
     return Trust(**_all(worths), groups={}, nearest=())
 
 
@@ -231,22 +233,22 @@ def _worth(ratio, error, scatter, because):
     low, high = ratio * exp(-half), ratio * exp(half)
     advice = advice_on(ratio, error)
     reason = {
-        USE: f"1D is within {100 * SMALL:.0f} % of 3D.",
-        MULTIPLY: f"1D is {ratio:.3g} times 3D.",
-        SOLVE: f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}.",
+        USE: f"1D is within {100 * SMALL:.0f} % of 3D",
+        MULTIPLY: f"1D is {ratio:.3g} times 3D",
+        SOLVE: f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}",
     }[advice]
-    return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, f"{reason} {because}")
+    return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, f"{reason}: {because}.")
 
 
 def _because(name, groups):
     """What decides the ratio in this part of the map."""
     if name == "depth" and lost(np.array([astuple(groups)]))[0]:
-        return "The roughness is nearly as high as the body is deep."
+        return "the roughness is nearly as high as the body is deep"
     flat = "is pressed flat" if groups.sliding_pressure > 0 else "touches in part"
     if name == "friction" and groups.share > MOST:
-        return f"The roughness {flat} and makes most of the friction."
+        return f"the roughness {flat} and makes most of the friction"
     few = ", with few waves in the contact" if groups.sliding_waves < log(FEW) else ""
-    return f"The roughness {flat}{few}."
+    return f"the roughness {flat}{few}"
 
 
 def _placed(groups):
