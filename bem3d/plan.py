@@ -38,6 +38,16 @@ LEFT_OUT = {
 
 def plan_of(solver, scene: Scene) -> Plan:
     """What a BEM would simulate. Nothing is solved: where a window has to be found, its size is an estimate."""
+    return _plan(solver, scene, _expected)
+
+
+def memory_of(solver, scene: Scene) -> int:
+    """Most that a solve holds at once [bytes], as planned."""
+    return _plan(solver, scene, lambda *_: not_known("not asked")).memory
+
+
+def _plan(solver, scene, costs):
+    """The plan, with costs by a function of solver, scene, shape and march."""
     terms, shape = terms_of(solver.terms, scene), _shape(solver, scene)
     flow = Flow.of(scene.solid, 0.0 if isinstance(scene.motion, Program) else scene.motion.speed)
     march = _March(solver, scene) if isinstance(scene.motion, Program) else None
@@ -55,7 +65,7 @@ def plan_of(solver, scene: Scene) -> Plan:
         modes=Modes.of(times if moving else ()),
         arrays=_held(solver, scene, flow, shape, march),
         steps=march.steps if march else 0,
-        **_expected(solver, scene, shape, march),
+        **costs(solver, scene, shape, march),
         left_out=left_out(scene, LEFT_OUT),
         doubts=(*_doubts(solver, scene),),
     )

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from scene import Cylinder, Plane, Program, Result, Scene, SolveError
+from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Positive, Whole
@@ -20,7 +21,7 @@ from .friction import Friction
 from .grid import Grid
 from .history import marched
 from .measures import measured
-from .plan import plan_of
+from .plan import memory_of, plan_of
 from .problem import Problem
 from .terms import TERMS
 from .trail import Trail
@@ -97,7 +98,7 @@ class BEM:
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
     extent: Length | None = None
     tolerance: Annotated[Positive, Field(ge=1e-12, le=1e-2)] = 1e-5
-    threads: Annotated[Whole, Field(ge=1)] = 1
+    threads: Annotated[Whole, Field(ge=1, le=1024)] = 1
     precision: Literal["double", "single"] = "double"
     transforms: Library = "ducc0"
     steps: Annotated[Whole, Field(ge=1, le=10**6)] = 200
@@ -161,7 +162,7 @@ class BEM:
             _ = self.engine.xp
         except Unavailable as missing:
             reasons.append(str(missing))
-        return reasons
+        return reasons or shortage(memory_of(self, scene))
 
     def plan(self, scene: Scene) -> Plan:
         """What would be simulated of a scene, and what it costs; nothing is solved.
@@ -174,7 +175,9 @@ class BEM:
             return plan_of(self, scene)
 
     def solve(self, scene: Scene, trail: Trail | None = None) -> Result:
-        """Pressure, gap and forces. Raises Refused, or SolveError where the result could not be trusted.
+        """Pressure, gap and forces.
+
+        Raises Refused, SolveError where the result could not be trusted, OutOfMemory where memory ran out.
 
         trail : contacts of the same body and surface, at other speeds and loads or on other grids. The solve
             begins where they were and adds its own contact; the answer is the same to the tolerance. A Program

@@ -18,6 +18,18 @@ def seconds(value: float) -> str:
     return f"{value / HOUR:.2g} h" if value < 99.5 * HOUR else f"{value / HOUR:.0f} h"
 
 
+def duration(seconds: float | None) -> str:
+    """Seconds as a person says them; a question mark where they are not known."""
+    if seconds is None:
+        return "?"
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60:02d} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
+
+
 def share(value: float) -> str:
     """A relative error, per cent while they are readable."""
     if not isfinite(value):

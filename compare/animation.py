@@ -11,6 +11,7 @@ from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError, Solver
+from scene.protocol import refuse
 
 from .film import Film, started
 from .inputs import Asked, case_of
@@ -22,6 +23,7 @@ from .store import Store, write
 from .task import SceneTask
 
 DOTS_PER_INCH = 100
+MOST_FRAMES, LONGEST = 10_000, 3600  # frames, and seconds
 FASTEST = 50  # frames a second: players show a GIF of more with delays of their own
 # An even number of pixels a side, which these colours take, and a file that begins before all of it is loaded.
 MP4 = ["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
@@ -71,8 +73,13 @@ def filmed(
     scene = started(scene)
     mdr, bem = replace(mdr, frames=frames), replace(bem, frames=frames)
     solvers: tuple[Solver, Solver] = mdr, bem
-    refused = [reason for solver in solvers for reason in solver.refusals(scene)]
-    tasks = [SceneTask(each, (scene,), keeps_fields=True) for each in solvers if not each.refusals(scene)]
+    tasks, refused = [], []
+    for each in solvers:
+        try:
+            refuse(each, scene)
+            tasks.append(SceneTask(each, (scene,), keeps_fields=True))
+        except Refused as error:
+            refused.append(str(error))
     if not tasks:
         raise Refused("neither solver can march through this scene: " + "; ".join(refused))
     outcomes, fields = sweep(tasks, store, workers, progress).outcomes, {}
@@ -91,9 +98,10 @@ def check(path: Path, frames: int, seconds: float) -> None:
         raise Refused(f"{path.name}: a name that ends in .gif, or in .mp4 where ffmpeg is on the path")
     if path.suffix.lower() == ".mp4" and not FFMpegWriter.isAvailable():
         raise Refused(f"{path.name}: an .mp4 takes ffmpeg, which is not on the path; install it, or name a .gif")
-    if frames < 1 or not (seconds > 0 and frames / seconds <= FASTEST):
+    if not (1 <= frames <= MOST_FRAMES and 0 < seconds <= LONGEST and frames / seconds <= FASTEST):
         raise Refused(
-            f"frames = {frames} in seconds = {seconds:g}: at least one frame, and at most {FASTEST} in a second"
+            f"frames = {frames} in seconds = {seconds:g}: 1 to {MOST_FRAMES} frames in at most {LONGEST} seconds, "
+            f"and at most {FASTEST} in a second"
         )
     if not path.resolve().parent.is_dir():
         raise FileNotFoundError(f"{path.parent}: no such folder")

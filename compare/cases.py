@@ -24,9 +24,11 @@ from scene.scales import elastic_contact
 from scene.scene import fit_together
 from scene.temperature import Temperature
 
-Count = Annotated[Whole, Field(ge=1)]
-Factors = Annotated[tuple[Positive, ...], Field(min_length=1)]
-Speeds = Annotated[tuple[Speed, ...], Field(min_length=1)]
+from .cost import MOST_DRAWS, MOST_VALUES
+
+Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
+Factors = Annotated[tuple[Positive, ...], Field(min_length=1, max_length=MOST_VALUES)]
+Speeds = Annotated[tuple[Speed, ...], Field(min_length=1, max_length=MOST_VALUES)]
 
 
 def _distinct(study):
@@ -50,16 +52,16 @@ class Study:
     pressing : factors on the scene's load (or depth) for the curves of friction against load
     load_speeds : speeds of those curves [m/s]
     depths : of the force-depth curve, factors on the smooth elastic depth of the scene
-    surfaces : rough surfaces averaged in three dimensions, at least 1
-    profiles : rough profiles averaged in one dimension, at least 1
+    surfaces : rough surfaces averaged in three dimensions, 1 to 10,000
+    profiles : rough profiles averaged in one dimension, 1 to 10,000
     """
 
     speeds: Speeds | None = None
     pressing: Factors | None = None
     load_speeds: Speeds | None = None
     depths: Factors | None = None
-    surfaces: Count = 3
-    profiles: Count = 50
+    surfaces: Draws = 3
+    profiles: Draws = 50
 
     _no_value_twice = model_validator(mode="after")(_distinct)
 

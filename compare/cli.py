@@ -35,7 +35,7 @@ TYPES = {
 PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
 PYTHON_ONLY = {"quantities", "progress", "options"}
-SHARED = {"workers": None, "scheduler": None, "format": "html", "figures": "png", "report": True}
+SHARED = {"workers": None, "scheduler": None, "format": "html", "figures": "png", "report": True, "yes": False}
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but mistakes.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Say each solve and each figure.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]

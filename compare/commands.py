@@ -12,6 +12,7 @@ scheduler : address of a scheduler of dask.distributed, as tcp://host:8786, whos
 format : of the page, html, markdown or latex
 figures : forms of the figures, separated by commas: png, or png,pdf,svg
 report : whether the page and its figures are written; findings and results always are
+yes : agree to what takes more than a day
 progress : whether the terminal says how far it is
 
 Each raises InvalidInput or Refused before anything is solved where what is asked for cannot be, and OSError where
@@ -46,6 +47,7 @@ class Options(TypedDict, total=False):
     format: str
     figures: str
     report: bool
+    yes: bool
     progress: bool | str
 
 

@@ -25,6 +25,7 @@ def watch(lines: bool = False) -> "Watch":
 
     console = Console(highlight=False, soft_wrap=True)
     return Watch(
+        lambda line: console.print(line, markup=False),
         lambda: progress.Watched(console, pause=0.0, bar=False) if lines else progress.Watched(console),
         lambda count: _figures(console, count, lines),
     )
@@ -66,6 +67,12 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
             raise
         typer.echo(f"crosscheck: {error}", err=True)
         raise typer.Exit(FAILED if isinstance(error, SolveError) else MISTAKE) from error
+    except MemoryError as error:
+        from scene import OutOfMemory
+
+        told = str(error) if isinstance(error, OutOfMemory) else f"memory ran out {error}".strip()
+        typer.echo(f"crosscheck: {told}", err=True)
+        raise typer.Exit(FAILED) from error
     except OSError as error:
         from .pipeline import Unwritable
 

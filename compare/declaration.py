@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 import xarray
 
 from . import finding, rectangle
+from .cost import Cost
 from .finding import FAILS, Claim, Finding
 from .outcome import Outcome
 from .page import Block, Findings, Page, Plot
@@ -42,6 +43,12 @@ class Study:
     def claims(self) -> Sequence[Claim]:
         """Claims that are measured on the rectangles."""
         return ()
+
+    def cost(self) -> Cost:
+        """What all solves take at most; of rectangles by counting, before their tasks are built."""
+        if rectangles := self.rectangles():
+            return sum((each.cost for each in rectangles.values()), Cost())
+        return Cost.of(task for batch in self.batches() for task in batch.tasks)
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved."""

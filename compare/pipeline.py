@@ -18,6 +18,7 @@ from .report import SOLVED, Report, faults
 from .runner import Progress, SweepResult
 from .store import Store
 from .suggest import known
+from .workers import counted
 
 
 class Broken(SolveError):
@@ -28,10 +29,12 @@ class Broken(SolveError):
 class Watch:
     """Whom a run tells how far it is.
 
+    told : told what a study takes, before a task is built
     solving : makes what is told while tasks are solved
     writing : makes what is told of every figure while the page is written, from their number
     """
 
+    told: Callable[[str], Any] = str
     solving: Callable[[], AbstractContextManager[Progress | None]] = nullcontext
     writing: Callable[[int], AbstractContextManager[Callable[[str], Any]]] = lambda count: nullcontext(
         lambda name: None
@@ -46,6 +49,7 @@ def run(
     format: str = "html",
     figures: str = "png",
     report: bool = True,
+    yes: bool = False,
     watch: Watch | None = None,
 ) -> Report:
     """Do a study from its tasks to its page; what the folder has is not solved again.
@@ -56,20 +60,23 @@ def run(
     format : of the page, "html", "markdown" or "latex"
     figures : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
     report : whether the page and its figures are written; findings and results always are
+    yes : agree to what takes more than a day
     watch : told how far it is
 
-    Raises Unwritable, before anything is solved, where the folder cannot be written; Broken where so many tasks
-    broke that nothing can be judged.
+    Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
+    solved, where the folder cannot be written; Broken where so many tasks broke that nothing can be judged.
     """
     output, watch = Path(output), watch or Watch()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figures.split(",") if form.strip())]))
     known("format", format, pages.FORMATS)
     for form in forms:
         known("figures", form, pages.FORMS)
-    batches = study.batches()
+    cost, count = study.cost(), counted(workers)
+    cost.refuse(count, yes)
     below = output / study.place
-    _make_folders(output, [SOLVED] if any(each.tasks for each in batches) else [], study.place)
-    swept = _solve(batches, output, workers, scheduler, watch)
+    _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
+    watch.told(str(cost))
+    swept = _solve(study.batches(), output, workers, scheduler, watch)
     try:
         answers = study.answers(swept.outcomes)
         findings = study.findings(answers)

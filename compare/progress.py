@@ -7,24 +7,13 @@ from rich import progress as bars
 from rich.console import Console
 from rich.table import Column
 
+from .amounts import duration
 from .outcome import Outcome
 from .runner import Progress
 from .task import Task
 
 # Seconds between lines where there is no terminal to draw a bar on.
 PAUSE = 5.0
-
-
-def duration(seconds: float | None) -> str:
-    """Seconds as a person says them; a question mark where they are not known."""
-    if seconds is None:
-        return "?"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60:02d} s"
-    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
 
 
 class Watched(Progress):

@@ -16,6 +16,7 @@ from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topo
 from scene.motion import Motion
 from scene.protocol import refuse
 
+from .cost import Cost
 from .outcome import Outcome, Row
 from .path import Path, by_contact, joined
 from .task import SceneTask, Task, draws_of
@@ -61,6 +62,20 @@ class Rectangle:
         return self.scene.motion.pressed_by
 
     @property
+    def cost(self) -> Cost:
+        """What all contacts take, by counting."""
+        points, draws = len(self.speeds) * len(self.values), self.draws if self.random else {}
+        costs = [
+            Cost(points * draws.get(name, 1), points * draws.get(name, 1) * _work(solver, self.scene))
+            for name, grids in self.grids.items()
+            for solver in grids.values()
+        ]
+        fine = (each for grids in self.grids.values() for name, each in grids.items() if name == FINE)
+        planes = (each.points**2 for each in fine if self.keeps_fields and isinstance(each, BEM))
+        # Pressure and gap, in the store and in the file of results.
+        return sum(costs, Cost(kept=sum(32 * points for points in planes)))
+
+    @property
     def random(self) -> bool:
         """Whether the body has draws: rough surfaces that differ by their seed."""
         return isinstance(self.scene.roughness, SelfAffine | Topography)
@@ -76,9 +91,13 @@ class Rectangle:
         return replace(self.scene, motion=motion)
 
     def refuse(self) -> None:
-        """Raise Refused if a solver lacks what a scene asks for, SolveError if numbers are too far apart."""
+        """Raise Refused if a solver lacks what a scene asks for, SolveError if numbers are too far apart.
+
+        Asked at the least and the greatest speed and load or depth, between which nothing else is lacking.
+        """
+        speeds, values = ({min(each), max(each)} for each in (self.speeds, self.values))
         for grids in self.grids.values():
-            for solver, speed, value in product(grids.values(), self.speeds, self.values):
+            for solver, speed, value in product(grids.values(), speeds, values):
                 refuse(solver, self.at(value, speed))
 
     def tasks(self) -> list[SceneTask | Path]:
@@ -116,7 +135,7 @@ class Rectangle:
                 together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
                 contacts = tuple(
-                    SceneTask(solver, each, keeps_fields=first and not k, work=_work(solver, each))
+                    SceneTask(solver, each, keeps_fields=first and not k, work=len(each) * _work(solver, each[0]))
                     for k, each in enumerate(together)
                 )
                 found.append((name, contacts))
@@ -196,13 +215,13 @@ def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) 
     return xarray.DataTree.from_dict(parts)
 
 
-def _work(solver, scenes):
-    """Cost in passes over a point of a grid, roughly."""
+def _work(solver, scene):
+    """Cost of a contact in passes over a point of a grid, roughly."""
     if isinstance(solver, MDR):
         # As measured: a mode costs a tenth of all else.
-        each = solver.points * 15.0 * (1 + scenes[0].elastomer.relaxation()[2].size / 10)
+        each = solver.points * 5.0 * (1 + scene.elastomer.relaxation()[2].size / 10)
     elif isinstance(solver, BEM):
         each = solver.points**2.2 * 50.0
     else:
         return 1.0
-    return len(scenes) * each * (solver.steps if isinstance(scenes[0].motion, Program) else 1)
+    return each * (solver.steps if isinstance(scene.motion, Program) else 1)

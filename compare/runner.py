@@ -1,6 +1,5 @@
 """Solving tasks by workers; what the store has is not solved again, and what breaks does not stop the rest."""
 
-import os
 import pickle
 import time
 from collections import Counter, deque
@@ -12,7 +11,7 @@ from dataclasses import dataclass, field
 from .outcome import Outcome
 from .store import Store, write
 from .task import Task
-from .workers import Fault, Processes, VersionMismatch, Workers, caught, unpacked
+from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, unpacked
 
 # Seconds after which an interrupt is noticed.
 PULSE = 0.2
@@ -119,7 +118,7 @@ def _patience(interrupts):
 
 def _workers(missing, count, fresh, scheduler, progress) -> AbstractContextManager[Workers]:
     if scheduler is None:
-        return Processes(min(count or os.cpu_count() or 1, max(len(missing), 1)), fresh)
+        return Processes(min(counted(count), max(len(missing), 1)), fresh)
     from .cluster import Cluster
 
     packages = sorted({package for task in missing for package in task.packages})

@@ -14,14 +14,26 @@ from dataclasses import dataclass
 from multiprocessing.connection import wait
 from typing import Protocol, Self
 
+from scene.reading import InvalidInput
+
 from .outcome import Outcome
 
+MOST = 1024
 # A worker solves on one thread; two workers with two threads each are slower than either alone.
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
 STILLBORN = 3
 # What a terminal sends to every process of a run: workers leave it to their parent.
 FROM_THE_TERMINAL = {getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)}
+
+
+def counted(workers: int | None) -> int:
+    """Number of processes: as stated, else as many as processors. Raises InvalidInput."""
+    if workers is None:
+        return os.cpu_count() or 1
+    if isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= MOST:
+        raise InvalidInput(f"workers = {workers!r}: a whole number from 1 to {MOST}")
+    return workers
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from scene import Program, Result, Scene
+from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Whole
@@ -99,7 +100,7 @@ class MDR:
         if not reasons and scene.roughness is not None:
             band = band_of(scene.roughness, self.spectrum)
             reasons += _too_broad(band) or _unresolved(band, self._laid_out(scene), self.points)
-        return reasons
+        return reasons or shortage(plan_of(self, scene, self._laid_out(scene)).memory)
 
     def plan(self, scene: Scene) -> Plan:
         """What would be simulated of a scene, and what it costs; nothing is solved.
@@ -115,7 +116,8 @@ class MDR:
         """Solve the scene.
 
         Raises Refused for what refusals names; EmptyContact if a prescribed depth does not reach the highest
-        asperity; SolveError if the contact leaves the grid, or a smooth one spans too few of its pixels.
+        asperity; SolveError if the contact leaves the grid, or a smooth one spans too few of its pixels;
+        OutOfMemory where memory ran out.
         """
         with trusted():
             refuse(self, scene)

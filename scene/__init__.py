@@ -8,7 +8,7 @@ from .layer import Layer
 from .measured import Measured
 from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
-from .protocol import EmptyContact, Refused, SolveError, Solver
+from .protocol import EmptyContact, OutOfMemory, Refused, SolveError, Solver
 from .regime import Regime
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
@@ -35,6 +35,7 @@ __all__ = [
     "KelvinChain",
     "Layer",
     "Measured",
+    "OutOfMemory",
     "Plan",
     "Plane",
     "PowerLaw",

@@ -38,13 +38,24 @@ class Solver(Protocol):
         """The answer. Raises Refused before, SolveError after the attempt."""
 
 
+class OutOfMemory(MemoryError):
+    """There was less memory than the solve takes; it says nothing of the scene, and may go well elsewhere."""
+
+
 @contextmanager
 def trusted():
-    """Turn a fault of arithmetic into a SolveError: numbers so far apart that their quotients leave the range."""
+    """Turn a fault of arithmetic into a SolveError: numbers so far apart that their quotients leave the range.
+
+    Memory that runs out is OutOfMemory.
+    """
     try:
         with np.errstate(over="raise", invalid="raise", divide="raise"):
             yield
-    except (ArithmeticError, np.linalg.LinAlgError, MemoryError) as fault:
+    except MemoryError as fault:
+        raise OutOfMemory(
+            f"memory ran out ({fault or 'no size is known'}): take fewer points or workers"
+        ) from fault
+    except (ArithmeticError, np.linalg.LinAlgError) as fault:
         raise SolveError(
             f"the numbers of the scene are too far apart to be computed with ({type(fault).__name__}: {fault}); "
             "check the units of its lengths, moduli, times and loads"

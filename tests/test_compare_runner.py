@@ -15,8 +15,9 @@ import pytest
 from pydantic.dataclasses import dataclass
 
 from compare import runner
+from compare.amounts import duration
 from compare.outcome import Outcome, Row
-from compare.progress import Watched, duration
+from compare.progress import Watched
 from compare.runner import Progress, sweep
 from compare.store import Store
 from compare.task import SceneTask as Task

@@ -148,4 +148,4 @@ def _closed(id, sentence, of, task, known, meaning):
 
 
 def _line(scenes, solver):
-    return SceneTask(solver, scenes, work=len(scenes) * solver.points * 15.0)
+    return SceneTask(solver, scenes, work=len(scenes) * solver.points * 5.0)

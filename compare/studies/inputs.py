@@ -16,15 +16,17 @@ from scene.reading import InvalidInput, parsed
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
+from ..cases import Draws
+from ..cost import MOST_VALUES
 from ..library import NotReady, find
 from .catalogue import SIZES, ReadyStudy
 from .series import KINDS, Series
 from .sizes import Size, between
 
-Count = Annotated[Whole, Field(ge=1)]
-Several = Annotated[Whole, Field(ge=2)]
+Several = Annotated[Whole, Field(ge=2, le=MOST_VALUES)]
 Body = Annotated[Sphere | Cone | PowerLaw, Field(discriminator="type")]
 _RANGE, _LIST = f"{CHOICE}range", f"{CHOICE}list"
+MOST_SERIES = 100  # of a file
 _TABLES = ("indenter", "elastomer", "roughness", "temperature")
 
 
@@ -32,7 +34,7 @@ class _Range:
     """Numbers in equal ratios.
 
     least, greatest : the ends
-    count : how many; absent, it follows from the size of the study
+    count : how many, at most 1000; absent, it follows from the size of the study
     """
 
     least: float
@@ -78,9 +80,10 @@ def _choice(given: Any) -> str:
     return _RANGE if isinstance(given, dict | _Range) else _LIST
 
 
-SpeedList = Annotated[tuple[Speed, ...], Field(min_length=1), Tag(_LIST)]
-LoadList = Annotated[tuple[Force, ...], Field(min_length=1), Tag(_LIST)]
-DepthList = Annotated[tuple[Length, ...], Field(min_length=1), Tag(_LIST)]
+_SOME = Field(min_length=1, max_length=MOST_VALUES)
+SpeedList = Annotated[tuple[Speed, ...], _SOME, Tag(_LIST)]
+LoadList = Annotated[tuple[Force, ...], _SOME, Tag(_LIST)]
+DepthList = Annotated[tuple[Length, ...], _SOME, Tag(_LIST)]
 Speeds = Annotated[Annotated[SpeedRange, Tag(_RANGE)] | SpeedList, Discriminator(_choice)]
 Loads = Annotated[Annotated[LoadRange, Tag(_RANGE)] | LoadList, Discriminator(_choice)]
 Depths = Annotated[Annotated[DepthRange, Tag(_RANGE)] | DepthList, Discriminator(_choice)]
@@ -99,7 +102,8 @@ class _Shared:
     speeds : of sliding [m/s], two at least; with rates absent too, the bodies are at rest
     rates : of pressing in [m/s], to the depths
     loads, depths : what presses [N], [m]: one of them
-    surfaces, profiles : drawn in three and in one dimension; absent, as many as the size of the study has
+    surfaces, profiles : drawn in three and in one dimension, at most 10,000; absent, as many as the size of the
+        study has
     claims : which are judged: "collapse" (Eq. 23), "friction" (Eqs. 14 to 19), "depth" (at rest, and pressed in),
         "dimensions" (1D against 3D), "families" (several series together); absent, all of them
     bem, mdr : settings of the solvers on the finer grid; the coarser has half the points
@@ -114,8 +118,8 @@ class _Shared:
     rates: Speeds | None = None
     loads: Loads | None = None
     depths: Depths | None = None
-    surfaces: Count | None = None
-    profiles: Count | None = None
+    surfaces: Draws | None = None
+    profiles: Draws | None = None
     claims: Claims | None = None
     bem: BEM | dict[str, Any] | None = None
     mdr: MDR | dict[str, Any] | None = None
@@ -140,12 +144,12 @@ class StudyFile(_Shared):
     """A study of one's own: what all series share, and the series.
 
     title, about : for people
-    series : one or more
+    series : 1 to 100
     """
 
     title: str
     about: str = ""
-    series: Annotated[tuple[OwnSeries, ...], Field(min_length=1)]
+    series: Annotated[tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES)]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)

@@ -14,6 +14,7 @@ from scene.motion import UNITS
 from scene.reading import InvalidInput
 
 from ..cases import Case
+from ..cost import MOST_DRAWS
 from ..declaration import Study
 from ..finding import Claim, Finding
 from ..inputs import Asked, case_of
@@ -67,8 +68,8 @@ class Sweep(Study):
             name, values = case.motion.pressed_by, [case.motion.greatest]
         speeds = _numbers("speed", speed, least=0.0)
         prescribed = _numbers(name, values)
-        if isinstance(draws, bool) or not isinstance(draws, int) or not 1 <= draws <= 10_000:
-            raise InvalidInput(f"draws = {draws!r}: a whole number from 1 to 10000")
+        if isinstance(draws, bool) or not isinstance(draws, int) or not 1 <= draws <= MOST_DRAWS:
+            raise InvalidInput(f"draws = {draws!r}: a whole number from 1 to {MOST_DRAWS}")
         pressed: dict[str, Any] = {name: prescribed[0]}
         moving = max(speeds)
         motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)

@@ -12,6 +12,7 @@ from pandas import DataFrame
 from scene.reading import InvalidInput
 
 from ... import rectangle
+from ...cost import MOST_DRAWS, Cost
 from ...declaration import Study
 from ...finding import FAILS, Finding
 from ...outcome import Outcome
@@ -62,8 +63,8 @@ class Paper(Study):
         """The study at a size, or on so many profiles. Raises InvalidInput."""
         if size not in SIZES:
             raise InvalidInput(f"size = {size!r}: one of {', '.join(SIZES)}")
-        if profiles is not None and not (isinstance(profiles, int) and profiles >= 3):
-            raise InvalidInput(f"profiles = {profiles!r}: a whole number from 3")
+        if profiles is not None and not (isinstance(profiles, int) and 3 <= profiles <= MOST_DRAWS):
+            raise InvalidInput(f"profiles = {profiles!r}: a whole number from 3 to {MOST_DRAWS}")
         return cls(SIZES[size] if profiles is None else profiles)
 
     @property
@@ -88,10 +89,17 @@ class Paper(Study):
             found |= losses.rectangles(loss, min(self.profiles, parameters.LOSS_PROFILES))
         return found
 
+    def cost(self) -> Cost:
+        """Rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
+        return super().cost() + Cost.of(self._own)
+
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved: rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
-        own = [*self._studies.tasks(), *(law.planes(shape) for shape in parameters.SHAPES)]
-        return (Batch([*own, *rectangle.tasks_of(self.rectangles())]),)
+        return (Batch([*self._own, *rectangle.tasks_of(self.rectangles())]),)
+
+    @cached_property
+    def _own(self):
+        return [*self._studies.tasks(), *(law.planes(shape) for shape in parameters.SHAPES)]
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved: a Dataset for each figure, shape and rubber."""

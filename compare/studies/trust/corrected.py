@@ -3,17 +3,17 @@
 from collections.abc import Iterator, Sequence
 from math import exp, hypot, isfinite, log, nan
 from time import process_time
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from mdr1d import MDR
 from scene import EmptyContact, Result, Scene, SolveError
 from scene.protocol import refuse
-from scene.quantities import CLOSED, Whole
+from scene.quantities import CLOSED
 
+from ...cases import Draws
 from ...outcome import Row
 from ...statistics.sampling import Scatter, half_width
 from ...task import SceneTask, draws_of
@@ -46,7 +46,7 @@ class CorrectedMDR:
     packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.exact", "compare.studies.trust")
 
     mdr: MDR = MDR(points=4000)
-    profiles: Annotated[Whole, Field(ge=1)] = 40
+    profiles: Draws = 40
 
     @property
     def name(self) -> str:

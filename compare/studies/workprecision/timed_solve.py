@@ -120,7 +120,7 @@ class TimedSolve(SceneTask):
 
 def work(solver: OnGrid) -> float:
     """Work of one solve, in passes over a point of a grid, roughly."""
-    return solver.points * 15.0 if solver.name == "MDR" else solver.points**2.2 * 50.0
+    return solver.points * 5.0 if solver.name == "MDR" else solver.points**2.2 * 50.0
 
 
 def product(engine: Engine, points: int, padded: int) -> float:
