@@ -11,6 +11,8 @@ from typing import Literal
 
 import numpy as np
 
+from scene.machine import memory
+
 from . import kernels
 
 Library = Literal["ducc0", "fftw", "cupy"]
@@ -57,6 +59,11 @@ class Engine:
     def sums(self):
         """The sums and updates of an iteration: see `kernels`."""
         return kernels.Plain(self.xp) if self.on_gpu else kernels.Fused()
+
+    @property
+    def memory(self) -> int:
+        """Bytes that arrays here can take at most."""
+        return self.xp.cuda.runtime.memGetInfo()[1] if self.on_gpu else memory()
 
     def asarray(self, values):
         """An array of numpy, here."""

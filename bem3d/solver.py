@@ -162,7 +162,7 @@ class BEM:
             _ = self.engine.xp
         except Unavailable as missing:
             reasons.append(str(missing))
-        return reasons or shortage(memory_of(self, scene))
+        return reasons or shortage(memory_of(self, scene), self.engine.memory)
 
     def plan(self, scene: Scene) -> Plan:
         """What would be simulated of a scene, and what it costs; nothing is solved.

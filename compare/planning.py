@@ -1,4 +1,8 @@
-"""What both solvers would do about a scene, and what the 1D answer would be worth."""
+"""What both solvers would do about a scene, what the 1D answer would be worth, and what all curves would take."""
+
+from contextlib import suppress
+
+from pydantic import ValidationError
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -6,11 +10,15 @@ from scene import Refused, Scene, SolveError, markup
 from scene.plan import Plan
 
 from .inputs import Asked, case_of
+from .studies.run import Run
 from .studies.trust.verdict import Trust, trust
 
 
 class Plans(dict[str, Plan | str | Trust]):
-    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, a page."""
+    """Plans by the names of the solvers, or why there is none. Printed, a page.
+
+    By "trust", what 1D is worth; by "run", what `compare.run` would take of a scene that can be compared.
+    """
 
     @property
     def feasible(self) -> bool:
@@ -34,7 +42,10 @@ def plans(asked: Asked) -> Plans:
     made: dict[str, Plan | str | Trust] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
-    return Plans(made | {"trust": trust(case.scene)})
+    made["trust"] = trust(case.scene)
+    with suppress(Refused, SolveError, ArithmeticError, ValidationError):  # of what nothing compares
+        made["run"] = f"crosscheck run\n  {Run({'scene': case}).cost()}"
+    return Plans(made)
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:

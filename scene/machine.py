@@ -17,11 +17,12 @@ def memory() -> int:
     return min([*_physical(), *_of_groups(), *_of_process()], default=NO_LIMIT)
 
 
-def shortage(needed: int) -> list[str]:
-    """Why so many bytes cannot be held here, in a sentence; empty where they can."""
-    if needed <= memory():
+def shortage(needed: int, there: int | None = None) -> list[str]:
+    """Why so many bytes cannot be held, in a sentence; empty where they can. there : of this process if absent"""
+    there = memory() if there is None else there
+    if needed <= there:
         return []
-    return [f"it takes {size(needed)} of memory, and {size(memory())} are here: take fewer points, or more memory"]
+    return [f"it takes {size(needed)} of memory, and {size(there)} are here: take fewer points"]
 
 
 def _physical() -> Iterator[int]:

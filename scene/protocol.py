@@ -52,9 +52,8 @@ def trusted():
         with np.errstate(over="raise", invalid="raise", divide="raise"):
             yield
     except MemoryError as fault:
-        raise OutOfMemory(
-            f"memory ran out ({fault or 'no size is known'}): take fewer points or workers"
-        ) from fault
+        why = str(fault) or "no size is known"
+        raise OutOfMemory(f"memory ran out ({why}): take fewer points, or fewer workers") from fault
     except (ArithmeticError, np.linalg.LinAlgError) as fault:
         raise SolveError(
             f"the numbers of the scene are too far apart to be computed with ({type(fault).__name__}: {fault}); "

@@ -30,7 +30,7 @@ DOORS = {
 # Floors of the judge, from the ground up: a room imports rooms of its own floor and of those below.
 FLOORS = (
     {"outcome", "vocabulary", "suggest", "amounts", "digits", "docstrings", "library"},
-    {"task", "path", "finding", "exact", "page", "describe"},
+    {"task", "path", "cost", "finding", "exact", "page", "describe"},
     {"store", "workers", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
     {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film"},
     {"declaration", "results", "report", "pipeline", "animation", "tables"},
