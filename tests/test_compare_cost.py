@@ -83,8 +83,8 @@ def test_more_than_memory_holds_is_begun_on_no_yes(tmp_path):
 
 def test_the_command_says_the_cost_first_and_takes_the_yes(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    text = SCENE + "[bem]\npoints = 4096\n[study]\nspeeds = [1.0, 2.0]\nsurfaces = 1000\n"
-    (tmp_path / "scene.toml").write_text(text + ROUGHNESS)
+    text = SCENE + "[bem]\npoints = 4096\n[study]\nsurfaces = 1000\n"
+    (tmp_path / "scene.toml").write_text(text)
     answer = CliRunner().invoke(app, ["run", "scene.toml"])
     assert answer.exit_code == 2
     assert "of processor time" in answer.stderr

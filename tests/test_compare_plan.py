@@ -52,10 +52,10 @@ def test_both_plans_of_a_scene_are_printed_and_are_those_of_the_solvers(written)
     path = written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n")
     answer = told(path)
     assert answer.exit_code == 0
-    case = written(SCENE)
-    scene = read(case, Scene)
+    run = Run.of(path).cost()
+    scene = read(written(SCENE), Scene)
     plans = MDR(points=700).plan(scene), BEM(points=96).plan(scene), trust(scene)
-    assert answer.output == "\n\n".join(map(str, plans)) + f"\n\ncrosscheck run\n  {Run.of(path).cost()}\n"
+    assert answer.output == "\n\n".join(map(str, plans)) + f"\n\ncrosscheck run\n  {run}\n"
 
 
 def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
