@@ -11,9 +11,11 @@ from .quantities import CLOSED, Compliance, ComplianceOrZero, Pressure, Time
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
 
-Pressures = Annotated[tuple[Pressure, ...], Field(min_length=1)]
-Compliances = Annotated[tuple[Compliance, ...], Field(min_length=1)]
-Times = Annotated[tuple[Time, ...], Field(min_length=1)]
+MOST_MODES = 200  # of a solid: no measurement tells more apart
+_SOME = Field(min_length=1, max_length=MOST_MODES)
+Pressures = Annotated[tuple[Pressure, ...], _SOME]
+Compliances = Annotated[tuple[Compliance, ...], _SOME]
+Times = Annotated[tuple[Time, ...], _SOME]
 
 
 @dataclass(frozen=True, config=CLOSED)
@@ -82,7 +84,7 @@ class Prony(Solid):
     """Generalized Maxwell solid, G(t) = equilibrium_modulus + sum_k moduli[k] exp(-t / relaxation_times[k]).
 
     equilibrium_modulus : shear modulus at rest [Pa]
-    moduli, relaxation_times : of each Maxwell branch [Pa], [s]; one or more, equally many
+    moduli, relaxation_times : of each Maxwell branch [Pa], [s]; 1 to 200, equally many
     """
 
     equilibrium_modulus: Pressure
@@ -107,7 +109,7 @@ class KelvinChain(Solid):
     J(t) = instantaneous_compliance + sum_k compliances[k] (1 - exp(-t / retardation_times[k])).
 
     instantaneous_compliance : in shear [1/Pa], >= 0; at 0 the glassy modulus is infinite, as that of Kelvin
-    compliances, retardation_times : of each element [1/Pa], [s]; one or more, equally many
+    compliances, retardation_times : of each element [1/Pa], [s]; 1 to 200, equally many
     """
 
     instantaneous_compliance: ComplianceOrZero

@@ -321,3 +321,10 @@ def test_a_solid_is_its_fields_and_a_changed_one_is_another(solid):
 def test_moduli_too_far_apart_to_be_converted_are_an_error_and_no_solid_without_modes():
     with pytest.raises(ArithmeticError, match="further apart than the range of numbers"):
         StandardLinearSolid(1e-300, 1e300, 1e-3).retardation()
+
+
+@pytest.mark.parametrize("make", [lambda many: Prony(1e6, many, many), lambda many: KelvinChain(1e-7, many, many)])
+def test_the_modes_of_a_solid_have_a_bound_that_is_said(make):
+    assert make((1.0,) * 200)
+    with pytest.raises(ValueError, match="at most 200 items"):
+        make((1.0,) * 201)
