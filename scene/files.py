@@ -36,6 +36,17 @@ def content(path: str | Path, most: int) -> bytes:
     return held
 
 
+def text(path: str | Path, most: int) -> str:
+    """What such a file holds as UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable."""
+    held = content(path, most)
+    try:
+        decoded = held.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        why = f"is no text in UTF-8: byte {error.start + 1} is {held[error.start]:#04x}"
+        raise _unreadable(path, why) from error
+    return decoded.replace("\r\n", "\n").replace("\r", "\n")
+
+
 def _refuse(path, status, most):
     if S_ISDIR(status.st_mode):
         raise _unreadable(path, "is a folder, and a file is needed")

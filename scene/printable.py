@@ -10,13 +10,13 @@ def printable(text: str) -> str:
     return "".join(each if each.isprintable() or each == "\n" else _escape(each) for each in text)
 
 
-def brief(text: str) -> str:
-    """A text in one printable line of LONGEST letters at most, its middle left out where it is longer."""
-    ends = text if len(text) <= LONGEST else text[:LONGEST] + text[-LONGEST:]
+def brief(text: str, most: int = LONGEST) -> str:
+    """A text in one printable line of so many letters at most, its middle left out where it is longer."""
+    ends = text if len(text) <= most else text[:most] + text[-most:]
     line = printable(ends).replace("\n", "\\n")
-    if len(line) <= LONGEST and ends is text:
+    if len(line) <= most and ends is text:
         return line
-    half = (LONGEST - 3) // 2
+    half = (most - 3) // 2
     return f"{line[:half]}...{line[-half:]}"
 
 

@@ -9,11 +9,15 @@ from typing import Annotated
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
+from . import files
+from .printable import brief
 from .quantities import CLOSED, Positive, Pressure, UnitOfOthers
 
 COLUMNS = ("frequency", "storage", "loss")
 _LEAST_FREQUENCIES = 4
+MOST = 20_000_000  # bytes of a file
 _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
+_NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 Frequencies = tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...]
 Moduli = tuple[Pressure, ...]
 
@@ -62,31 +66,22 @@ def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[t
 
     Raises ValueError naming file and line.
     """
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise ValueError(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ValueError(f"{path}: not a text file in UTF-8") from error
+    text = files.text(path, MOST)
     heading: list[str] = []
     rows: list[tuple[float, ...]] = []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         cells = _SEPARATOR.split(line.partition("#")[0].strip())
         if cells == [""]:
             continue
         if not rows and not any(_is_number(cell) for cell in cells):
             heading = cells
         else:
-            rows.append(_row(cells, names, f"{path}, line {number}"))
+            rows.append(_row(cells, names, f"{brief(str(path))}, line {number}"))
     return heading, rows
 
 
 def _is_number(cell):
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+    return _NUMBER.fullmatch(cell) is not None
 
 
 def _row(cells, names, where):
@@ -96,7 +91,7 @@ def _row(cells, names, where):
         raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others{hint}")
     for name, cell in zip(names, cells, strict=True):
         if not _is_number(cell):
-            raise ValueError(f"{where}: {name} = {cell!r} is not a number")
+            raise ValueError(f"{where}: {name} = {brief(repr(cell))} is not a number")
         if not (isfinite(float(cell)) and float(cell) > 0):
             raise ValueError(f"{where}: {name} = {cell} must be finite and greater than 0")
     return tuple(float(cell) for cell in cells)

@@ -138,7 +138,7 @@ def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_fol
         compare.mastercurve(path, tmp_path / "out")
     assert str(path) in str(refused.value)
     assert not (tmp_path / "out").exists()
-    with pytest.raises(InvalidInput, match="No such file"):
+    with pytest.raises(InvalidInput, match="no such file"):
         compare.mastercurve(tmp_path / "none.csv", tmp_path / "out")
 
 

@@ -213,10 +213,10 @@ def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
 
 
 def test_a_file_that_cannot_be_read_is_named(tmp_path):
-    with pytest.raises(ValidationError, match=r"nowhere\.csv: No such file"):
+    with pytest.raises(ValidationError, match=r"nowhere\.csv: no such file"):
         fitted(tmp_path / "nowhere.csv")
     (tmp_path / "picture.csv").write_bytes(b"\xff\xfe\x00\x01")
-    with pytest.raises(ValidationError, match=r"picture\.csv: not a text file"):
+    with pytest.raises(ValidationError, match=r"picture\.csv: is no text in UTF-8"):
         fitted(tmp_path / "picture.csv")
 
 

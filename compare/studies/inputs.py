@@ -12,7 +12,7 @@ from mdr1d import MDR
 from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, Slide, SolveError, Sphere, Stage
 from scene.mistakes import CHOICE, Mistake, examined
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, parsed
+from scene.reading import invalid, parsed
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
@@ -257,7 +257,7 @@ def study_of(text: str, name: str) -> ReadyStudy:
         lines += [f"series: {each!r} is the name of several" for each in several]
         lines = lines or [line for number, each in enumerate(stated) for line in _refused(each, number)]
     if lines:
-        raise InvalidInput("\n".join(f"{name}: {line}" for line in lines))
+        raise invalid(name, lines)
     return ReadyStudy(file.title, file.about, lambda size: [each.series(size) for each in stated])
 
 

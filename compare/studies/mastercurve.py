@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray
 
+from scene.printable import brief
 from scene.reading import InvalidInput
 from scene.table import read_rows
 
@@ -79,8 +80,8 @@ class Mastercurve(Study):
             study.data  # noqa: B018
             study.collapse  # noqa: B018
         except ValueError as error:
-            said = str(error)
-            raise InvalidInput(said if said.startswith(str(table)) else f"{table}: {said}") from error
+            said, name = str(error), brief(str(table))
+            raise InvalidInput(said if said.startswith(name) else f"{name}: {said}") from error
         return study
 
     @property
@@ -214,5 +215,7 @@ def _order(heading):
     meant = [next((name for name in COLUMNS if cell.lower() in CALLED[name]), cell) for cell in heading]
     if sorted(meant) != sorted(COLUMNS):
         names = "; ".join(f"{name} as {', '.join(called)}" for name, called in CALLED.items())
-        raise ValueError(f"the heading {heading} must name each of {', '.join(COLUMNS)} once: {names}")
+        raise ValueError(
+            f"the heading {brief(repr(heading))} must name each of {', '.join(COLUMNS)} once: {names}"
+        )
     return [meant.index(name) for name in COLUMNS]
