@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Self
 
 from pydantic import TypeAdapter
@@ -20,6 +21,7 @@ class Names:
     schema: Mapping[str, Any]
 
     @classmethod
+    @lru_cache(maxsize=8)
     def of(cls, adapter: TypeAdapter) -> Self:
         """Of what an adapter reads."""
         try:
