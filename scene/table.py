@@ -14,7 +14,8 @@ from .printable import brief
 from .quantities import CLOSED, Positive, Pressure, UnitOfOthers
 
 COLUMNS = ("frequency", "storage", "loss")
-_LEAST_FREQUENCIES = 4
+MOST_ROWS = 5_000
+_LEAST_FREQUENCIES, _WIDEST = 4, 1e40
 MOST = 20_000_000  # bytes of a file
 _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
 _NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
@@ -25,6 +26,8 @@ Moduli = tuple[Pressure, ...]
 @dataclass(frozen=True, config=CLOSED, repr=False)
 class Table:
     """Measured moduli: frequency, storage and loss modulus, equally many, all > 0; at least 4 frequencies.
+
+    At most 5,000 rows, over 40 decades of the frequency.
 
     In any order; a frequency may stand there more than once, and then each of its rows counts.
     """
@@ -38,6 +41,10 @@ class Table:
         lengths = [len(getattr(self, name)) for name in COLUMNS]
         if len(set(lengths)) > 1:
             raise ValueError(f"frequency, storage and loss have {lengths} values: they must be equally many")
+        if lengths[0] > MOST_ROWS:
+            raise ValueError(f"{lengths[0]:,} rows: at most {MOST_ROWS:,} are fitted")
+        if max(self.frequency, default=0.0) > _WIDEST * min(self.frequency, default=0.0):
+            raise ValueError(f"frequencies lie farther apart than by a factor of {_WIDEST:g}")
         if len(set(self.frequency)) < _LEAST_FREQUENCIES:
             raise ValueError(f"{len(set(self.frequency))} frequencies: at least {_LEAST_FREQUENCIES} are needed")
         return self

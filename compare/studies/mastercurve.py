@@ -32,6 +32,7 @@ CALLED = {
     "v": ("v", "speed", "velocity"),
 }
 LEAST_LOADS = 2
+MOST_SPEEDS, MOST_POINTS = 100, 5_000
 MEASURED = "measured"
 VARIABLES = dict(zip(COLUMNS, ("friction_coefficient", "normal_force", "speed"), strict=True))
 
@@ -180,14 +181,16 @@ def curves_of(data: xarray.Dataset) -> MeasuredCurves:
 
     Rows of equal load and speed are measurements of one point: their mean counts. Its standard error is that of a
     scatter which, relative to friction, is the same everywhere: two or three measurements say too little of their
-    own. Where no point was measured twice, it is not known. Raises ValueError with too few speeds or loads.
+    own. Where no point was measured twice, it is not known. Raises ValueError with too few or too many speeds or loads.
     """
     points: dict[float, dict[float, list[float]]] = {}
     columns = (data[name].values.tolist() for name in VARIABLES.values())
     for friction, load, speed in zip(*columns, strict=True):
         points.setdefault(speed, {}).setdefault(load, []).append(friction)
-    if len(points) < 2:
-        raise ValueError(f"{len(points)} speeds: at least 2 are needed")
+    if not 2 <= len(points) <= MOST_SPEEDS:
+        raise ValueError(f"{len(points):,} speeds: 2 to {MOST_SPEEDS} are shifted onto one curve")
+    if (count := sum(map(len, points.values()))) > MOST_POINTS:
+        raise ValueError(f"{count:,} loads at all speeds: at most {MOST_POINTS:,} are shifted onto one curve")
     for speed, loads in points.items():
         if len(loads) < LEAST_LOADS:
             raise ValueError(f"v = {speed:g} has {len(loads)} load: at least {LEAST_LOADS} are needed for a curve")
