@@ -181,7 +181,7 @@ def curves_of(data: xarray.Dataset) -> MeasuredCurves:
 
     Rows of equal load and speed are measurements of one point: their mean counts. Its standard error is that of a
     scatter which, relative to friction, is the same everywhere: two or three measurements say too little of their
-    own. Where no point was measured twice, it is not known. Raises ValueError with too few or too many speeds or loads.
+    own. Where no point was measured twice, it is not known. Raises ValueError with too few or too many points.
     """
     points: dict[float, dict[float, list[float]]] = {}
     columns = (data[name].values.tolist() for name in VARIABLES.values())
