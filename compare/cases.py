@@ -15,6 +15,7 @@ from mdr1d import MDR
 from scene import Coulomb, Heating, Indent, Layer, Refused, Scene, Slide
 from scene.indenter import Indenter
 from scene.motion import Motion
+from scene.printable import brief
 from scene.protocol import refuse
 from scene.quantities import CLOSED, Positive, Speed, Whole
 from scene.reading import read
@@ -35,7 +36,7 @@ def _distinct(study):
     for name in ("speeds", "pressing", "load_speeds", "depths"):
         values = getattr(study, name)
         if values is not None and len(set(values)) < len(values):
-            raise ValueError(f"{name} = {list(values)}: a value stands there twice")
+            raise ValueError(f"{name} = {brief(repr(list(values)))}: a value stands there twice")
     return study
 
 

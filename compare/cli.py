@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from . import commands
-from .console import FAILED, MISTAKE, said_to_people
+from .console import FAILED, MISTAKE, said_to_people, say
 from .docstrings import documented
 
 app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False)
@@ -94,13 +94,13 @@ class Command:
             found = self.function(**given)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
-            typer.echo(f"0 tasks solved, {swept.reused} reused")
+            say(f"0 tasks solved, {swept.reused} reused")
         for line in getattr(found, "faults", ()):
-            typer.echo(f"crosscheck: {line}", err=True)
+            say(f"crosscheck: {line}", error=True)
         if json:
-            typer.echo(_as_json(found))
+            say(_as_json(found))
         elif not quiet:
-            typer.echo(self.said(found))
+            say(self.said(found))
         if getattr(found, "failed", False):
             raise typer.Exit(FAILED)
         if not getattr(found, "feasible", True):
@@ -175,7 +175,7 @@ def _version(wanted: bool) -> None:
     if wanted:
         from importlib.metadata import version
 
-        typer.echo(version("mdr-bem-crosscheck"))
+        say(version("mdr-bem-crosscheck"))
         raise typer.Exit
 
 

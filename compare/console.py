@@ -13,6 +13,15 @@ if TYPE_CHECKING:
 FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
 
 
+def say(text: str, error: bool = False) -> None:
+    """Print a text, with nothing in it that controls a terminal."""
+    if not all(map(str.isprintable, text.split("\n"))):
+        from scene.printable import printable  # slow, and few texts need it
+
+        text = printable(text)
+    typer.echo(text, err=error)
+
+
 def watch(lines: bool = False) -> "Watch":
     """What tells a terminal how far a run is: bars, or a line for each solve and each figure.
 
@@ -34,14 +43,17 @@ def watch(lines: bool = False) -> "Watch":
 @contextmanager
 def _figures(console: Any, count: int, lines: bool) -> Iterator[Callable[[str], Any]]:
     """A bar over the figures of a page while they are drawn."""
+    from rich.markup import escape
     from rich.progress import Progress
 
+    from scene.printable import printable
+
     if lines:
-        yield lambda name: console.print(f"  figure {name}", markup=False)
+        yield lambda name: console.print(f"  figure {printable(name)}", markup=False)
         return
     with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
         drawn = bar.add_task("Writing the page", total=count)
-        yield lambda name: bar.update(drawn, advance=1, description=f"Drawing {name}")
+        yield lambda name: bar.update(drawn, advance=1, description=f"Drawing {escape(printable(name))}")
 
 
 @contextmanager
@@ -57,7 +69,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt as interrupt:
-        typer.echo("Interrupted. What is solved is kept: the same command resumes from there.", err=True)
+        say("Interrupted. What is solved is kept: the same command resumes from there.", error=True)
         raise typer.Exit(INTERRUPTED) from interrupt
     except (ValueError, LookupError, RuntimeError) as error:
         from scene import Refused, SolveError
@@ -65,7 +77,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
 
         if not isinstance(error, InvalidInput | Refused | SolveError):
             raise
-        typer.echo(f"crosscheck: {error}", err=True)
+        say(f"crosscheck: {error}", error=True)
         raise typer.Exit(FAILED if isinstance(error, SolveError) else MISTAKE) from error
     except MemoryError as error:
         from scene import OutOfMemory
@@ -79,5 +91,5 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""
         told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        typer.echo(f"crosscheck: {where}{told}{'' if early else '. What is solved and stored is kept.'}", err=True)
+        say(f"crosscheck: {where}{told}{'' if early else '. What is solved and stored is kept.'}", error=True)
         raise typer.Exit(MISTAKE if early else FAILED) from error

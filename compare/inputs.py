@@ -3,11 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import fields
 from importlib.resources import files
+from os.path import isdir, lexists
 from pathlib import Path
 from typing import TypeAlias
 
 from scene import Scene
-from scene.reading import InvalidInput, parsed, read, text_of
+from scene.files import Unreadable, checked
+from scene.reading import MOST, InvalidInput, parsed, read, text_of
 
 from .cases import Case, read_case, shipped_cases
 from .library import FOLDERS, ready
@@ -47,9 +49,13 @@ def case_of(asked: Asked) -> Case:
 def located(asked: str | Path, kind: str = "scene") -> Path:
     """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
     path = Path(asked)
-    if path.is_dir():
-        raise InvalidInput(f"{asked}: is a folder, and no {kind}")
-    if path.exists():
+    try:
+        checked(path, MOST)
+    except Unreadable as error:
+        if lexists(path):
+            raise InvalidInput(f"{asked}: is a folder, and no {kind}" if isdir(path) else str(error)) from error
+        missing = error
+    else:
         if (other := _other_kind(path, kind)) is not None:
             raise InvalidInput(f"{asked}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {asked}")
         return path
@@ -60,10 +66,8 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
     if str(asked) in every:
         found = every[str(asked)]
         raise InvalidInput(f"{asked}: is a ready {found.kind}, and no {kind}: crosscheck {found.command} {asked}")
-    beside = (
-        [str(path.with_name(each.name)) for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
-    )
-    raise InvalidInput(f"{asked}: no such file, and no ready {kind}{suggestion(str(asked), [*known, *beside])}")
+    beside = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
+    raise InvalidInput(f"{missing}, and no ready {kind}{suggestion(str(asked), [*known, *beside])}")
 
 
 def _other_kind(path: Path, kind: str) -> str | None:

@@ -89,8 +89,10 @@ def find(name: str) -> Ready:
     """That of a name. Raises NotReady."""
     every = ready()
     if name not in every:
+        from scene.printable import brief  # slow, and only a mistake needs it
+
         meant = suggestion(name, every) or "."
-        raise NotReady(f"no scene or study is called {name!r}{meant} There are {', '.join(every)}")
+        raise NotReady(f"no scene or study is called {brief(repr(name))}{meant} There are {', '.join(every)}")
     return every[name]
 
 

@@ -7,6 +7,8 @@ from rich import progress as bars
 from rich.console import Console
 from rich.table import Column
 
+from scene.printable import printable
+
 from .amounts import duration
 from .outcome import Outcome
 from .runner import Progress
@@ -87,11 +89,11 @@ class Watched(Progress):
         now = self.clock()
         if not self.shown and now - self.last >= self.pause:
             self.last = now
-            self.console.print(f"{self._counts()}, {self._left()} left, solved {task.label}", markup=False)
+            self.said(f"{self._counts()}, {self._left()} left, solved {task.label}")
 
     def said(self, line: str) -> None:
         """A line for a person."""
-        self.console.print(line, markup=False)
+        self.console.print(printable(line), markup=False)
 
     def interrupted(self) -> None:
         """Nothing more is started."""
@@ -109,6 +111,6 @@ class Watched(Progress):
 
     def _tell(self):
         if self.row is not None:
-            what = self.doing + next((task.label for task in self.running), "")
+            what = self.doing + printable(next((task.label for task in self.running), ""))
             now = {"counts": self._counts(), "left": self._left()}
             self.bar.update(self.row, completed=self.work, description=what, **now)

@@ -1,7 +1,7 @@
 """What is wrong with the content of a file: every mistake at once, one line each, with what was probably meant."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from datetime import date, time
@@ -12,11 +12,13 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from .names import CLOSE, Names, nearest
+from .printable import brief
 
 # Stand for what is missing, and for a type that is; nothing allows them.
 MISSING, NO_TYPE = object(), "\0"
 LONGEST = 4096  # bits of a whole number that is shown
 CHOICE = "a choice: "  # with which the tags of a choice begin that no type decides: they are no names of the file
+SAID = 50  # mistakes of a file that are said; of others there is only the number
 _ROUNDS = 10  # of mending: a table in a table that is misspelt takes two
 _OUT_OF_RANGE = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")
 
@@ -47,18 +49,21 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
 
 
 def examined(error: ValidationError, content: dict, adapter: TypeAdapter) -> tuple[list[Mistake], dict]:
-    """Every mistake with its place, and the content with what was probably meant in place of wrong names."""
-    names, mended, said = Names.of(adapter), deepcopy(content), []
+    """Every mistake with its place, and the content with what was probably meant in place of wrong names.
+
+    What was probably meant is sought for the first SAID of them.
+    """
+    names, mended, order, said = Names.of(adapter), deepcopy(content), _order(content), []
     for _ in range(_ROUNDS):
-        found = _mended(error, mended, names)
+        found = _mended(error, mended, names, order)
         said += found
         error = _error(adapter, mended)
         if error is None or not found:
             break
     if error is not None:
         left_out = [each.where for each in said if not each.mended]
-        said += _remaining(_with_what_is_missing(error, mended, adapter), mended, left_out)
-    said.sort(key=lambda each: _order(each.where, content))
+        said += _remaining(_with_what_is_missing(error, mended, adapter), mended, left_out, order)
+    said.sort(key=lambda each: order(each.where))
     return list({each.line: each for each in said}.values()), mended
 
 
@@ -70,33 +75,42 @@ def _error(adapter, content):
     return None
 
 
-def _mended(error, content, names) -> list[Mistake]:
+def _placed(error, content, order) -> list[tuple[Place, Any]]:
+    """What an error tells of, each with its place, in the order of the file."""
+    found = [(place(each["loc"], content), each) for each in error.errors(include_url=False)]
+    return sorted(found, key=lambda each: order(each[0]))
+
+
+def _mended(error, content, names, order) -> list[Mistake]:
     """Names and types that are unknown, said, and in the content made what was probably meant."""
-    said = []
-    for mistake in error.errors(include_url=False):
-        where, kind = place(mistake["loc"], content), mistake["type"]
+    said: list[Mistake] = []
+    for where, mistake in _placed(error, content, order):
+        kind, suggests = mistake["type"], len(said) < SAID
         if kind in ("unexpected_keyword_argument", "extra_forbidden"):
-            said.append(_unknown_name(where, content, names))
-        elif kind == "union_tag_invalid":
+            said += _unknown_name(where, content, names, suggests)
+        elif kind == "union_tag_invalid" and suggests:
             said += _unknown_type(where, content, mistake)
-        elif kind == "union_tag_not_found" and isinstance(mistake["input"], dict):
+        elif kind == "union_tag_not_found" and suggests:
             said += _misspelt_type(where, content)
     return said
 
 
-def _unknown_name(where, content, names):
-    table, name = reduce(getitem, where[:-1], content), where[-1]
-    value, known = table.pop(name), names.at(where[:-1], content)
-    meant = names.meant(where, value, content)
-    line = f"{_written(where, value)}unknown here"
-    if meant:
-        line += f"; did you mean {_dotted(meant[len(where) - 1 :] if meant[:-1] == where[:-1] else meant)}?"
-        _home(meant[:-1], content).setdefault(meant[-1], value)
-    elif (like := nearest(name, known, CLOSE)) is not None:
-        line += f"; did you mean {like}?"
-    if known:
-        line += f"{' Known' if line.endswith('?') else '; known'} are {', '.join(known)}"
-    return Mistake(where, line, meant is not None)
+def _unknown_name(where, content, names, suggests):
+    table, name = _at(where[:-1], content), where[-1]
+    if not (isinstance(table, dict) and name in table):
+        return
+    value = table.pop(name)
+    line, meant = f"{_written(where, value)}unknown here", None
+    if suggests:
+        known, meant = names.at(where[:-1], content), names.meant(where, value, content)
+        if meant:
+            line += f"; did you mean {_dotted(meant[len(where) - 1 :] if meant[:-1] == where[:-1] else meant)}?"
+            _home(meant[:-1], content).setdefault(meant[-1], value)
+        elif (like := nearest(name, known, CLOSE)) is not None:
+            line += f"; did you mean {like}?"
+        if known:
+            line += f"{' Known' if line.endswith('?') else '; known'} are {', '.join(known)}"
+    yield Mistake(where, line, meant is not None)
 
 
 def _home(where, content):
@@ -107,40 +121,41 @@ def _home(where, content):
 
 
 def _unknown_type(where, content, mistake):
-    table, allowed = reduce(getitem, where, content), re.findall(r"'([^']*)'", mistake["ctx"]["expected_tags"])
-    given = table.get("type")
-    if not (isinstance(given, str) and (meant := nearest(given, allowed))):
+    table, one_of = _at(where, content), mistake["ctx"]["expected_tags"]
+    given = table.get("type") if isinstance(table, dict) else None
+    if not (isinstance(given, str) and (meant := _literal(given, one_of))):
         return
     table["type"] = meant
-    one_of = mistake["ctx"]["expected_tags"]
     yield Mistake((*where, "type"), f"{_written((*where, 'type'), given)}one of {one_of}; did you mean {meant!r}?")
 
 
 def _misspelt_type(where, content):
-    table = reduce(getitem, where, content)
+    table = _at(where, content)
+    if not isinstance(table, dict):
+        return
     if (name := nearest("type", [key for key in table if isinstance(table[key], str)])) is None:
         return
     value = table["type"] = table.pop(name)
     yield Mistake((*where, name), f"{_written((*where, name), value)}unknown here; did you mean type?")
 
 
-def _remaining(error, content, left_out) -> Iterator[Mistake]:
+def _remaining(error, content, left_out, order) -> Iterator[Mistake]:
     """What is wrong with values, and what is missing; nothing of a table as a whole that has lost a part."""
-    for mistake in error.errors(include_url=False):
+    poorer = {where[:depth] for where in left_out for depth in range(len(where) + 1)}
+    for number, (where, mistake) in enumerate(_placed(error, content, order)):
         kind, value, allowed = mistake["type"], mistake["input"], mistake["msg"].removeprefix("Value error, ")
-        where = place(mistake["loc"], content)
         if kind == "too_short" and len(value) >= mistake["ctx"]["min_length"]:
             continue  # it is long enough: what is wrong with its items has a line of its own
-        if kind == "value_error" and any(each[: len(where)] == where for each in left_out):
+        if kind == "value_error" and where in poorer:
             continue
         if kind == "union_tag_invalid":
-            where, value = (*where, "type"), value["type"]
+            where, value = (*where, "type"), _at(("type",), value)
             allowed = f"one of {mistake['ctx']['expected_tags']}"
         elif kind.endswith("attributes_type") or kind == "dataclass_type":
             allowed = "a table"
         elif kind == "int_type" and isinstance(value, float):
             allowed += ", written without a decimal point"
-        elif kind == "literal_error" and (meant := _literal(value, mistake["ctx"]["expected"])):
+        elif kind == "literal_error" and number < SAID and (meant := _literal(value, mistake["ctx"]["expected"])):
             allowed += f"; did you mean {meant!r}?"
         elif kind in _OUT_OF_RANGE and isinstance(stated := _at(where, content), str):
             value, allowed = stated, f"{allowed}, in SI units"
@@ -157,11 +172,11 @@ def _literal(value, expected):
 
 
 def _written(where, value):
-    return _dotted(where) + (f" = {value!r}: " if _brief(value) else ": ")
+    return _dotted(where) + (f" = {brief(repr(value))}: " if _brief(value) else ": ")
 
 
 def _dotted(where):
-    return ".".join(map(str, where))
+    return ".".join(brief(str(part)) for part in where)
 
 
 def _brief(value):
@@ -192,14 +207,25 @@ def _with_what_is_missing(error, content, adapter):
 def place(location: Sequence[str | int], content: Any) -> Place:
     """The names on the way to a mistake as they stand in the file: the type of a table, or a choice, is none."""
     where: Place = ()
-    for part in location:
-        if isinstance(content, dict) and part not in content and part == content.get("type"):
-            continue
+    for number, part in enumerate(location, start=1):
         if isinstance(part, str) and part.startswith(CHOICE):
             continue
+        if _is_type(part, content) and (
+            part not in content or _leads_on(place(location[number:], content), content)
+        ):
+            continue  # a table may also have a name that is called as its type
         where = (*where, part)
         content = _at((part,), content)
     return where
+
+
+def _is_type(part, content):
+    return isinstance(content, dict) and part == content.get("type")
+
+
+def _leads_on(where, content):
+    """Whether what a place names could stand there."""
+    return bool(where) and isinstance(_at(where[:-1], content), dict if isinstance(where[-1], str) else list)
 
 
 def _at(where, content):
@@ -210,11 +236,19 @@ def _at(where, content):
         return None
 
 
-def _order(where, content):
-    """Of places in the file; what is missing comes after what stands in the same table."""
-    order = []
-    for part in where:
-        keys = list(content) if isinstance(content, dict) else []
-        order.append(keys.index(part) if part in keys else part if isinstance(part, int) else len(keys))
-        content = _at((part,), content)
-    return order
+def _order(content: Any) -> Callable[[Place], list[int]]:
+    """Of places in a file; what is missing comes after what stands in the same table."""
+    numbers: dict[int, dict[str, int]] = {}
+
+    def of(where):
+        order, inside = [], content
+        for part in where:
+            known = {}
+            if isinstance(inside, dict):
+                known = numbers.get(id(inside)) or {name: number for number, name in enumerate(inside)}
+                numbers[id(inside)] = known
+            order.append(known.get(part, part if isinstance(part, int) else len(known)))
+            inside = _at((part,), inside)
+        return order
+
+    return of

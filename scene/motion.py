@@ -1,5 +1,6 @@
 """How the indenter moves: to rest, sliding steadily, sheared or by a program, and what presses it."""
 
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -281,15 +282,16 @@ class Program:
         """Times [s] at which one stage follows another."""
         return frozenset(float(time) for time in self._times[1:-1])
 
-    @property
+    # Thousands of stages ask for these each.
+    @cached_property
     def _times(self):
         return np.cumsum([0.0, *(stage.duration for stage in self.stages)])
 
-    @property
+    @cached_property
     def _paths(self):
         return np.cumsum([0.0, *(stage.speed * stage.duration for stage in self.stages)])
 
-    @property
+    @cached_property
     def _levels(self):
         """What is prescribed at `_times`."""
         levels = [0.0]

@@ -2,12 +2,14 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Self
 
 from pydantic import TypeAdapter
 from pydantic.errors import PydanticInvalidForJsonSchema
 
 CLOSE, _LIKE, _CLOSER = 0.75, 0.6, 0.8  # as of difflib: 1 is equal
+LONGEST = 100  # letters of a name that are compared: no known one has half as many
 
 Place = tuple[str | int, ...]
 
@@ -19,6 +21,7 @@ class Names:
     schema: Mapping[str, Any]
 
     @classmethod
+    @lru_cache(maxsize=8)
     def of(cls, adapter: TypeAdapter) -> Self:
         """Of what an adapter reads."""
         try:
@@ -71,7 +74,8 @@ class Names:
             if value is None:
                 # Of a table that is not there, one without types: it would be one name in it.
                 yield (*where, name), self._node(child, {})
-            yield from self._unstated((*where, name), child, value if isinstance(value, dict) else {})
+            if value is None or isinstance(value, dict):
+                yield from self._unstated((*where, name), child, value or {})
 
     def _node(self, node, content) -> Mapping:
         """The schema of a part, once references are followed and the type of a table has decided."""
@@ -95,7 +99,7 @@ def nearest(name: str, known: Iterable[str], cutoff: float = _LIKE) -> str | Non
     from difflib import get_close_matches
 
     plain = {each.lower().replace("_", "-"): each for each in reversed(list(known))}
-    found = get_close_matches(name.lower().replace("_", "-"), plain, n=1, cutoff=cutoff)
+    found = get_close_matches(name[:LONGEST].lower().replace("_", "-"), plain, n=1, cutoff=cutoff)
     return plain[found[0]] if found else None
 
 

@@ -1,25 +1,40 @@
 """Reading TOML files into validated objects, with every mistake named at once."""
 
+import re
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from .mistakes import mistakes
+from . import files
+from .mistakes import SAID, mistakes
+from .printable import brief, printable
 
-__all__ = ["InvalidInput", "made", "mistakes", "parsed", "read", "tables", "text_of"]
+__all__ = ["InvalidInput", "invalid", "made", "mistakes", "parsed", "read", "tables", "text_of"]
+
+MOST = 1_000_000  # bytes of a file
+DEEPEST = 20  # levels of tables and lists in one another
+LONGEST = 2000  # letters of a mistake
+
+# Names joined by so many dots take a parser time that grows with their square; no file that can be read has them.
+_NAME = r"""(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
+_ENDLESS = re.compile(rf"(?<![\w\\\"'-]){_NAME}(?:[ \t]{{0,9}}+\.[ \t]{{0,9}}+{_NAME}){{{5 * DEEPEST}}}", re.ASCII)
 
 
 class InvalidInput(ValueError):
-    """A file that cannot be read as what it should be; the message lists every mistake, one a line."""
+    """A file that cannot be read as what it should be; the message lists mistakes, one printable line each."""
+
+    def __init__(self, message: str):
+        super().__init__(printable(message))
 
 
 def read(path: str | Path, what: Any):
     """Read a TOML file as `what`, a validated dataclass or model.
 
     Raises InvalidInput naming for each mistake the field, the value, what is allowed, and for a name that is
-    misspelt the one that was probably meant.
+    misspelt the one that was probably meant; of more than SAID mistakes the first, and how many there are.
     """
     return made(tables(path), what, path)
 
@@ -30,21 +45,28 @@ def tables(path: str | Path) -> dict[str, Any]:
 
 
 def text_of(path: str | Path) -> str:
-    """A file in UTF-8. Raises InvalidInput."""
+    """A file in UTF-8 of MOST bytes or less. Raises InvalidInput."""
     try:
-        return Path(path).read_text(encoding="utf-8")
-    except OSError as error:
-        raise InvalidInput(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise InvalidInput(f"{path} is not valid TOML: {error}") from error
+        return files.text(path, MOST)
+    except files.Unreadable as error:
+        raise InvalidInput(str(error)) from error
 
 
 def parsed(text: str, path: str | Path) -> dict[str, Any]:
     """What a text of TOML says; path : that it is of, for mistakes. Raises InvalidInput."""
     try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # also of numbers too long to be read, and of lists too deep
-        raise InvalidInput(f"{path} is not valid TOML: {error}") from error
+        if _ENDLESS.search(text):
+            raise RecursionError
+        content = tomllib.loads(text)
+        if _levels(content) > DEEPEST:
+            raise RecursionError
+    except RecursionError as error:
+        raise invalid(path, [f"tables and lists stand in one another deeper than {DEEPEST} levels"]) from error
+    except tomllib.TOMLDecodeError as error:
+        raise invalid(path, [f"is not valid TOML: {error}"]) from error
+    except ValueError as error:  # of dates that are none, and of numbers too long to be read
+        raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
+    return content
 
 
 def made(content: dict[str, Any], what: Any, path: str | Path):
@@ -53,5 +75,24 @@ def made(content: dict[str, Any], what: Any, path: str | Path):
     try:
         return adapter.validate_python(content)
     except ValidationError as error:
-        lines = mistakes(error, content, adapter)
-        raise InvalidInput("\n".join(f"{path}: {line}" for line in lines)) from error
+        raise invalid(path, mistakes(error, content, adapter)) from error
+
+
+def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
+    """The mistakes of a file, a line each: the first SAID, and how many more there are."""
+    more = [f"and {len(lines) - SAID:,} more mistakes"] if len(lines) > SAID else []
+    name, said = brief(str(path)), [*lines[:SAID], *more]
+    return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in said))
+
+
+def _levels(content):
+    """Of tables and lists in one another, counted up to one more than DEEPEST."""
+    level, count = [content], 0
+    while level and count <= DEEPEST:
+        level, count = [inner for each in level for inner in _inside(each)], count + 1
+    return count
+
+
+def _inside(part):
+    parts = part.values() if isinstance(part, dict) else part
+    return [each for each in parts if isinstance(each, dict | list)]

@@ -9,11 +9,16 @@ from typing import Annotated
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
+from . import files
+from .printable import brief
 from .quantities import CLOSED, Positive, Pressure, UnitOfOthers
 
 COLUMNS = ("frequency", "storage", "loss")
-_LEAST_FREQUENCIES = 4
+MOST_ROWS = 5_000
+_LEAST_FREQUENCIES, _WIDEST = 4, 1e40
+MOST = 20_000_000  # bytes of a file
 _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
+_NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 Frequencies = tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...]
 Moduli = tuple[Pressure, ...]
 
@@ -21,6 +26,8 @@ Moduli = tuple[Pressure, ...]
 @dataclass(frozen=True, config=CLOSED, repr=False)
 class Table:
     """Measured moduli: frequency, storage and loss modulus, equally many, all > 0; at least 4 frequencies.
+
+    At most 5,000 rows, over 40 decades of the frequency.
 
     In any order; a frequency may stand there more than once, and then each of its rows counts.
     """
@@ -34,6 +41,10 @@ class Table:
         lengths = [len(getattr(self, name)) for name in COLUMNS]
         if len(set(lengths)) > 1:
             raise ValueError(f"frequency, storage and loss have {lengths} values: they must be equally many")
+        if lengths[0] > MOST_ROWS:
+            raise ValueError(f"{lengths[0]:,} rows: at most {MOST_ROWS:,} are fitted")
+        if max(self.frequency, default=0.0) > _WIDEST * min(self.frequency, default=0.0):
+            raise ValueError(f"frequencies lie farther apart than by a factor of {_WIDEST:g}")
         if len(set(self.frequency)) < _LEAST_FREQUENCIES:
             raise ValueError(f"{len(set(self.frequency))} frequencies: at least {_LEAST_FREQUENCIES} are needed")
         return self
@@ -62,31 +73,22 @@ def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[t
 
     Raises ValueError naming file and line.
     """
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise ValueError(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ValueError(f"{path}: not a text file in UTF-8") from error
+    text = files.text(path, MOST)
     heading: list[str] = []
     rows: list[tuple[float, ...]] = []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         cells = _SEPARATOR.split(line.partition("#")[0].strip())
         if cells == [""]:
             continue
         if not rows and not any(_is_number(cell) for cell in cells):
             heading = cells
         else:
-            rows.append(_row(cells, names, f"{path}, line {number}"))
+            rows.append(_row(cells, names, f"{brief(str(path))}, line {number}"))
     return heading, rows
 
 
 def _is_number(cell):
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+    return _NUMBER.fullmatch(cell) is not None
 
 
 def _row(cells, names, where):
@@ -96,7 +98,7 @@ def _row(cells, names, where):
         raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others{hint}")
     for name, cell in zip(names, cells, strict=True):
         if not _is_number(cell):
-            raise ValueError(f"{where}: {name} = {cell!r} is not a number")
+            raise ValueError(f"{where}: {name} = {brief(repr(cell))} is not a number")
         if not (isfinite(float(cell)) and float(cell) > 0):
             raise ValueError(f"{where}: {name} = {cell} must be finite and greater than 0")
     return tuple(float(cell) for cell in cells)

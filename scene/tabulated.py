@@ -56,6 +56,12 @@ class Tabulated(Solid):
 
     @model_validator(mode="after")
     def _can_be_fitted(self):
+        try:
+            with np.errstate(over="raise", divide="raise", invalid="raise"):
+                self.modes()
+        except (ArithmeticError, RuntimeError) as error:  # RuntimeError of a fit that does not end
+            why = f"{self.table!r}: no solid can be fitted ({error}): check units and columns"
+            raise ValueError(why) from error
         if self.rms_error > self.tolerance:
             raise ValueError(
                 f"{self.table!r}: the best passive solid is off by {self.rms_error:.2g} (relative, root mean "

@@ -8,9 +8,11 @@ from typer.testing import CliRunner
 
 from compare.cases import read_case, shipped_cases
 from compare.cli import app
+from compare.inputs import case_of
 from compare.studies.casecurves import SMOOTH_DEPTH, curves
 from compare.studies.run import Run
 from scene import Cone, Coulomb, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
+from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
 SCENE = """
@@ -152,3 +154,39 @@ def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved
     answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")])
     assert answer.exit_code == 2
     assert f"{taken}: " in answer.stderr
+
+
+NAMED = {"tolerance": 1e-5, "surfaces": 2, "speed": 0.1, "modulus": 1.0, "radius": 1.0, "stages": [], "hurst": 0.5}
+TABLES = {
+    "indenter": '[indenter]\ntype = "sphere"\nradius = 1e-2\n',
+    "elastomer": '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n',
+    "motion": '[motion]\ntype = "slide"\nspeed = 0.1\nload = 1.0\n',
+}
+VALUES = [
+    "64",
+    "-1e400",
+    "nan",
+    "'x'",
+    "true",
+    "2020-01-01",
+    "[]",
+    "[1, [2]]",
+    "[{}]",
+    "{}",
+    "{type = 1}",
+    "{type = []}",
+]
+
+
+@pytest.mark.parametrize("value", VALUES)
+@pytest.mark.parametrize("table", ["indenter", "elastomer", "motion", "roughness", "study", "bem", "mdr", "layer"])
+def test_a_table_that_is_something_else_is_a_mistake_wherever_its_names_stand(tmp_path, table, value):
+    names = "".join(f"{name} = {each}\n" for name, each in NAMED.items())
+    parts = "".join(text for name, text in TABLES.items() if name != table)
+    path = tmp_path / "case.toml"
+    path.write_text(f"{table} = {value}\n{names}{parts}", encoding="utf-8")
+    with pytest.raises(InvalidInput) as raised:
+        case_of(path)
+    said = str(raised.value)
+    for name in NAMED:
+        assert f": {name}" in said

@@ -256,6 +256,16 @@ def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == texts
 
 
+@pytest.mark.parametrize("command", ["plan", "trust"])
+def test_nothing_that_a_file_says_controls_a_terminal(tmp_path, command):
+    path = tmp_path / "\x1b[31m.toml"
+    for text in (ready()["quick-start"].text, "[motion]\n", '"\\u001b[31m" = "\\u0007"\n'):
+        path.write_text(re.sub("^title = .*", r'title = "\\u001b]0;\\u0007[red]"', text, flags=re.MULTILINE))
+        answer = ask(command, path)
+        assert answer.exit_code in (0, 2)
+        assert all(line.isprintable() for line in answer.output.split("\n"))
+
+
 def test_a_fault_keeps_its_traceback(monkeypatch):
     def broken():
         raise ValueError("a fault")

@@ -125,7 +125,13 @@ def test_a_heading_says_what_the_columns_are(tmp_path):
         ("0,5;1,0;3,2\n", "line 1: 6 columns.*numbers have decimal points"),
         ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
         ("1,2,3\n1,x,3\n", "line 2: F_N = 'x' is not a number"),
-        ("1,2,3\n1,3,3\n", "1 speeds: at least 2"),
+        ("1,2,3\n1,3,3\n", "1 speeds: 2 to 100 are"),
+        ("".join(f"1,{load},{v}\n" for load in (1, 2) for v in range(1, 102)), "101 speeds: 2 to 100 are"),
+        (
+            "".join(f"1,{load},{v}\n" for load in range(1, 2502) for v in (1, 2)),
+            "5,002 loads at all speeds: at most",
+        ),
+        ("\x1b[31m,F,v\n1,2,3\n", r"the heading \['\\x1b\[31m', 'F', 'v'\] must"),
         ("1,2,3\n1,3,3\n1,3,4\n", "v = 4 has 1 load: at least 2"),
         ("", "0 speeds"),
         ("1,2,3\n1,3,3\n1,3,4\n1,5,4\n", "too few points"),
@@ -138,7 +144,7 @@ def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_fol
         compare.mastercurve(path, tmp_path / "out")
     assert str(path) in str(refused.value)
     assert not (tmp_path / "out").exists()
-    with pytest.raises(InvalidInput, match="No such file"):
+    with pytest.raises(InvalidInput, match="no such file"):
         compare.mastercurve(tmp_path / "none.csv", tmp_path / "out")
 
 

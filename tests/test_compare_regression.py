@@ -173,7 +173,7 @@ def test_a_broken_or_foreign_baseline_is_named(tmp_path, text, complaint):
     # without a file one is begun only where that is asked for
     path.unlink()
     assert Regress.of(path, [quantity()], update=True).stored == {}
-    with pytest.raises(InvalidInput, match=r"baseline\.toml: No such file"):
+    with pytest.raises(InvalidInput, match=r"baseline\.toml: no such file"):
         Regress.of(path, [quantity()])
 
 

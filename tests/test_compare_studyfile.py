@@ -200,5 +200,12 @@ def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(
         ClaimStudy.of("collapse", "paper")
     path.write_bytes(b"\xff\xfe")
     for ask in (lambda: ClaimStudy.of(path), lambda: study_of("x = " + "[" * 100_000, "mine")):
-        with pytest.raises(InvalidInput, match="not valid TOML"):
+        with pytest.raises(InvalidInput, match=r"no text in UTF-8|deeper than 20 levels"):
             ask()
+
+
+def test_of_many_series_that_are_wrong_the_first_mistakes_are_said():
+    wrong = '[[series]]\nname = "x"\nindenter = {type = "spher", radius = -1.0}\n'
+    lines = mistakes_in(TEXT + wrong * 100)
+    assert len(lines) == 51
+    assert lines[-1].endswith("more mistakes")

@@ -1,5 +1,7 @@
 """A scene in Python and in TOML: the same fields, the same mistakes, each named with what is allowed."""
 
+import difflib
+import tomllib
 from dataclasses import FrozenInstanceError, dataclass, replace
 from pathlib import Path
 
@@ -8,7 +10,7 @@ import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from scene import Cylinder, Elastic, Indent, Kelvin, Program, Prony, Scene, SelfAffine, Slide, Sphere, Stage
-from scene.reading import InvalidInput, read
+from scene.reading import DEEPEST, MOST, SAID, InvalidInput, parsed, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
@@ -129,11 +131,11 @@ def test_what_is_no_toml_or_no_file_is_said(tmp_path):
     with pytest.raises(InvalidInput, match=r"not valid TOML: .*line 1"):
         scene_from(tmp_path, "radius 3")
     (tmp_path / "scene.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(InvalidInput, match="not valid TOML"):
+    with pytest.raises(InvalidInput, match="is no text in UTF-8: byte 1 is 0xff"):
         read(tmp_path / "scene.toml", Scene)
-    with pytest.raises(InvalidInput, match=r"nowhere\.toml: No such file"):
+    with pytest.raises(InvalidInput, match=r"nowhere\.toml: no such file"):
         read(tmp_path / "nowhere.toml", Scene)
-    with pytest.raises(InvalidInput, match="directory"):
+    with pytest.raises(InvalidInput, match="is a folder"):
         read(tmp_path, Scene)
 
 
@@ -266,3 +268,86 @@ def test_the_page_about_scenes_shows_what_is_said(tmp_path):
     shown = page.partition("```text\n")[2].partition("```")[0]
     said = lines_of(tmp_path, text.replace("speed = 0.1\n", ""))
     assert shown.splitlines() == [f"scene.toml: {line}" for line in said]
+
+
+# Whatever stands where
+
+
+@pytest.mark.parametrize("kind", ["sphere", "cone", "plane"])
+def test_a_name_that_is_called_as_the_type_of_its_table_is_a_name(tmp_path, kind):
+    lines = lines_of(tmp_path, SCENE.replace('type = "sphere"', f'type = "{kind}"\n{kind} = 1'))
+    assert f"indenter.{kind} = 1: unknown here" in lines[0]
+
+
+DEEP = {
+    "a header": f"[{'a.' * 500}a]\n",
+    "a header without end": f"[{'a.' * 100_000}a]\n",
+    "quoted and spaced": '"a" . ' * 100_000 + "'a' = 1\n",
+    "dotted names": "a." * 5000 + "a = 1\n",
+    "lists": "a = " + "[" * 5000 + "]" * 5000,
+    "tables in a line": "a = " + "{a = " * 5000 + "1" + "}" * 5000,
+    "headers within headers": "".join(f"[{'.'.join('a' * k)}]\n" for k in range(1, DEEPEST + 2)),
+    "one level too many": "a = " + "[" * DEEPEST + "]" * DEEPEST,
+}
+
+
+@pytest.mark.parametrize("text", DEEP.values(), ids=DEEP)
+def test_what_is_nested_too_deep_is_said(tmp_path, text):
+    assert lines_of(tmp_path, text) == ["tables and lists stand in one another deeper than 20 levels"]
+
+
+def test_what_is_nested_less_deep_is_read():
+    text = "a = " + "[" * (DEEPEST - 1) + "]" * (DEEPEST - 1)
+    assert parsed(text, "file") == tomllib.loads(text)
+    assert parsed("# " + "a.b." * 20, "file") == {}
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+def test_line_ends_and_the_mark_of_an_editor_mean_nothing(tmp_path, end, mark):
+    path = tmp_path / "scene.toml"
+    path.write_bytes((mark + WHOLE.replace("\n", end)).encode())
+    assert read(path, Scene) == scene_from(tmp_path, WHOLE)
+
+
+def test_a_file_that_is_too_large_is_not_read(tmp_path):
+    assert lines_of(tmp_path, "#" * (MOST + 1)) == ["has 1.1 MB, and at most 1 MB are read"]
+
+
+STAGES = INDENTER + ELASTOMER + "[motion]\ntype = 'program'\n"
+MANY = {
+    "unknown": SCENE + "".join(f"lod{k} = 1\n" for k in range(1000)),
+    "of a table that is unknown": SCENE + "".join(f"[motions{k}]\n" for k in range(1000)),
+    "wrong": STAGES + "[[motion.stages]]\nduration = 1\nload = 'x'\n" * 1000,
+    "missing": STAGES + "[[motion.stages]]\nload = 1.0\n" * 1000,
+    "unknown and wrong": STAGES + "[[motion.stages]]\nduration = '1 N'\nlod = 1.0\n" * 500,
+}
+
+
+@pytest.mark.parametrize("text", MANY.values(), ids=MANY)
+def test_of_many_mistakes_the_first_are_said_and_how_many_more_there_are(tmp_path, monkeypatch, text):
+    compared, compare = [], difflib.get_close_matches
+    monkeypatch.setattr(difflib, "get_close_matches", lambda *a, **b: compared.append(a) or compare(*a, **b))
+    lines = lines_of(tmp_path, text)
+    assert len(lines) == SAID + 1
+    assert lines[-1] == "and 950 more mistakes"
+    assert len(compared) <= 10 * SAID
+
+
+def test_names_and_values_of_any_length_are_cut_before_they_are_compared(tmp_path, monkeypatch):
+    compared, compare = [], difflib.get_close_matches
+    monkeypatch.setattr(difflib, "get_close_matches", lambda *a, **b: compared.append(a[0]) or compare(*a, **b))
+    long = "load" * 50_000
+    lines = lines_of(tmp_path, SCENE.replace('"sphere"', f'"{long}"') + f"{long} = '{long}'\n")
+    assert max(map(len, lines)) < 1000
+    assert len(lines) == 2
+    assert compared
+    assert max(map(len, compared)) <= 100
+
+
+def test_nothing_of_a_file_controls_a_terminal(tmp_path):
+    text = SCENE + '"\\u001b[31m\\u0007\\u202e[red]" = "\\u001b]0;title\\u009b\\r\\n"\n'
+    (line,) = lines_of(tmp_path, text)
+    assert line.isprintable()
+    assert line.startswith(r"motion.\x1b[31m\x07\u202e[red] = '\x1b]0;title\x9b\r\n': unknown here")
+    assert "\x1b" not in str(InvalidInput("\x1b"))

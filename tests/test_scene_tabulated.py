@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from scene import Fractional, Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
 from scene.reading import InvalidInput, read
+from scene.table import MOST_ROWS
 
 SOLID = Prony(1e6, (1e6, 3e6, 1e7, 1e8), (1e2, 1.0, 1.37e-2, 1e-5))
 OMEGA = np.geomspace(1e-3, 1e6, 46)
@@ -201,6 +202,11 @@ def test_text_in_any_usual_form_is_the_same_table(tmp_path, text):
         ("0,1;2,5;3,5", r"line 1: 6 columns"),
         ("1,2,3\n2,3,4\nthe end", r"line 3: 2 columns"),
         ("1,2,3\n2,2,3", "2 frequencies: at least 4"),
+        ("1,2,3\n4,1_0,6", "line 2: storage = '1_0' is not a number"),
+        ("1,2,3\n4,\N{ARABIC-INDIC DIGIT ONE},6", "line 2: storage = .* is not a number"),
+        ("1,2,3\n4,5" + "x" * 1_000_000 + ",6", r"line 2: storage = '5x+\.\.\.x+' is not a number"),
+        ("1e-30,2,3\n2,2,3\n3,2,3\n1e30,2,3", r"farther apart than by a factor of 1e\+40"),
+        ("\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2)), "5,001 rows: at most 5,000"),
     ],
 )
 def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
@@ -212,11 +218,18 @@ def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
         fitted(path)
 
 
+def test_numbers_beyond_what_can_be_computed_with_are_no_solid(tmp_path):
+    path = tmp_path / "rubber.csv"
+    path.write_text("".join(f"{k * 5e-324!r},1,1\n" for k in range(1, 5)))
+    with pytest.raises(ValidationError, match="no solid can be fitted"):
+        fitted(path)
+
+
 def test_a_file_that_cannot_be_read_is_named(tmp_path):
-    with pytest.raises(ValidationError, match=r"nowhere\.csv: No such file"):
+    with pytest.raises(ValidationError, match=r"nowhere\.csv: no such file"):
         fitted(tmp_path / "nowhere.csv")
     (tmp_path / "picture.csv").write_bytes(b"\xff\xfe\x00\x01")
-    with pytest.raises(ValidationError, match=r"picture\.csv: not a text file"):
+    with pytest.raises(ValidationError, match=r"picture\.csv: is no text in UTF-8"):
         fitted(tmp_path / "picture.csv")
 
 

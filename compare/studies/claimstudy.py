@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from os.path import lexists
 from pathlib import Path
 from typing import Any
 
@@ -237,7 +238,7 @@ def _located(name: str | Path) -> Path:
         return located(name, "study")
     except InvalidInput as error:
         offered = ready()
-        if not Path(name).exists() and str(name) not in offered:
+        if not lexists(name) and str(name) not in offered:
             own = [each for each, found in offered.items() if found.kind == "study"]
             known("NAME", str(name), [*STUDIES, ALL, *own], str(error))
         raise

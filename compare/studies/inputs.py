@@ -1,7 +1,9 @@
 """Study file: series of contacts that a user states in TOML, solved and judged as those of the package."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass as plain
+from functools import lru_cache
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, TypeAdapter, ValidationError, model_validator
@@ -11,8 +13,9 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, Slide, SolveError, Sphere, Stage
 from scene.mistakes import CHOICE, Mistake, examined
+from scene.printable import brief
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, parsed
+from scene.reading import invalid, parsed
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
@@ -191,7 +194,7 @@ class _Stated:
 
     def series(self, size: Size) -> Series:
         """Series at a size."""
-        made = TypeAdapter(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
+        made = _adapter(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
         prescribed, given = next(iter(self.of("loads", "depths").items()))
         values = _numbers(given, size.values)
         moved = self.of("speeds", "rates")
@@ -226,7 +229,7 @@ class _Stated:
                 yield f"{names}: {stated}, give {'exactly' if least else 'at most'} one of them"
         for name, values in (pressing | moved).items():
             if isinstance(values, tuple) and list(values) != sorted(set(values)):
-                yield f"{name} = {list(values)}: from the least to the greatest, each once"
+                yield f"{name} = {brief(repr(list(values)))}: from the least to the greatest, each once"
         if "rates" in moved and "depths" not in pressing:
             yield "rates: what is pressed in at a rate is pressed to depths, give depths"
         if "rates" in moved and "temperature" in self.contact:
@@ -248,7 +251,7 @@ def study_of(text: str, name: str) -> ReadyStudy:
     content = parsed(text, name)
     file, said, content = _checked(StudyFile, content)
     contacts = []
-    for number, own in enumerate(_series_in(content)):
+    for number, own in _series_in(content):
         contact, wrong = _contact(content, own, number)
         contacts.append(contact)
         said += wrong
@@ -256,27 +259,33 @@ def study_of(text: str, name: str) -> ReadyStudy:
     if file is not None and not lines:
         stated = [_Stated(own, file, contact) for own, contact in zip(file.series, contacts, strict=True)]
         lines = [f"series.{number}: {why}" for number, each in enumerate(stated) for why in each.misfits()]
-        names = [own.name.lower() for own in file.series]
-        several = sorted({each for each in names if names.count(each) > 1})
+        names = Counter(own.name.lower() for own in file.series)
+        several = sorted(each for each, count in names.items() if count > 1)
         lines += [f"series: {each!r} is the name of several" for each in several]
         lines = lines or [line for number, each in enumerate(stated) for line in _refused(each, number)]
     if lines:
-        raise InvalidInput("\n".join(f"{name}: {line}" for line in lines))
+        raise invalid(name, lines)
     return ReadyStudy(file.title, file.about, lambda size: [each.series(size) for each in stated])
 
 
 def _checked(what: Any, content: dict) -> tuple[Any, list[Mistake], dict]:
     """The content as what it should be, or None; its mistakes; and the content without wrong names."""
-    adapter = TypeAdapter(what)
+    adapter = _adapter(what)
     try:
         return adapter.validate_python(content), [], content
     except ValidationError as error:
         return None, *examined(error, content, adapter)
 
 
+# Takes longer than what it validates.
+_adapter = lru_cache(TypeAdapter)
+
+
 def _series_in(content):
+    """The series that are tables, by their numbers."""
     series = content.get("series")
-    return [each for each in series if isinstance(each, dict)] if isinstance(series, list) else []
+    numbered = enumerate(series) if isinstance(series, list) else ()
+    return [(number, each) for number, each in numbered if isinstance(each, dict)]
 
 
 def _contact(content, own, number):
@@ -288,7 +297,7 @@ def _contact(content, own, number):
                 base = parsed(find(part["scene"]).text, part["scene"])
             except NotReady as error:
                 where = ("series", number, "scene") if part is own else ("scene",)
-                said.append(Mistake(where, f"{'.'.join(map(str, where))} = {part['scene']!r}: {error}"))
+                said.append(Mistake(where, f"{'.'.join(map(str, where))} = {brief(repr(part['scene']))}: {error}"))
                 continue
             merged = {name: base[name] for name in _TABLES if name in base}
         for name in (*_TABLES, "bem", "mdr"):

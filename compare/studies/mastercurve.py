@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import xarray
 
+from scene.printable import brief
 from scene.reading import InvalidInput
 from scene.table import read_rows
 
@@ -31,6 +32,7 @@ CALLED = {
     "v": ("v", "speed", "velocity"),
 }
 LEAST_LOADS = 2
+MOST_SPEEDS, MOST_POINTS = 100, 5_000
 MEASURED = "measured"
 VARIABLES = dict(zip(COLUMNS, ("friction_coefficient", "normal_force", "speed"), strict=True))
 
@@ -79,8 +81,8 @@ class Mastercurve(Study):
             study.data  # noqa: B018
             study.collapse  # noqa: B018
         except ValueError as error:
-            said = str(error)
-            raise InvalidInput(said if said.startswith(str(table)) else f"{table}: {said}") from error
+            said, name = str(error), brief(str(table))
+            raise InvalidInput(said if said.startswith(name) else f"{name}: {said}") from error
         return study
 
     @property
@@ -179,14 +181,16 @@ def curves_of(data: xarray.Dataset) -> MeasuredCurves:
 
     Rows of equal load and speed are measurements of one point: their mean counts. Its standard error is that of a
     scatter which, relative to friction, is the same everywhere: two or three measurements say too little of their
-    own. Where no point was measured twice, it is not known. Raises ValueError with too few speeds or loads.
+    own. Where no point was measured twice, it is not known. Raises ValueError with too few or too many points.
     """
     points: dict[float, dict[float, list[float]]] = {}
     columns = (data[name].values.tolist() for name in VARIABLES.values())
     for friction, load, speed in zip(*columns, strict=True):
         points.setdefault(speed, {}).setdefault(load, []).append(friction)
-    if len(points) < 2:
-        raise ValueError(f"{len(points)} speeds: at least 2 are needed")
+    if not 2 <= len(points) <= MOST_SPEEDS:
+        raise ValueError(f"{len(points):,} speeds: 2 to {MOST_SPEEDS} are shifted onto one curve")
+    if (count := sum(map(len, points.values()))) > MOST_POINTS:
+        raise ValueError(f"{count:,} loads at all speeds: at most {MOST_POINTS:,} are shifted onto one curve")
     for speed, loads in points.items():
         if len(loads) < LEAST_LOADS:
             raise ValueError(f"v = {speed:g} has {len(loads)} load: at least {LEAST_LOADS} are needed for a curve")
@@ -214,5 +218,7 @@ def _order(heading):
     meant = [next((name for name in COLUMNS if cell.lower() in CALLED[name]), cell) for cell in heading]
     if sorted(meant) != sorted(COLUMNS):
         names = "; ".join(f"{name} as {', '.join(called)}" for name, called in CALLED.items())
-        raise ValueError(f"the heading {heading} must name each of {', '.join(COLUMNS)} once: {names}")
+        raise ValueError(
+            f"the heading {brief(repr(heading))} must name each of {', '.join(COLUMNS)} once: {names}"
+        )
     return [meant.index(name) for name in COLUMNS]

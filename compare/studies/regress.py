@@ -17,6 +17,7 @@ import xarray
 from pandas import DataFrame
 from pydantic.dataclasses import dataclass as validated
 
+from scene.printable import brief
 from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
@@ -183,7 +184,9 @@ def read_baseline(path: Path, quantities: Iterable[Quantity]) -> dict[str, float
     """Stored values by id. Raises InvalidInput if the file is none, or belongs to none of the quantities."""
     values = read(path, _Baseline).values
     if values and not values.keys() & {quantity.id for quantity in quantities}:
-        raise InvalidInput(f"{path}: belongs to another collection: {min(values)!r} is no quantity of this one")
+        raise InvalidInput(
+            f"{path}: belongs to another collection: {brief(repr(min(values)))} is no quantity of this one"
+        )
     return values
 
 
