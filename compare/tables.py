@@ -39,7 +39,7 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
         if to == "latex":
             frame = _printable(frame)
         if not frame.empty:
-            written.append(output / f"{name}{FORMS[to]}")
+            written.append(manifest.inside(output, f"{name}{FORMS[to]}"))
             content = latex.table(frame, _title(name), f"tab:{name}") if to == "latex" else _csv(frame)
             csvfiles.write_text(written[-1], content)
     if not written:
@@ -53,7 +53,7 @@ def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
         for each in manifest.folders(folder):
             place = each.path.relative_to(folder)
             for name in each.manifest.tables:
-                yield (place / name).as_posix(), csvfiles.read(each.path / f"{name}.csv")
+                yield (place / name).as_posix(), csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
         if not any(folder.rglob(results.NAME)):
             return
     for node in results.load(folder).subtree:

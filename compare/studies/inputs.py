@@ -16,6 +16,7 @@ from scene.reading import InvalidInput, parsed
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
+from ..describe import folders
 from ..library import NotReady, find
 from .catalogue import SIZES, ReadyStudy
 from .series import KINDS, Series
@@ -252,9 +253,10 @@ def study_of(text: str, name: str) -> ReadyStudy:
     if file is not None and not lines:
         stated = [_Stated(own, file, contact) for own, contact in zip(file.series, contacts, strict=True)]
         lines = [f"series.{number}: {why}" for number, each in enumerate(stated) for why in each.misfits()]
-        names = [own.name.lower() for own in file.series]
-        several = sorted({each for each in names if names.count(each) > 1})
-        lines += [f"series: {each!r} is the name of several" for each in several]
+        try:
+            folders([own.name for own in file.series], "series")
+        except InvalidInput as error:
+            lines.append(str(error))
         lines = lines or [line for number, each in enumerate(stated) for line in _refused(each, number)]
     if lines:
         raise InvalidInput("\n".join(f"{name}: {line}" for line in lines))
