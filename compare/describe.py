@@ -73,8 +73,8 @@ def folders(names: Iterable[str], what: str) -> dict[str, str]:
             raise InvalidInput(f"{said}: its folder, {brief(folder)}, {why}: choose another name")
         if folder in found:
             raise InvalidInput(
-                f"{said}: has the folder of {brief(found[folder])!r}, {folder}: names must differ in more than capitals, "
-                "accents and what is neither a letter from a to z nor a figure"
+                f"{said}: has the folder of {brief(found[folder])!r}, {folder}: names must differ in more than "
+                "capitals, accents and what is neither a letter from a to z nor a figure"
             )
         found[folder] = name
     return {name: folder for folder, name in found.items()}

@@ -35,7 +35,7 @@ MOST_BYTES, MOST_LISTED, MOST_LETTERS = 2**30, 10_000, 1000
 
 
 def _of_folder(name: str) -> str:
-    """The name of a file of a folder, without ending, with slashes between folders. Raises ValueError of any other."""
+    """The name of a file below a folder, with slashes between folders. Raises ValueError of any other."""
     if (
         not name.isprintable()
         or not 0 < len(name) <= MOST_LETTERS

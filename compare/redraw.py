@@ -42,7 +42,8 @@ def redraw(
 
     Raises InvalidInput where there is nothing to draw, where a file is damaged, or for no such journal or style.
     """
-    target, drawn = Path(output or Path(folder) / FIGURES), []
+    target = manifest.inside(Path(folder), FIGURES) if output is None else Path(output)
+    drawn = []
     try:
         chosen = looks.chosen(looks.Look(find_journal(journal), style))
         with chosen:
@@ -98,8 +99,8 @@ def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
         ):
             return draw
     raise InvalidInput(
-        f"{path}: figure {entry.name} is drawn by {brief(f'{entry.module}.{entry.function}')}, which is no figure of "
-        f"{plots.__name__}: it cannot be drawn again"
+        f"{path}: figure {entry.name} is drawn by {brief(f'{entry.module}.{entry.function}')}, which is no "
+        f"figure of {plots.__name__}: it cannot be drawn again"
     )
 
 

@@ -96,7 +96,7 @@ class _Reader:
         self._some = max(LEAST_READ, room // size)  # texts that fit, were each as long as the file
 
     def datasets(self, place: h5py.Group) -> Iterator[tuple[str, xarray.Dataset]]:
-        """Every group as its path and a Dataset, directly: xarray takes ten times as long to open many small ones."""
+        """Every group as its path and a Dataset, directly: to open many, xarray takes ten times as long."""
         if place in self._seen:
             raise ValueError(f"{place.name} stands in several places")
         self._seen.add(place)

@@ -1,7 +1,9 @@
 """A case file holds what it should, and each mistake in it is named before anything is solved."""
 
+import re
 from dataclasses import replace
 from math import pi
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -152,3 +154,17 @@ def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved
     answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")])
     assert answer.exit_code == 2
     assert f"{taken}: " in answer.stderr
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="a folder that takes no file, from root neither")
+@pytest.mark.parametrize("command", ["run quick-start --output", "animate quick-start --output"])
+@pytest.mark.parametrize("folder", ["/proc", "taken/below", "taken"])
+def test_a_folder_that_takes_no_file_is_named_as_it_was_given(tmp_path, monkeypatch, command, folder):
+    monkeypatch.chdir(tmp_path)
+    Path("taken").touch()
+    given = f"{folder}/moves.gif" if command.startswith("animate") else folder
+    answer = CliRunner().invoke(app, [*command.split(), given])
+    assert answer.exit_code in (1, 2)
+    assert re.search(rf"(^|[ :]){folder.partition('/below')[0]}(/below)?(/moves.gif)?: ", answer.stderr.strip())
+    assert answer.stderr.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["taken"]

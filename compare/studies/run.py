@@ -96,7 +96,9 @@ class Run(Study):
     def rectangles(self) -> Mapping[str, Rectangle]:
         """Every curve of every case, by "case/curve"."""
         return {
-            f"{self.folders[name]}/{curve}": each for name, found in self._curves.items() for curve, each in found.items()
+            f"{self.folders[name]}/{curve}": each
+            for name, found in self._curves.items()
+            for curve, each in found.items()
         }
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
