@@ -1,5 +1,7 @@
 """A march through a program as a picture that moves: both dimensionalities side by side, GIF or MP4."""
 
+import errno
+import os
 import subprocess
 import tempfile
 from dataclasses import replace
@@ -19,7 +21,7 @@ from .plots import style
 from .plots.marching import MarchFigure
 from .report import SOLVED
 from .runner import Progress, sweep
-from .store import Store, write
+from .store import Store, make, write
 from .task import SceneTask
 
 DOTS_PER_INCH = 100
@@ -93,7 +95,7 @@ def filmed(
 
 
 def check(path: Path, frames: int, seconds: float) -> None:
-    """Raise Refused where nothing could write such a file, FileNotFoundError where its folder is not there."""
+    """Raise Refused where nothing could write such a file, OSError where its folder is not there or takes none."""
     if path.suffix.lower() not in (".gif", ".mp4"):
         raise Refused(f"{path.name}: a name that ends in .gif, or in .mp4 where ffmpeg is on the path")
     if path.suffix.lower() == ".mp4" and not FFMpegWriter.isAvailable():
@@ -103,8 +105,11 @@ def check(path: Path, frames: int, seconds: float) -> None:
             f"frames = {frames} in seconds = {seconds:g}: 1 to {MOST_FRAMES} frames in at most {LONGEST} seconds, "
             f"and at most {FASTEST} in a second"
         )
-    if not path.resolve().parent.is_dir():
-        raise FileNotFoundError(f"{path.parent}: no such folder")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    make(path.parent)
 
 
 def record(film: Film, path: Path, seconds: float) -> None:

@@ -2,6 +2,7 @@
 
 import re
 import unicodedata
+from collections.abc import Iterable
 from dataclasses import asdict
 from math import degrees
 from typing import Any
@@ -9,7 +10,9 @@ from typing import Any
 from matplotlib.ticker import EngFormatter
 
 from scene import Indent, Slide
+from scene.printable import brief
 from scene.quantities import unit_of
+from scene.reading import InvalidInput
 
 # Units that take prefixes: 10 mm for 0.01 m.
 PREFIXED = ("m", "Pa", "s", "N", "N/m", "Hz")
@@ -23,6 +26,11 @@ WORDS = {
     "reference": "stated at",
 }
 KINDS = {"wlf": "WLF"}
+# Folders that commands write into themselves, and devices of Windows; letters of a folder.
+TAKEN = {"solved", "figures", "tables", "con", "prn", "aux", "nul"} | {
+    f"{device}{number}" for device in ("com", "lpt") for number in range(10)
+}
+MOST_LETTERS = 200
 
 
 def described(part: Any) -> str:
@@ -46,6 +54,30 @@ def slug(name: str) -> str:
     """Name as it may stand in a path."""
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
     return re.sub(r"[^a-z0-9]+", "-", plain.lower()).strip("-") or "case"
+
+
+def folders(names: Iterable[str], what: str) -> dict[str, str]:
+    """Folders of what has these names, by name.
+
+    what : that has the names, for mistakes
+
+    Raises InvalidInput of a name whose folder has another use, and of two that share one.
+    """
+    found: dict[str, str] = {}  # names by folder
+    for name in names:
+        if not isinstance(name, str):
+            raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text")
+        folder, said = slug(name), f"{what} {brief(name)!r}"
+        if folder in TAKEN or len(folder) > MOST_LETTERS:
+            why = f"has more than {MOST_LETTERS} letters" if len(folder) > MOST_LETTERS else "has another use"
+            raise InvalidInput(f"{said}: its folder, {brief(folder)}, {why}: choose another name")
+        if folder in found:
+            raise InvalidInput(
+                f"{said}: has the folder of {brief(found[folder])!r}, {folder}: names must differ in more than "
+                "capitals, accents and what is neither a letter from a to z nor a figure"
+            )
+        found[folder] = name
+    return {name: folder for folder, name in found.items()}
 
 
 def _quantity(part, name):

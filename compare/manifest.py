@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, ValidationError, field_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import to_json
 
+from scene.files import Unreadable, content
+from scene.printable import brief
 from scene.reading import InvalidInput
 
 from .csvfiles import write_text
@@ -28,31 +30,41 @@ FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
 
 
+# Of a file, which has the heights of measured maps in it; of a list, and letters of a name.
+MOST_BYTES, MOST_LISTED, MOST_LETTERS = 2**30, 10_000, 1000
+
+
+def _of_folder(name: str) -> str:
+    """The name of a file below a folder, with slashes between folders. Raises ValueError of any other."""
+    if (
+        not name.isprintable()
+        or not 0 < len(name) <= MOST_LETTERS
+        or set(name) & set("\\:")
+        or {"", ".", ".."} & set(name.split("/"))
+    ):
+        raise ValueError(f"{brief(name)} names no file of the folder")
+    return name
+
+
+Name = Annotated[str, AfterValidator(_of_folder)]
+Names = Annotated[tuple[Name, ...], Field(max_length=MOST_LISTED)]
+
+
 class PlotEntry(BaseModel):
     """A figure in a manifest: its name, the function that draws it from its tables, and the options of that."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    name: str
+    name: Name
     module: str
     function: str
-    tables: tuple[str, ...]
+    tables: Names
     options: dict[str, Any]
-
-    @field_validator("name", "tables")
-    @classmethod
-    def _inside(cls, given):
-        for name in (given,) if isinstance(given, str) else given:
-            if not name or "\\" in name or ":" in name or any(part in ("", ".", "..") for part in name.split("/")):
-                raise ValueError(f"{name!r} names no file of the folder")
-        return given
 
 
 class Manifest(BaseModel):
-    """What the manifest of a folder says, of which more may stand in it.
+    """What is read of the manifest of a folder, in which more stands.
 
-    command, inputs : what wrote it, and of what
-    solved : folder of what was solved, from that of the manifest
     plots : figures that can be drawn again
     tables : names of the CSV files, without ending
     """
@@ -60,12 +72,8 @@ class Manifest(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True)
 
     command: str
-    inputs: dict[str, Any]
-    solved: str
-    plots: tuple[PlotEntry, ...]
-    tables: tuple[str, ...]
-
-    _inside = field_validator("tables")(PlotEntry._inside.__func__)  # type: ignore[attr-defined]
+    plots: Annotated[tuple[PlotEntry, ...], Field(max_length=MOST_LISTED)]
+    tables: Names
 
 
 @dataclass(frozen=True)
@@ -78,7 +86,7 @@ class Folder:
 
 def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved: str) -> None:
     """Write the manifest of a folder, last of all: what it lists is there. Raises OSError."""
-    content = {
+    left = {
         "command": study.command,
         "title": page.title,
         "inputs": study.inputs,
@@ -90,7 +98,7 @@ def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved
         "plots": [_entry(plot) for plot in page.every(Plot)],
         "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
     }
-    write_text(folder / NAME, json.dumps(_storable(content), indent=1, allow_nan=False, ensure_ascii=False))
+    write_text(folder / NAME, json.dumps(_storable(left), indent=1, allow_nan=False, ensure_ascii=False))
 
 
 def remove(folder: Path) -> None:
@@ -108,6 +116,18 @@ def folders(folder: str | Path) -> Iterator[Folder]:
     if not paths:
         raise InvalidInput(f"{folder}: no {NAME} here or just below: no command left anything in it")
     return (Folder(path.parent, _read(path)) for path in paths)
+
+
+def inside(folder: Path, name: str) -> Path:
+    """The path of a file below a folder by its name there. Raises InvalidInput of one that leads out of it."""
+    path = folder / name
+    try:
+        _of_folder(name)
+        if path.resolve().is_relative_to(folder.resolve()):
+            return path
+    except (OSError, RuntimeError, ValueError):  # of links in a circle, and of names that no file can have
+        pass
+    raise InvalidInput(f"{brief(str(path))}: leads out of {folder}")
 
 
 def versions() -> dict[str, str]:
@@ -141,13 +161,13 @@ def _entry(plot):
 
 def _read(path):
     try:
-        return Manifest.model_validate_json(path.read_bytes())
+        return Manifest.model_validate_json(content(path, MOST_BYTES))
+    except Unreadable as error:
+        raise InvalidInput(str(error)) from error
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
-        reason = f"{where}: {first['msg']}" if where else first["msg"]
-    except (OSError, RecursionError) as error:
-        reason = str(error)
+        reason = f"{brief(where)}: {first['msg']}" if where else first["msg"]
     raise InvalidInput(f"{path}: is none that a command of this version wrote: {reason}")
 
 

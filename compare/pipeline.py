@@ -2,7 +2,6 @@
 
 import errno
 import os
-import tempfile
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -10,13 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from scene import SolveError
+from scene.reading import InvalidInput
 
 from . import manifest, pages, results, runner
 from .declaration import Study
 from .page import Plot
 from .report import SOLVED, Report, faults
 from .runner import Progress, SweepResult
-from .store import Store
+from .store import Store, make
 from .suggest import known
 from .workers import counted
 
@@ -73,7 +73,9 @@ def run(
         known("figures", form, pages.FORMS)
     cost, count = study.cost(), counted(workers)
     cost.refuse(count, yes)
-    below = output / study.place
+    below = manifest.inside(output, study.place) if study.place else output
+    if Path(study.place).parts[:1] == (SOLVED,):
+        raise InvalidInput(f"place = {study.place}: there lies what has been solved, choose another")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
     watch.told(str(cost))
     swept = _solve(study.batches(), output, workers, scheduler, watch)
@@ -128,9 +130,7 @@ def _make_folders(folder, below, place):
         for path in (folder, *(folder / name for name in (*below, place) if name)):
             if path.exists() and not path.is_dir():
                 raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))
-            path.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=path):
-                pass
+            make(path)
         for path in (folder / place / name for name in (*pages.FILES, results.NAME, manifest.NAME)):
             if path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))

@@ -1,13 +1,18 @@
 """File of results: everything that a command solved, as one netCDF-4 file under a seal."""
 
 import hashlib
+from collections.abc import Iterator
 from io import BytesIO
+from math import prod
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 import xarray
 
+from scene.files import Unreadable, content
+from scene.printable import brief
 from scene.reading import InvalidInput
 
 from . import store
@@ -22,14 +27,18 @@ LARGE = 2**12
 NAMELESS = b"This is a netCDF dimension but not a netCDF variable."
 OF_FORMAT = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST"}
 BESIDE = "coordinates"
+# Of a file, and of what it unpacks to; gzip, the only packing of ours, makes nothing smaller than by a factor.
+MOST_BYTES, PACKED = 2**31, 1032
+LEAST_READ = 16  # texts at once
+FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE}
 
 
 def write(path: Path, answers: xarray.DataTree) -> None:
     """Write everything that was solved as one netCDF-4 file, whole or not at all. Raises OSError."""
-    content = BytesIO()
-    with h5py.File(content, "w", track_order=True) as file:
+    made = BytesIO()
+    with h5py.File(made, "w", track_order=True) as file:
         _fill(file, answers)
-    image = content.getvalue()
+    image = made.getvalue()
     seal = SEAL + hashlib.sha256(image).hexdigest().encode()
     store.write(path, lambda file: file.write(image + seal))
 
@@ -40,53 +49,125 @@ def load(folder: str | Path) -> xarray.DataTree:
     Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of
     several studies has each below its name.
 
-    Raises InvalidInput where there are no results or they are damaged, OSError for what cannot be read.
+    Raises InvalidInput where there are no results, or they are damaged, too large or no such file.
     """
     folder = Path(folder)
-    paths = [folder] if folder.is_file() else sorted(folder.rglob(NAME))
     if not folder.exists():
         raise InvalidInput(f"{folder}: no such file or folder")
+    paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
     if not paths:
         raise InvalidInput(f"{folder}: no command has left results here")
     parts: dict[str, xarray.Dataset] = {}
     for path in paths:
         place = "" if path == folder or path.parent == folder else f"/{path.parent.relative_to(folder).as_posix()}"
         try:
-            with h5py.File(BytesIO(_unsealed(path.read_bytes()))) as file:
-                parts |= {f"{place}{at}".rstrip("/") or "/": dataset for at, dataset in _datasets(file)}
-        except (ValueError, KeyError, TypeError, RuntimeError) as error:
-            raise InvalidInput(f"{path}: is no file of results, or is damaged: {error}") from error
-    return xarray.DataTree.from_dict(parts)
+            image = _unsealed(content(path, MOST_BYTES))
+            with h5py.File(BytesIO(image)) as file:
+                read = _Reader(len(image))
+                parts |= {f"{place}{at}".rstrip("/") or "/": dataset for at, dataset in read.datasets(file)}
+        except Unreadable as error:
+            raise InvalidInput(str(error)) from error
+        # A file that was made to look like one of ours raises nearly anything.
+        except Exception as error:
+            raise InvalidInput(f"{path}: is no file of results, or is damaged: {brief(str(error))}") from error
+    try:
+        return xarray.DataTree.from_dict(parts)
+    except (ValueError, KeyError, TypeError) as error:
+        raise InvalidInput(f"{folder}: its results do not go together: {brief(str(error))}") from error
 
 
-def _unsealed(content):
-    covered, seal = content[:-SEALED], content[-SEALED:]
+def _unsealed(image):
+    covered, seal = image[:-SEALED], image[-SEALED:]
     if seal != SEAL + hashlib.sha256(covered).hexdigest().encode():
         raise ValueError("the file is damaged, or was not written by this program")
     return covered
 
 
-def _datasets(place):
-    """Every group as its path and a Dataset, directly: xarray takes ten times as long to open many small ones."""
-    stored = {name: each for name, each in place.items() if isinstance(each, h5py.Dataset)}
-    scales = {each: name for name, each in stored.items() if each.is_scale}
-    variables = {name: _variable(each, scales) for name, each in stored.items() if not _nameless(each)}
-    said = {key: value for key, value in place.attrs.items() if key != BESIDE}
-    yield place.name, xarray.Dataset(variables, attrs=said).set_coords(place.attrs.get(BESIDE, "").split())
-    for child in place.values():
-        if isinstance(child, h5py.Group):
-            yield from _datasets(child)
+class _Reader:
+    """Reads what `_fill` has written, and refuses all else that HDF5 can hold.
+
+    size : bytes of the file
+    """
+
+    def __init__(self, size: int):
+        room = min(MOST_BYTES, PACKED * size)
+        self.room = room
+        self._seen: set[Any] = set()
+        self._some = max(LEAST_READ, room // size)  # texts that fit, were each as long as the file
+
+    def datasets(self, place: h5py.Group) -> Iterator[tuple[str, xarray.Dataset]]:
+        """Every group as its path and a Dataset, directly: to open many, xarray takes ten times as long."""
+        if place in self._seen:
+            raise ValueError(f"{place.name} stands in several places")
+        self._seen.add(place)
+        for name in place:
+            if not isinstance(place.get(name, getlink=True), h5py.HardLink):
+                raise ValueError(f"{name} is a link to elsewhere")
+        inside = dict(place.items())
+        stored = {name: each for name, each in inside.items() if isinstance(each, h5py.Dataset)}
+        scales = {each: name for name, each in stored.items() if each.is_scale}
+        variables = {name: self._variable(each, scales) for name, each in stored.items() if not _nameless(each)}
+        said = _said(place)
+        beside = said.pop(BESIDE, "").split()
+        yield place.name, xarray.Dataset(variables, attrs=said).set_coords(beside)
+        for child in inside.values():
+            if isinstance(child, h5py.Group):
+                yield from self.datasets(child)
+
+    def _variable(self, stored, scales):
+        said = _said(stored)
+        # The name of a scale takes HDF5 long to find, so it is looked up.
+        dims = [scales[stored]] if stored in scales else [scales[dim[0]] for dim in stored.dims]
+        values = self._values(stored)
+        if said.get("dtype") == "bool":
+            values, said = values.astype(bool), {key: value for key, value in said.items() if key != "dtype"}
+        return xarray.Variable(dims, values, said)
+
+    def _values(self, stored):
+        plist = stored.id.get_create_plist()
+        filters = {plist.get_filter(k)[0] for k in range(plist.get_nfilters())}
+        if stored.is_virtual or stored.external or not filters <= FILTERS or stored.shape is None:
+            raise ValueError(f"{stored.name} is not stored as this program stores numbers")
+        text = h5py.check_string_dtype(stored.dtype)
+        if not text and stored.dtype.kind not in "iuf":
+            raise ValueError(f"{stored.name} is of type {stored.dtype}, which holds no results")
+        self._take(stored, stored.dtype.itemsize * max(stored.size, prod(stored.chunks or ())))
+        return self._words(stored) if text else stored[()]
+
+    def _words(self, stored):
+        """Texts, some at a time: all of them may be one and the same in the file, and very long."""
+        words = np.empty(stored.shape, object)
+        for some in _pieces(stored.shape, self._some):
+            words[some] = found = np.asarray(stored.asstr()[some], object)
+            self._take(stored, sum(map(len, found.flat)))
+        self._take(stored, 4 * words.size * max(map(len, words.flat), default=0))
+        return words.astype(str)
+
+    def _take(self, stored, size):
+        self.room -= size
+        if self.room < 0:
+            raise ValueError(f"{stored.name} unpacks to more than such a file can hold")
 
 
-def _variable(stored, scales):
-    said = {key: value for key, value in stored.attrs.items() if key not in OF_FORMAT}
-    # The name of a scale takes HDF5 long to find, so it is looked up.
-    dims = [scales[stored]] if stored in scales else [scales[dim[0]] for dim in stored.dims]
-    text = h5py.check_string_dtype(stored.dtype)
-    values = np.asarray(stored.asstr()[()], object).astype(str) if text else stored[()]
-    if said.get("dtype") == "bool":
-        values, said = values.astype(bool), {key: value for key, value in said.items() if key != "dtype"}
-    return xarray.Variable(dims, values, said)
+def _pieces(shape, most):
+    """Parts of an array, each of so many numbers at most, that together are the whole, as indices."""
+    below = prod(shape[1:])
+    if below > most:
+        yield from ((k, *inside) for k in range(shape[0]) for inside in _pieces(shape[1:], most))
+    elif shape:
+        rows = most // max(below, 1)
+        yield from ((slice(k, k + rows),) for k in range(0, shape[0], rows))
+    else:
+        yield ()
+
+
+def _said(place):
+    """Attributes that are not of the format: texts, one each."""
+    names = [name for name in place.attrs if name not in OF_FORMAT]
+    for name, found in zip(names, map(place.attrs.get_id, names), strict=True):
+        if found.shape != () or not h5py.check_string_dtype(found.dtype):
+            raise ValueError(f"{place.name} has an attribute {name}, which is no text")
+    return {name: str(place.attrs[name]) for name in names}
 
 
 def _nameless(stored):

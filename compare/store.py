@@ -15,9 +15,12 @@ from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
+from stat import S_ISREG
 from typing import IO, Any
 
 import numpy as np
+
+from scene import files
 
 from .outcome import NUMBERS, Outcome, Row
 from .task import Task
@@ -35,6 +38,9 @@ TEMPORARY = re.compile(r"\..+\.([1-9][0-9]*)\.[a-z0-9_]{8}")
 DIGEST = 32  # letters of a digest
 SOURCES = {".py", ".json", ".gz"}  # what answers are made of
 HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
+# Of the file, of a line in it (a longer one is passed over), and of the fields of a task.
+MOST_BYTES, MOST_LINE, MOST_FIELDS = 2**34, 2**26, 2**32
+KINDS = "iufb"  # of the numbers of fields
 
 
 class Store:
@@ -106,6 +112,10 @@ class Store:
         with _named(self.path):
             file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
         try:
+            status = os.fstat(file)
+            if not S_ISREG(status.st_mode) or status.st_size > MOST_BYTES:
+                reason = f"is no regular file of at most {MOST_BYTES / 1e9:.3g} GB"
+                raise OSError(errno.EINVAL, reason, str(self.path))
             had = _locked(file, wait, say)
             if had:
                 self._file = file
@@ -142,16 +152,20 @@ class Store:
         try:
             if self.path.stat().st_size == self._end:
                 return
-            with self.path.open("rb") as file:
+            with files.checked(self.path, MOST_BYTES).open("rb") as file:
                 file.seek(self._end)
-                for line in file:
-                    if not line.endswith(b"\n"):
+                while first := file.readline(MOST_LINE):
+                    last, end = first, self._end + len(first)
+                    while last and not last.endswith(b"\n"):
+                        last = file.readline(MOST_LINE)
+                        end += len(last)
+                    if not last:
                         break
-                    if len(line) > HEAD:
-                        name = line[DIGEST + 1 : HEAD].decode(errors="replace")
-                        self._places[name] = self._end, len(line) - 1
-                    self._end += len(line)
-        except OSError:
+                    if last is first and len(first) > HEAD:
+                        name = first[DIGEST + 1 : HEAD].decode(errors="replace")
+                        self._places[name] = self._end, len(first) - 1
+                    self._end = end
+        except (OSError, files.Unreadable):
             return
 
     def _outcome(self, name, keeps):
@@ -165,11 +179,10 @@ class Store:
         content = json.loads(text, object_hook=_unnamed)
         fields = {}
         if keeps:
-            packed = (self.folder / f"{name}.npz").read_bytes()
+            packed = files.content(self.folder / f"{name}.npz", MOST_FIELDS)
             if _digest(packed) != content["fields"]:
                 raise ValueError("the fields are damaged")
-            with np.load(io.BytesIO(packed), allow_pickle=False) as kept:
-                fields = {label: kept[f"{k}"] for k, label in enumerate(content["names"])}
+            fields = dict(zip(content["names"], _unpacked(packed), strict=True))
         return Outcome(_rows(content), fields)
 
 
@@ -228,11 +241,13 @@ def _rows(content):
     numbers = np.frombuffer(b64decode(content["numbers"]), "<f8").reshape(len(NUMBERS) + len(measures), count)
     columns = numbers.tolist()
     taken = list(zip(measures, columns[len(NUMBERS) :], map(set, content["absent"]), strict=True))
+    if not all(isinstance(each, str) for each in (*measures, *content["reasons"].values())):
+        raise ValueError("a name or a reason is no text")
     return tuple(
         Row(
             *(column[k] for column in columns[: len(NUMBERS)]),
             {name: column[k] for name, column, absent in taken if k not in absent},
-            content["settings"][k],
+            dict(content["settings"][k]),
             content["reasons"].get(str(k)),
         )
         for k in range(count)
@@ -243,11 +258,22 @@ def _packed(fields):
     """Fields as the bytes of a NumPy archive, named by their number. Raises TypeError for what it cannot hold."""
     arrays = {name: np.asarray(values) for name, values in fields.items()}
     for name, values in arrays.items():
-        if values.dtype.kind not in "iufb":
+        if values.dtype.kind not in KINDS:
             raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
     packed = io.BytesIO()
     np.savez(packed, **{f"{k}": values for k, values in enumerate(arrays.values())})
     return packed.getvalue()
+
+
+def _unpacked(packed):
+    """The arrays of an archive of `_packed`, in their order. Raises nearly anything of another archive."""
+    with np.load(io.BytesIO(packed), allow_pickle=False) as kept:
+        if sum(member.file_size for member in kept.zip.infolist()) > len(packed):
+            raise ValueError("it unpacks to more than it takes")
+        arrays = [kept[f"{k}"] for k in range(len(kept.files))]
+    if any(values.dtype.kind not in KINDS for values in arrays):
+        raise ValueError("fields are numbers")
+    return arrays
 
 
 def stored_size(task: Task, outcome: Outcome) -> int:
@@ -273,6 +299,13 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
             with suppress(OSError):
                 os.unlink(name)
             raise
+
+
+def make(folder: Path) -> None:
+    """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with _named(folder), tempfile.TemporaryFile(dir=folder):
+        pass
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from pathlib import Path
 import xarray
 from pandas import DataFrame
 
+from scene.printable import brief
 from scene.reading import InvalidInput
 
 from . import csvfiles, manifest, rectangle, results
@@ -33,15 +34,15 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
     """
     known("to", to, FORMS)
     folder = Path(folder)
-    output = Path(output or (folder.parent if folder.is_file() else folder) / TABLES)
+    if output is None:
+        output = manifest.inside(folder.parent if folder.is_file() else folder, TABLES)
     written = []
     for name, frame in dict(_tables(folder)).items():
         if to == "latex":
             frame = _printable(frame)
         if not frame.empty:
-            written.append(output / f"{name}{FORMS[to]}")
-            content = latex.table(frame, _title(name), f"tab:{name}") if to == "latex" else _csv(frame)
-            csvfiles.write_text(written[-1], content)
+            written.append(manifest.inside(Path(output), f"{name}{FORMS[to]}"))
+            csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else _csv(frame))
     if not written:
         raise InvalidInput(f"{folder}: holds no table that {to} could show")
     return written
@@ -53,7 +54,7 @@ def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
         for each in manifest.folders(folder):
             place = each.path.relative_to(folder)
             for name in each.manifest.tables:
-                yield (place / name).as_posix(), csvfiles.read(each.path / f"{name}.csv")
+                yield (place / name).as_posix(), csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
         if not any(folder.rglob(results.NAME)):
             return
     for node in results.load(folder).subtree:
@@ -81,6 +82,14 @@ def _printable(frame: DataFrame) -> DataFrame:
         frame = frame[list(PRINTED)]
     fits = len(frame) <= MOST_ROWS and len(frame.columns) <= MOST_COLUMNS
     return frame if fits else DataFrame()
+
+
+def _latex(frame: DataFrame, name: str) -> str:
+    try:
+        return latex.table(frame, _title(name), f"tab:{name}")
+    # Of columns that are not what their names say.
+    except (TypeError, ValueError, ArithmeticError) as error:
+        raise InvalidInput(f"table {name} cannot be printed: {brief(str(error))}") from error
 
 
 def _csv(frame: DataFrame) -> str:

@@ -1,7 +1,9 @@
 """A case file holds what it should, and each mistake in it is named before anything is solved."""
 
+import re
 from dataclasses import replace
 from math import pi
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -190,3 +192,17 @@ def test_a_table_that_is_something_else_is_a_mistake_wherever_its_names_stand(tm
     said = str(raised.value)
     for name in NAMED:
         assert f": {name}" in said
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="a folder that takes no file, from root neither")
+@pytest.mark.parametrize("command", ["run quick-start --output", "animate quick-start --output"])
+@pytest.mark.parametrize("folder", ["/proc", "taken/below", "taken"])
+def test_a_folder_that_takes_no_file_is_named_as_it_was_given(tmp_path, monkeypatch, command, folder):
+    monkeypatch.chdir(tmp_path)
+    Path("taken").touch()
+    given = f"{folder}/moves.gif" if command.startswith("animate") else folder
+    answer = CliRunner().invoke(app, [*command.split(), given])
+    assert answer.exit_code in (1, 2)
+    assert re.search(rf"(^|[ :]){folder.partition('/below')[0]}(/below)?(/moves.gif)?: ", answer.stderr.strip())
+    assert answer.stderr.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["taken"]

@@ -1,12 +1,17 @@
 """Pages in five forms, their files, figures drawn again, tables for others, and the one vocabulary."""
 
+import hashlib
 import json
+import os
 import re
+import shutil
 from html.parser import HTMLParser
+from io import BytesIO
 from math import inf, nan
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import pandas
 import pytest
@@ -21,11 +26,13 @@ from compare import csvfiles, digits, manifest, pages, results, tables, vocabula
 from compare.finding import COLUMNS
 from compare.page import Page, Table
 from compare.pages import latex, markdown, notebook, prose, terminal
-from compare.redraw import redraw
+from compare.plots import touching
+from compare.redraw import function, options, redraw
 from scene.reading import InvalidInput
 
 STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})
 UNITS = {"m", "s", "N", "Pa", "K", "J", "B", "Hz", "kg", "W", "rad"}
+SAMPLES = Path(__file__).parent / "plots"
 SWEPT = SimpleNamespace(solved=1, reused=2, seconds=3.0)
 
 
@@ -229,13 +236,20 @@ FORGED = [
     ({"tables": ["../../friction"]}, "names no file"),
     ({"tables": ["missing"]}, "missing.csv"),
     ({"tables": "friction"}, "plots.0.tables"),
-    ({"options": {"unheard": 1}}, "cannot be drawn"),
+    ({"tables": ["fric\x1btion"]}, "fric\\x1btion"),
+    ({"module": "compare.plots.style", "function": "canvas", "options": {"height": 1e9}}, "no figure of"),
+    ({"options": {"unheard": 1}}, "option unheard"),
+    ({"options": {"figsize": [1e9, 1e9]}}, "option figsize"),
+    ({"module": "compare.plots.regime_map"}, "option wide: Field required"),
+    ({"module": "compare.plots.regime_map", "options": {"wide": [1]}}, "option wide"),
+    ({"module": "compare.plots.regime_map", "options": {"wide": nan}}, "option wide"),
+    ({"module": "compare.plots.regime_map", "options": {"wide": 1e300}}, "cannot be drawn"),
     ({"options": 3}, "plots.0.options"),
     ({"extra": 1}, "plots.0.extra"),
 ]
 
 
-@pytest.mark.parametrize(("change", "said"), FORGED, ids=[said for _, said in FORGED])
+@pytest.mark.parametrize(("change", "said"), FORGED, ids=range(len(FORGED)))
 def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
     content = json.loads((folder / "manifest.json").read_text())
     content["plots"][0] |= change
@@ -272,6 +286,159 @@ def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
     (tmp_path / "sphere/friction.csv").write_bytes(damage)
     with pytest.raises(InvalidInput, match=said):
         redraw(tmp_path)
+
+
+def test_the_options_of_every_figure_pass_as_they_are():
+    for entry in next(manifest.folders(SAMPLES)).manifest.plots:
+        passed = options(function(entry, SAMPLES), entry, SAMPLES)
+        assert json.loads(json.dumps({name: passed[name] for name in entry.options})) == entry.options
+
+
+@pytest.fixture
+def copied(folder, tmp_path):
+    """A folder that a command left, to be damaged."""
+    return Path(shutil.copytree(folder, tmp_path / "left"))
+
+
+def pipe(path):
+    os.mkfifo(path)
+
+
+def device(path):
+    path.symlink_to("/dev/zero")
+
+
+def circle(path):
+    path.symlink_to(path)
+
+
+def too_large(path):
+    with path.open("wb") as file:
+        file.truncate(10**12)
+
+
+def elsewhere(path):
+    other = path.parent.parent.parent / "other"
+    other.write_text("solver\nMDR\n")
+    path.symlink_to(other)
+
+
+READ = {
+    "manifest.json": [redraw, tables.export],
+    "sphere/friction.csv": [redraw, tables.export],
+    "results.nc": [results.load, lambda folder: tables.export(folder / "results.nc")],
+}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("placed", [pipe, device, circle, too_large, Path.mkdir, elsewhere])
+@pytest.mark.parametrize("name", READ)
+def test_what_stands_in_the_place_of_a_file_is_named_and_not_read(copied, name, placed):
+    (copied / name).unlink()
+    placed(copied / name)
+    for read in READ[name]:
+        with pytest.raises(InvalidInput, match=f"{re.escape(name)}|results here"):
+            read(copied)
+
+
+def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
+    wide = DataFrame({f"c{k}": [1] for k in range(csvfiles.MOST_COLUMNS + 1)})
+    for text, said in ((csvfiles.text(wide), "1001 columns"), ("a,b\n1,2,3\n4,5,6\n", "longer than its head")):
+        (tmp_path / "table.csv").write_text(text)
+        with pytest.raises(InvalidInput, match=said):
+            csvfiles.read(tmp_path / "table.csv")
+    (tmp_path / "table.csv").write_text(f"a\n{'1' * 30}\n2\n")
+    assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
+
+
+def test_a_table_of_other_columns_than_its_names_say_is_no_paper_s(copied):
+    (copied / "sphere/friction.csv").write_text("friction,friction_low,friction_high\n1,x,2\n")
+    with pytest.raises(InvalidInput, match="sphere/friction cannot be printed"):
+        tables.export(copied, "latex")
+
+
+def test_a_map_is_no_larger_than_the_grids_that_are_solved():
+    spread = DataFrame({"x": [0.0, 1.0, 2.0], "y": [0.0, 3.0, 1.0], "pressure": 1.0})
+    assert touching.gridded(spread, "pressure", 1.0)[2].shape == (4, 3)
+    for pixel in (1e-9, nan, 0.0, -1.0, 1e-300):
+        with pytest.raises(ValueError, match="in pixels of"):
+            touching.gridded(spread, "pressure", pixel)
+    with pytest.raises(ValueError, match="not known at every"):
+        touching.rectangle(spread, "x", "y", "pressure")
+
+
+def sealed(path, fill):
+    """A file of results with a seal that fits, as anyone can make one."""
+    image = BytesIO()
+    with h5py.File(image, "w") as file:
+        fill(file)
+    content = image.getvalue()
+    path.write_bytes(content + results.SEAL + hashlib.sha256(content).hexdigest().encode())
+
+
+def virtual(file):
+    layout = h5py.VirtualLayout((3,), float)
+    layout[:] = h5py.VirtualSource("/etc/hostname", "x", (3,))
+    file.create_virtual_dataset("x", layout)
+
+
+HDF5 = {
+    "soft link": lambda file: file.update({"x": h5py.SoftLink("/y")}),
+    "link to another file": lambda file: file.update({"x": h5py.ExternalLink("/etc/hostname", "/y")}),
+    "group below itself": lambda file: file.create_group("a").update({"b": file}),
+    "numbers of another file": lambda file: file.create_dataset("x", (3,), "u1", external=[("/etc/hosts", 0, 3)]),
+    "numbers of other files": virtual,
+    "numbers that are nowhere": lambda file: file.create_dataset("x", (10**12,), "f8", chunks=(10**6,)),
+    "a part that is huge": lambda file: file.create_dataset("x", (3,), "f8", maxshape=(None,), chunks=(10**8,)),
+    "one text many times": lambda file: file.create_dataset(
+        "x", (10**5,), h5py.string_dtype(), fillvalue="x" * 10**4
+    ),
+    "another packing": lambda file: file.create_dataset("x", data=np.arange(99), compression="lzf"),
+    "references": lambda file: file.create_dataset("x", data=[file.ref], dtype=h5py.ref_dtype),
+    "lists": lambda file: file.create_dataset("x", (3,), dtype=h5py.vlen_dtype(float)),
+    "compounds": lambda file: file.create_dataset("x", data=np.zeros(3, "f8,i4")),
+    "bytes": lambda file: file.create_dataset("x", data=np.zeros(3, "V8")),
+    "nothing": lambda file: file.create_dataset("x", data=h5py.Empty("f8")),
+    "no dimensions": lambda file: file.create_dataset("x", data=np.arange(3.0)),
+    "attributes that are arrays": lambda file: file.attrs.update({"units": np.zeros(9)}),
+}
+
+
+@pytest.mark.parametrize("kind", HDF5)
+def test_what_hdf5_can_hold_and_no_command_writes_is_refused(tmp_path, kind):
+    sealed(tmp_path / "results.nc", HDF5[kind])
+    with pytest.raises(InvalidInput, match=r"results\.nc: is no file of results"):
+        results.load(tmp_path)
+
+
+def test_texts_come_back_in_parts_as_they_do_at_once(tmp_path, monkeypatch):
+    words = np.array([f"{'x' * (k % 7)}é{k}" for k in range(60)]).reshape(3, 4, 5)
+    tree = xarray.DataTree.from_dict({"/a": xarray.Dataset({"reason": (("p", "q", "r"), words)})})
+    results.write(tmp_path / "results.nc", tree)
+    for most in (1, 2, 7, 20, 59, 10**6):
+        monkeypatch.setattr(results, "LEAST_READ", most)
+        monkeypatch.setattr(results, "PACKED", 50)
+        assert (results.load(tmp_path)["a"]["reason"].values == words).all()
+
+
+def above(file):
+    """A dataset in a group that is called as the folder above."""
+    group = file.create_group("..").create_group("..")
+    group["x"], group["y"] = np.arange(3.0), np.arange(3.0)
+    group["x"].make_scale("x")
+    group["y"].dims[0].attach_scale(group["x"])
+
+
+def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
+    sealed(copied / "forged.nc", above)
+    with pytest.raises(InvalidInput, match="forged"):
+        tables.export(copied / "forged.nc", output=copied / "tables")
+    for name, write in (("figures", redraw), ("tables", tables.export)):
+        (copied / name).symlink_to(tmp_path)
+        with pytest.raises(InvalidInput, match="leads out of"):
+            write(copied)
+    assert [path.name for path in tmp_path.iterdir()] == ["left"]
+    assert not list(tmp_path.parent.glob("*.csv"))
 
 
 @pytest.mark.parametrize(

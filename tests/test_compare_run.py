@@ -1,5 +1,6 @@
 """A run of scenes: curves of a case, what is found of answers that are known, and the page of a small contact."""
 
+import re
 from dataclasses import replace
 from io import StringIO
 from math import nan
@@ -9,6 +10,7 @@ import pandas
 import pytest
 from pandas import DataFrame
 
+import compare
 from bem3d import BEM
 from compare import finding
 from compare.cases import Case, Study
@@ -18,6 +20,8 @@ from compare.page import Findings, Plot, Table
 from compare.path import Path
 from compare.plots import force_depth, style
 from compare.rectangle import COARSE, FINE, tasks_of
+from compare.redraw import FIGURES
+from compare.report import SOLVED
 from compare.studies.casecurves import (
     LOAD,
     OWN,
@@ -31,8 +35,10 @@ from compare.studies.casecurves import (
     slow_friction,
 )
 from compare.studies.run import Run, summary
+from compare.tables import TABLES
 from mdr1d import MDR
 from scene import Cone, Elastic, Indent, Kelvin, Program, Prony, Refused, SelfAffine, Slide, Sphere, Stage
+from scene.printable import brief
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
@@ -322,6 +328,31 @@ def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
         Run.of("there-and-back")
     with pytest.raises(InvalidInput, match="did you mean quick-start"):
         Run.of("quick-strat")
+
+
+SHARED = [("a!", "a?"), ("A", "a"), ("é", "e"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b"), ("", ".")]
+TAKEN = [SOLVED, FIGURES, TABLES, "Solved!", "con", "NUL", "com1", "x" * 5000, 3]
+
+
+@pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])
+def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_solved(tmp_path, names):
+    with pytest.raises(InvalidInput) as caught:
+        compare.run(dict.fromkeys(names, CASE), output=tmp_path / "out")
+    assert all(brief(str(name)) in str(caught.value) for name in names)
+    assert not (tmp_path / "out").exists()
+
+
+def test_names_of_files_that_a_command_writes_are_those_of_folders_beside_them():
+    names = ["manifest.json", "report.html", "results.nc", "findings.csv", "a/b", "日本"]
+    assert len(set(Run.of(dict.fromkeys(names, CASE)).folders.values())) == len(names)
+
+
+@pytest.mark.parametrize("place", ["../out", "/tmp/out", "a/../..", SOLVED, f"{SOLVED}/a"])
+def test_a_study_of_ones_own_is_written_below_its_folder(tmp_path, place):
+    study = type("Mine", (compare.Study,), {"place": place})()
+    with pytest.raises(InvalidInput, match=re.escape(place)):
+        compare.solve(study, tmp_path / "out")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_scene_is_told_in_words():

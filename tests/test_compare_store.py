@@ -1,13 +1,16 @@
 """What is stored comes back as it was, under a name that changes with everything the answer depends on."""
 
 import errno
+import io
 import json
 import multiprocessing
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
+import zipfile
 from dataclasses import replace
 
 import numpy as np
@@ -233,6 +236,103 @@ def test_fields_that_are_damaged_count_as_absent(tmp_path):
     path.unlink()
     assert store.get(PICTURE) is None
     assert store.get(TASK) is not None
+
+
+def archive(compression, **members):
+    """The bytes of an archive of numpy, packed as anyone can."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", compression) as file:
+        for name, values in members.items():
+            with file.open(name, "w") as member:
+                np.lib.format.write_array(member, values)
+    return packed.getvalue()
+
+
+ZEROS, OBJECTS = np.zeros(10**6), np.array([print], object)
+FORGED_FIELDS = {
+    "no archive": b"PK\x05\x06",
+    "unpacks to more": archive(zipfile.ZIP_DEFLATED, **{"0.npy": ZEROS}),
+    "pickled": archive(zipfile.ZIP_STORED, **{"0.npy": OBJECTS}),
+    "text": archive(zipfile.ZIP_STORED, **{"0.npy": np.array(["a"])}),
+    "too many": archive(zipfile.ZIP_STORED, **{"0.npy": ZEROS[:3], "1.npy": ZEROS[:3]}),
+    "declares more": archive(zipfile.ZIP_STORED, **{"0.npy": ZEROS[:3]}).replace(b"(3,), ", b"(9**9,)")[:400],
+}
+
+
+@pytest.mark.parametrize("kind", FORGED_FIELDS)
+def test_fields_that_are_forged_under_a_digest_that_fits_count_as_absent(tmp_path, monkeypatch, kind):
+    with monkeypatch.context() as forging:
+        forging.setattr(module, "_packed", lambda _: FORGED_FIELDS[kind])
+        Store(tmp_path).put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    assert Store(tmp_path).get(TASK) is not None
+    assert Store(tmp_path).get(PICTURE) is None
+
+
+FORGED_LINES = [
+    {"rows": 10**9}, {"rows": -1}, {"rows": None}, {"numbers": "AA=="}, {"numbers": 3}, {"measures": [[]]},
+    {"measures": [3, 4]}, {"settings": [3]}, {"settings": {}}, {"reasons": {"0": 3}}, {"reasons": []},
+    {"absent": None}, {"names": 3}, {"fields": 3},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("change", [*FORGED_LINES, b"[" * 10**5, b"[]", b"1" * 10**4, b"{}"], ids=str)
+def test_a_line_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_path, change):
+    store = Store(tmp_path)
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    name, text = key(PICTURE), store.path.read_bytes().strip()[module.HEAD + 1 :]
+    forged = change if isinstance(change, bytes) else json.dumps(json.loads(text) | change).encode()
+    store.path.write_bytes(module._line(name, forged) + b"\n\n")
+    assert Store(tmp_path).get(PICTURE) is None
+
+
+def test_a_line_that_is_too_long_is_passed_over(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "MOST_LINE", 1000)
+    tasks, path, whole = three(tmp_path)
+    for length in (999, 1000, 1001, 2500, 3000):
+        path.write_bytes(whole[: whole.index(b"\n")] + b"\n" + b"x" * length + b"\n" + whole[whole.index(b"\n") :])
+        assert found(tmp_path, tasks) == [0, 1, 2]
+        path.write_bytes(whole + b"x" * length)
+        Store(tmp_path).put(tasks[2], Outcome((replace(ROW, depth=2.0),)))
+        assert found(tmp_path, tasks) == [0, 1, 2]
+        assert b"x" * 99 not in path.read_bytes()
+
+
+def sparse(path):
+    """A file that is too large, of nothing."""
+    path.touch()
+    os.truncate(path, 10**12)
+
+
+def device(path):
+    path.symlink_to("/dev/zero")
+
+
+def circle(path):
+    path.symlink_to(path)
+
+
+PLACED = [getattr(os, "mkfifo", os.mkdir), os.mkdir, device, circle, sparse]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("placed", PLACED)
+def test_what_stands_in_the_place_of_the_file_holds_nothing_and_is_named_before_it_is_written(tmp_path, placed):
+    path = tmp_path / FILE
+    placed(path)
+    assert Store(tmp_path).get(TASK) is None
+    with pytest.raises(OSError, match=re.escape(str(path))):
+        Store(tmp_path).put(TASK, Outcome((ROW,)))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("placed", PLACED)
+def test_what_stands_in_the_place_of_fields_counts_as_absent(tmp_path, placed):
+    store = Store(tmp_path)
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    (path,) = tmp_path.glob("*.npz")
+    path.unlink()
+    placed(path)
+    assert store.get(PICTURE) is None
 
 
 def test_a_folder_that_nobody_may_write_can_be_read(tmp_path):

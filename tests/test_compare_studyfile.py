@@ -138,7 +138,7 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
     [
         ('title = "Mine"', "", ["title: missing, a valid string"]),
         ('name = "a"', 'name = "a/b"', ["series.0.name = 'a/b': String should match"]),
-        ('name = "b"', 'name = "A"', ["series: 'a' is the name of several"]),
+        ('name = "b"', 'name = "A"', ["series 'A': has the folder of 'a'"]),
         ("speeds =", "sppeds =", ["sppeds = ['50 mm/s', 0.1, 0.2]: unknown here; did you mean speeds?"]),
         ('"50 mm/s"', '"50 mm"', ["speeds.0 = '50 mm': Input should be a speed, as 20 mm/s"]),
         ("0.1, 0.2]", "0.2, 0.1]", ["series.0: speeds = [0.05, 0.2, 0.1]: from the least", "series.1: speeds"]),

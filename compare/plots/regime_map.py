@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from pandas import DataFrame
 
 from ..page import Plot, Tables
-from . import shades, style
+from . import shades, style, touching
 
 NAME = "regime-map"
 # Ratios of labelled lines; one that the map merely grazes, as that of a limit, would show the errors of the map.
@@ -110,4 +110,4 @@ def _lines(axes, x, logarithm, levels):
 
 def _rectangle(table, name):
     """Logarithms of a column: a row a speed, a column a pressure."""
-    return np.log(table.pivot(index="memory_over_shortest", columns="pressure_over_slope", values=name))
+    return np.log(touching.rectangle(table, "memory_over_shortest", "pressure_over_slope", name))

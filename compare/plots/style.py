@@ -94,6 +94,8 @@ FILES = {
     "svg.hashsalt": "crosscheck",
 }
 
+NO_LOOKS = "backend", "animation"  # of settings: code that is imported, programs that are run
+
 
 @dataclass(frozen=True)
 class Look:
@@ -320,7 +322,7 @@ def legend(
 
 
 def read(sheet: str | PathLike | Mapping[str, Any] | None) -> dict[str, Any]:
-    """The settings of a style but for back ends, which are no matter of looks; ValueError says what is wrong."""
+    """The settings of a style that are a matter of looks, and no programs to run; ValueError says what is wrong."""
     from matplotlib import style as styles
 
     if sheet is None:
@@ -337,7 +339,7 @@ def read(sheet: str | PathLike | Mapping[str, Any] | None) -> dict[str, Any]:
     else:
         known = ", ".join(styles.available)
         raise ValueError(f"no style {str(sheet)!r}: neither a file nor one of matplotlib's, {known}")
-    return {name: given[name] for name in given if not name.startswith("backend")}
+    return {name: given[name] for name in given if not name.startswith(NO_LOOKS)}
 
 
 def _parsed(path: Path) -> Mapping[Any, Any]:

@@ -22,6 +22,7 @@ HIGHEST = 99  # percentile of the pressures in contact at which colours end
 SAND = "#8A7A45"
 
 Fields: TypeAlias = Mapping[str, np.ndarray]
+MOST_PIXELS = 2**26  # of a map: a contact of half the side of the finest grid
 
 
 def elastomer() -> tuple[float, float, float]:
@@ -50,10 +51,16 @@ def section_of(table: DataFrame) -> Section:
 
 
 def gridded(table: DataFrame, name: str, pixel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """x (N,), y (M,) and values (M, N) of pixels of which a table has some; zero of those it has not."""
+    """x (N,), y (M,) and values (M, N) of pixels of which a table has some; zero of those it has not.
+
+    Raises ValueError of a map of more than MOST_PIXELS, as of places that are not on a grid of such pixels.
+    """
     if table.empty:
         ends = np.array([-pixel, pixel]) / 2
         return ends, ends, np.zeros((2, 2))
+    wide, high = (float(np.ptp(table[along])) for along in ("x", "y"))
+    if not (pixel > 0 and (wide / pixel + 1) * (high / pixel + 1) <= MOST_PIXELS):
+        raise ValueError(f"a map of {wide:g} x {high:g} m in pixels of {pixel:g} m")
     places = []
     for along in ("x", "y"):
         values = table[along].to_numpy()
@@ -64,6 +71,13 @@ def gridded(table: DataFrame, name: str, pixel: float) -> tuple[np.ndarray, np.n
     found = np.zeros((len(y), len(x)))
     found[row, column] = table[name]
     return x, y, found
+
+
+def rectangle(table: DataFrame, index: str, columns: str, values: str) -> DataFrame:
+    """A column of a table by two others. Raises ValueError of a table that lacks more of it than it has."""
+    if table[index].nunique() * table[columns].nunique() > 2 * len(table):
+        raise ValueError(f"{values} is not known at every {index} and {columns}")
+    return table.pivot(index=index, columns=columns, values=values)
 
 
 def heights(sections: Sequence[Section], span: tuple[float, float]) -> tuple[float, float]:

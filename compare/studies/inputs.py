@@ -1,6 +1,5 @@
 """Study file: series of contacts that a user states in TOML, solved and judged as those of the package."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass as plain
 from functools import lru_cache
@@ -21,6 +20,7 @@ from scene.temperature import Temperature
 
 from ..cases import Draws
 from ..cost import MOST_VALUES
+from ..describe import folders
 from ..library import NotReady, find
 from .catalogue import SIZES, ReadyStudy
 from .series import KINDS, Series
@@ -259,9 +259,10 @@ def study_of(text: str, name: str) -> ReadyStudy:
     if file is not None and not lines:
         stated = [_Stated(own, file, contact) for own, contact in zip(file.series, contacts, strict=True)]
         lines = [f"series.{number}: {why}" for number, each in enumerate(stated) for why in each.misfits()]
-        names = Counter(own.name.lower() for own in file.series)
-        several = sorted(each for each, count in names.items() if count > 1)
-        lines += [f"series: {each!r} is the name of several" for each in several]
+        try:
+            folders([own.name for own in file.series], "series")
+        except InvalidInput as error:
+            lines.append(str(error))
         lines = lines or [line for number, each in enumerate(stated) for line in _refused(each, number)]
     if lines:
         raise invalid(name, lines)

@@ -19,7 +19,7 @@ from scene.vocabulary import FIELDS as DEFINED
 from .. import finding, rectangle
 from ..cases import Case
 from ..declaration import Study
-from ..describe import described, slug
+from ..describe import described, folders
 from ..finding import Finding
 from ..inputs import Asked, named_cases
 from ..outcome import Outcome
@@ -85,13 +85,20 @@ class Run(Study):
         return {"cases": {name: case.inputs for name, case in self.cases.items()}}
 
     @cached_property
+    def folders(self) -> Mapping[str, str]:
+        """Folders of the cases, by name. Raises InvalidInput where two share one."""
+        return folders(self.cases, "case")
+
+    @cached_property
     def _curves(self) -> Mapping[str, Mapping[str, Rectangle]]:
         return {name: curves(case) for name, case in self.cases.items()}
 
     def rectangles(self) -> Mapping[str, Rectangle]:
         """Every curve of every case, by "case/curve"."""
         return {
-            f"{slug(name)}/{curve}": each for name, found in self._curves.items() for curve, each in found.items()
+            f"{self.folders[name]}/{curve}": each
+            for name, found in self._curves.items()
+            for curve, each in found.items()
         }
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
@@ -99,7 +106,7 @@ class Run(Study):
         parts: dict[str, xarray.Dataset] = {}
         outcomes = by_contact(outcomes)
         for name, found in self._curves.items():
-            folder = slug(name)
+            folder = self.folders[name]
             for solver, kept in found[OWN].fields(outcomes).items():
                 parts[f"/{folder}/{FIELDS}/{solver}"] = _fields(kept, self.cases[name].indenter.type)
             parts[f"/{folder}/{TIMES}"] = _times(rectangle.contacts_of(found), outcomes)
@@ -117,13 +124,13 @@ class Run(Study):
         return self._found["cases"]
 
     def _judged(self, name, answers) -> CaseFindings:
-        below = answers[slug(name)]
+        below = answers[self.folders[name]]
         datasets = {
             f"{node.parent.name}/{node.name}": with_spread(node.to_dataset(inherit=False))
             for node in below.subtree
             if node.parent is not None and node.parent.name in CURVES
         }
-        return CaseFindings(name, slug(name), self.cases[name], datasets)
+        return CaseFindings(name, self.folders[name], self.cases[name], datasets)
 
     @cached_property
     def trusts(self) -> Mapping[str, Trust]:
