@@ -1,0 +1,65 @@
+"""What may be read: regular files up to a size, and nothing else that a path leads to."""
+
+import os
+from math import ceil
+from pathlib import Path
+from stat import S_ISDIR, S_ISREG
+
+from .printable import brief
+
+
+class Unreadable(ValueError):
+    """A path to nothing that is read; the message names it and the reason."""
+
+
+def checked(path: str | Path, most: int) -> Path:
+    """The path of a regular file of at most `most` bytes; nothing is opened. Raises Unreadable."""
+    _refuse(path, _asked(path, os.stat, path), most)
+    return Path(path)
+
+
+def content(path: str | Path, most: int) -> bytes:
+    """What a regular file of at most `most` bytes holds; waits for no other process. Raises Unreadable."""
+    checked(path, most)
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    handle = _asked(path, os.open, path, flags)
+    try:
+        # What is open may be another file than the one that was checked, and may grow.
+        _refuse(path, os.fstat(handle), most)
+    except Unreadable:
+        os.close(handle)
+        raise
+    with open(handle, "rb") as file:
+        held = _asked(path, file.read, most + 1) or b""
+    if len(held) > most:
+        raise _unreadable(path, _too_large(len(held), most))
+    return held
+
+
+def _refuse(path, status, most):
+    if S_ISDIR(status.st_mode):
+        raise _unreadable(path, "is a folder, and a file is needed")
+    if not S_ISREG(status.st_mode):
+        raise _unreadable(path, "is no regular file: pipes, sockets and devices are not read")
+    if status.st_size > most:
+        raise _unreadable(path, _too_large(status.st_size, most))
+
+
+def _asked(path, system, *arguments):
+    """What the operating system answers about a path. Raises Unreadable."""
+    try:
+        return system(*arguments)
+    except FileNotFoundError as error:
+        raise _unreadable(path, "no such file") from error
+    except OSError as error:
+        raise _unreadable(path, error.strerror or str(error)) from error
+    except ValueError as error:  # of zero bytes, and of letters that no file system has
+        raise _unreadable(path, "is a name that no file can have") from error
+
+
+def _too_large(size, most):
+    return f"has {ceil(size / 1e5) / 10:g} MB, and at most {most / 1e6:g} MB are read"
+
+
+def _unreadable(path, why):
+    return Unreadable(f"{brief(str(path))}: {why}")

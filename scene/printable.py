@@ -1,0 +1,24 @@
+"""Text as a terminal may show it: what controls one, or turns the direction of reading, is written out."""
+
+LONGEST = 200  # letters of a name or a value in a message
+
+
+def printable(text: str) -> str:
+    r"""A text whose unprintable characters, line ends aside, are written as escapes, as \x1b."""
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() or each == "\n" else _escape(each) for each in text)
+
+
+def brief(text: str) -> str:
+    """A text in one printable line of LONGEST letters at most, its middle left out where it is longer."""
+    ends = text if len(text) <= LONGEST else text[:LONGEST] + text[-LONGEST:]
+    line = printable(ends).replace("\n", "\\n")
+    if len(line) <= LONGEST and ends is text:
+        return line
+    half = (LONGEST - 3) // 2
+    return f"{line[:half]}...{line[-half:]}"
+
+
+def _escape(letter):
+    return letter.encode("unicode_escape").decode("ascii")
