@@ -17,6 +17,7 @@ from .quantities import CLOSED, METRE, Length, by_name
 SHORTEST, LONGEST = 1e-50, 1e50  # lengths [m] whose fourth powers, as of spectra, are numbers
 # Of the largest height: what is left of a plane once the plane is taken off.
 ROUNDING = 1e-13
+QUOTIENT = 1e-12  # rounding of a quotient of lengths
 
 
 @plain(frozen=True, init=False)
@@ -141,6 +142,7 @@ class Scanned:
     pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
     peaks : "up", heights grow towards the elastomer, as instruments give them, and the highest point touches
         first; "down", they are those of an indenter above the elastomer, and the lowest touches first
+    shortest_kept : waves shorter than this are left out [m]; absent, every wave of the map is kept
 
     In place of heights `file` is the path of a file, read once and kept as numbers; a relative path starts at the
     working directory. `pixel`, and `unit` of the heights ("m", "mm", "um", "nm"; "m" if absent), are those of
@@ -150,6 +152,7 @@ class Scanned:
     heights: Heights
     pixel: Pixel
     peaks: Literal["up", "down"] = "up"
+    shortest_kept: Length | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -167,11 +170,27 @@ class Scanned:
         except ValueError as error:
             raise ValueError(f"file = {str(path)!r}: {error}") from None
 
+    @model_validator(mode="after")
+    def _waves_kept(self):
+        if self.shortest_kept is not None:
+            least, most = 2 * max(self.pixel), min(self.sides) / 2
+            if not least * (1 - QUOTIENT) <= self.shortest_kept <= most:
+                raise ValueError(
+                    f"shortest_kept = {self.shortest_kept:g} m: from two pixels, {least:g} m, to half of what "
+                    f"repeats, {most:g} m"
+                )
+        return self
+
     @property
     def size(self) -> tuple[float, float]:
         """Of the map, along x and along y [m]."""
         rows, columns = self.heights.shape
         return columns * self.pixel[0], rows * self.pixel[1]
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Of the rectangle that repeats, along x and along y [m]: of the map with its mirror images."""
+        return 2 * self.size[0], 2 * self.size[1]
 
     def _turned(self) -> np.ndarray:
         """Heights above the elastomer, from whatever level (rows, columns) [m]."""
