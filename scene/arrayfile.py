@@ -59,7 +59,10 @@ def _array(file, size, check):
         raise ValueError(f"an array in version {version} of the format: 1.0 or 2.0 have the numbers of a map")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of headers by other hands
-        shape, by_columns, dtype = _HEADERS[version](begun)
+        try:
+            shape, by_columns, dtype = _HEADERS[version](begun)
+        except Exception as error:
+            raise ValueError("its header is damaged, or none that numpy writes") from error
     check(shape, dtype)
     stated, there = prod(shape) * dtype.itemsize, size - begun.tell()
     if stated != there:

@@ -20,7 +20,7 @@ LEAST = 4  # pixels a side: what a cubic between pixels takes
 SIDE = 5120
 MOST_PIXELS = SIDE**2  # that are read of a file
 MOST_BYTES = 2**28  # of a file, as it is and unpacked: of so many pixels with eight bytes each, and more
-LINE = 2**20  # letters of a line
+MOST_TEXT, LINES, LINE = 2**27, 2**20, 2**20  # bytes of a text, its lines, and letters in one of them
 ARRAYS, TEXTS = {".npy", ".npz"}, {".csv", ".txt"}
 _SEPARATOR = re.compile(r"[,;\t]")
 
@@ -122,7 +122,7 @@ def _first_line(error):
 
 
 def _text(path):
-    lines = TextIOWrapper(BytesIO(content(path, MOST_BYTES)), encoding="utf-8-sig")
+    lines = TextIOWrapper(BytesIO(content(path, MOST_TEXT)), encoding="utf-8-sig")
     try:
         rows = _rows(lines)
         first = next(rows, None)
@@ -135,17 +135,17 @@ def _text(path):
 
 def _rows(lines):
     """Lines of numbers with blanks between them. Raises ValueError where there are more than are read."""
-    rows, columns = 0, LEAST
+    rows, columns = 0, 0
     for number, line in enumerate(iter(lambda: lines.readline(LINE + 1), ""), 1):
+        if number > LINES:
+            raise ValueError(f"more than {LINES} lines")
         if len(line) > LINE:
             raise ValueError(f"line {number} has more than {LINE} letters")
         row = _SEPARATOR.sub(" ", line.partition("#")[0])
         if row.strip():
-            rows, columns = rows + 1, columns if rows else len(row.split())
+            rows, columns = rows + 1, columns or len(row.split())
             _check_count((rows, columns))
             yield row
-        elif number > MOST_PIXELS // LEAST:
-            raise ValueError(f"more than {MOST_PIXELS // LEAST} lines")
 
 
 @contextmanager
@@ -180,8 +180,14 @@ def _scan(path):
             own = found.unit
             if own is not None:
                 found = found.to_unit("m")
+            if found.dim != 2 or 0 in found.nb_grid_pts:
+                raise ValueError("it holds a line or nothing, and no map of heights")
+            if found.has_undefined_data:
+                raise ValueError("it has pixels without a height: fill them in, or crop the map")
+            sizes = zip(found.physical_sizes, found.nb_grid_pts, strict=True)
+            pixel = tuple(float(side) / count for side, count in sizes)
             # There the first index is along x.
-            heights = np.array(found.heights(), float).T
+            return np.array(found.heights(), float).T, pixel if stated else None, own
     except CannotDetectFileFormat as error:  # which tells of every reader at length
         raise ValueError(
             f"{name} cannot be read by SurfaceTopography: it is of no format that it knows, or damaged"
@@ -189,9 +195,3 @@ def _scan(path):
     # Readers of some forty formats raise nearly anything at a damaged file.
     except Exception as error:
         raise ValueError(f"{name} cannot be read by SurfaceTopography: {_first_line(error)}") from error
-    if found.dim != 2:
-        raise ValueError(f"{name} holds a line, and no map of heights")
-    if found.has_undefined_data:
-        raise ValueError(f"{name} has pixels without a height: fill them in, or crop the map")
-    pixel = tuple(float(side) / count for side, count in zip(found.physical_sizes, found.nb_grid_pts, strict=True))
-    return heights, pixel if stated else None, own

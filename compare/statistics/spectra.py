@@ -90,7 +90,7 @@ class Description:
     @property
     def warnings(self) -> list[str]:
         """Reasons not to take the numbers at their word."""
-        return [*_of_law(self.law), *_of_directions(self.spectral_slopes), *_of_slope(self.rms_slope)]
+        return [*_of_law(self.law), *_of_directions(self.spectral_slopes), *_of_slope(self.rms_slope_spectral)]
 
 
 def describe(topography: Topography) -> Description:
