@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene import Cylinder, EmptyContact, Measured, Plane, Scene, SolveError
+from scene.heightmap import Scanned
 from scene.scales import elastic_contact
 
 from . import layer
@@ -21,6 +22,7 @@ RING = 3.0  # outer over inner side of a ring of the surroundings
 RING_POINTS = 96  # a side, for the displacement in a ring: 16 pixels from the contact at least
 SAMPLES = 2048  # points a side at most, at which a ring is searched for what penetrates
 FEWEST = 9  # points in contact below which forces are no more than a guess
+FULLER = 1.01  # of a pixel, so that two of them are carried with few digits too
 OVERLAP = 1e-2  # of the depth below the lowest point: what may penetrate outside, felt below 1e-3 in the forces
 
 
@@ -227,7 +229,11 @@ def _missed(scene, grid):
     if rough is None or rough.shortest is None or 2 * grid.pixel <= rough.shortest:
         return []
     least = int(np.ceil(2 * grid.extent / rough.shortest))
-    return [
+    reason = (
         f"{field}.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
-        f"points = {least:.15g} would carry it, {4 * least:.15g} resolve it",
-    ]
+        f"points = {least:.15g} would carry it, {4 * least:.15g} resolve it"
+    )
+    if isinstance(rough, Scanned):
+        kept = 2 * FULLER * max(*rough.pixel, grid.pixel)
+        reason += f"; {field}.shortest_kept = {kept:.3g} would leave out what they cannot carry"
+    return [reason]

@@ -2,15 +2,25 @@
 
 import re
 import warnings
-from io import StringIO
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from io import BytesIO, StringIO, TextIOWrapper
+from itertools import chain
+from math import prod
 from pathlib import Path
 from reprlib import repr as briefly
-from stat import S_ISDIR, S_ISREG
 
 import numpy as np
 
+from .arrayfile import array_in, arrays_in
+from .files import Unreadable, checked, content
+from .printable import brief
+
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-LONGEST = 200  # letters of a path that are shown
+LEAST = 4  # pixels a side: what a cubic between pixels takes
+SIDE = 5120
+MOST_PIXELS = SIDE**2  # that are read of a file
+MOST_BYTES = 2**28  # of a file, as it is and unpacked: of so many pixels with eight bytes each, and more
+MOST_TEXT, LINES, LINE = 2**27, 2**20, 2**20  # bytes of a text, its lines, and letters in one of them
 ARRAYS, TEXTS = {".npy", ".npz"}, {".csv", ".txt"}
 _SEPARATOR = re.compile(r"[,;\t]")
 
@@ -30,101 +40,139 @@ def read_heights(path: str | Path, pixel=None, unit: str | None = None):
         raise ValueError(f"unit = {briefly(unit)}: one of {', '.join(UNITS)}")
     if not isinstance(path, str | Path):
         raise ValueError(f"file = {briefly(path)}: a path is needed")
-    path = Path(path)
-    _check_there(path)
+    path = checked(path, MOST_BYTES)
     kind = path.suffix.lower()
     plain = kind in ARRAYS | TEXTS
     heights, stated, own = (_array if kind in ARRAYS else _text if plain else _scan)(path)
+    name = brief(str(path))
     if own is None and unit is None and not plain:
-        raise ValueError(f"{path} does not state the unit of its heights: give unit, one of {', '.join(UNITS)}")
+        raise ValueError(f"{name} does not state the unit of its heights: give unit, one of {', '.join(UNITS)}")
     if own is not None and unit is not None:
-        raise ValueError(f"unit = {unit!r}: {path} states its own, {own}, leave unit out")
+        raise ValueError(f"unit = {unit!r}: {name} states its own, {brief(str(own))}, leave unit out")
     if pixel is not None and stated is not None:
-        raise ValueError(f"pixel = {briefly(pixel)}: {path} states its own, {stated}, leave pixel out")
+        raise ValueError(f"pixel = {briefly(pixel)}: {name} states its own, {stated}, leave pixel out")
     if pixel is None and stated is None:
-        raise ValueError(f"{path} does not state the size of a pixel: give pixel [m]")
-    if heights.dtype.kind not in "fiu":
-        raise ValueError(f"file = {str(path)!r}: an array of type {heights.dtype}: heights are real numbers [m]")
+        raise ValueError(f"{name} does not state the size of a pixel: give pixel [m]")
     metre = 1.0 if unit is None else UNITS[unit]
     # First the numbers in full: those of half precision end where nanometres begin.
     with np.errstate(over="ignore"):
-        heights = heights.astype(float)
+        heights = heights.astype(float, copy=False)
     return heights * metre, tuple(side * metre for side in stated) if pixel is None else pixel
 
 
-def _check_there(path):
-    try:
-        mode = path.stat().st_mode
-        if S_ISREG(mode):
-            return
-        why = "it is a folder, and a file is needed" if S_ISDIR(mode) else "it is no file to read from"
-    except FileNotFoundError:
-        why = "there is no such file"
-    except (OSError, ValueError) as error:  # ValueError of names that no file can have
-        why = getattr(error, "strerror", None) or error
-    raise ValueError(f"file = {briefly(str(path)) if len(str(path)) > LONGEST else repr(str(path))}: {why}")
+def check_layout(shape: tuple[int, ...], dtype: np.dtype) -> None:
+    """Raise ValueError for the shape and type of an array that is no map of heights."""
+    if len(shape) != 2 or min(shape) < LEAST:
+        raise ValueError(f"an array of shape {brief(str(shape))}: a map has at least {LEAST} rows and columns")
+    if dtype.kind not in "fiu":
+        raise ValueError(f"an array of type {brief(str(dtype))}: heights are real numbers [m]")
 
 
 def _array(path):
     """Of numpy: its heights, the pixel if it has one, and no unit."""
+    held = content(path, MOST_BYTES)
+
+    def heights(shape, dtype):
+        try:
+            check_layout(shape, dtype)
+            _check_count(shape)
+        except ValueError as error:
+            raise Unreadable(f"file = {brief(repr(str(path)))}: {error}") from None
+
+    def pixel(shape, dtype):
+        if prod(shape) not in (1, 2) or dtype.kind not in "fiu":
+            raise Unreadable(
+                f"{brief(str(path))} has a pixel of shape {brief(str(shape))} and type {brief(str(dtype))}: one "
+                "number, or two of them, along x and y"
+            )
+
     try:
-        with path.open("rb") as file:  # numpy leaves a damaged archive open
-            loaded = np.load(file, allow_pickle=False)
-            if isinstance(loaded, np.ndarray):
-                return loaded, None, None
-            arrays = {name: loaded[name] for name in ("heights", "pixel") if name in loaded}
+        if not held.startswith(b"PK"):
+            return array_in(held, heights), None, None
+        arrays = arrays_in(held, {"heights": heights, "pixel": pixel})
+        if "heights" not in arrays:
+            raise ValueError("it has no array heights")
+    except Unreadable:
+        raise
     # Damaged archives raise nearly anything.
     except Exception as error:
-        raise ValueError(f"{path} cannot be read as arrays: {_first_line(error)}") from error
-    if "heights" not in arrays:
-        raise ValueError(f"{path} holds {', '.join(loaded.files) or 'nothing'}, and no array heights")
+        raise ValueError(f"{brief(str(path))} cannot be read as arrays: {_first_line(error)}") from error
     return arrays["heights"], _sides(path, arrays["pixel"]) if "pixel" in arrays else None, None
+
+
+def _check_count(shape):
+    """Raise ValueError for more pixels than are read."""
+    if prod(shape) > MOST_PIXELS:
+        raise ValueError(
+            f"{brief(' x '.join(map(str, reversed(shape))))} pixels: at most {MOST_PIXELS}, as {SIDE} x {SIDE}, "
+            "are read; crop the map, or take means of its pixels"
+        )
 
 
 def _sides(path, pixel):
     """Along x and along y, from the array of an archive."""
-    if pixel.size not in (1, 2) or pixel.dtype.kind not in "fiu":
-        raise ValueError(
-            f"{path} has a pixel of shape {pixel.shape} and type {pixel.dtype}: one number, or two of them, along "
-            "x and y"
-        )
     sides = pixel.ravel().astype(float)
     if not ((sides > 0) & np.isfinite(sides)).all():
-        raise ValueError(f"{path} has pixel = {pixel.tolist()}: numbers greater than 0")
+        raise ValueError(f"{brief(str(path))} has pixel = {pixel.tolist()}: numbers greater than 0")
     return float(sides[0]), float(sides[-1])
 
 
 def _first_line(error):
-    return next(iter(str(error).strip().splitlines()), "") or type(error).__name__
+    return brief(next(iter(str(error).strip().splitlines()), "") or type(error).__name__)
 
 
 def _text(path):
+    lines = TextIOWrapper(BytesIO(content(path, MOST_TEXT)), encoding="utf-8-sig")
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-        rows = [_SEPARATOR.sub(" ", line.partition("#")[0]) for line in lines]
-        if not any(row.strip() for row in rows):
+        rows = _rows(lines)
+        first = next(rows, None)
+        if first is None:
             raise ValueError("there is nothing in it")
-        return np.loadtxt(StringIO("\n".join(rows)), ndmin=2), None, None
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{path} cannot be read as rows of numbers: {_first_line(error)}") from error
+        return np.loadtxt(chain([first], rows), ndmin=2), None, None
+    except ValueError as error:
+        raise ValueError(f"{brief(str(path))} cannot be read as rows of numbers: {_first_line(error)}") from error
+
+
+def _rows(lines):
+    """Lines of numbers with blanks between them. Raises ValueError where there are more than are read."""
+    rows, columns = 0, 0
+    for number, line in enumerate(iter(lambda: lines.readline(LINE + 1), ""), 1):
+        if number > LINES:
+            raise ValueError(f"more than {LINES} lines")
+        if len(line) > LINE:
+            raise ValueError(f"line {number} has more than {LINE} letters")
+        row = _SEPARATOR.sub(" ", line.partition("#")[0])
+        if row.strip():
+            rows, columns = rows + 1, columns or len(row.split())
+            _check_count((rows, columns))
+            yield row
+
+
+@contextmanager
+def _silent():
+    """Nothing is warned of, nor printed."""
+    with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+        warnings.simplefilter("ignore")
+        yield
 
 
 def _scan(path):
     """By SurfaceTopography, the file's default channel; in metres where the file states a unit."""
     try:
-        with warnings.catch_warnings():
-            # Of what it imports: that it runs on one process.
-            warnings.simplefilter("ignore", ImportWarning)
+        with _silent():
             from SurfaceTopography import open_topography
             from SurfaceTopography.Exceptions import CannotDetectFileFormat
     except ImportError as missing:
         raise ValueError(
-            f"{path}: files other than {', '.join(sorted(ARRAYS | TEXTS))} are read by SurfaceTopography, "
+            f"{brief(str(path))}: files other than {', '.join(sorted(ARRAYS | TEXTS))} are read by SurfaceTopography, "
             'which is not installed: pip install "mdr-bem-crosscheck[topography]"'
         ) from missing
+    name = brief(str(path))
     try:
-        with open_topography(str(path)) as reader:
+        # What it warns of and prints tells of itself, and a line is kept of what it raises.
+        with _silent(), open_topography(str(path)) as reader:
             channel = reader.default_channel
+            _check_count(channel.nb_grid_pts)
             stated = channel.physical_sizes is not None
             # A reader asks for the size that a file lacks; this one is taken off again.
             size = None if stated else tuple(map(float, channel.nb_grid_pts))
@@ -132,18 +180,18 @@ def _scan(path):
             own = found.unit
             if own is not None:
                 found = found.to_unit("m")
+            if found.dim != 2 or 0 in found.nb_grid_pts:
+                raise ValueError("it holds a line or nothing, and no map of heights")
+            if found.has_undefined_data:
+                raise ValueError("it has pixels without a height: fill them in, or crop the map")
+            sizes = zip(found.physical_sizes, found.nb_grid_pts, strict=True)
+            pixel = tuple(float(side) / count for side, count in sizes)
             # There the first index is along x.
-            heights = np.array(found.heights(), float).T
+            return np.array(found.heights(), float).T, pixel if stated else None, own
     except CannotDetectFileFormat as error:  # which tells of every reader at length
         raise ValueError(
-            f"{path} cannot be read by SurfaceTopography: it is of no format that it knows, or damaged"
+            f"{name} cannot be read by SurfaceTopography: it is of no format that it knows, or damaged"
         ) from error
     # Readers of some forty formats raise nearly anything at a damaged file.
     except Exception as error:
-        raise ValueError(f"{path} cannot be read by SurfaceTopography: {_first_line(error)}") from error
-    if found.dim != 2:
-        raise ValueError(f"{path} holds a line, and no map of heights")
-    if found.has_undefined_data:
-        raise ValueError(f"{path} has pixels without a height: fill them in, or crop the map")
-    pixel = tuple(float(side) / count for side, count in zip(found.physical_sizes, found.nb_grid_pts, strict=True))
-    return heights, pixel if stated else None, own
+        raise ValueError(f"{name} cannot be read by SurfaceTopography: {_first_line(error)}") from error

@@ -11,12 +11,13 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, InstanceOf, PlainSerializer, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightfile import UNITS, read_heights
+from .heightfile import UNITS, check_layout, read_heights
 from .quantities import CLOSED, METRE, Length, by_name
 
-LEAST = 4  # pixels a side: what a cubic between pixels takes
+SHORTEST, LONGEST = 1e-50, 1e50  # lengths [m] whose fourth powers, as of spectra, are numbers
 # Of the largest height: what is left of a plane once the plane is taken off.
 ROUNDING = 1e-13
+QUOTIENT = 1e-12  # rounding of a quotient of lengths
 
 
 @plain(frozen=True, init=False)
@@ -27,7 +28,8 @@ class HeightMap:
     digest : of shape and heights, as hexadecimal digits: maps of equal digests have equal heights
     heights : the array, read-only; no field
 
-    Raises ValueError for what is no map of finite numbers, or has less than four pixels a side.
+    Raises ValueError for what is no map of finite numbers, has less than four pixels a side, or heights beyond
+    1e-50 to 1e50 m.
     """
 
     shape: tuple[int, int]
@@ -45,10 +47,7 @@ class HeightMap:
             values = np.asarray(heights)
         except ValueError:
             raise ValueError("rows of unequal lengths: a map has as many heights in each row") from None
-        if values.ndim != 2 or min(values.shape) < LEAST:
-            raise ValueError(f"an array of shape {values.shape}: a map has at least {LEAST} rows and columns")
-        if values.dtype.kind not in "fiu":
-            raise ValueError(f"an array of type {values.dtype}: heights are real numbers [m]")
+        check_layout(values.shape, values.dtype)
         with np.errstate(over="ignore"):  # beyond the range of numbers is not finite
             # A copy of our own, with one zero.
             values = np.asarray(values, float) + 0.0
@@ -58,11 +57,19 @@ class HeightMap:
                 f"heights[{row}][{column}] = {values[row, column]:g}: every pixel needs a finite height, fill in "
                 "what was not measured, or crop the map"
             )
+        most = max(values.max(), -values.min())
+        if most and not SHORTEST <= most <= LONGEST:
+            raise ValueError(
+                f"heights of up to {most:g} m: the largest is from {SHORTEST:g} to {LONGEST:g} m, or all are 0; "
+                "check their unit"
+            )
         content = values.tobytes()
         # Bytes cannot be changed, nor be made so that they can.
         values = np.frombuffer(content).reshape(values.shape)
-        digest = hashlib.sha256(f"{values.shape}".encode() + content).hexdigest()
-        for name, value in {"shape": values.shape, "digest": digest, "heights": values}.items():
+        digest = hashlib.sha256(f"{values.shape}".encode())
+        digest.update(content)
+        stated = {"shape": values.shape, "digest": digest.hexdigest(), "heights": values}
+        for name, value in stated.items():
             object.__setattr__(self, name, value)
 
     def __reduce__(self):
@@ -93,7 +100,11 @@ def _both_ways(pixel):
 
 
 def _alike(pixel):
-    """Sides that differ by a factor beyond reason are a mistake of units."""
+    """Sides beyond reason, or that differ by a factor beyond it, are a mistake of units."""
+    if not SHORTEST <= min(pixel) <= max(pixel) <= LONGEST:
+        raise ValueError(
+            f"sides of {pixel[0]:g} m along x and {pixel[1]:g} m along y: from {SHORTEST:g} to {LONGEST:g} m"
+        )
     if not 1e-3 <= pixel[0] / pixel[1] <= 1e3:
         raise ValueError(
             f"sides of {pixel[0]:g} m along x and {pixel[1]:g} m along y differ beyond a factor of 1000"
@@ -131,6 +142,7 @@ class Scanned:
     pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
     peaks : "up", heights grow towards the elastomer, as instruments give them, and the highest point touches
         first; "down", they are those of an indenter above the elastomer, and the lowest touches first
+    shortest_kept : waves shorter than this are left out [m]; absent, every wave of the map is kept
 
     In place of heights `file` is the path of a file, read once and kept as numbers; a relative path starts at the
     working directory. `pixel`, and `unit` of the heights ("m", "mm", "um", "nm"; "m" if absent), are those of
@@ -140,6 +152,7 @@ class Scanned:
     heights: Heights
     pixel: Pixel
     peaks: Literal["up", "down"] = "up"
+    shortest_kept: Length | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -157,11 +170,27 @@ class Scanned:
         except ValueError as error:
             raise ValueError(f"file = {str(path)!r}: {error}") from None
 
+    @model_validator(mode="after")
+    def _waves_kept(self):
+        if self.shortest_kept is not None:
+            least, most = 2 * max(self.pixel), min(self.sides) / 2
+            if not least * (1 - QUOTIENT) <= self.shortest_kept <= most:
+                raise ValueError(
+                    f"shortest_kept = {self.shortest_kept:g} m: from two pixels, {least:g} m, to half of what "
+                    f"repeats, {most:g} m"
+                )
+        return self
+
     @property
     def size(self) -> tuple[float, float]:
         """Of the map, along x and along y [m]."""
         rows, columns = self.heights.shape
         return columns * self.pixel[0], rows * self.pixel[1]
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Of the rectangle that repeats, along x and along y [m]: of the map with its mirror images."""
+        return 2 * self.size[0], 2 * self.size[1]
 
     def _turned(self) -> np.ndarray:
         """Heights above the elastomer, from whatever level (rows, columns) [m]."""

@@ -7,14 +7,15 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightmap import MAPPED, Scanned, levelled
+from .heightmap import MAPPED, QUOTIENT, ROUNDING, Scanned, levelled
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
 class Measured(Scanned):
     """A body by a map of its surface: z = 0 at the lowest pixel, x = y = 0 in the middle of the map.
 
-    heights, pixel, peaks : what was measured, see `Scanned`
+    heights, pixel, peaks, shortest_kept : what was measured, and how much of it is kept, see `Scanned`; waves are
+        left out of what the map, mirrored at its sides, has beside the paraboloid that fits it best, which stays
     level : what is taken off first: nothing ("none"), so that the body stands as it was measured, or the plane
         that fits it best ("tilt")
 
@@ -29,8 +30,9 @@ class Measured(Scanned):
 
     @model_validator(mode="after")
     def _no_plane(self):
-        if not levelled(self._turned(), "mean" if self.level == "none" else "tilt").any():
-            raise ValueError("heights are those of a plane: a body has to have a lowest point")
+        if self.relief.max() <= ROUNDING * np.abs(self.heights.heights).max():
+            left = "" if self.shortest_kept is None else f" without waves shorter than {self.shortest_kept:g} m"
+            raise ValueError(f"heights are those of a plane{left}: a body has to have a lowest point")
         return self
 
     @property
@@ -40,8 +42,17 @@ class Measured(Scanned):
 
     @property
     def shortest(self) -> float:
-        """Shortest wavelength that the map can show, two pixels [m]."""
-        return 2 * min(self.pixel)
+        """Shortest wavelength [m]: of those kept, or that the map can show, two pixels."""
+        return self.shortest_kept or 2 * min(self.pixel)
+
+    @property
+    def relief(self) -> np.ndarray:
+        """z at the pixels (rows, columns) [m]."""
+        turned = self._turned()
+        heights = turned if self.level == "none" else levelled(turned, "tilt")
+        if self.shortest_kept is not None:
+            heights = _without_waves(heights, self.sides, self.shortest_kept)
+        return heights - heights.min()
 
     def height(self, x, y):
         """z(x, y) [m] for coordinates [m] of any broadcastable shapes."""
@@ -71,6 +82,18 @@ class Measured(Scanned):
         return np.where(inside, spline.unit * spline.pixels.ev(row, column, dy=dy), beyond)
 
 
+def _without_waves(heights, sides, shortest):
+    """Heights less their mirrored waves shorter than this [m], but for those of the paraboloid that fits best."""
+    # Only bodies of which waves are left out need it.
+    from scipy.fft import dctn, idctn
+
+    left = levelled(heights, "curvature")
+    along_y, along_x = (np.arange(count) / side for count, side in zip(heights.shape, sides[::-1], strict=True))
+    waves = dctn(left)
+    waves[np.hypot(along_y[:, None], along_x) * shortest > 1 + QUOTIENT] = 0.0
+    return heights - left + idctn(waves)
+
+
 class _Spline:
     """Of the heights over a unit of their own, on whole pixels."""
 
@@ -78,9 +101,7 @@ class _Spline:
         # Only measured bodies need it.
         from scipy.interpolate import RectBivariateSpline
 
-        turned = body._turned()
-        heights = turned - turned.min() if body.level == "none" else levelled(turned, "tilt")
-        heights = heights - heights.min()
+        heights = body.relief
         self.greatest = float(heights.max())
         self.unit = self.greatest
         rows, columns = heights.shape

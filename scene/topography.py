@@ -9,12 +9,10 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightmap import MAPPED, Scanned, levelled
-from .quantities import Length, Whole, by_name
+from .heightmap import MAPPED, QUOTIENT, Scanned, levelled
+from .quantities import Whole, by_name
 from .waves import MOST_WAVES, Waves
 
-# Of a quotient of lengths.
-ROUNDING = 1e-12
 # Maps whose waves are kept for the next solve.
 _KEPT = 4
 
@@ -23,13 +21,12 @@ _KEPT = 4
 class Topography(Scanned):
     """Roughness that was measured, of zero mean, around the indenter's axis.
 
-    heights, pixel, peaks : what was measured, see `Scanned`
+    heights, pixel, peaks, shortest_kept : what was measured, and how much of it is kept, see `Scanned`
     level : what is taken off the heights first, their "mean", the plane ("tilt") or the paraboloid ("curvature")
         that fits them best; absent, the plane of a map that is mirrored and the mean of one that repeats, which
         has no other: a plane taken off a whole period would leave a step at its sides
     repeat : how the map goes on beyond its sides: "mirror", mirrored at each, which leaves no step and has a
         period of twice the map, or "periodic", as it stands, for what was made to repeat
-    shortest_kept : waves shorter than this are left out [m]; absent, every wave of the map is kept
     seed : 0, the middle of the map lies under the indenter's axis; another, a pixel drawn at random. The row
         through that pixel is the line scan of the map, and a mapped line has the seed's phases
 
@@ -38,7 +35,6 @@ class Topography(Scanned):
 
     level: Literal["mean", "tilt", "curvature"] = "tilt"
     repeat: Literal["mirror", "periodic"] = "mirror"
-    shortest_kept: Length | None = None
     seed: Annotated[Whole, Field(ge=0)] = 0
     type: Literal["topography"] = Field(default="topography", repr=False)
 
@@ -59,22 +55,9 @@ class Topography(Scanned):
             )
         return self
 
-    @model_validator(mode="after")
-    def _waves_kept(self):
-        if self.shortest_kept is not None:
-            least, most = 2 * max(self.pixel), min(self.sides) / 2
-            if not least * (1 - ROUNDING) <= self.shortest_kept <= most:
-                raise ValueError(
-                    f"shortest_kept = {self.shortest_kept:g} m: from two pixels, {least:g} m, to half of what "
-                    f"repeats, {most:g} m"
-                )
-        return self
-
     @property
     def sides(self) -> tuple[float, float]:
-        """Of the rectangle that repeats, along x and along y [m]."""
-        times = 2 if self.repeat == "mirror" else 1
-        return times * self.size[0], times * self.size[1]
+        return super().sides if self.repeat == "mirror" else self.size
 
     @property
     def period(self) -> float:
@@ -93,7 +76,7 @@ class Topography(Scanned):
         counts = (columns - 1, rows - 1) if self.repeat == "mirror" else (columns // 2, rows // 2)
         if self.shortest_kept is None:
             return counts
-        along_x, along_y = (int(side / self.shortest_kept * (1 + ROUNDING)) for side in self.sides)
+        along_x, along_y = (int(side / self.shortest_kept * (1 + QUOTIENT)) for side in self.sides)
         return min(counts[0], along_x), min(counts[1], along_y)
 
     @property
@@ -165,7 +148,7 @@ def _waves(topography: Topography) -> Waves:
     waves = Waves(step_x, step_y, build(topography.relief, *topography.tops))
     if topography.shortest_kept is None:
         return waves
-    return waves.below(2 * pi / topography.shortest_kept * (1 + ROUNDING))
+    return waves.below(2 * pi / topography.shortest_kept * (1 + QUOTIENT))
 
 
 def _periodic(heights, top_x, top_y):

@@ -1,6 +1,7 @@
 """Boundary elements on measured maps: the same answers as on the surface that was measured, or none."""
 
 from dataclasses import replace
+from math import pi
 
 import numpy as np
 import pytest
@@ -204,6 +205,24 @@ def test_a_measured_sphere_is_a_sphere(motion, allowed):
     assert found.depth == pytest.approx(known.depth, rel=allowed)
     assert found.friction_force == pytest.approx(known.friction_force, rel=allowed)
     assert found.measures["points_per_shortest_wave"] == pytest.approx(2 * (4e-3 / 97) / found.measures["pixel"])
+
+
+def test_of_a_map_finer_than_the_grid_waves_are_left_out_as_the_refusal_says():
+    fine, solver = ball(513, 4e-3), BEM(points=64, extent=2e-3)
+    asked = Scene(fine, SOLID, Indent(load=0.3))
+    known = solver.solve(replace(asked, indenter=BALL))
+    rippled = replace(fine, heights=fine.heights.heights + 1e-7 * np.cos(pi * np.arange(513)))
+    for body in (fine, rippled):
+        with pytest.raises(Refused, match=r"indenter.shortest = .*; indenter.shortest_kept = ") as refused:
+            solver.solve(replace(asked, indenter=body))
+        kept = float(str(refused.value).partition("shortest_kept = ")[2].partition(" ")[0])
+        found = solver.solve(replace(asked, indenter=replace(body, shortest_kept=kept)))
+        # all that is left of the ripple is where its mirror images do not quite continue it
+        assert found.depth == pytest.approx(known.depth, rel=1e-4)
+        assert found.measures["contact_area"] == pytest.approx(known.measures["contact_area"], rel=1e-2)
+    map_ = sampled(ROUGH, 100)
+    with pytest.raises(Refused, match=r"roughness.shortest_kept = 2.1e-05 would leave out"):
+        BEM(points=96).solve(replace(PRESSED, roughness=map_))
 
 
 def test_a_measured_sphere_in_time_is_a_sphere():

@@ -171,6 +171,48 @@ def test_what_is_no_power_law_a_short_band_and_a_lopsided_map_are_warned_of():
         assert any(word in each for each in describe(warned).warnings for word in words)
 
 
+def test_steep_maps_ask_whether_units_are_right():
+    # micrometres taken for metres; of one that is right, and of a steep one that may be, nothing is said
+    map_ = sampled(ROUGH)
+    slope = describe(map_).rms_slope_spectral
+    (warning,) = describe(replace(map_, heights=1e6 * map_.heights.heights)).warnings
+    assert warning.startswith(f"an rms slope of {1e6 * slope:.3g} is none of a surface: check the unit")
+    for times, said in ((0.999, 0), (1.001, 1)):
+        steep = describe(replace(map_, heights=times * spectra.STEEP / slope * map_.heights.heights))
+        assert len(steep.warnings) == said
+
+
+EDGES = {
+    "a spike": np.where(np.arange(256).reshape(16, 16) == 40, 1.0, 0.0),
+    "a step": np.where(np.arange(16) < 8, 0.0, 1.0) * np.ones((16, 1)),
+    "two heights": np.random.default_rng(0).integers(0, 2, (16, 16)).astype(np.uint8),
+    "whole numbers": np.random.default_rng(0).integers(-(2**63), 2**63 - 1, (16, 16)),
+    "few digits": np.random.default_rng(0).normal(size=(16, 16)).astype(np.float16),
+    "next to nothing on a plane": 1.0 + 1e-12 * np.random.default_rng(0).normal(size=(16, 16)),
+    "the least pixels": np.random.default_rng(0).normal(size=(4, 4)),
+}
+
+
+@pytest.mark.parametrize("kind", EDGES)
+@pytest.mark.parametrize("length", [1e-49, 1e-6, 1e49])
+@pytest.mark.parametrize("pixel", [1e-50, 1.0, (1e50, 1e48)])
+def test_a_number_is_finite_or_has_its_reason_or_there_is_none(tmp_path, kind, length, pixel):
+    heights = EDGES[kind].astype(float)
+    heights *= length / np.abs(heights).max()
+    try:
+        study = Map.of(saved(tmp_path, heights), pixel=pixel)
+    except InvalidInput as refused:
+        assert NO_WAVE in str(refused)
+        return
+    findings = study.findings(study.answers({}))
+    assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
+    assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
+    assert all(np.isfinite(each.density).all() for each in (study.description.rings, study.description.rows))
+
+
+LAW = {f"topography.{name}" for name in ("hurst", "longest", "shortest")}
+
+
 def test_slopes_along_x_and_y_may_differ_by_so_much_and_no_more():
     assert not list(spectra._of_directions((1.0, spectra.LOPSIDED)))
     assert list(spectra._of_directions((1.001 * spectra.LOPSIDED, 1.0)))

@@ -5,17 +5,23 @@ import json
 import os
 import pickle
 import sys
+import tracemalloc
+import warnings
+from contextlib import suppress
 from dataclasses import replace
 from math import pi
+from zipfile import ZIP_DEFLATED, ZIP_LZMA, ZipFile
 
 import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
+import scene.heightfile
 import scene.topography
 from compare.cases import Case
 from compare.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
+from scene.heightfile import LINE, MOST_BYTES
 from scene.reading import InvalidInput, read
 from scene.waves import MOST_WAVES
 
@@ -78,7 +84,7 @@ def test_mean_squares_of_the_waves_are_those_of_the_pixels():
     assert even.rms_height == pytest.approx(np.sqrt(0.5))
     # also where squares of heights are no numbers
     one = rough()
-    for height in (1e-200, 1e200):
+    for height in (1e-49, 1e49):
         far = rough(height * drawn((6, 8)))
         assert far.rms_height == pytest.approx(height * one.rms_height, rel=1e-12)
         assert far.waves.rms_slope == pytest.approx(height * one.waves.rms_slope, rel=1e-12)
@@ -252,7 +258,7 @@ def test_what_is_no_map_is_named(wrong, named):
 def test_what_is_no_file_is_not_read(tmp_path):
     pipe = tmp_path / "a.npy"
     os.mkfifo(pipe)
-    with pytest.raises(ValidationError, match="it is no file to read from"):
+    with pytest.raises(ValidationError, match="no regular file"):
         Topography(file=pipe, pixel=1.0)
 
 
@@ -286,6 +292,51 @@ def test_between_the_pixels_a_measured_paraboloid_is_a_paraboloid():
     assert body.slope(3e-4, 0.0) == 0.0
     rim = body.on_rim(np.array([0.0, 1.94e-4, 1.96e-4, -1.96e-4, 0.0]), np.array([0.0, 0.0, 0.0, 0.0, 2.95e-4]))
     assert rim.tolist() == [False, False, True, True, True]
+
+
+SIDES = (1e-5, 2e-5)  # of pixels
+FORM = dict(zip("xy", ((np.arange(n) - (n - 1) / 2) * side for n, side in ((40, 1e-5), (30, 2e-5))), strict=True))
+PARABOLOID = 3.0 * FORM["x"] ** 2 + (2.0 * FORM["x"] - 1e-5 + 4.0 * FORM["y"][:, None]) * FORM["y"][:, None]
+
+
+def wave(k, j, shape=(30, 40)):
+    """Of a mirrored map, with so many half waves along x and along y."""
+    along_y, along_x = (np.cos(pi * m * (np.arange(n) + 0.5) / n) for m, n in ((j, shape[0]), (k, shape[1])))
+    return along_y[:, None] * along_x
+
+
+@pytest.mark.parametrize("level", ["none", "tilt"])
+@pytest.mark.parametrize("peaks", ["up", "down"])
+def test_of_a_body_waves_shorter_than_kept_are_gone_and_longer_ones_and_the_form_are_as_they_were(level, peaks):
+    # those of even k and j > 0 have no share in a paraboloid; of 40 and 30 pixels, k / 0.8 mm and j / 1.2 mm
+    stated, sign = {"pixel": SIDES, "level": level, "peaks": peaks}, -1 if peaks == "up" else 1
+    long, short = 1e-9 * wave(4, 6), 1e-9 * wave(4, 12)
+    body = Measured(heights=sign * (PARABOLOID + long + short), **stated)
+    known = Measured(heights=sign * (PARABOLOID + long), **stated)
+    shortest = 1 / np.hypot(4 / 0.8e-3, 12 / 1.2e-3)
+    for kept, same in ((0.999 * shortest, body), (1.001 * shortest, known)):
+        found = replace(body, shortest_kept=kept)
+        np.testing.assert_allclose(found.relief, same.relief, atol=10 * ROUNDING * body.relief.max())
+        assert found.shortest == kept
+        assert found.height(0.0, 0.0) == pytest.approx(same.height(0.0, 0.0), abs=SPLINE * body.relief.max())
+    assert np.abs(body.relief - known.relief).max() > 0.5e-9
+
+
+def test_waves_that_a_body_keeps_are_those_that_roughness_keeps():
+    stated = {"heights": drawn((12, 15)), "pixel": (1.0, 2.0), "peaks": "down", "shortest_kept": 7.0}
+    body, map_ = Measured(**stated), Topography(**stated, level="curvature")
+    form = stated["heights"] - replace(map_, shortest_kept=None).relief
+    expected = form + summed(map_.waves, *places(map_))
+    np.testing.assert_allclose(body.relief, expected - expected.min(), atol=10 * ROUNDING)
+
+
+def test_a_body_of_short_waves_alone_is_a_plane_without_them():
+    body = Measured(heights=wave(4, 12), pixel=SIDES)
+    with pytest.raises(ValidationError, match="a plane without waves shorter than 0.0002 m"):
+        replace(body, shortest_kept=2e-4)
+    for wrong, said in ((3.9e-5, "from two pixels, 4e-05 m"), (1.0, "half of what repeats, 0.0004 m")):
+        with pytest.raises(ValidationError, match=said):
+            replace(body, shortest_kept=wrong)
 
 
 @pytest.mark.parametrize(
@@ -374,10 +425,10 @@ def test_numbers_of_half_precision_are_no_less_in_nanometres(tmp_path):
         ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": "inch"}, "one of m, mm, um, nm"),
         ("a.npy", "no array", {"pixel": 1.0}, "cannot be read as arrays"),
         ("a.npz", "PK\x03\x04 damaged", {"pixel": 1.0}, "cannot be read as arrays"),
-        ("a.npy", None, {"pixel": 1.0}, "there is no such file"),
-        (".", None, {"pixel": 1.0}, "it is a folder"),
+        ("a.npy", None, {"pixel": 1.0}, "no such file"),
+        (".", None, {"pixel": 1.0}, "is a folder"),
         ("a" * 5000 + ".npy", None, {"pixel": 1.0}, "too long"),
-        ("a\0.npy", None, {"pixel": 1.0}, "null"),
+        ("a\0.npy", None, {"pixel": 1.0}, "no file can have"),
         ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": ["m"]}, "one of m, mm, um, nm"),
         ("a.csv", "1 2 3 nan\n" * 4, {"pixel": 1.0}, r"a.csv': heights\[0\]\[3\] = nan: every pixel"),
     ],
@@ -390,6 +441,187 @@ def test_what_is_wrong_with_a_file_is_said_with_its_name(tmp_path, name, content
         Topography(file=path, **stated)
     assert repr(name[-6:])[1:-1] in says(error) or "unit" in stated
     assert len(says(error)) < 1000
+
+
+def array(shape, data=b"", descr="<f8", version=(1, 0), by_columns=False):
+    """A .npy file whose header says so, whatever the data are."""
+    header = f"{{'descr': {descr!r}, 'fortran_order': {by_columns}, 'shape': {shape}}}\n".encode()
+    length = len(header).to_bytes(2 if version == (1, 0) else 4, "little")
+    return b"\x93NUMPY" + bytes(version) + length + header + data
+
+
+def archive(path, members, **other):
+    with ZipFile(path, "w", ZIP_DEFLATED, **other) as file:
+        for name, content in members:
+            file.writestr(name, content)
+    return path.read_bytes()
+
+
+class Trap:
+    """Whose loading would be seen."""
+
+    def __reduce__(self):
+        return pytest.fail, ("code of a file was executed",)
+
+
+FITS = array((5, 6), drawn((5, 6)).tobytes())
+HEADERS = {
+    "no magic": (b"hello" * 9, "magic string"),
+    "a pickle": (pickle.dumps(Trap()), "magic string"),
+    "an archive": (b"PK\x03\x04" * 9, "magic string|not a zip file"),
+    "objects": (array((5, 5), pickle.dumps([Trap()]), "|O"), "an array of type object: heights are real numbers"),
+    "records": (array((5, 5), bytes(200), [("a", "<f8")]), "an array of type .*: heights are real numbers"),
+    "complex numbers": (array((5, 5), bytes(400), "<c16"), "an array of type complex128"),
+    "truths": (array((5, 5), bytes(25), "|b1"), "an array of type bool"),
+    "one number": (array((), bytes(8)), r"an array of shape \(\): a map has at least 4"),
+    "three dimensions": (array((5, 5, 5), bytes(1000)), r"an array of shape \(5, 5, 5\)"),
+    "nothing": (array((0, 5)), r"an array of shape \(0, 5\)"),
+    "a row": (array((1, 25), bytes(200)), r"an array of shape \(1, 25\)"),
+    "negative sides": (array((-5, -5), bytes(200)), r"an array of shape \(-5, -5\)"),
+    "too few numbers": (FITS[:-1], r"239 bytes beside its header, and shape \(5, 6\) of float64 takes 240"),
+    "too many numbers": (FITS + b"\0", "241 bytes beside its header"),
+    "too many pixels": (array((10**9, 10**9)), "1000000000 x 1000000000 pixels: at most 26214400"),
+    "pixels beyond counting": (array((10**4000, 10**4000)), "pixels: at most 26214400"),
+    "no version": (array((5, 6), bytes(240), version=(3, 0)), r"version \(3, 0\)"),
+    "an endless header": (b"\x93NUMPY\2\0\xff\xff\xff\x7f", "its header is damaged"),
+    "no header": (array("(" * 5000), "its header is damaged"),
+    "no type": (array((5, 6), descr="\x1b[31m"), "its header is damaged"),
+}
+
+
+@pytest.mark.parametrize("kind", HEADERS)
+@pytest.mark.parametrize("ending", ["npy", "npz"])
+def test_an_array_that_is_no_map_is_refused_by_its_header(tmp_path, kind, ending):
+    (content, said), path = HEADERS[kind], tmp_path / f"a.{ending}"
+    path.write_bytes(content)
+    if ending == "npz":
+        archive(path, [("heights.npy", content)])
+    with pytest.raises(ValidationError, match=said) as error:
+        Topography(file=path, pixel=1e-6)
+    assert f"a.{ending}" in says(error)
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000
+
+
+@pytest.mark.parametrize("dtype", ["<f8", ">f4", "<f2", "<i8", ">u2", "|i1"])
+@pytest.mark.parametrize("by_columns", [False, True])
+def test_numbers_of_any_real_type_and_order_are_read(tmp_path, dtype, by_columns):
+    heights = (10 * np.abs(drawn((5, 6)))).astype(dtype)
+    order = "F" if by_columns else "C"
+    for version in ((1, 0), (2, 0)):
+        content = array((5, 6), heights.tobytes(order), dtype, version, by_columns)
+        (tmp_path / "a.npy").write_bytes(content)
+        archive(tmp_path / "a.npz", [("heights.npy", content)])
+        for name in ("a.npy", "a.npz"):
+            found = Topography(file=tmp_path / name, pixel=1.0)
+            assert np.array_equal(found.heights.heights, heights.astype(float))
+
+
+def test_an_archive_is_refused_that_holds_no_heights_or_several_or_is_damaged(tmp_path):
+    path = tmp_path / "a.npz"
+
+    def refused(said, pixel=1e-6):
+        with pytest.raises(ValidationError, match=said) as error:
+            Topography(file=path, pixel=pixel)
+        assert "a.npz" in says(error)
+        assert says(error).isprintable()
+
+    archive(path, [])
+    refused("nothing, and no array heights")
+    archive(path, [("../heights.npy", FITS), ("\x1b[31m", FITS)])
+    refused("and no array heights")
+    archive(path, [("pixel.npy", array((), np.float64(1.0).tobytes()))])
+    refused("no array heights", None)
+    with pytest.warns(UserWarning, match="Duplicate name"):
+        archive(path, [("heights.npy", FITS), ("heights.npy", FITS)])
+    refused("2 arrays heights")
+    archive(path, [(f"{k}.npy", b"") for k in range(1001)])
+    refused("more than 1000 files")
+    with ZipFile(path, "w", ZIP_LZMA) as file:
+        file.writestr("heights.npy", FITS)
+    refused("compressed otherwise")
+    whole = archive(path, [("heights.npy", FITS)])
+    listed, encrypted = whole.rindex(b"PK\1\2"), bytearray(whole)
+    encrypted[6] |= 1
+    encrypted[listed + 8] |= 1
+    path.write_bytes(encrypted)
+    refused("encrypted")
+    # A byte of the numbers, or of anything else, or an end too early: read as it was, or a line.
+    for place in range(0, len(whole), 3):
+        for damaged in (whole[:place] + bytes([whole[place] ^ 0x55]) + whole[place + 1 :], whole[:place]):
+            path.write_bytes(damaged)
+            with suppress(ValidationError):
+                assert Topography(file=path, pixel=1.0) == Topography(heights=drawn((5, 6)), pixel=1.0)
+
+
+def test_what_would_unpack_to_more_than_its_header_says_is_not_unpacked(tmp_path, monkeypatch):
+    path, lying = tmp_path / "a.npz", 2**26
+    monkeypatch.setattr(scene.heightfile, "MOST_BYTES", 2**22)
+    with ZipFile(path, "w", ZIP_DEFLATED) as file, file.open("heights.npy", "w") as member:
+        member.write(array((5, 6)))
+        for _ in range(lying // 2**24):
+            member.write(bytes(2**24))
+    tracemalloc.start()
+    try:
+        with pytest.raises(ValidationError, match=f"{lying} bytes beside its header, and shape .* takes 240"):
+            Topography(file=path, pixel=1e-6)
+        # and one that hides it
+        content = path.read_bytes()
+        sizes = [(len(array((5, 6))) + data).to_bytes(4, "little") for data in (lying, 240)]
+        path.write_bytes(content.replace(*sizes))
+        with pytest.raises(ValidationError, match="CRC"):
+            Topography(file=path, pixel=1e-6)
+        assert tracemalloc.get_traced_memory()[1] < lying / 4
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("name", ["a.npy", "a.npz", "a.csv", "a.sur"])
+def test_larger_files_than_are_read_are_not_opened(tmp_path, name):
+    path = tmp_path / name
+    with path.open("wb") as file:
+        file.truncate(MOST_BYTES + 1)
+    with pytest.raises(ValidationError, match=r"has .* MB, and at most .* MB are read"):
+        Topography(file=path, pixel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("1," * (LINE // 2 + 1), f"line 1 has more than {LINE} letters"),
+        ("1 2 3 4\n" + "5" * (LINE + 1), f"line 2 has more than {LINE} letters"),
+        ("1,2,3,4\n1,2\n", "number of columns changed"),
+        ("1 2 3 " + "x" * 9999, "could not convert string"),
+        ("1 2 3 4\n" * 41, "4 x 41 pixels: at most 160"),
+        ("\n" * 99, "more than 50 lines"),
+        ("\0", "could not convert string"),
+        (";;;\n" * 5, "nothing in it"),
+    ],
+)
+def test_a_text_is_read_line_by_line_and_no_further_than_a_map_goes(tmp_path, monkeypatch, content, said):
+    monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 160)
+    monkeypatch.setattr(scene.heightfile, "LINES", 50)
+    path = tmp_path / "a.csv"
+    path.write_text(content)
+    with pytest.raises(ValidationError, match=f"a.csv cannot be read as rows of numbers: .*{said}") as error:
+        Topography(file=path, pixel=1e-6)
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000
+
+
+@pytest.mark.parametrize("given", ["heights", "pixel", "both pixels"])
+def test_lengths_whose_squares_are_no_numbers_are_named_with_what_is_allowed(given):
+    for length in (1e-320, 1e-206, 0.99e-50, 1.01e50, 1e194, 1.7e308):
+        wrong = {"heights": length * np.eye(5)} if given == "heights" else {"pixel": length}
+        if given == "both pixels":
+            wrong = {"pixel": (length, 2 * length if length < 1 else length / 2)}
+        with pytest.raises(ValidationError, match=r"from 1e-50 to 1e\+50 m"):
+            rough(**wrong)
+    for length in (1e-50, 1e50):
+        assert rough(length * np.eye(5), pixel=length).waves.rms_slope == pytest.approx(
+            rough(np.eye(5), pixel=1.0).waves.rms_slope, rel=1e-12
+        )
+    assert rough(np.zeros((5, 5))).flat
 
 
 def test_without_the_extra_other_files_ask_for_it(tmp_path, monkeypatch):
@@ -432,6 +664,38 @@ def test_a_damaged_file_is_named(tmp_path, surface_topography):
     path.write_bytes(b"DIGITAL SURF" + b"\0" * 40)
     with pytest.raises(ValidationError, match="cannot be read by SurfaceTopography: it is of no format"):
         Topography(file=path)
+
+
+def test_a_map_of_more_pixels_than_are_read_is_refused_before_its_heights(
+    tmp_path, surface_topography, monkeypatch
+):
+    path = tmp_path / "a.nc"
+    surface_topography.Topography(drawn((6, 5)), (12.0, 20.0), unit="um").to_netcdf(str(path))
+    monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 29)
+    monkeypatch.setattr(scene.heightfile.np, "array", lambda *_: pytest.fail("heights were read"))
+    with pytest.raises(ValidationError, match="a.nc cannot be read by SurfaceTopography: 5 x 6 pixels: at most 29"):
+        Topography(file=path)
+
+
+def test_what_another_program_prints_and_warns_of_is_not_shown(
+    tmp_path, surface_topography, monkeypatch, capfd
+):
+    def fails(_):
+        print("a line")
+        warnings.warn("a warning", stacklevel=1)
+        raise RuntimeError("\x1b[31mred" + "x" * 9999)
+
+    monkeypatch.setattr(surface_topography, "open_topography", fails)
+    path = tmp_path / "a.sur"
+    path.write_bytes(b"0")
+    with pytest.raises(ValidationError) as error:
+        Topography(file=path)
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000
+    assert capfd.readouterr() == ("", "")
+    (tmp_path / "a.sdf").write_bytes(b"")  # of no pixels, by one of its readers
+    with pytest.raises(ValidationError, match="a.sdf cannot be read by SurfaceTopography"):
+        Topography(file=tmp_path / "a.sdf", pixel=1e-6)
 
 
 def test_of_what_another_program_says_a_line_is_kept(tmp_path, surface_topography, monkeypatch):

@@ -15,6 +15,7 @@ from .powerlaw import LEAST, SelfAffineLaw, fit
 
 PER_DECADE = 10  # rings
 DECADE = 1.0  # decades of wavelengths below which an exponent says little
+STEEP = 10.0  # rms slope above which one of the units is probably another
 LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
 WHOLE = 1.05  # highest wave number of a map over that of its last wave with power, where there is no cut-off
 NOTHING = 1e-24  # of the greatest mean square of a wave: rounding
@@ -89,7 +90,7 @@ class Description:
     @property
     def warnings(self) -> list[str]:
         """Reasons not to take the numbers at their word."""
-        return [*_of_law(self.law), *_of_directions(self.spectral_slopes)]
+        return [*_of_law(self.law), *_of_directions(self.spectral_slopes), *_of_slope(self.rms_slope_spectral)]
 
 
 def describe(topography: Topography) -> Description:
@@ -136,7 +137,7 @@ def rings_of(topography: Topography) -> Rings:
     kept = number > 0
     power, q, freedoms = (each[kept] for each in sums)
     number = number[kept]
-    density = waves.unit**2 * power / number / (2 * steps[0] * steps[1])
+    density = power / number / (2 * steps[0] * steps[1])
     borders = np.append(edges[:-1][kept], last)
     return Rings(borders, q / number, density, number, freedoms, bool(last * WHOLE > highest))
 
@@ -153,12 +154,11 @@ def _freedoms(topography, shape):
 def rows_of(topography: Topography) -> Profile:
     """C_1D of the line scans along x, the mean over all rows of what repeats."""
     waves = topography.waves
-    return Profile(waves.along_x[1:], waves.unit**2 * waves.power.sum(axis=0)[1:] / (2 * waves.step_x))
+    return Profile(waves.along_x[1:], waves.power.sum(axis=0)[1:] / (2 * waves.step_x))
 
 
 def _rms(values):
-    most = float(np.abs(values).max())
-    return most * float(np.sqrt(np.mean((values / (most or 1.0)) ** 2)))
+    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def _of_law(law) -> Iterator[str]:
@@ -186,6 +186,11 @@ def _of_directions(slopes) -> Iterator[str]:
             f"the rms slopes along x and y, {slopes[0]:.3g} and {slopes[1]:.3g}, are not those of an isotropic "
             "surface: a line drawn by C_1D = pi q C_2D stands for neither direction"
         )
+
+
+def _of_slope(slope) -> Iterator[str]:
+    if slope > STEEP:
+        yield f"an rms slope of {slope:.3g} is none of a surface: check the unit of the heights, and the pixel"
 
 
 def mapped(rings: Rings) -> np.ndarray:
