@@ -673,13 +673,13 @@ def test_a_map_of_more_pixels_than_are_read_is_refused_before_its_heights(
     surface_topography.Topography(drawn((6, 5)), (12.0, 20.0), unit="um").to_netcdf(str(path))
     monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 29)
     monkeypatch.setattr(scene.heightfile.np, "array", lambda *_: pytest.fail("heights were read"))
-    with pytest.raises(ValidationError, match="a.nc cannot be read by SurfaceTopography: 5 x 6 pixels: at most 29"):
+    with pytest.raises(
+        ValidationError, match="a.nc cannot be read by SurfaceTopography: 5 x 6 pixels: at most 29"
+    ):
         Topography(file=path)
 
 
-def test_what_another_program_prints_and_warns_of_is_not_shown(
-    tmp_path, surface_topography, monkeypatch, capfd
-):
+def test_what_another_program_prints_and_warns_of_is_not_shown(tmp_path, surface_topography, monkeypatch, capfd):
     def fails(_):
         print("a line")
         warnings.warn("a warning", stacklevel=1)

@@ -14,7 +14,7 @@ from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, S
 from scene.mistakes import CHOICE, Mistake, examined
 from scene.printable import brief
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import invalid, parsed
+from scene.reading import InvalidInput, invalid, parsed
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
