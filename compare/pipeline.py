@@ -77,7 +77,8 @@ def run(
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: there lies what has been solved, choose another")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
-    watch.told(str(cost))
+    if cost.contacts:
+        watch.told(str(cost))
     swept = _solve(study.batches(), output, workers, scheduler, watch)
     try:
         answers = study.answers(swept.outcomes)
