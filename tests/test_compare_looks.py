@@ -406,7 +406,8 @@ def test_a_file_that_is_no_style_is_refused(line, tmp_path):
 
 def test_a_file_of_settings_is_a_style(tmp_path):
     path = tmp_path / "own.mplstyle"
-    path.write_text("font.size: 9\naxes.grid: True\nbackend: svg\n")
+    path.write_text("font.size: 9\naxes.grid: True\nbackend: svg\nanimation.ffmpeg_path: /bin/sh\n")
+    assert set(style.read(path)) == {"font.size", "axes.grid"}  # nothing that is run
     with style.applied(style.Look(sheet=path)):
         assert (style.size(), matplotlib.rcParams["axes.grid"]) == (9, True)
         assert matplotlib.rcParams["legend.fontsize"] == style.small() == 9 * style.SMALL

@@ -322,7 +322,7 @@ def legend(
 
 
 def read(sheet: str | PathLike | Mapping[str, Any] | None) -> dict[str, Any]:
-    """Settings of a style that are a matter of looks, and no programs to run; ValueError says what is wrong."""
+    """The settings of a style that are a matter of looks, no programs to run; ValueError says what is wrong."""
     from matplotlib import style as styles
 
     if sheet is None:
