@@ -3,6 +3,7 @@
 import re
 import tomllib
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from . import files
 from .mistakes import SAID, mistakes
 from .printable import brief, printable
 
-__all__ = ["InvalidInput", "invalid", "made", "mistakes", "parsed", "read", "tables", "text_of"]
+__all__ = ["InvalidInput", "invalid", "made", "mistakes", "parsed", "read", "tables", "text_of", "validator"]
 
 MOST = 1_000_000  # bytes of a file
 DEEPEST = 20  # levels of tables and lists in one another
@@ -71,11 +72,17 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
 
 def made(content: dict[str, Any], what: Any, path: str | Path):
     """What a file holds as `what`. Raises InvalidInput, naming the file, as `read` does."""
-    adapter = TypeAdapter(what)
+    adapter = validator(what)
     try:
         return adapter.validate_python(content)
     except ValidationError as error:
         raise invalid(path, mistakes(error, content, adapter)) from error
+
+
+@lru_cache(maxsize=8)
+def validator(what: Any) -> TypeAdapter:
+    """What validates content as `what`, made once: that takes longer than its use."""
+    return TypeAdapter(what)
 
 
 def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:

@@ -153,6 +153,17 @@ def again(plot):
     return {name: pandas.read_csv(StringIO(frame.to_csv(index=False))) for name, frame in plot.tables.items()}
 
 
+def test_a_name_that_would_be_a_formula_is_drawn_as_it_is(tmp_path):
+    path = tmp_path / r"$\frac{$.csv"
+    path.write_text(table())
+    made = Mastercurve.of(path)
+    (plot,) = made.plots(made.answers({}), made.findings(made.answers({})))
+    with style.applied():
+        drawing = shifted_curves.figure(again(plot), **plot.options)
+    drawing.canvas.draw()
+    assert drawing.axes[0].get_title(loc="left") == r"\$\frac{\$"
+
+
 @pytest.mark.parametrize("text", [table(), bent()], ids=["holds", "fails"])
 def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     made = study(tmp_path, text)

@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 from matplotlib.typing import ColorType
 
+from scene.printable import printable
+
 from . import style
 
 # Around a point, where its text may stand: shift [points] and alignment.
@@ -34,6 +36,11 @@ PLACES = (
 MARKER, LINE, PITCH = 2.2, 0.5, 1.5
 # Between legends and curves [points], and how often room is made for legends: curves beyond the limits come in.
 ROOM, PASSES = 3.0, 5
+
+
+def literal(text: str) -> str:
+    """A text of a user's, such as a title, in which nothing is a formula to be set."""
+    return printable(text).replace("$", r"\$")
 
 
 @dataclass(frozen=True)

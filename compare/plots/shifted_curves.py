@@ -16,7 +16,7 @@ from ..page import Plot, Tables
 from ..statistics.collapse import Collapse
 from . import shades, style
 from .curves import intervals, scatter
-from .lettering import clear
+from .lettering import clear, literal
 
 NAME = "shifted-curves"
 SHIFTS, POWERS, FITS = f"{NAME}-shifts", f"{NAME}-powers", f"{NAME}-fits"
@@ -87,7 +87,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
         if own["shifted_force"].isna().all():
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
         _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
-        row[0].set_title(fit["curves"])
+        row[0].set_title(literal(fit["curves"]))
         row[2].set_title(_verdict(fit), loc="right", fontsize=style.small(), fontweight="normal")
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]")

@@ -12,7 +12,7 @@ from pandas import DataFrame
 from ..page import Tables
 from . import shades, style
 from .curves import intervals
-from .lettering import clear
+from .lettering import clear, literal
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 FITTED, PREDICTED, ALONE = "fitted", "predicted", "not shifted"
@@ -43,7 +43,7 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
         for name, curve in curves[curves["dimension"] == dimension].groupby("curve", sort=False):
             line, look = ("-", style.line(0, 0.8)) if name == COMMON else ("--", style.line(0.5))
             mu = curve["friction_coefficient"]
-            column[1].plot(curve["shifted_force"], mu, line, zorder=1, label=name, **look)
+            column[1].plot(curve["shifted_force"], mu, line, zorder=1, label=literal(name), **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
         if dimension in fitted:
             column[1].legend(loc="lower left")
@@ -218,4 +218,4 @@ def _markers(axes, points):
             "elinewidth": style.width(0.55),
             "capsize": 0,
         }
-        intervals(axes, own["xi"], own, "friction_over_plateau", label=name, **look)
+        intervals(axes, own["xi"], own, "friction_over_plateau", label=literal(name), **look)

@@ -11,6 +11,7 @@ from pandas import DataFrame
 from ..finding import BOTH, FAILS, HOLDS, UNDECIDED
 from ..page import Tables
 from . import style
+from .lettering import literal
 
 SOLVER = {"1D": "MDR", "3D": "BEM", BOTH: "exact"}
 # In the legend of verdicts: one dimension stands left in a column, three right.
@@ -57,7 +58,7 @@ def verdicts(tables: Tables, titles: Sequence[tuple[str, str]] = ()) -> Figure:
         x = columns.index(each["where"]) + ACROSS[each["dimension"]]
         _cell(axes, x, rows.index(each["sentence"]), each, room)
     axes.set_yticks(range(len(claims)), written, fontsize=style.small())
-    heads = [style.fill(title, 0.9 * cell, style.small()) for title in places.values()]
+    heads = [style.fill(literal(title), 0.9 * cell, style.small()) for title in places.values()]
     if len(places) > FEW:
         heads = [str(number) for number in range(1, len(places) + 1)]
     axes.set_xticks(range(len(places)), heads, fontsize=style.small())

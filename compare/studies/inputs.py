@@ -2,10 +2,9 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass as plain
-from functools import lru_cache
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, TypeAdapter, ValidationError, model_validator
+from pydantic import Discriminator, Field, Tag, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -14,7 +13,7 @@ from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, S
 from scene.mistakes import CHOICE, Mistake, examined
 from scene.printable import brief
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, invalid, parsed
+from scene.reading import InvalidInput, invalid, parsed, validator
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
@@ -194,7 +193,7 @@ class _Stated:
 
     def series(self, size: Size) -> Series:
         """Series at a size."""
-        made = _adapter(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
+        made = validator(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
         prescribed, given = next(iter(self.of("loads", "depths").items()))
         values = _numbers(given, size.values)
         moved = self.of("speeds", "rates")
@@ -271,21 +270,17 @@ def study_of(text: str, name: str) -> ReadyStudy:
 
 def _checked(what: Any, content: dict) -> tuple[Any, list[Mistake], dict]:
     """The content as what it should be, or None; its mistakes; and the content without wrong names."""
-    adapter = _adapter(what)
+    adapter = validator(what)
     try:
         return adapter.validate_python(content), [], content
     except ValidationError as error:
         return None, *examined(error, content, adapter)
 
 
-# Takes longer than what it validates.
-_adapter = lru_cache(TypeAdapter)
-
-
 def _series_in(content):
-    """The series that are tables, by their numbers."""
+    """The series that are tables, by their numbers; of more than there may be, the first."""
     series = content.get("series")
-    numbered = enumerate(series) if isinstance(series, list) else ()
+    numbered = enumerate(series[:MOST_SERIES]) if isinstance(series, list) else ()
     return [(number, each) for number, each in numbered if isinstance(each, dict)]
 
 
