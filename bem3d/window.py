@@ -15,7 +15,7 @@ from .problem import Problem, Start, Unseen
 PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the surroundings allow for
 MARGIN = 1.15  # window over contact
 SETTLED = 0.8  # share of its window that a contact must fill, margin included, for the window to stay
-ATTEMPTS = 12  # windows tried
+ATTEMPTS = 12  # windows tried, those apart that only close in on a contact
 COARSE = 64  # points a side at most, on which a window is sought
 COARSE_TOLERANCE = 1e-3  # of the contacts that only place it
 RING = 3.0  # outer over inner side of a ring of the surroundings
@@ -71,8 +71,8 @@ class Placed(NamedTuple):
 def fitted(problem: Problem, points: int) -> Placed:
     """Where the contact is, found on grids of at most COARSE points a side."""
     points = min(points, COARSE)
-    placed = Placed(surroundings(problem), 1.0, None)
-    for _ in range(ATTEMPTS):
+    placed, widened = Placed(surroundings(problem), 1.0, None), 0
+    while widened < ATTEMPTS:
         box, grid = placed.box, placed.grid(points, problem.width)
         try:
             pressure = problem.solve_on(grid, problem.surface(grid), COARSE_TOLERANCE, placed.start).pressure
@@ -83,7 +83,7 @@ def fitted(problem: Problem, points: int) -> Placed:
         if grid.on_rim(touched):
             if isinstance(problem.scene.indenter, Measured):  # nothing is known of what is beyond the map
                 return Placed(surroundings(problem), 1.0, None)
-            placed = Placed(box.padded(grid.extent / 4), MARGIN, start)
+            placed, widened = Placed(box.padded(grid.extent / 4), MARGIN, start), widened + 1
         elif MARGIN * found.side < SETTLED * grid.extent:
             placed = Placed(found, MARGIN, start)
         else:

@@ -68,7 +68,7 @@ def _followed(solver, scene):
         body = map_profile(held, layout, solver.spectrum)
         history = march(scene.motion, body, modes, modulus, solver.steps, solver.frames)
         marches += 1
-        free = solver.extent is None and scene.roughness is None
+        free = solver.extent is None and scene.roughness is None and history.reach > 0
         extent = drawn_closer(layout, 2 * history.reach, history.reach) if free else None
         if extent is None:
             _check_touched(body, history)

@@ -117,9 +117,9 @@ def lay_out(scene: Scene, points: int, extent: float | None, spectrum: Spectrum 
 def drawn_closer(layout: Grid, span: float, reach: float) -> float | None:
     """Extent [m] of a grid closer around a smooth contact that viscosity keeps small; None if this one is close.
 
-    span : of the contact [m]; reach : its farthest point from the tip [m], zero without contact
+    span : of the contact [m]; reach : its farthest point from the tip [m]
     """
-    if reach == 0 or span >= _LEAST_SHARE * layout.extent:
+    if span >= _LEAST_SHARE * layout.extent:
         return None
     # A contact of a few pixels is known to a pixel at best.
     return 2 * _ROOM * (reach + _LEAST_PIXELS * layout.pixel)

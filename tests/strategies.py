@@ -30,6 +30,7 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
+from scene.heightmap import HeightMap
 
 # Three-dimensional solves make an example slow, and no example says less for it.
 _SLOW = {"deadline": None, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
@@ -43,12 +44,16 @@ STEPS = 100  # fewer than those from which literals of the source are mixed into
 # Exponents of length, modulus and time in the unit of a field; what is not here has none.
 DIMENSIONS = {
     **dict.fromkeys(("radius", "depth", "gap", "rms_height", "longest", "shortest", "rolloff"), (1, 0, 0)),
-    **dict.fromkeys(("amplitude", "wavelength"), (1, 0, 0)),
+    **dict.fromkeys(("amplitude", "wavelength", "thickness", "displacement", "pixel", "shortest_kept"), (1, 0, 0)),
     **dict.fromkeys(("modulus", "rubbery_modulus", "glassy_modulus", "equilibrium_modulus", "moduli"), (0, 1, 0)),
+    **dict.fromkeys(("storage", "loss"), (0, 1, 0)),
     **dict.fromkeys(("instantaneous_compliance", "compliances"), (0, -1, 0)),
     **dict.fromkeys(("relaxation_time", "relaxation_times", "retardation_times", "duration"), (0, 0, 1)),
+    **dict.fromkeys(("frequency", "lowest_frequency", "highest_frequency"), (0, 0, -1)),
     "speed": (1, 0, -1),
-    "load": (2, 1, 0),
+    **dict.fromkeys(("load", "force"), (2, 1, 0)),
+    "line_load": (1, 1, 0),
+    "conductivity": (2, 1, -1),
     "pressure": (0, 1, 0),
 }
 
@@ -63,7 +68,9 @@ def rescaled(part, length=1.0, modulus=1.0, time=1.0):
     changed = {}
     for field in fields(part):
         value = getattr(part, field.name)
-        if is_dataclass(value):
+        if isinstance(value, HeightMap):
+            changed[field.name] = HeightMap(value.heights * length)
+        elif is_dataclass(value):
             changed[field.name] = rescaled(value, length, modulus, time)
         elif isinstance(value, tuple) and is_dataclass(value[0]):
             changed[field.name] = tuple(rescaled(item, length, modulus, time) for item in value)
@@ -71,7 +78,7 @@ def rescaled(part, length=1.0, modulus=1.0, time=1.0):
             i, j, k = DIMENSIONS[field.name]
             factor = length**i * modulus**j * time**k
             changed[field.name] = tuple(x * factor for x in value) if isinstance(value, tuple) else value * factor
-        elif field.name == "coefficient":
+        elif field.name == "coefficient" and hasattr(part, "exponent"):
             changed[field.name] = value * length ** (1 - part.exponent)
     return replace(part, **changed)
 
