@@ -1,6 +1,7 @@
 """Reading measured heights from files: arrays and plain text here, what instruments write by SurfaceTopography."""
 
 import re
+import signal
 import warnings
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from io import BytesIO, StringIO, TextIOWrapper
@@ -8,6 +9,7 @@ from itertools import chain
 from math import prod
 from pathlib import Path
 from reprlib import repr as briefly
+from threading import current_thread, main_thread
 
 import numpy as np
 
@@ -22,6 +24,7 @@ MOST_PIXELS = SIDE**2  # that are read of a file
 MOST_BYTES = 2**28  # of a file, as it is and unpacked: of so many pixels with eight bytes each, and more
 MOST_TEXT, LINES, LINE = 2**27, 2**20, 2**20  # bytes of a text, its lines, and letters in one of them
 ARRAYS, TEXTS = {".npy", ".npz"}, {".csv", ".txt"}
+SECONDS = 10.0  # of a processor, for SurfaceTopography: some of its readers take minutes for what they do not know
 _SEPARATOR = re.compile(r"[,;\t]")
 
 
@@ -130,7 +133,8 @@ def _text(path):
             raise ValueError("there is nothing in it")
         return np.loadtxt(chain([first], rows), ndmin=2), None, None
     except ValueError as error:
-        raise ValueError(f"{brief(str(path))} cannot be read as rows of numbers: {_first_line(error)}") from error
+        why = _first_line(error).partition("; use `usecols`")[0]
+        raise ValueError(f"{brief(str(path))} cannot be read as rows of numbers: {why}") from error
 
 
 def _rows(lines):
@@ -148,6 +152,29 @@ def _rows(lines):
             yield row
 
 
+class _TooLong(BaseException):
+    """No Exception: a reader that fails is followed by the next."""
+
+
+@contextmanager
+def _at_most(seconds):
+    """Raise _TooLong after so much processor time, where there are such clocks and they can be heard."""
+    if not hasattr(signal, "setitimer") or current_thread() is not main_thread():
+        yield
+        return
+
+    def stop(*_):
+        raise _TooLong
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+
+
 @contextmanager
 def _silent():
     """Nothing is warned of, nor printed."""
@@ -158,19 +185,19 @@ def _silent():
 
 def _scan(path):
     """By SurfaceTopography, the file's default channel; in metres where the file states a unit."""
+    name = brief(str(path))
     try:
         with _silent():
             from SurfaceTopography import open_topography
             from SurfaceTopography.Exceptions import CannotDetectFileFormat
     except ImportError as missing:
         raise ValueError(
-            f"{brief(str(path))}: files other than {', '.join(sorted(ARRAYS | TEXTS))} are read by SurfaceTopography, "
+            f"{name}: files other than {', '.join(sorted(ARRAYS | TEXTS))} are read by SurfaceTopography, "
             'which is not installed: pip install "mdr-bem-crosscheck[topography]"'
         ) from missing
-    name = brief(str(path))
     try:
         # What it warns of and prints tells of itself, and a line is kept of what it raises.
-        with _silent(), open_topography(str(path)) as reader:
+        with _at_most(SECONDS), _silent(), open_topography(str(path)) as reader:
             channel = reader.default_channel
             _check_count(channel.nb_grid_pts)
             stated = channel.physical_sizes is not None
@@ -192,6 +219,10 @@ def _scan(path):
         raise ValueError(
             f"{name} cannot be read by SurfaceTopography: it is of no format that it knows, or damaged"
         ) from error
+    except _TooLong:
+        raise ValueError(
+            f"{name} takes SurfaceTopography more than {SECONDS:g} s to read: write its heights to a .npy file"
+        ) from None
     # Readers of some forty formats raise nearly anything at a damaged file.
     except Exception as error:
         raise ValueError(f"{name} cannot be read by SurfaceTopography: {_first_line(error)}") from error

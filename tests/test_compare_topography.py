@@ -193,17 +193,23 @@ EDGES = {
 }
 
 
+def test_rows_without_power_lie_no_more_decades_below_the_axes_than_rounding_does():
+    plot = plots.plot(describe(sampled(ROUGH)))
+    rows = plot.tables["topography-rows"]
+    rows.loc[4:6, "density_1d"] = (0.0, 1e-300, 1e-100)
+    with style.applied():
+        _, right = plots.figure(plot.tables, **plot.options).axes
+    shown = right.lines[0].get_ydata()
+    assert shown.min() == spectra.NOTHING * shown.max()
+
+
 @pytest.mark.parametrize("kind", EDGES)
 @pytest.mark.parametrize("length", [1e-49, 1e-6, 1e49])
-@pytest.mark.parametrize("pixel", [1e-50, 1.0, (1e50, 1e48)])
-def test_a_number_is_finite_or_has_its_reason_or_there_is_none(tmp_path, kind, length, pixel):
+@pytest.mark.parametrize("pixel", [1e-50, 1.0, (1e50, 5e49)])
+def test_a_number_is_finite_or_has_its_reason(tmp_path, kind, length, pixel):
     heights = EDGES[kind].astype(float)
     heights *= length / np.abs(heights).max()
-    try:
-        study = Map.of(saved(tmp_path, heights), pixel=pixel)
-    except InvalidInput as refused:
-        assert NO_WAVE in str(refused)
-        return
+    study = Map.of(saved(tmp_path, heights), pixel=pixel)
     findings = study.findings(study.answers({}))
     assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
     assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
@@ -325,7 +331,8 @@ def test_the_figure_is_a_function_of_its_csv_files():
             drawing = plots.figure({name: pandas.read_csv(file) for name, file in files.items()}, **plot.options)
         left, right = drawing.axes
         np.testing.assert_allclose(left.lines[0].get_ydata(), found.rings.density, rtol=1e-12)
-        np.testing.assert_allclose(right.lines[0].get_ydata(), found.rows.density, rtol=1e-12)
+        nothing = spectra.NOTHING * found.rows.density.max()
+        np.testing.assert_allclose(right.lines[0].get_ydata(), found.rows.density, rtol=1e-12, atol=nothing)
         assert len(left.lines) == lines
         assert ("Hurst" in plot.caption) == (lines == 2)
         assert len(plot.caption.split()) <= 60

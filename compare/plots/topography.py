@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from ..page import Plot, Tables
-from ..statistics.spectra import Description, mapped
+from ..statistics.spectra import NOTHING, Description, mapped
 from . import style
 from .lettering import clear
 
@@ -58,7 +58,9 @@ def figure(tables: Tables, hurst: float | None = None) -> Figure:
         left.plot(law["q"], law["density_2d"], color=style.COLOUR["BEM"], label=f"H = {hurst:.2f}")
         left.axvspan(band.min(), band.max(), color=style.grey(0.93), zorder=0)
     left.set(ylabel=r"$C_{2D}$ [m$^4$]", title="(a)")
-    right.plot(rows["q"], rows["density_1d"], label="rows of the map", **style.line(0.5, 0.8))
+    # Nothing is hundreds of decades below the axes.
+    drawn = rows["density_1d"].clip(lower=NOTHING * rows["density_1d"].max())
+    right.plot(rows["q"], drawn, label="rows of the map", **style.line(0.5, 0.8))
     by_mdr = {**dots, "color": style.COLOUR["MDR"], "label": r"$\pi q\, C_{2D}$"}
     right.plot(rings["q"], rings["density_1d_mapped"], **by_mdr)
     right.set(ylabel=r"$C_{1D}$ [m$^3$]", title="(b)")

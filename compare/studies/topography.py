@@ -11,6 +11,7 @@ import xarray
 from pydantic import TypeAdapter, ValidationError
 
 from scene import Topography
+from scene.heightfile import read_heights
 from scene.reading import InvalidInput, mistakes
 
 from ..declaration import Study
@@ -91,11 +92,18 @@ class Map(Study):
     @cached_property
     def description(self) -> Description:
         """Sizes, slopes and spectra. Raises InvalidInput."""
-        content, adapter = {"file": str(self.path), **self.stated}, TypeAdapter(Topography)
+        content, adapter = dict(self.stated), TypeAdapter(Topography)
+        try:
+            # Once: what is looked at for mistakes is read again for each.
+            heights, pixel = read_heights(self.path, content.pop("pixel", None), content.pop("unit", None))
+        except ValueError as error:
+            raise InvalidInput(str(error)) from error
+        content |= {"heights": heights, "pixel": pixel}
         try:
             return describe(adapter.validate_python(content))
         except ValidationError as error:
-            raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+            lines = mistakes(error, content, adapter)
+            raise InvalidInput("\n".join(f"{self.path}: {line}" for line in lines)) from error
         except ValueError as error:
             raise InvalidInput(f"{self.path}: {error}") from error
 
