@@ -1,8 +1,4 @@
-"""What both solvers would do about a scene, what the 1D answer would be worth, and what all curves would take."""
-
-from contextlib import suppress
-
-from pydantic import ValidationError
+"""What both solvers would do about a scene, and what the 1D answer would be worth."""
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -10,15 +6,11 @@ from scene import Refused, Scene, SolveError, markup
 from scene.plan import Plan
 
 from .inputs import Asked, case_of
-from .studies.run import Run
 from .studies.trust.verdict import Trust, trust
 
 
 class Plans(dict[str, Plan | str | Trust]):
-    """Plans by the names of the solvers, or why there is none. Printed, a page.
-
-    By "trust", what 1D is worth; by "run", what `compare.run` would take of a scene that can be compared.
-    """
+    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, a page."""
 
     @property
     def feasible(self) -> bool:
@@ -42,10 +34,7 @@ def plans(asked: Asked) -> Plans:
     made: dict[str, Plan | str | Trust] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
-    made["trust"] = trust(case.scene)
-    with suppress(Refused, SolveError, ArithmeticError, ValidationError):  # of what nothing compares
-        made["run"] = f"crosscheck run\n  {Run({'scene': case}).cost()}"
-    return Plans(made)
+    return Plans(made | {"trust": trust(case.scene)})
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:

@@ -139,8 +139,8 @@ class _Reader:
         words = np.empty(stored.shape, object)
         for some in _pieces(stored.shape, self._some):
             words[some] = found = np.asarray(stored.asstr()[some], object)
-            self._take(stored, sum(map(len, found.flat)))
-        self._take(stored, 4 * words.size * max(map(len, words.flat), default=0))
+            self._take(stored, sum(len(each) for each in found.ravel().tolist()))
+        self._take(stored, 4 * words.size * max((len(each) for each in words.ravel().tolist()), default=0))
         return words.astype(str)
 
     def _take(self, stored, size):

@@ -1,11 +1,15 @@
 """What may be read: regular files up to a size, and nothing else that a path leads to."""
 
 import os
+from functools import partial
+from itertools import islice
 from math import ceil
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 
 from .printable import brief
+
+PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
 
 
 class Unreadable(ValueError):
@@ -30,7 +34,8 @@ def content(path: str | Path, most: int) -> bytes:
         os.close(handle)
         raise
     with open(handle, "rb") as file:
-        held = _asked(path, file.read, most + 1) or b""
+        pieces = islice(iter(partial(file.read, PIECE), b""), most // PIECE + 1)
+        held = _asked(path, b"".join, pieces)
     if len(held) > most:
         raise _unreadable(path, _too_large(len(held), most))
     return held

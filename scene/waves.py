@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import frexp, ldexp, sqrt
 
 import numpy as np
 
@@ -37,15 +37,20 @@ class Waves:
         """Wave numbers [rad/m], of the shape of the amplitudes."""
         return np.hypot(self.along_y[:, None], self.along_x[None, :])
 
+    @cached_property
+    def unit(self) -> float:
+        """A power of two within the greatest amplitude [m]: over it squares stay numbers, and lose no digit."""
+        return _unit(float(np.abs(self.amplitudes).max()))
+
     @property
     def power(self) -> np.ndarray:
-        """Mean squares of the waves [m^2], of the shape of the amplitudes."""
-        return np.square(np.abs(self.amplitudes)) / 2
+        """Mean squares of the waves over the unit squared [1], of the shape of the amplitudes."""
+        return np.square(np.abs(self.amplitudes) / self.unit) / 2
 
     @cached_property
     def rms_height(self) -> float:
         """Over a period [m]."""
-        return sqrt(self.power.sum())
+        return self.unit * sqrt(self.power.sum())
 
     @cached_property
     def rms_slope(self) -> float:
@@ -63,12 +68,14 @@ class Waves:
         return self._rms_slope(0.0 * self.along_x, self.along_y)
 
     def _rms_slope(self, along_x, along_y):
-        return sqrt(np.sum((along_y[:, None] ** 2 + along_x[None, :] ** 2) * self.power))
+        unit = _unit(max(self.step_x, self.step_y))
+        squares = (along_y[:, None] / unit) ** 2 + (along_x[None, :] / unit) ** 2
+        return self.unit * unit * sqrt(np.sum(squares * self.power))
 
     def binned(self, edges: np.ndarray) -> np.ndarray:
         """rms heights [m] of the waves between wave numbers edges[k] <= q < edges[k + 1], (len(edges) - 1,)."""
         found, _ = np.histogram(self.q, edges, weights=self.power)
-        return np.sqrt(found)
+        return self.unit * np.sqrt(found)
 
     def row(self, y: float) -> np.ndarray:
         """Amplitudes (K,) [m] of the line at y [m]: Re sum_k a[k - 1] exp(i along_x[k] x), without mean."""
@@ -82,3 +89,8 @@ class Waves:
     def below(self, highest: float) -> "Waves":
         """Those up to a wave number [rad/m], on the same lattice."""
         return Waves(self.step_x, self.step_y, np.where(self.q <= highest, self.amplitudes, 0.0))
+
+
+def _unit(value):
+    """The greatest power of two that is no greater; 1 of zero."""
+    return ldexp(0.5, frexp(value)[1]) if value else 1.0

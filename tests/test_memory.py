@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from cupy_stand_in import STAND_IN
 
 from bem3d import BEM, engine
 from compare.runner import sweep
@@ -38,6 +39,12 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
     for module in (machine, engine):
         monkeypatch.setattr(module, "memory", lambda: needed)
     assert solver.plan(SCENE).memory == needed
+
+
+def test_on_a_gpu_it_is_the_memory_of_the_gpu_that_counts(monkeypatch):
+    monkeypatch.setattr(engine, "_cupy", lambda: STAND_IN)
+    with pytest.raises(Refused, match=r"takes .* GB of memory, and 8 GB are here"):
+        BEM(points=8192, transforms="cupy").plan(SCENE)
 
 
 def test_what_no_machine_holds_has_no_plan_either():
