@@ -138,9 +138,9 @@ class _Reader:
         """Texts, some at a time: all of them may be one and the same in the file, and very long."""
         words = np.empty(stored.shape, object)
         for some in _pieces(stored.shape, self._some):
-            words[some] = found = np.asarray(stored.asstr()[some], object)
-            self._take(stored, sum(len(each) for each in found.ravel().tolist()))
-        self._take(stored, 4 * words.size * max((len(each) for each in words.ravel().tolist()), default=0))
+            words[some] = stored.asstr()[some]
+            self._take(stored, sum(map(len, np.ravel(words[some]))))
+        self._take(stored, 4 * words.size * max(map(len, words.ravel()), default=0))
         return words.astype(str)
 
     def _take(self, stored, size):
