@@ -83,7 +83,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         from scene import OutOfMemory
 
         told = str(error) if isinstance(error, OutOfMemory) else f"memory ran out {error}".strip()
-        typer.echo(f"crosscheck: {told}", err=True)
+        say(f"crosscheck: {told}", error=True)
         raise typer.Exit(FAILED) from error
     except OSError as error:
         from .pipeline import Unwritable
