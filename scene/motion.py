@@ -169,7 +169,8 @@ class Stage:
         if (self.amplitude is None) != (self.frequency is None):
             given = "amplitude" if self.frequency is None else f"frequency = {self.frequency:g} Hz"
             raise ValueError(f"{given} alone: an oscillation has an amplitude and a frequency [Hz], give both")
-        if self.frequency is not None and not np.isfinite(self.frequency * self.duration):
+        # Its angles, and those of a second, have to be numbers.
+        if self.frequency is not None and not np.isfinite(2 * np.pi * self.frequency * max(self.duration, 1.0)):
             raise ValueError(
                 f"frequency = {self.frequency:g} Hz over duration = {self.duration:g} s: more periods than can be "
                 "counted, give less of either"

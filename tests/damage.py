@@ -1,7 +1,7 @@
-"""Files as hands, disks and strangers spoil them: content changed here and there, and bytes that are no text.
+"""Files as hands, disks and strangers spoil them: content changed here and there, bytes that are no text.
 
-What is drawn follows from FUZZ_SEED, a whole number: the same one draws the same files, another one others; so many
-of each kind as FUZZ_TRIES says.
+What is drawn follows from FUZZ_SEED, a whole number: the same one draws the same files, another one others. As
+many are drawn of each kind as FUZZ_TRIES says.
 """
 
 import json
@@ -26,142 +26,29 @@ class Raw(str):
     """TOML as it stands, quotes and all."""
 
 
-ESCAPE, LONG = "\x1b[31mred\x1b[0m\x07", "x" * 5000
-NUMBERS = (
-    0,
-    -1,
-    1,
-    2,
-    0.5,
-    64,
-    10**9,
-    10**30,
-    2**63,
-    -(2**70),
-    5e-324,
-    1e-310,
-    1e-206,
-    1e-150,
-    1e-30,
-    1e-12,
-    -0.0,
+LONG = "x" * 5000
+FLOATS = "0.5 5e-324 1e-310 1e-206 1e-150 1e-30 1e-12 1e12 1e30 1e100 1e154 1e194 1e300 1.7e308 inf -inf nan -0.0"
+NUMBERS = [0, -1, 1, 2, 64, 10**9, 10**30, 2**63, -(2**70), *map(float, FLOATS.split())]
+NUMBERS += map(Raw, ("1e999", "9" * 5000, "0x" + "f" * 400, "1_0", "1979-05-27T07:32:00Z", "07:32:00"))
+MEASURES = (
+    "5 mm|-1 N|0 s|1e400 m|nan m|inf Pa|5 furlong|25 degC|1 dB|m|1e3|1 mm/mm|100 %|1e-320 m|٣ mm|1 mm²|1 m/0"
 )
-NUMBERS += (1e12, 1e30, 1e100, 1e154, 1e194, 1e300, 1.7e308, float("inf"), float("-inf"), float("nan"))
-NUMBERS += tuple(map(Raw, ("1e999", "9" * 5000, "0x" + "f" * 400, "1_0", "1979-05-27T07:32:00Z", "07:32:00")))
-QUANTITIES = (
-    "5 mm",
-    "-1 N",
-    "0 s",
-    "1e400 m",
-    "nan m",
-    "inf Pa",
-    "5 furlong",
-    "25 degC",
-    "1 dB",
-    "m",
-    "1e3",
-    "1 mm/mm",
-)
-QUANTITIES += (
-    "1 m**99999",
-    "9**9**9**9 m",
-    "1 m/0",
-    "((((((((1 m",
-    "1 " + "k" * 50 + "m",
-    "1 {m}",
-    "٣ mm",
-    "1 mm²",
-)
-QUANTITIES += (
-    "1e9**1e9 m",
-    "1 m ** -1e9",
-    "1" * 400 + " m",
-    "1 __import__('os')",
-    "1 m\n1 m",
-    "1e-320 m",
-    "100 %",
-)
-WORDS = (
-    "",
-    " ",
-    "a",
-    "type",
-    "sphere",
-    "kelvin",
-    "slide",
-    "self-affine",
-    "program",
-    "\u202eabc",
-    "\x00",
-    "../..",
-    "/dev/zero",
-)
-WORDS += (
-    "/dev/null",
-    ".",
-    "quick-start",
-    "paper-sphere",
-    "none",
-    "true",
-    "\ud800",
-    "😀" * 300,
-    LONG,
-    ESCAPE,
-    "\x9b2J",
-)
-TABLES = (
-    [],
-    {},
-    [[]],
-    [{}],
-    [1, "a", None],
-    {"type": "sphere"},
-    {"type": 1},
-    {"": {"": 1}},
-    [1.0] * 3000,
-    True,
-    False,
-)
+POWERS = "1 m**99999|9**9**9**9 m|((((((1 m|1 {m}|1e9**1e9 m|1 m ** -1e9|1 __import__('os')"
+QUANTITIES = [*MEASURES.split("|"), *POWERS.split("|"), "1 m\n1 m", "1 " + "k" * 50 + "m", "1" * 400 + " m"]
+NAMES = "|a|type|sphere|kelvin|slide|self-affine|program|../..|/dev/zero|/dev/null|.|quick-start|none|true"
+WORDS = [*NAMES.split("|"), LONG, "\u202eabc", "\x00", "\x1b[31mred\x1b[0m\x07", "\x9b2J", "\ud800", "😀" * 300]
+TABLES = ([], {}, [[]], [{}], [1, "a", None], {"type": "sphere"}, {"": {"": 1}}, [1.0] * 3000, True, False)
 NASTY = (NUMBERS, QUANTITIES, WORDS, TABLES)
-TOKENS = (
-    b"[",
-    b"]",
-    b"[[",
-    b"]]",
-    b"{",
-    b"}",
-    b"=",
-    b'"',
-    b"'''",
-    b"\\",
-    b"\n",
-    b"\r",
-    b"\0",
-    b"\xff\xfe",
-    b"\x1b[2J",
-)
-TOKENS += (
-    b"\xef\xbb\xbf",
-    b",",
-    b";",
-    b"\t",
-    b"nan",
-    b"-inf",
-    b"1e999",
-    b"#",
-    b".",
-    b"[a." + b"a." * 600 + b"a]\n",
-)
-TOKENS += (
+SIGNS = b"[ ] [[ ]] { } = , ; . # ' \" ''' \\ nan -inf 1e999 1,2,3 -- type=1 [[series]]"
+STRAY = b"\n|\r|\t|\0|\xff\xfe|\x1b[2J|\xef\xbb\xbf|\xc2\x9b"
+TOKENS = [
+    *SIGNS.split(),
+    *STRAY.split(b"|"),
     b"[" * 2000,
     b"9" * 5000,
     b"x = {a = " * 300,
-    b"[[series]]\n",
-    b"type = 1\n",
-    b"\xc2\x9b",
-    b"1,2,3\n",
-    b"--",
-)
+    b"[" + b"a." * 600 + b"a]\n",
+]
 
 
 def toml(value):

@@ -37,9 +37,10 @@ def reading(read, path, *documented):
         try:
             return read(path)
         except (InvalidInput, *documented) as error:
-            wrong = unshowable(str(error), path if isinstance(error, InvalidInput) else "")
-            assert not wrong, f"{wrong}: {str(error)[:2000]!r}"
-            return None
+            refused = error
+    wrong = unshowable(str(refused), path if isinstance(refused, InvalidInput) else "")
+    assert not wrong, f"{wrong}: {str(refused)[:2000]!r}"
+    return None
 
 
 @pytest.fixture(scope="module")
@@ -70,13 +71,13 @@ def either(contents):
 
 
 def read_and_plan(path, with_trust):
-    """A scene as it is compared, and once it can be read, what each solver would do; sometimes what 1D is worth."""
+    """A scene as it is compared; once it can be read, what each solver would do, or also what 1D is worth."""
     case = case_of(path)
-    plans = (
+    if with_trust:
         compare.plan(case)
-        if with_trust
-        else {each.name: planned(each, case.scene) for each in (case.mdr, case.bem)}
-    )
+    else:
+        for solver in (case.mdr, case.bem):
+            planned(solver, case.scene)
     case.refuse()
     return case
 
@@ -156,7 +157,7 @@ def _bytes(write, *given, **named):
 
 HEIGHTS = 1e-6 * np.random.default_rng(1).standard_normal((8, 6))
 MAPS = {
-    "npy": [_bytes(np.save, HEIGHTS), _bytes(np.save, HEIGHTS.astype("f4")), _bytes(np.save, np.arange(64).reshape(8, 8))],
+    "npy": [_bytes(np.save, each) for each in (HEIGHTS, HEIGHTS.astype("f4"), np.arange(64).reshape(8, 8))],
     "npz": [
         _bytes(np.savez, heights=HEIGHTS, pixel=1e-5),
         _bytes(np.savez_compressed, heights=HEIGHTS, pixel=[1e-5, 2e-5]),
@@ -190,12 +191,7 @@ def test_a_map_of_heights_is_read_or_refused(spoil, kind):
     fuzz(law, spoilt(MAPS[kind]), st.booleans(), seldom, tries=TRIES // len(MAPS))
 
 
-PLOT = {
-    "name": "sphere/friction",
-    "module": "compare.plots.friction_curves",
-    "function": "figure",
-    "tables": ["friction"],
-}
+PLOT = {"name": "sphere/friction", "module": "compare.plots.friction_curves", "function": "figure"}
 MANIFEST = {
     "command": "run",
     "title": "Sphere",
@@ -204,7 +200,7 @@ MANIFEST = {
     "solved": "solved",
     "tasks": {"solved": 3, "reused": 0},
     "seconds": 1.5,
-    "plots": [PLOT | {"options": {"wide": True}}],
+    "plots": [PLOT | {"tables": ["friction"], "options": {"wide": True}}],
     "tables": ["findings", "sphere/friction"],
 }
 

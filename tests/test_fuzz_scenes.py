@@ -124,8 +124,10 @@ def answer(solver, scene) -> Result | None:
                 return None
             return solver.solve(scene)
         except (Refused, SolveError) as error:
-            assert not unshowable(str(error), letters=SENTENCES), str(error)
-            return None
+            refused = str(error)
+    wrong = unshowable(refused, letters=SENTENCES)
+    assert not wrong, f"{wrong}: {refused}"
+    return None
 
 
 def broken(result) -> list[str]:
@@ -159,7 +161,7 @@ SAME = 1e-4
 
 
 def firmer(scene):
-    """Four times as stiff, under four times the load: every force is four times as large, every length the same."""
+    """Four times as stiff, under four times the load: so is every force, and every length is the same."""
     shaken = isinstance(scene.motion, Program) and any(stage.amplitude for stage in scene.motion.stages)
     return None if shaken else rescaled(scene, modulus=4.0)
 

@@ -125,6 +125,7 @@ def test_an_oscillation_may_touch_zero_but_not_pass_it():
         ({"frequency": 5.0}, "frequency = 5 Hz alone"),
         ({"amplitude": 0.1, "frequency": 0.0}, "greater than 0"),
         ({"amplitude": 0.1, "frequency": 1e200, "duration": 1e200}, "more periods than can be counted"),
+        ({"amplitude": 0.1, "frequency": 1.7e308, "duration": 1.0}, "more periods than can be counted"),
     ],
 )
 def test_half_an_oscillation_and_numbers_that_are_none_are_named(given, message):
