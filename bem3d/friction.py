@@ -1,12 +1,9 @@
 """Friction of a steady contact: estimates from one pressure, and the answer that joins their strengths."""
 
 from dataclasses import dataclass
-from math import pi, sin
 from typing import Self
 
 import numpy as np
-
-from scene import Plane
 
 from .grid import Grid
 from .problem import Problem
@@ -34,7 +31,7 @@ class Friction:
         """From the pressure [Pa] (rows, points)."""
         slopes = problem.slopes(grid, problem.surface(grid))
         loss, work = problem.lost(grid, pressure)
-        curvature = curvature_by_pressure(problem, grid, pressure, slopes)
+        curvature = curvature_by_pressure(problem, grid, pressure)
         return cls(
             by_traction=float(-np.sum(pressure * slopes) * grid.patch),
             by_loss=loss,
@@ -42,7 +39,8 @@ class Friction:
             by_curvature=problem.flow.trail * curvature * float(pressure.sum() * grid.patch),
             mean_curvature=curvature,
             lag=problem.flow.lag(grid),
-            slowness=_slowness(problem, grid, pressure),
+            # Without an edge nothing is lost of the loss.
+            slowness=0.0 if pressure.all() else problem.flow.slowness(grid),
         )
 
     @property
@@ -72,36 +70,18 @@ class Friction:
         }
 
 
-def _slowness(problem, grid, pressure):
-    """As that of the flow, and as far as the grid shows the curvature of the roughness."""
-    if pressure.all():  # no edge, and nothing is lost of the loss
-        return 0.0
-    if problem.shortest(grid) is None:
-        return problem.flow.slowness(grid)
-    return problem.flow.slowness(grid) * max(0.0, differenced(problem.points_per_wave(grid)))
-
-
-def differenced(points: float) -> float:
-    """Share of the curvature of a wave of so many points that differences of slopes show: 0 of two points."""
-    q = 2 * pi / points
-    return (8 * sin(q) - sin(2 * q)) / (6 * q)
-
-
-def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray, slopes: np.ndarray) -> float:
+def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray) -> float:
     """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
 
     pressure : not zero everywhere [Pa] (rows, points)
-    slopes : dz/dx at the pixels' centres [1] (rows, points)
 
-    Slopes are differenced in fourth order: what is left is the error of the pressure, of second order in the
-    pixel, of first order around the tip of a cone, where pressure and d2z/dx2 are infinite, and of waves of a few
-    points what `differenced` leaves of them.
+    That of the roughness is exact at the pixels' centres, that of the indenter a difference of slopes in fourth
+    order. What is left is the error of the pressure, of second order in the pixel, and of first order around the
+    tip of a cone, where pressure and d2z/dx2 are infinite.
     """
-    two = (0, 0), (2, 2)
-    if isinstance(problem.scene.indenter, Plane):
-        slopes = np.pad(slopes, two, "wrap")
-    else:
-        slopes = np.pad(slopes, two, "reflect", reflect_type="odd")
+    slopes = np.pad(problem.slopes(grid, None), ((0, 0), (2, 2)), "reflect", reflect_type="odd")
     next_to, next_but_one = slopes[:, 3:-1] - slopes[:, 1:-3], slopes[:, 4:] - slopes[:, :-4]
-    gained = np.sum(pressure * (8 * next_to - next_but_one)) / 12
-    return float(gained / pressure.sum() / grid.pixel)
+    gained = np.sum(pressure * (8 * next_to - next_but_one)) / (12 * grid.pixel)
+    if (surface := problem.surface(grid)) is not None:
+        gained += np.sum(pressure * surface.curvatures(grid.x, grid.y))
+    return float(gained / pressure.sum())

@@ -99,6 +99,14 @@ class Grid:
         half, across = self.pixel / 2, self.pixel / 2 if self.width is None else 0.0
         return Box(x[0] - half, x[-1] + half, y[0] - across, y[-1] + across)
 
+    def spot_radius(self, chosen: np.ndarray) -> float:
+        """Radius [m] of a disc with the area over rim of the chosen pixels; of a row half the width of a strip."""
+        area, rim = np.count_nonzero(chosen), np.count_nonzero(np.diff(np.pad(chosen, ((0, 0), (1, 1))), axis=1))
+        if self.rows == 1:
+            return self.pixel * area / rim
+        rim += np.count_nonzero(np.diff(np.pad(chosen, ((1, 1), (0, 0))), axis=0))
+        return self.pixel * 8 / np.pi * area / rim  # pixels make the rim of a disc 4/pi times as long
+
     def on_rim(self, chosen: np.ndarray) -> bool:
         """Whether any chosen pixel lies on the rim; a single row ends at its first and last pixel only."""
         return bool(chosen[:, [0, -1]].any() or (self.width is None and chosen[[0, -1]].any()))

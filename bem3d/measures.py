@@ -17,11 +17,15 @@ def measured(problem: Problem, grid: Grid, pressure: np.ndarray, gap: np.ndarray
         "contact_area": float(contact_points * grid.patch),
         "contact_points": float(contact_points),
         "points_across_contact": float(grid.box(touched).side / grid.pixel) if contact_points else 0.0,
+        "spot_radius": grid.spot_radius(touched) if contact_points else 0.0,
     }
     if (surface := problem.surface(grid)) is not None:
         measures |= {
             "rms_height": surface.rms_height,
             "rms_slope": surface.rms_slope,
+            "rms_slope_contact": float(np.sqrt(np.mean(np.square(problem.slopes(grid, surface)[touched]))))
+            if contact_points
+            else 0.0,
             "points_per_shortest_wave": problem.points_per_wave(grid),
         }
     elif problem.shortest(grid) is not None:

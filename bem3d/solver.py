@@ -64,14 +64,16 @@ class BEM:
 
     Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
     preconditioner too, both in equivalents of the finest grid.
-    Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, rounds, transform_pairs;
+    Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, spot_radius [m] (of a
+    disc with the area over rim of the contact), rounds, transform_pairs;
     curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and roughness weighted with the pressure: at
     rest it is mu at low speed over that speed and the mean lag of the elastomer; friction_by_traction,
     friction_by_loss, friction_by_work, friction_by_curvature [N]: by the indenter's slope, by the slope of the
     displacement, by the work done on the surface from pixel to pixel, to first order in the speed;
     friction_disagreement, what the second differs from the third, or from the first and the last as far as
     these count, over the normal force: an indicator of the error of mu. Of a rough indenter also rms_height
-    [m], rms_slope (spectral, of the full gradient), each over a period, and points_per_shortest_wave; of a
+    [m], rms_slope (spectral, of the full gradient), each over a period, rms_slope_contact (along x, of indenter
+    and roughness over the real contact), and points_per_shortest_wave; of a
     Plane mean_pressure [Pa], mean_gap [m], contact_fraction.
     Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,

@@ -78,6 +78,10 @@ class RoughSurface:
         """dh/dx [1], (ny, nx)."""
         return self._sum(1j * self.waves.along_x * self.amplitudes, x, y)
 
+    def curvatures(self, x, y):
+        """d2h/dx2 [1/m], (ny, nx)."""
+        return self._sum(-(self.waves.along_x**2) * self.amplitudes, x, y)
+
     def _sum(self, amplitudes, x, y):
         if self._spans_a_period(x, y):
             return self._on_a_period(amplitudes, x, y)

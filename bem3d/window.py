@@ -100,7 +100,7 @@ def check(scene: Scene, grid: Grid, answer, repeats: bool = False) -> None:
     if not repeats and grid.on_rim(touched):
         raise SolveError(f"the contact reaches the edge of extent = {grid.extent:g} m; take a larger extent")
     check_resolved(grid, touched)
-    check_layer(scene, grid, spot_radius(grid, touched))
+    check_layer(scene, grid, grid.spot_radius(touched))
 
 
 def check_resolved(grid: Grid, touched: np.ndarray) -> None:
@@ -110,15 +110,6 @@ def check_resolved(grid: Grid, touched: np.ndarray) -> None:
             f"the contact covers {np.count_nonzero(touched)} of {grid.points} x {grid.rows} points on extent = "
             f"{grid.extent:g} m, {FEWEST} are needed; take more points"
         )
-
-
-def spot_radius(grid: Grid, touched: np.ndarray) -> float:
-    """Radius [m] of a disc with the same area over rim as the contact, of a row half the width of a strip."""
-    area, rim = np.count_nonzero(touched), np.count_nonzero(np.diff(np.pad(touched, ((0, 0), (1, 1))), axis=1))
-    if grid.rows == 1:
-        return grid.pixel * area / rim
-    rim += np.count_nonzero(np.diff(np.pad(touched, ((1, 1), (0, 0))), axis=0))
-    return grid.pixel * 8 / np.pi * area / rim  # pixels make the rim of a disc 4/pi times as long
 
 
 def improved(problem: Problem, grid: Grid, answer) -> Grid | None:

@@ -100,5 +100,5 @@ def _row(cells, names, where):
         if not _is_number(cell):
             raise ValueError(f"{where}: {name} = {brief(repr(cell))} is not a number")
         if not (isfinite(float(cell)) and float(cell) > 0):
-            raise ValueError(f"{where}: {name} = {cell} must be finite and greater than 0")
+            raise ValueError(f"{where}: {name} = {brief(cell)} must be finite and greater than 0")
     return tuple(float(cell) for cell in cells)

@@ -98,7 +98,10 @@ MEASURES: Mapping[str, Entry] = {
     "rms_slope": Entry(
         "1", "Rms slope of the roughness over its period: in 1D of finite differences, in 3D of the full gradient."
     ),
-    "rms_slope_contact": Entry("1", "Rms slope of the profile over the real contact."),
+    "rms_slope_contact": Entry(
+        "1", "Rms slope over the real contact: in 1D of the profile, in 3D of indenter and roughness along x."
+    ),
+    "spot_radius": Entry("m", "Radius of a disc with the area over rim of the real contact: of spots their size."),
     "rms_slope_spectral": Entry("1", "Rms slope of the rough line over its period, from its spectrum."),
     "rounds": Entry("1", "Rounds in which the set of points in contact was sought."),
     "slip_area": _area("Area of real contact that slips."),

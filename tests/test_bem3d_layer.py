@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.linalg import expm
 from scipy.special import j0
 
-from bem3d import BEM, influence, layerwaves, window
+from bem3d import BEM, influence, layerwaves
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
@@ -252,7 +252,7 @@ def test_the_radius_of_spots_is_that_of_one_of_them(shape):
     across = np.abs(np.abs(x) - 0.5)
     one, two = np.hypot(x, y) < 0.3, np.hypot(across, y) < 0.3
     for touched in (one, two):
-        assert window.spot_radius(grid, touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
+        assert grid.spot_radius(touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
 
 
 def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead():

@@ -126,7 +126,7 @@ def test_on_a_coarse_grid_slow_friction_is_known_by_curvature_and_not_by_the_ene
     law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
     found = BEM(points=64).solve(slid)
     error, of_loss = (abs(force / law - 1) for force in (found.friction_force, found.measures["friction_by_loss"]))
-    assert error < of_loss / 4
+    assert error < of_loss / 2
     assert of_loss > 0.01
     # which the indicator of the error says
     assert found.measures["friction_disagreement"] > 3 * error * found.friction_coefficient
@@ -157,12 +157,20 @@ def test_fast_friction_on_a_glassy_solid_owes_nothing_to_the_first_order_in_the_
     np.testing.assert_allclose(products, products[-1], rtol=1e-3)  # mu falls as 1/v
 
 
-def test_waves_too_short_for_differences_of_slopes_are_left_to_the_energy_lost():
-    # Two pixels a wave, where the grid cuts the roughness off.
-    scene = replace(ROUGH_SCENES[0], roughness=replace(ROUGH, shortest=None), motion=Slide(speed=1e-6, load=1.0))
-    found = BEM(points=48).solve(scene)
-    assert found.friction_force == pytest.approx(found.measures["friction_by_loss"], rel=1e-3)
-    assert found.measures["friction_by_curvature"] < 0.95 * found.friction_force
+@pytest.mark.parametrize("scene", ROUGH_SCENES)
+def test_the_curvature_of_what_presses_is_of_second_order_in_the_pixel(scene):
+    errors = np.array([abs(curvature(scene, points) / curvature(scene, 512) - 1) for points in (64, 128, 256)])
+    assert (np.log2(errors[:-1] / errors[1:]) > 1.5).all()
+
+
+@pytest.mark.parametrize("scene", ROUGH_SCENES)
+def test_on_two_pixels_a_wave_slow_friction_is_within_two_per_cent_of_a_fine_grid(scene):
+    slow_speed, extent = Slide(speed=1e-6, load=1.0), 3 * elastic_contact(scene).radius
+    scene = replace(scene, motion=slow_speed, roughness=replace(ROUGH, shortest=2.0001 * extent / 48))
+    coarse, fine = (BEM(points=points, extent=extent).solve(scene) for points in (48, 384))
+    assert coarse.measures["points_per_shortest_wave"] == pytest.approx(2.0, rel=1e-3)
+    assert coarse.friction_force == pytest.approx(fine.friction_force, rel=0.02)
+    assert coarse.measures["friction_by_loss"] < 0.9 * fine.friction_force
 
 
 @pytest.mark.parametrize(
@@ -184,8 +192,7 @@ def test_without_an_edge_slow_friction_is_the_energy_lost():
     answer = BEM(points=32, tolerance=1e-9).solve(slid)
     assert answer.measures["contact_fraction"] == 1
     loss = answer.measures["friction_by_loss"]
-    # Differences of slopes on 32 points leave more than this between the two.
-    assert abs(answer.measures["friction_by_curvature"] / loss - 1) > 1e-5
+    assert abs(answer.measures["friction_by_curvature"] / loss - 1) < ROUNDING  # to first order in the speed
     assert abs(answer.friction_force / loss - 1) < ROUNDING
 
 

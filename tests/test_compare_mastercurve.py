@@ -124,6 +124,7 @@ def test_a_heading_says_what_the_columns_are(tmp_path):
         ("1,2\n", "line 1: 2 columns; mu, F_N and v are needed"),
         ("0,5;1,0;3,2\n", "line 1: 6 columns.*numbers have decimal points"),
         ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
+        (f"1,2,3\n1,2,{'9' * 5000}\n", r"line 2: v = 9{98}\.\.\.9{98} must be finite"),
         ("1,2,3\n1,x,3\n", "line 2: F_N = 'x' is not a number"),
         ("1,2,3\n1,3,3\n", "1 speeds: 2 to 100 are"),
         ("".join(f"1,{load},{v}\n" for load in (1, 2) for v in range(1, 102)), "101 speeds: 2 to 100 are"),

@@ -293,7 +293,7 @@ def _contact(content, own, number):
                 base = parsed(find(part["scene"]).text, part["scene"])
             except NotReady as error:
                 where = ("series", number, "scene") if part is own else ("scene",)
-                said.append(Mistake(where, f"{'.'.join(map(str, where))} = {brief(repr(part['scene']))}: {error}"))
+                said.append(Mistake(where, f"{'.'.join(map(str, where))}: {error}"))
                 continue
             merged = {name: base[name] for name in _TABLES if name in base}
         for name in (*_TABLES, "bem", "mdr"):
