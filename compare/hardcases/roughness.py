@@ -7,7 +7,19 @@ from math import radians
 import numpy as np
 
 from mdr1d import draw
-from scene import Cone, CrossedWaves, EmptyContact, Indent, Plane, PowerLaw, Refused, Scene, SelfAffine, Slide
+from scene import (
+    Cone,
+    CrossedWaves,
+    EmptyContact,
+    Indent,
+    Plane,
+    PowerLaw,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+)
 
 from .conditions import conditions, kelvin_surface
 from .hardcase import Check, Group, deviation
@@ -125,7 +137,7 @@ case.add(
     "Roughness from millimetres to picometres fits no memory.",
     "Refused at once: the error names what to change.",
     refused("longest | shortest | raise shortest", NINE_DECADES, line, error=Refused),
-    refused("4000 waves | fit in memory | take", BROAD, partial(square, points=16384)),
+    refused("memory | take", BROAD, partial(square, points=16384), error=(SolveError, Refused)),
 )
 
 
