@@ -22,6 +22,8 @@ APART = 1.05
 # Unit of what is prescribed, and what the bar of shades is in.
 UNITS = {"load": "N", "depth": "m"}
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
+# What makes slow friction depend on the load, each over its number under the least load.
+BEHIND = {"contact": "real contact [1]", "drag": "friction over contact [1]", "slope": "slope in contact [1]"}
 MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
 
 
@@ -162,6 +164,24 @@ def _level(axes, curve, dimension, index):
     axes.plot(speeds, curve["smooth"], color=colour, label=f"{dimension}, smooth", **thin)
     dots = {"linestyle": (0, (1, 1.6 + 1.6 * index)), "linewidth": style.width(1.1)}
     axes.plot(speeds, curve["low_speed"], color=colour, label=f"{dimension}, low speed", **dots)
+
+
+def behind(tables: Tables) -> Figure:
+    """What makes slow friction depend on the load: how much touches, with what drag, how steep; over the first."""
+    every = tables["behind"]
+    drawing = style.canvas("double", 2.7)
+    panels = drawing.subplots(1, len(BEHIND), sharex=True)
+    for axes, (name, label), letter in zip(panels, BEHIND.items(), "abc", strict=True):
+        for index, (dimension, own) in enumerate(every.groupby("dimension")):
+            solver, load = SOLVER[dimension], own["normal_force"]
+            intervals(axes, load * APART ** (2 * index - 1), own, name, **style.look(solver, label=dimension))
+            law = {"color": style.COLOUR[solver], "alpha": 0.5, "linestyle": (6 * index, (6, 6)), "zorder": 1}
+            axes.plot(load, own[f"{name}_law"], label=f"{dimension}, the paper", **law)
+        axes.set(xscale="log", xlabel="normal force [N]", ylabel=label, title=f"({letter})")
+    panels[0].set_yscale("log")
+    style.decades(*panels)
+    style.legend(drawing, panels[0].get_legend_handles_labels()[0], "outside lower center", 4)
+    return drawing
 
 
 def _ratios(drawing, panels, ratios, prescribed):

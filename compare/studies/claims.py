@@ -36,6 +36,35 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "the slope of the macroscopic shape.",
         ),
     },
+    (nan, 2 * TOLERANCE): {
+        "why17.contact-exponent": (
+            "Behind Eq. 17: real contact grows with the load as the nominal contact does",
+            "d ln of the length of real contact (1D), or of its area (3D), over d ln F_N, at the slowest speed, "
+            "least squares over the loads or depths. The paper takes contact for full, and its length for 2a.",
+        ),
+    },
+    (0.0, 2 * TOLERANCE): {
+        "why17.drag-exponent": (
+            "Behind Eq. 17: friction over the real contact is the same at every load",
+            "d ln of the friction force over the length (1D) or area (3D) of real contact, over d ln F_N, at the "
+            "slowest speed, least squares over the loads or depths. With the exponent of the contact it makes up "
+            "that of friction.",
+        ),
+        "why17.slope-exponent": (
+            "Behind Eq. 17: what touches is as steep at every load",
+            "d ln of the rms slope over the real contact, over d ln F_N, at the slowest speed, least squares over "
+            "the loads or depths.",
+        ),
+        "eq19.law": (
+            "Eq. 19: friction follows the law at all speeds and loads",
+            "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
+        ),
+        "eq18.one-curve": (
+            "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
+            "rms of ln mu about one curve through all points of several series, none shifted, without what "
+            "scatter adds.",
+        ),
+    },
     (1.0, TOLERANCE): {
         "eq17.level": (
             "Eq. 17: friction at low speed has the level of the law",
@@ -73,17 +102,6 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
             "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
             "at which all are at that limit, but for what Eq. 19 still lacks of it.",
-        ),
-    },
-    (0.0, 2 * TOLERANCE): {
-        "eq19.law": (
-            "Eq. 19: friction follows the law at all speeds and loads",
-            "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
-        ),
-        "eq18.one-curve": (
-            "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
-            "rms of ln mu about one curve through all points of several series, none shifted, without what "
-            "scatter adds.",
         ),
     },
     (0.0, TOLERANCE): {

@@ -14,7 +14,7 @@ from ..statistics.frictioncurves import SimulatedCurves
 from ..statistics.jackknife import friction, mean, mean_ratio, measured
 from .claims import at_xi, claim, geometric, power
 from .laws import Laws, slow_drag
-from .series import ROUGH, SMOOTH, SOLVERS, Contacts, sliding
+from .series import CONTACT, ROUGH, SMOOTH, SOLVERS, Contacts, sliding
 
 # Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is
 # off its limit by less than the tolerance. Above FAST Eq. 19 is within 12 % of its plateau.
@@ -31,7 +31,7 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
         for name, measure, xi, expected in _one_sided(contacts.series, solver, laws[solver]):
             each = claim(name, partial(_of_one, measure, solver), dimension, expected)
             regime = words if xi is None else at_xi(xi, words)
-            plot = "collapse" if name == "eq17.load-exponent" else "levels"
+            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name[:3] == "why" else "levels"
             found.append(finding(each, contacts, ROUGH, regime, solver, plot=plot))
     words = laws["BEM"].words
     for name, place in _places(laws["BEM"]):
@@ -79,6 +79,9 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
         slow, next_to_it = mu(answers)[:2]
         return float(np.mean(np.log(next_to_it / slow)) / np.log(series.speeds[1] / series.speeds[0]))
 
+    def with_load(quantity):
+        return lambda it: power(mean(it, "normal_force")[1], quantity(it))
+
     def over_limit(answers):
         rest = answers.isel(speed=0)
         force = rest["normal_force"].transpose(..., "draw").values
@@ -91,7 +94,11 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
         yield "eq17.speed-exponent", speed_exponent, slowest, float(laws.loss_exponent[0])
         if len(series.values) > 1:
             exponent = laws.exponent_of_load
-            yield "eq17.load-exponent", lambda it: power(mean(it, "normal_force")[1], mu(it)[0]), slowest, exponent
+            yield "eq17.load-exponent", with_load(lambda it: mu(it)[0]), slowest, exponent
+            for name, (variable, below) in behind(solver).items():
+                law = nominal_exponent(solver, exponent) if name == "contact" else None
+                measure = with_load(partial(_slowest, variable, below))
+                yield f"why17.{name}-exponent", measure, slowest, law
         yield "eq17.level", lambda it: geometric(mu(it)[0] / (laws.plateau * xi(it)[0])), slowest, None
         # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
         if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
@@ -100,6 +107,25 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
         reached = laws.xi[-1][fast]
         yield "eq14.plateau", lambda it: geometric((mu(it)[-1] / laws.law_of(xi(it))[-1])[fast]), reached, None
     yield "eq19.law", lambda it: np.log(mu(it) / laws.law_of(xi(it))), None, None
+
+
+def _slowest(variable, below, answers):
+    return mean(answers, variable, below)[1]
+
+
+def behind(solver: str) -> dict[str, tuple[str, str | None]]:
+    """What makes slow friction depend on the load: a variable, or its ratio to another; by the names of claims."""
+    contact = CONTACT[solver]
+    return {
+        "contact": (contact, None),
+        "drag": ("friction_force", contact),
+        "slope": ("rms_slope_contact", None),
+    }
+
+
+def nominal_exponent(solver: str, of_friction: float) -> float:
+    """d ln of the nominal contact, a length (1D) or an area (3D), over d ln F_N; of_friction : of Eq. 17."""
+    return (1 + of_friction) * (1 if solver == "MDR" else 2)
 
 
 def _places(laws) -> Iterator[tuple[str, int]]:

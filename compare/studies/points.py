@@ -12,7 +12,7 @@ from ..statistics import means
 from ..statistics.jackknife import friction, mean
 from ..statistics.means import Interval, compared
 from .laws import regimes
-from .series import ROUGH, SOLVERS, Contacts
+from .series import CONTACT, ROUGH, SOLVERS, Contacts
 
 # Ratios of a rough point, see `regime.ratios`.
 GROUPS = (
@@ -25,8 +25,6 @@ GROUPS = (
     "contact_over_period",
     "macro_over_rough",
 )
-# Area [m²] or length [m] that touches.
-CONTACT = {"MDR": "contact_length", "BEM": "contact_area"}
 
 
 def interval(statistic: Callable[[Mapping], np.ndarray], contacts: Contacts, body: str, *solvers: str) -> Interval:

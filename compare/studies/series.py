@@ -21,9 +21,11 @@ ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # each, all that compares the dimensionalities, and what compares several series.
 COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = KINDS = "collapse", "friction", "depth", "dimensions", "families"
 SOLVERS = {"MDR": "1D", "BEM": "3D"}
+# What touches, a length [m] or an area [m²].
+CONTACT = {"MDR": "contact_length", "BEM": "contact_area"}
 # Variables that claims are measured on; others are not copied for every draw that is left out.
 MEASURED = ("normal_force", "friction_force", "depth_reached")
-AT_REST = ("curvature_by_pressure", "rms_slope_contact", "contact_length")
+AT_REST = ("curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area")
 
 
 @dataclass(frozen=True)

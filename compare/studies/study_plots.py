@@ -18,6 +18,7 @@ from ..statistics import eq23
 from ..statistics.jackknife import friction, mean, mean_ratio
 from ..statistics.means import Interval
 from .claims_depth import closed_forms, loading
+from .claims_friction import behind, nominal_exponent
 from .families import families, reduced
 from .judgement import JudgedSeries
 from .points import force_at, friction_at, interval, stacked
@@ -69,6 +70,8 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
         if judged.collapses:
             yield _shifts(judged)
         yield _levels(judged)
+        if any(each.claim.id.startswith("why17.") for each in judged.findings):
+            yield _behind(judged)
     yield _depth(judged.contacts)
     if series.pressed_in and series.speeds:
         yield _pressed_in(judged.contacts)
@@ -238,6 +241,32 @@ def _levels(judged) -> Plot:
         "Below: 1D over 3D, rough and smooth, with lines at 1 and at 2, the limit of smooth bodies at low "
         "speed.",
         f"Friction of {series.title} in both dimensionalities",
+    )
+
+
+def _behind(judged) -> Plot:
+    contacts, series = judged.contacts, judged.series
+
+    def of(solver):
+        def over_the_first(name, below=None):
+            return lambda sample: (values := mean(sample[solver], name, below)[1]) / values[0]
+
+        load = force_at(contacts, solver).value[0]
+        law = nominal_exponent(solver, judged.laws[solver].exponent_of_load)
+        columns = {"normal_force": load, "contact_law": (load / load[0]) ** law, "drag_law": 1.0, "slope_law": 1.0}
+        for name, (variable, below) in behind(solver).items():
+            columns |= _columns(name, interval(over_the_first(variable, below), contacts, ROUGH, solver))
+        return DataFrame(columns)
+
+    return Plot(
+        f"{series.folder}/behind",
+        study_friction.behind,
+        {"behind": _each_dimension(of)},
+        "Behind Eq. 17, at the slowest speed, over the numbers under the least load: (a) real contact, a length "
+        "in 1D and an area in 3D; (b) friction over it; (c) rms slope of what touches. Dashed: as the paper "
+        "derives it, contact in proportion to the nominal one, and the others the same at every load. Bars are "
+        "intervals of 95 %.",
+        f"What makes slow friction of {series.title} depend on the load",
     )
 
 
