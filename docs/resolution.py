@@ -1,0 +1,145 @@
+"""What converges of a steep sphere, and what does not: writes docs/resolution.md, .csv and .png.
+
+The steep sphere of the studies at 0.4 N, one surface, at rest and at three speeds, on a ladder of grids. What has
+been solved once is in docs/resolution/solved; from nothing it takes half an hour and 1.5 GB of memory.
+"""
+
+from dataclasses import replace
+from math import log2, nan, pi
+from pathlib import Path
+
+import numpy as np
+from pandas import DataFrame
+from rich.console import Console
+from tables import table
+
+from bem3d import BEM
+from compare.csvfiles import text, write_text
+from compare.plots import style
+from compare.progress import Watched
+from compare.runner import sweep
+from compare.store import Store
+from compare.studies.contacts import STEEP
+from compare.task import SceneTask
+from scene import Indent, Slide
+
+PAGE = Path(__file__).with_suffix(".md")
+POINTS, LOAD = (320, 640, 1280, 2560), 0.4
+# v tau q_s: rest, low speed, the knee, and the fastest of the studies.
+SPEEDS = {0.0: "at rest", 0.03: "slow", 3.0: "at the knee", 35.0: "fast"}
+ESTIMATES = {"curvature": "by curvature", "traction": "by traction", "loss": "by loss", "friction": "as answered"}
+HEADER = (
+    "points|pixels a wave|pixels across a spot|by curvature|by traction|by loss|as answered|depth|real contact"
+)
+INTRODUCTION = """# What converges, and what does not
+
+The steep sphere of the studies (rms slope 0.28, shortest wave 32 µm, h₀ = 3 µm) under 0.4 N, one surface, on grids
+of 2.9 to 23 pixels to the shortest wave. Numbers are over those on the finest grid: friction by each estimate
+([theory](theory.md), Eqs. 5c to 5e) over the answer there; at rest the curvature that the pressure weighs, which is
+friction over vτ at low speed. A spot is as wide as a disc with the area over rim of the real contact. Written by
+`python docs/resolution.py`.
+
+![Friction of the steep sphere over that on the finest grid](resolution.png)
+
+"""
+
+
+def main() -> None:
+    """Solve what is not solved yet, and write the page, its table and its figure."""
+    scene, _ = STEEP["sphere"]
+    rough = replace(scene.roughness, seed=1)
+    wave = rough.shortest / (2 * pi * scene.elastomer.relaxation_time)
+    tasks = {}
+    for speed in SPEEDS:
+        motion = Slide(speed=speed * wave, load=LOAD) if speed else Indent(load=LOAD)
+        moving = replace(scene, roughness=rough, motion=motion)
+        tasks |= {(speed, points): SceneTask(BEM(points=points), (moving,), work=points**2) for points in POINTS}
+    with Watched(Console()) as progress:
+        swept = sweep(list(tasks.values()), Store(PAGE.with_suffix("") / "solved"), progress=progress)
+    frame = DataFrame([_row(*place, swept.outcomes[task].rows[0]) for place, task in tasks.items()])
+    write_text(PAGE.with_suffix(".csv"), text(frame))
+    with style.applied():
+        _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
+    parts = (
+        f"## {name.capitalize()}\n\n{_table(frame, speed)}\n\n{_orders(frame, speed)}"
+        for speed, name in SPEEDS.items()
+    )
+    write_text(PAGE, INTRODUCTION + "\n\n".join(parts) + "\n")
+
+
+def _row(speed, points, row):
+    """Numbers of one solve; at rest curvature is friction, in 1/m."""
+    known, force = row.measures, row.normal_force
+    friction = {name: known[f"friction_by_{name}"] / force if speed else nan for name in ("traction", "loss")}
+    curvature = known["friction_by_curvature"] / force if speed else known["curvature_by_pressure"]
+    return {
+        "speed": speed,
+        "points": points,
+        "pixels_a_wave": known["points_per_shortest_wave"],
+        "pixels_across_a_spot": 2 * known["spot_radius"] / known["pixel"],
+        "curvature": curvature,
+        **friction,
+        "friction": row.friction_coefficient if speed else curvature,
+        "depth": row.depth,
+        "contact": known["contact_area"],
+    }
+
+
+def _over_the_finest(frame, speed):
+    own = frame[frame["speed"] == speed].sort_values("points")
+    last = own.iloc[-1]
+    over = dict.fromkeys(ESTIMATES, last["friction"]) | {name: last[name] for name in ("depth", "contact")}
+    return own, own[list(over)] / over
+
+
+def _table(frame, speed):
+    own, over = _over_the_finest(frame, speed)
+    rows = zip(own.itertuples(), over.itertuples(index=False), strict=True)
+    return table(
+        HEADER.removeprefix("|"),
+        (
+            (
+                f"{row.points}",
+                f"{row.pixels_a_wave:.1f}",
+                f"{row.pixels_across_a_spot:.1f}",
+                *("" if not np.isfinite(each) else f"{each:.4f}" for each in ratios),
+            )
+            for row, ratios in rows
+        ),
+    )
+
+
+def _orders(frame, speed):
+    """Order of each estimate from the last three grids, and what the finest is then off by, where it is known."""
+    own, _ = _over_the_finest(frame, speed)
+    said = []
+    for name, words in ESTIMATES.items():
+        first, second = np.diff(own[name].values[-3:])
+        if np.isfinite(first) and first * second > 0 and abs(second) < abs(first):
+            order = log2(first / second)
+            left = second / (2**order - 1) / own["friction"].values[-1]
+            said.append(f"{words} {order:.1f}, which leaves {left:+.2%} on the finest grid")
+        elif np.isfinite(first):
+            last = own["friction"].values[-1]
+            said.append(f"{words} none: the last two changes are {first / last:+.2%} and {second / last:+.2%}")
+    return f"Order in the pixel, from the last three grids: {'; '.join(said)}."
+
+
+def _figure(frame):
+    drawing = style.canvas("double", 2.6)
+    panels = drawing.subplots(1, len(SPEEDS), sharey=True, sharex=True)
+    for axes, (speed, name) in zip(panels, SPEEDS.items(), strict=True):
+        own, over = _over_the_finest(frame, speed)
+        for look, (estimate, words) in zip(style.forms(), ESTIMATES.items(), strict=False):
+            if np.isfinite(over[estimate]).all():
+                axes.plot(own["pixels_a_wave"], over[estimate], label=words, **look)
+        axes.axhline(1, **style.line(0.6, 0.65, zorder=0))
+        axes.set(xscale="log", xlabel="pixels a wave [1]", title=name, ylim=(0.6, 1.2))
+    panels[0].set_ylabel("over the answer on the finest grid [1]")
+    style.decades(*panels)
+    style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 4)
+    return drawing
+
+
+if __name__ == "__main__":
+    main()
