@@ -155,7 +155,7 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
         ("hurst = 0.6", "hurts = 0.6", ["series.1.roughness.hurts = 0.6: unknown here; did you mean hurst?"]),
         ("hurst = 0.6", "rms_height = 0", ["series.1.roughness.rms_height = 0: a study asks what roughness does"]),
         (KELVIN, '"elastic"\nmodulus = 1', ["series.0: speeds"]),
-        ("title", 'scene = "paper-spere"\ntitle', ["scene = 'paper-spere': no scene or study is called"]),
+        ("title", 'scene = "paper-spere"\ntitle', ["scene: no scene or study is called 'paper-spere'"]),
         (SERIES, "", ["series: missing, a list"]),
         (SERIES, "[series]", ["series: Input should be a list"]),
     ],

@@ -137,7 +137,7 @@ def rings_of(topography: Topography) -> Rings:
     kept = number > 0
     power, q, freedoms = (each[kept] for each in sums)
     number = number[kept]
-    density = power / number / (2 * steps[0] * steps[1])
+    density = waves.unit**2 * power / number / (2 * steps[0] * steps[1])
     borders = np.append(edges[:-1][kept], last)
     return Rings(borders, q / number, density, number, freedoms, bool(last * WHOLE > highest))
 
@@ -154,7 +154,7 @@ def _freedoms(topography, shape):
 def rows_of(topography: Topography) -> Profile:
     """C_1D of the line scans along x, the mean over all rows of what repeats."""
     waves = topography.waves
-    return Profile(waves.along_x[1:], waves.power.sum(axis=0)[1:] / (2 * waves.step_x))
+    return Profile(waves.along_x[1:], waves.unit**2 * waves.power.sum(axis=0)[1:] / (2 * waves.step_x))
 
 
 def _rms(values):
