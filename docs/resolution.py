@@ -27,6 +27,7 @@ PAGE = Path(__file__).with_suffix(".md")
 POINTS, LOAD = (320, 640, 1280, 2560), 0.4
 # v tau q_s: rest, low speed, the knee, and the fastest of the studies.
 SPEEDS = {0.0: "at rest", 0.03: "slow", 3.0: "at the knee", 35.0: "fast"}
+LEAST_ORDER = 0.5  # of which one can be told from three grids
 ESTIMATES = {"curvature": "by curvature", "traction": "by traction", "loss": "by loss", "friction": "as answered"}
 HEADER = (
     "points|pixels a wave|pixels across a spot|by curvature|by traction|by loss|as answered|depth|real contact"
@@ -64,7 +65,7 @@ def main() -> None:
         f"## {name.capitalize()}\n\n{_table(frame, speed)}\n\n{_orders(frame, speed)}"
         for speed, name in SPEEDS.items()
     )
-    write_text(PAGE, INTRODUCTION + "\n\n".join(parts) + "\n")
+    write_text(PAGE, "\n\n".join([INTRODUCTION + _summary(frame), *parts]) + "\n")
 
 
 def _row(speed, points, row):
@@ -110,19 +111,31 @@ def _table(frame, speed):
 
 
 def _orders(frame, speed):
-    """Order of each estimate from the last three grids, and what the finest is then off by, where it is known."""
+    """Order of each estimate that counts there, from the last three grids, and what the finest is then off by."""
     own, _ = _over_the_finest(frame, speed)
-    said = []
-    for name, words in ESTIMATES.items():
+    last, said = own["friction"].values[-1], []
+    for name in ESTIMATES if speed < 1 else ("traction", "loss", "friction"):
         first, second = np.diff(own[name].values[-3:])
-        if np.isfinite(first) and first * second > 0 and abs(second) < abs(first):
+        if np.isfinite(first) and second and first / second >= 2**LEAST_ORDER:
             order = log2(first / second)
-            left = second / (2**order - 1) / own["friction"].values[-1]
-            said.append(f"{words} {order:.1f}, which leaves {left:+.2%} on the finest grid")
+            left = second / (2**order - 1) / last
+            said.append(f"{ESTIMATES[name]} {order:.1f}, which leaves {-left:+.2%} on the finest grid")
         elif np.isfinite(first):
-            last = own["friction"].values[-1]
-            said.append(f"{words} none: the last two changes are {first / last:+.2%} and {second / last:+.2%}")
+            changes = f"{first / last:+.2%} and {second / last:+.2%}"
+            said.append(f"{ESTIMATES[name]} none is seen, the last two changes are {changes}")
     return f"Order in the pixel, from the last three grids: {'; '.join(said)}."
+
+
+def _summary(frame):
+    """What the grids short of the finest are off by, as answered."""
+    parts = []
+    for points in POINTS[:-1]:
+        own = frame[frame["points"] == points]
+        finest = frame[frame["points"] == POINTS[-1]]
+        off = own["friction"].values / finest["friction"].values - 1
+        said = ", ".join(f"{each:+.1%} {name}" for each, name in zip(off, SPEEDS.values(), strict=True))
+        parts.append(f"- {points}², {own['pixels_a_wave'].iloc[0]:.1f} pixels a wave: {said}")
+    return "As answered, friction differs from that on the finest grid by\n\n" + "\n".join(parts)
 
 
 def _figure(frame):

@@ -1,6 +1,8 @@
 """Tables of the pages that are measured."""
 
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -16,3 +18,11 @@ def table(header: str, rows: Iterator[tuple]) -> str:
 def order(points, errors) -> float:
     """Observed order: slope of error against points, in logarithms, over all of them."""
     return -np.polyfit(np.log(points), np.log(errors), 1)[0]
+
+
+def replaced(path: Path, name: str, text: str) -> None:
+    """Replace what stands between two comments of a page."""
+    page = path.read_text(encoding="utf-8")
+    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
+    assert len(pattern.findall(page)) == 1, (path, name)
+    path.write_text(pattern.sub(lambda found: f"{found[1]}{text.strip()}\n{found[2]}", page), encoding="utf-8")

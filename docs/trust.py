@@ -4,7 +4,6 @@ The folder is that of `crosscheck study trust --size standard`. Written are the 
 those learned from, beside the modules that read them, and the tables of docs/trust.md and the README.
 """
 
-import re
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray
+from tables import replaced
 from tables import table as markdown
 
 import compare
@@ -80,14 +80,6 @@ def told(rows: Iterator[dict[str, str]]) -> str:
     """Rows as a Markdown table."""
     first, *others = rows
     return markdown("|".join(first), (tuple(row.values()) for row in (first, *others)))
-
-
-def replaced(path: Path, name: str, text: str) -> None:
-    """Replace what stands between two comments of a page."""
-    page = path.read_text(encoding="utf-8")
-    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
-    assert len(pattern.findall(page)) == 1, (path, name)
-    path.write_text(pattern.sub(lambda found: f"{found[1]}{text.strip()}\n{found[2]}", page), encoding="utf-8")
 
 
 def main(folder: Path | None) -> None:
