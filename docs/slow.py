@@ -26,8 +26,8 @@ CLAIMS = {
 }
 ANSWER = (
     "At low speed, inside the regime of the paper, friction in three dimensions goes with the load to the power "
-    "{} for the steep sphere and {} for the steep cone, where Eq. 17 has −0.667 and −0.5; it is {} and {} times as "
-    "high."
+    "{} for the steep sphere and {} for the steep cone, where Eq. 17 has −0.667 and −0.5; it is {} and {} times "
+    "as high."
 )
 
 
