@@ -264,8 +264,7 @@ def _behind(judged) -> Plot:
         {"behind": _each_dimension(of)},
         "Behind Eq. 17, at the slowest speed, over the numbers under the least load: (a) real contact, a length "
         "in 1D and an area in 3D; (b) friction over it; (c) rms slope of what touches. Dashed: as the paper "
-        "derives it, contact in proportion to the nominal one, and the others the same at every load. Bars are "
-        "intervals of 95 %.",
+        "derives it, contact like the nominal one, the others constant. Bars: 95 %.",
         f"What makes slow friction of {series.title} depend on the load",
     )
 
