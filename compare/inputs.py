@@ -48,18 +48,21 @@ def case_of(asked: Asked) -> Case:
 
 def located(asked: str | Path, kind: str = "scene") -> Path:
     """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
-    path = Path(asked)
-    try:
-        checked(path, MOST)
-    except Unreadable as error:
-        if lexists(path):
-            raise InvalidInput(f"{asked}: is a folder, and no {kind}" if isdir(path) else str(error)) from error
-        missing = error
-    else:
-        if (other := _other_kind(path, kind)) is not None:
-            raise InvalidInput(f"{asked}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {asked}")
-        return path
-    every = ready()
+    path, every = Path(asked), ready()
+    # A folder may be called as a ready one is: that of an earlier run.
+    if not (isdir(path) and str(asked) in every):
+        try:
+            checked(path, MOST)
+        except Unreadable as error:
+            if isdir(path):
+                raise InvalidInput(f"{asked}: is a folder, and no {kind}") from error
+            if lexists(path):
+                raise InvalidInput(str(error)) from error
+            missing = error
+        else:
+            if (other := _other_kind(path, kind)) is not None:
+                raise InvalidInput(f"{asked}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {asked}")
+            return path
     known = [name for name, each in every.items() if each.kind == kind]
     if str(asked) in known:
         return Path(str(files("compare"))) / FOLDERS[kind] / f"{asked}.toml"

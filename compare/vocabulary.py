@@ -125,7 +125,7 @@ reached : Mean depth that was reached, above zero into the elastomer. [m]
 surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
 drag : Friction over real contact, over that under the least load. [1]
-contact_law : Real contact over that under the least load, as the paper derives it. [1] |  | Popov et al. 2014, Eq. 17
+contact_law : Real contact over that under the least load, by the paper. [1] |  | Popov et al. 2014, Eq. 17
 drag_law : Friction over real contact, likewise. [1]
 slope_law : Rms slope of what touches, likewise. [1]
 contact : Real contact, where pressure is not zero: a length [m] in 1D, an area [m²] in 3D.

@@ -8,6 +8,7 @@ import pytest
 
 from compare import run
 from compare.cases import Case
+from compare.inputs import located
 from compare.json_schema import DIALECT, schema
 from compare.library import NotReady, find, ready, write
 from compare.planning import plans
@@ -202,3 +203,12 @@ def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch
 def test_the_page_about_scenes_names_every_ready_one():
     text = (Path(__file__).parent.parent / "docs" / "scenes.md").read_text(encoding="utf-8")
     assert not [name for name in SCENES if f"`{name}`" not in text]
+
+
+def test_a_folder_of_an_earlier_run_does_not_hide_the_ready_scene_it_was_made_from(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "quick-start").mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    assert located("quick-start").name == "quick-start.toml"
+    with pytest.raises(InvalidInput, match="is a folder, and no scene"):
+        located("elsewhere")
