@@ -84,6 +84,11 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or "
             "depths at which xi is large.",
         ),
+        "eq19.level": (
+            "Eq. 19: friction at the knee has the level of the law",
+            "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1, geometric mean over the "
+            "loads or depths.",
+        ),
         "eq14.slope-exponent": (
             "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
             "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
@@ -105,6 +110,16 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
     (0.0, TOLERANCE): {
+        "eq14.load-exponent": (
+            "Eq. 14: at high speed friction does not depend on the load",
+            "d ln mu / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
+            "depths at which xi is large.",
+        ),
+        "eq19.load-exponent": (
+            "Eq. 19: at the knee friction falls with the load as the law does",
+            "d ln mu / d ln F_N at the speed at which xi is closest to 1, less that of the law there, least squares "
+            "over the loads or depths.",
+        ),
         "rest.depth-deep": (f"{_DEEP}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
         "rest.depth-shallow": (f"{_SHALLOW}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
         "rest.force-deep": (f"{_DEEP}: {_REST_FORCE[0]}", _REST_FORCE[1]),

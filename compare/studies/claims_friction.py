@@ -75,6 +75,12 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
     def xi(answers):
         return laws.xi_under(mean(answers, "normal_force")[1:])
 
+    def over_law(answers):
+        return mu(answers) / laws.law_of(xi(answers))
+
+    def against_load(answers, values, place, chosen=slice(None)):
+        return power(mean(answers, "normal_force")[1:][place][chosen], values[chosen])
+
     def speed_exponent(answers):
         slow, next_to_it = mu(answers)[:2]
         return float(np.mean(np.log(next_to_it / slow)) / np.log(series.speeds[1] / series.speeds[0]))
@@ -103,9 +109,15 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
         # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
         if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
             yield "limit.slow", over_limit, slowest, None
+    if (knee := _closest_to_one(laws)[1]) is not None:
+        yield "eq19.level", lambda it: geometric(over_law(it)[knee]), laws.xi[knee], None
+        if len(series.values) > 1:
+            yield "eq19.load-exponent", lambda it: against_load(it, over_law(it)[knee], knee), laws.xi[knee], None
     if fast.any():
         reached = laws.xi[-1][fast]
-        yield "eq14.plateau", lambda it: geometric((mu(it)[-1] / laws.law_of(xi(it))[-1])[fast]), reached, None
+        yield "eq14.plateau", lambda it: geometric(over_law(it)[-1][fast]), reached, None
+        if fast.sum() > 1:
+            yield "eq14.load-exponent", lambda it: against_load(it, over_law(it)[-1], -1, fast), reached, None
     yield "eq19.law", lambda it: np.log(mu(it) / laws.law_of(xi(it))), None, None
 
 
@@ -130,17 +142,23 @@ def nominal_exponent(solver: str, of_friction: float) -> float:
 
 def _places(laws) -> Iterator[tuple[str, int]]:
     """Claims by where the median of xi lies at a speed; each speed is asked once."""
-    known = [row[np.isfinite(row)] for row in laws.xi]
-    middle = np.array([np.exp(np.median(np.log(row))) if row.size else nan for row in known])
-    away = np.nan_to_num(np.abs(np.log(middle)), nan=np.inf)
-    last, closest = len(middle) - 1, int(np.argmin(away))
-    knee = closest if away[closest] <= np.log(AT_THE_KNEE) else None
+    middle, knee = _closest_to_one(laws)
+    last = len(middle) - 1
     if middle[0] < 1 and knee != 0:
         yield "pair.friction-slow", 0
     if knee is not None:
         yield "pair.friction-knee", knee
     if middle[last] > 1 and knee != last:
         yield "pair.friction-fast", last
+
+
+def _closest_to_one(laws) -> tuple[np.ndarray, int | None]:
+    """Median of xi at each speed, and the place of the speed at the knee, None without any."""
+    known = [row[np.isfinite(row)] for row in laws.xi]
+    middle = np.array([np.exp(np.median(np.log(row))) if row.size else nan for row in known])
+    away = np.nan_to_num(np.abs(np.log(middle)), nan=np.inf)
+    closest = int(np.argmin(away))
+    return middle, closest if away[closest] <= np.log(AT_THE_KNEE) else None
 
 
 def collapses(contacts: Contacts, solver: str) -> tuple[Collapse, Collapse] | None:
