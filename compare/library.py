@@ -21,7 +21,7 @@ SCENES = {
     "plan": "Scenes that crosscheck run does not compare: crosscheck plan NAME",
 }
 STUDIES = "Studies: crosscheck study NAME"
-ALL = "`crosscheck study all` does collapse, solids, hurst, parameters, regime and depth."
+ALL = "`crosscheck study all` does the first six of them."
 NEW = "`crosscheck new NAME` copies a scene, or a study that is a file, for you to change."
 
 

@@ -18,7 +18,7 @@ from .inputs import Asked, case_of
 from .studies.casecurves import DIMENSIONS, curves
 from .studies.trust.verdict import Trust, trust
 
-WIDTH = 110
+WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
 INDENT = 11  # of the five lines, after their names
 
@@ -63,10 +63,10 @@ class Plans(dict[str, Plan | str | Trust]):
             contacts, time = "1, from Python: crosscheck run does not compare this scene", ""
             if isinstance(self.cost, Cost):
                 contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
-                time = f"about {duration(self.cost.seconds)} of processor time for all contacts; "
+                time = f"about {duration(self.cost.seconds)} on one processor; "
             yield "contacts", contacts
-            yield "time", f"{time}one contact takes {self._by_dimension(_seconds)}"
-            yield "memory", f"{self._by_dimension(lambda plan: size(plan.memory))}, of each process at most"
+            yield "time", f"{time}one contact {self._by_dimension(_seconds)}"
+            yield "memory", f"{self._by_dimension(lambda plan: size(plan.memory))}, at most, in each process"
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
