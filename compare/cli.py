@@ -12,7 +12,7 @@ import typer
 
 from . import commands, library
 from .completion import completion
-from .console import FAILED, MISTAKE, said_to_people, say
+from .console import FAILED, MISTAKE, Preparing, said_to_people, say
 from .docstrings import documented
 from .plots.journals import JOURNALS
 
@@ -73,6 +73,11 @@ class Command:
         """Whether it has the options of all commands that solve."""
         return "options" in inspect.signature(self.function).parameters
 
+    @property
+    def tells(self) -> bool:
+        """Whether it can tell how far it is."""
+        return self.solves or "progress" in inspect.signature(self.function).parameters
+
     def callback(self) -> Callable[..., None]:
         """Function with a signature that typer turns into arguments and options."""
         found = inspect.signature(self.function).parameters
@@ -102,11 +107,11 @@ class Command:
     def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
         """Do the command, print what came of it, and end with its status."""
         with said_to_people(f"--output {given.get('output')}", solves=self.solves):
-            if self.solves:
-                given["progress"] = "lines" if verbose else not (quiet or json)
-            elif "progress" in inspect.signature(self.function).parameters:
-                given["progress"] = True
-            found = self.function(**given)
+            if self.tells and not (quiet or json):
+                with Preparing(lines=verbose) as given["progress"]:
+                    found = self.function(**given)
+            else:
+                found = self.function(**given)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
             say(f"0 tasks solved, {swept.reused} reused")

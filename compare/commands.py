@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from .console import Preparing
     from .declaration import Study
     from .inputs import Asked
     from .library import Listing
@@ -48,7 +49,7 @@ class Options(TypedDict, total=False):
     figures: str
     report: bool
     yes: bool
-    progress: bool | str
+    progress: bool | str | Preparing
 
 
 def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Report:
@@ -57,12 +58,14 @@ def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Repor
     study : an object of a class derived from `compare.Study`
     """
     from . import pipeline
-    from .console import watch
+    from .console import Preparing, watch
 
     chosen: dict[str, Any] = dict(options)
     progress = chosen.pop("progress", False)
-    told = watch(lines=progress == "lines") if progress else None
-    return pipeline.run(study, output, watch=told, **chosen)
+    if not progress:
+        return pipeline.run(study, output, **chosen)
+    with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
+        return pipeline.run(study, output, watch=watch(preparing), **chosen)
 
 
 def run(
@@ -328,7 +331,7 @@ def animate(
     seconds: float = 6.0,
     folder: str | Path = "crosscheck-animation",
     workers: int | None = None,
-    progress: bool = False,
+    progress: bool | Preparing = False,
 ) -> Path:
     """Animate a scene in time, 1D and 3D side by side.
 
@@ -338,10 +341,13 @@ def animate(
     seconds : length of the animation [s]
     folder : folder for the solved contacts
     """
-    from contextlib import nullcontext
-
     from .animation import animate
-    from .console import watch
+    from .console import Preparing, watch
 
-    with watch().solving() if progress else nullcontext() as told:
+    if not progress:
+        return animate(scene, output, frames, seconds, folder, workers, None)
+    with (
+        progress if isinstance(progress, Preparing) else Preparing() as preparing,
+        watch(preparing).solving() as told,
+    ):
         return animate(scene, output, frames, seconds, folder, workers, told)

@@ -142,7 +142,7 @@ def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
         points = plot.tables[shifted_curves.NAME]
         with style.applied():
             axes = shifted_curves.figure(plot.tables, **plot.options).axes[0]
-        bars = [each for each in axes.containers if each.has_yerr][0].lines[2][0].get_segments()
+        bars = next(each for each in axes.containers if each.has_yerr).lines[2][0].get_segments()
         ends = np.array([segment[:, 1] for segment in bars])
         expected = points[["friction_coefficient_low", "friction_coefficient_high"]].to_numpy()
         assert np.isfinite(expected).all() == drawn

@@ -8,6 +8,7 @@ import sys
 import time
 from concurrent.futures import Future
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -460,6 +461,38 @@ def test_a_bar_tells_the_same_on_a_terminal():
     for part in ("1/2, 1 failed", "3 min 20 s left", "67 %"):
         assert part in said
     assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
+
+
+def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
+    console, clock = lines(terminal=True), Clock()
+    tasks = loads(4.0, 2.0)
+    shown = []
+
+    def look():
+        told.bar.refresh()
+        shown.append(told.bar.tasks[0].percentage)
+
+    with Watched(console, clock=clock) as told:
+        told.planned(tasks, 0)
+        told.started(tasks[0])
+        look()
+        for _ in range(20):
+            clock.now += 1.0
+            look()
+        assert shown[0] == 0
+        assert shown[1] > 1
+        assert all(earlier < later for earlier, later in pairwise(shown))
+        assert shown[-1] < 100 * 4 / 6
+        told.finished(tasks[0], Outcome((Row(1.0),)))
+        look()
+        assert shown[-1] == pytest.approx(100 * 4 / 6)
+        told.started(tasks[1])
+        clock.now += 10.0
+        look()
+        assert 100 * 4 / 6 < shown[-1] < 100
+        told.finished(tasks[1], Outcome((Row(1.0),)))
+        look()
+        assert shown[-1] == pytest.approx(100)
 
 
 def test_durations_are_said_as_people_say_them():
