@@ -119,7 +119,7 @@ class Watched(Progress):
         """Nothing more is started."""
         self.doing = "finishing "
         if not self.shown:
-            self.console.print("finishing what is being solved")
+            self.console.print("finishing the tasks under way")
         self._tell()
 
     def _reached(self):

@@ -243,7 +243,7 @@ def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_a
     assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
     again = [line for line in heard.said_lines if line.startswith(tasks[0].label)]
     assert len(again) == min(deaths, Processes.tries - 1)
-    assert again[0].endswith("a worker died as it solved this or beside it; tried again alone")
+    assert again[0].endswith("its worker process died; the task is tried again alone")
     (row,) = swept.outcomes[tasks[0]].rows
     if deaths < Processes.tries:
         assert row.normal_force == 100.0
@@ -326,7 +326,7 @@ def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, mo
     monkeypatch.undo()
     heard = Heard()
     assert sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1, progress=heard).solved == 3
-    assert heard.said_lines == ["2 tasks are stored as other code solved them: they are solved again"]
+    assert heard.said_lines == ["2 stored tasks were solved by other code: they are solved again"]
 
 
 def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, monkeypatch):
@@ -435,7 +435,7 @@ def test_lines_tell_time_left_failures_and_what_was_reused():
         "3 tasks to solve, 5 reused",
         f"1/3, 6 s left, solved {tasks[0].label}",
         "a worker ended",
-        "finishing what is being solved",
+        "finishing the tasks under way",
         "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
     ]
 
