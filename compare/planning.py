@@ -65,7 +65,7 @@ class Plans(dict[str, Plan | str | Trust]):
                 contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
                 time = f"about {duration(self.cost.seconds)} on one processor; "
             yield "contacts", contacts
-            yield "time", f"{time}one contact {self._by_dimension(_seconds)}"
+            yield "time", f"{time}this contact {self._by_dimension(_seconds)}"
             yield "memory", f"{self._by_dimension(lambda plan: size(plan.memory))}, at most, in each process"
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
