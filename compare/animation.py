@@ -97,9 +97,9 @@ def filmed(
 def check(path: Path, frames: int, seconds: float) -> None:
     """Raise Refused where nothing could write such a file, OSError where its folder is not there or takes none."""
     if path.suffix.lower() not in (".gif", ".mp4"):
-        raise Refused(f"{path.name}: a name that ends in .gif, or in .mp4 where ffmpeg is on the path")
+        raise Refused(f"{path.name}: the file needs a name that ends in .gif, or in .mp4 if ffmpeg is on the path")
     if path.suffix.lower() == ".mp4" and not FFMpegWriter.isAvailable():
-        raise Refused(f"{path.name}: an .mp4 takes ffmpeg, which is not on the path; install it, or name a .gif")
+        raise Refused(f"{path.name}: an .mp4 takes ffmpeg, which is not on the path; install it, or write a .gif")
     if not (1 <= frames <= MOST_FRAMES and 0 < seconds <= LONGEST and frames / seconds <= FASTEST):
         raise Refused(
             f"frames = {frames} in seconds = {seconds:g}: 1 to {MOST_FRAMES} frames in at most {LONGEST} seconds, "

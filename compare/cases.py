@@ -36,7 +36,7 @@ def _distinct(study):
     for name in ("speeds", "pressing", "load_speeds", "depths"):
         values = getattr(study, name)
         if values is not None and len(set(values)) < len(values):
-            raise ValueError(f"{name} = {brief(repr(list(values)))}: a value stands there twice")
+            raise ValueError(f"{name} = {brief(repr(list(values)))}: a value stands there twice, once is allowed")
     return study
 
 
@@ -128,14 +128,14 @@ class Case:
         """Raise Refused, with the reasons, if a solver lacks what the scene asks for, or nothing compares it."""
         if not isinstance(self.motion, Indent | Slide):
             raise Refused(
-                f"motion = {type(self.motion).__name__}: what is compared is pressed in or slides steadily, use "
-                "Indent or Slide, or solve it from Python with each solver"
+                f"motion = {type(self.motion).__name__}: crosscheck compares bodies that are pressed in (Indent) "
+                "or slide steadily (Slide); solve other motions from Python, with each solver"
             )
         if self.interface is not None and isinstance(self.motion, Slide):
             raise Refused(
-                "interface = Coulomb with motion = Slide: what is compared is the loss in the elastomer, and the "
-                "interface adds coefficient * F_N to it in both solvers; leave interface out, or solve it from "
-                "Python, where the measure friction_in_elastomer is the loss"
+                "interface = Coulomb with motion = Slide: crosscheck compares the loss in the elastomer, to which "
+                "the interface adds coefficient * F_N in both solvers; leave interface out, or solve the scene "
+                "from Python, where the measure friction_in_elastomer is the loss"
             )
         refuse(self.mdr, self.scene)
         refuse(self.bem, self.scene)

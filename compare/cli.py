@@ -10,11 +10,19 @@ from typing import Annotated, Any
 
 import typer
 
-from . import commands
-from .console import FAILED, MISTAKE, said_to_people, say
+from . import commands, library
+from .completion import completion
+from .console import FAILED, MISTAKE, Preparing, said_to_people, say
 from .docstrings import documented
+from .plots.journals import JOURNALS
 
-app = typer.Typer(add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False)
+# Help is plain text: as markup of rich, what stands in brackets, units too, would be taken for a style and lost.
+app = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"max_content_width": 100},
+)
 
 # What stands on a command line for what a function takes.
 TYPES = {
@@ -28,7 +36,7 @@ TYPES = {
     "Asked | Mapping[str, Asked] | None": str | None,
     "str | Path": Path,
     "str | Path | None": Path | None,
-    "Sequence[float] | None": list[float] | None,
+    "str | float | Sequence[str | float] | None": list[str] | None,
     "Any": str | None,
 }
 # Arguments by their place, though they may be absent.
@@ -36,8 +44,8 @@ PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
 PYTHON_ONLY = {"quantities", "progress", "options"}
 SHARED = {"workers": None, "scheduler": None, "format": "html", "figures": "png", "report": True, "yes": False}
-Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but mistakes.")]
-Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Say each solve and each figure.")]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
 
 
@@ -47,11 +55,13 @@ class Command:
 
     function : of the same name in Python
     said : what is printed of what it returns
+    details : help of the option that prints the details of what it returns; empty where it has none
     """
 
     function: Callable[..., Any]
     said: Callable[[Any], str] = str
     name: str = ""
+    details: str = ""
 
     @property
     def title(self) -> str:
@@ -63,6 +73,11 @@ class Command:
         """Whether it has the options of all commands that solve."""
         return "options" in inspect.signature(self.function).parameters
 
+    @property
+    def tells(self) -> bool:
+        """Whether it can tell how far it is."""
+        return self.solves or "progress" in inspect.signature(self.function).parameters
+
     def callback(self) -> Callable[..., None]:
         """Function with a signature that typer turns into arguments and options."""
         found = inspect.signature(self.function).parameters
@@ -72,9 +87,14 @@ class Command:
             own |= {name: (shared[name], default) for name, default in SHARED.items()}
         about, said = documented(self.function.__doc__)
         texts = documented(commands.__doc__)[1] | said
-        parameters = [_parameter(name, *each, texts[name]) for name, each in own.items()]
+        parameters = [
+            _parameter(name, *each, texts[name], completion(self.title, name)) for name, each in own.items()
+        ]
         if self.solves:
             parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
+        elif self.details:
+            details = typer.Option("-v", "--verbose", help=self.details)
+            parameters += [_keyword("verbose", Annotated[bool, details])]
 
         def called(**given: Any) -> None:
             self(**given)
@@ -87,11 +107,11 @@ class Command:
     def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
         """Do the command, print what came of it, and end with its status."""
         with said_to_people(f"--output {given.get('output')}", solves=self.solves):
-            if self.solves:
-                given["progress"] = "lines" if verbose else not (quiet or json)
-            elif "progress" in inspect.signature(self.function).parameters:
-                given["progress"] = True
-            found = self.function(**given)
+            if self.tells and not (quiet or json):
+                with Preparing(lines=verbose) as given["progress"]:
+                    found = self.function(**given)
+            else:
+                found = self.function(**given)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
             say(f"0 tasks solved, {swept.reused} reused")
@@ -100,24 +120,32 @@ class Command:
         if json:
             say(_as_json(found))
         elif not quiet:
-            say(self.said(found))
+            say(found.details if verbose and hasattr(found, "details") else self.said(found))
         if getattr(found, "failed", False):
             raise typer.Exit(FAILED)
         if not getattr(found, "feasible", True):
             raise typer.Exit(MISTAKE)
 
 
-def _parameter(name: str, annotation: str, default: Any, text: str) -> inspect.Parameter:
-    """Argument or option of a command; text : what the docstring says of it, with more on Python alone"""
+def _parameter(
+    name: str, annotation: str, default: Any, text: str, completed: Callable[[str], list[str]] | None
+) -> inspect.Parameter:
+    """Argument or option of a command.
+
+    text : what the docstring says of it, with more on Python alone
+    completed : what a shell completes
+    """
     kind = TYPES[annotation]
-    text = text.partition(". From Python")[0].replace("[", "\\[")  # a unit is no markup
+    text = text.partition(". From Python")[0]
+    if name == "journal":
+        text += f": {', '.join(JOURNALS)}"
     text = f"{text[:1].upper()}{text[1:]}."
     if default is inspect.Parameter.empty or name in PLACED:
-        told = typer.Argument(help=text)
+        told = typer.Argument(help=text, autocompletion=completed)
     elif kind is bool and default:
         told = typer.Option(f"--{name}/--no-{name}", help=text)
     else:
-        told = typer.Option(f"--{name}", help=text, min=1 if name == "workers" else None)
+        told = typer.Option(f"--{name}", help=text, min=1 if name == "workers" else None, autocompletion=completed)
     if isinstance(default, str) and kind in (Path, Path | None):
         default = Path(default)
     return _keyword(name, Annotated[kind, told], default)
@@ -141,8 +169,8 @@ def _paths(found: Any) -> str:
 
 def _written_ready(path: Path) -> str:
     text = path.read_text(encoding="utf-8")
-    command = next(each.command for each in commands.ready().values() if each.text == text)
-    return f"{path}: crosscheck {command} {path}"
+    command = next(each.command for each in library.ready().values() if each.text == text)
+    return f"{path} is written. Next: crosscheck {command} {path}"
 
 
 def _schema(found: Mapping[str, Any]) -> str:
@@ -159,8 +187,8 @@ COMMANDS = (
     Command(commands.regress),
     Command(commands.mastercurve),
     Command(commands.topography),
-    Command(commands.plan),
-    Command(commands.ready, name="list"),
+    Command(commands.plan, details="Print settings, grids, kernels, arrays, and the advice on 1D as well."),
+    Command(commands.ready, name="list", details="Print what each scene and each study is about."),
     Command(commands.new, said=_written_ready),
     Command(commands.schema, said=_schema),
     Command(commands.figures, said=_paths),
@@ -181,7 +209,9 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def crosscheck(
-    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Version.")] = False,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
 ) -> None:
     """How far the one-dimensional method can be trusted for rough, viscoelastic contacts."""
 

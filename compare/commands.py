@@ -6,14 +6,14 @@ processes are started, a script calls these under `if __name__ == "__main__":`.
 
 Options of all of them:
 
-output : folder of the page and of what has been solved
-workers : processes; as many as processors if absent
-scheduler : address of a scheduler of dask.distributed, as tcp://host:8786, whose workers solve then
-format : of the page, html, markdown or latex
-figures : forms of the figures, separated by commas: png, or png,pdf,svg
-report : whether the page and its figures are written; findings and results always are
-yes : agree to what takes more than a day
-progress : whether the terminal says how far it is
+output : folder for the page, the figures and the solved contacts
+workers : number of processes; if absent, one for each processor
+scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
+format : format of the page: html, markdown or latex
+figures : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
+report : write the page and its figures. Findings, tables and results are written in any case
+yes : agree to a study of more than a day or of more than 300,000 contacts
+progress : whether the terminal shows how far it is
 
 Each raises InvalidInput or Refused before anything is solved where what is asked for cannot be, and OSError where
 the folder cannot be written.
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from .console import Preparing
     from .declaration import Study
     from .inputs import Asked
     from .library import Listing
@@ -48,7 +49,7 @@ class Options(TypedDict, total=False):
     figures: str
     report: bool
     yes: bool
-    progress: bool | str
+    progress: bool | str | Preparing
 
 
 def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Report:
@@ -57,12 +58,14 @@ def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Repor
     study : an object of a class derived from `compare.Study`
     """
     from . import pipeline
-    from .console import watch
+    from .console import Preparing, watch
 
     chosen: dict[str, Any] = dict(options)
     progress = chosen.pop("progress", False)
-    told = watch(lines=progress == "lines") if progress else None
-    return pipeline.run(study, output, watch=told, **chosen)
+    if not progress:
+        return pipeline.run(study, output, **chosen)
+    with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
+        return pipeline.run(study, output, watch=watch(preparing), **chosen)
 
 
 def run(
@@ -70,10 +73,10 @@ def run(
     output: str | Path = "crosscheck-report",
     **options: Unpack[Options],
 ) -> Report:
-    """Solve a scene in one and in three dimensions, compare, and write a report.
+    """Solve a scene in 1D and in 3D, compare, and write a report.
 
-    scene : scene as TOML, or the name of a ready one; the paper's sphere and cone if absent. From Python also a
-        Scene or a Case, or several by name
+    scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
+        also a Scene or a Case, or several by name
     """
     from .studies.run import Run
 
@@ -86,25 +89,27 @@ def study(
     output: str | Path = "crosscheck-study",
     **options: Unpack[Options],
 ) -> Report | Listing:
-    """Ask the claims of the paper of many contacts in one and in three dimensions, and write a page.
+    """Test the paper's claims on many contacts in 1D and 3D.
 
-    name : study, or a file with one of your own; absent, the studies are listed
-    size : how much is solved, quick (minutes), standard (up to an hour) or full (up to a day)
+    name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
+    size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
     """
+    if name is None:
+        from .library import studies
+
+        return studies()
     from .studies.claimstudy import ClaimStudy
     from .studies.trust.study import TrustStudy
 
-    if name is None:
-        return ClaimStudy.listing()
     if name == TrustStudy.name:
         return solve(TrustStudy.of(size), output, **options)
     return solve(ClaimStudy.of(str(name), size), output, **options)
 
 
 def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
-    """Simulate the paper again in one dimension: its figures, its parameter studies, its claims.
+    """Repeat the paper in 1D: figures, parameter studies, claims.
 
-    size : how much is solved, quick (20 rough profiles averaged), standard (50) or full (200, as published)
+    size : how many rough profiles are averaged: quick (20), standard (50) or full (200, as published)
     """
     from .studies.paper.study import Paper
 
@@ -117,11 +122,10 @@ def workprecision(
     output: str | Path = "crosscheck-workprecision",
     **options: Unpack[Options],
 ) -> Report | Listing:
-    """Measure what accuracy costs in time, in one and in three dimensions, and write a page.
+    """Measure the error and the time of both solvers. Timed contacts are solved one by one on this machine.
 
-    name : diagram, or all of them by the name all; absent, they are listed. What is timed is solved on this
-        machine, alone
-    size : how much is solved, quick (a minute a diagram), standard or full (up to ten)
+    name : name of a diagram, or all; if absent, a table of the diagrams is printed
+    size : how much is solved: quick (a minute a diagram), standard or full (hours)
     """
     from .studies.workprecision.study import WorkPrecision
 
@@ -133,9 +137,9 @@ def workprecision(
 def stability(
     size: str = "quick", output: str | Path = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
-    """Solve the named hard cases, and say whether each keeps its law; status 1 if any does not.
+    """Solve hard cases and check the law of each. The status is 1 if any case breaks its law.
 
-    size : how much is solved, quick (half a minute), standard or full (some minutes)
+    size : how much is solved: quick (half a minute), standard or full (some minutes)
     """
     from .studies.stability import Stability
 
@@ -149,11 +153,11 @@ def regress(
     output: str | Path = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
-    """Say whether the accuracy of one dimension has moved from what is stored; status 1 if it has.
+    """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed.
 
-    baseline : stored quantities as TOML; those of the package if absent
-    update : store what has moved
-    quantities : that are measured; those of the package if absent
+    baseline : file of stored values (TOML); if absent, the values that come with the package
+    update : store the values that have changed
+    quantities : quantities to measure; if absent, those of the package
     """
     from .studies.regress import Regress
 
@@ -165,9 +169,10 @@ def regress(
 
 
 def mastercurve(table: str | Path, output: str | Path = "mastercurve", **options: Unpack[Options]) -> Report:
-    """Shift measured curves of friction against load onto one, and say whether that works.
+    """Shift measured friction curves onto one, if they allow it. The curves are friction against load.
 
-    table : CSV of friction mu, normal force F_N [N] and speed v [m/s]
+    table : CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give
+        another order and other units, as F_N [mN]. Lines of equal load and speed are repeats
     """
     from .studies.mastercurve import Mastercurve
 
@@ -176,7 +181,7 @@ def mastercurve(table: str | Path, output: str | Path = "mastercurve", **options
 
 def topography(
     file: str | Path,
-    pixel: Sequence[float] | None = None,
+    pixel: str | float | Sequence[str | float] | None = None,
     unit: str | None = None,
     level: str | None = None,
     repeat: str = "mirror",
@@ -184,14 +189,16 @@ def topography(
     output: str | Path = "topography",
     **options: Unpack[Options],
 ) -> Report:
-    """Describe a measured map of heights: size, slopes, spectra, and the self-affine law in them.
+    """Describe a measured surface: slopes, spectra, exponent H.
 
-    file : map of heights, .npy, .npz, .csv, .txt, or as SurfaceTopography reads it
-    pixel : side of a pixel [m], twice, along x and y, where they differ; if the file has none
-    unit : of its heights, m, mm, um or nm; if the file has none
-    level : taken off first, mean, tilt or curvature; if absent tilt, and mean of what is periodic
-    repeat : how the map goes on, mirror or periodic
-    peaks : up if heights grow towards the elastomer, down if away from it
+    file : map of heights: .npy, .npz, .csv, .txt, or any format that SurfaceTopography reads
+    pixel : side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.
+        Needed if the file states none. From Python also a number [m]
+    unit : unit of the heights: m, mm, um or nm. Needed if the file states none
+    level : what is subtracted first: mean, tilt (a plane) or curvature (a paraboloid); if absent, tilt, and mean
+        of a periodic map
+    repeat : how the map continues beyond its sides: mirror or periodic
+    peaks : up if the heights grow towards the elastomer, down if they grow away from it
     """
     from .studies.topography import Map
 
@@ -231,9 +238,9 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
 
 
 def trust(scene: Asked) -> Trust:
-    """Say what the 1D answer to a scene is worth: use it, multiply it, or solve in 3D; nothing rough is solved.
+    """Say whether to use 1D, multiply it, or solve in 3D. It takes about a second, as nothing rough is solved.
 
-    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
+    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     """
     from .inputs import case_of
     from .studies.trust.verdict import trust
@@ -242,10 +249,9 @@ def trust(scene: Asked) -> Trust:
 
 
 def plan(scene: Asked) -> Plans:
-    """Say what would be simulated of a scene, what that costs, and what is left out; status 2 if no solver can.
+    """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
 
-    scene : scene as TOML, with or without settings of the solvers, or the name of a ready one. From Python also a
-        Scene or a Case
+    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     """
     from .planning import plans
 
@@ -255,7 +261,7 @@ def plan(scene: Asked) -> Plans:
 def load(folder: str | Path) -> xarray.DataTree:
     """Everything that a command solved, with each single draw: a Dataset for each rectangle and solver.
 
-    folder : that a command left, or one file of results
+    folder : folder that a command has written, or its results.nc
     """
     from . import results
 
@@ -263,17 +269,17 @@ def load(folder: str | Path) -> xarray.DataTree:
 
 
 def ready() -> Listing:
-    """Scenes and studies to begin with, which come with the package, by name: the command `list`."""
-    from .library import ready
+    """List the scenes and studies that come with the package."""
+    from .library import offered
 
-    return ready()
+    return offered()
 
 
 def new(name: str, file: str | Path | None = None) -> Path:
-    """Write a ready scene or study into a file, to be changed; never over a file that is there.
+    """Copy a ready scene or study into a file of your own.
 
     name : ready scene or study, see `crosscheck list`
-    file : where to; NAME.toml if absent. Never overwritten
+    file : file to write; if absent, NAME.toml. A file that exists is never overwritten
     """
     from .library import write
 
@@ -281,10 +287,10 @@ def new(name: str, file: str | Path | None = None) -> Path:
 
 
 def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, Any]:
-    """Write the JSON schema of scenes or of studies, for editors that complete and check TOML.
+    """Print the JSON schema of scene files or study files. Editors use it to complete and check TOML.
 
-    kind : scene or study
-    output : file to write; none if absent
+    kind : schema of which files: scene or study
+    output : file to write beside; if absent, none
     """
     from .json_schema import schema
 
@@ -294,12 +300,12 @@ def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, A
 def figures(
     folder: str | Path, journal: str = "default", style: Any = None, output: str | Path | None = None
 ) -> list[Path]:
-    """Draw every figure of a folder again, for a journal or in a style, from its tables; nothing is solved.
+    """Draw the figures of a folder again, for a journal. Nothing is solved: the figures are drawn from tables.
 
-    folder : folder that a command left
-    journal : whose columns and least sizes; none in particular if default
-    style : style of matplotlib of your own, a .mplstyle file or a name. From Python also settings
-    output : where to; `figures` in the folder if absent
+    folder : folder that a command has written
+    journal : journal or publisher that sets column widths, smallest text and thinnest lines
+    style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
+    output : folder for the figures; if absent, `figures` in the folder
     """
     from .redraw import redraw
 
@@ -307,11 +313,11 @@ def figures(
 
 
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write the tables of results into files: CSV with units, or LaTeX for a paper.
+    """Write the tables of results as CSV or LaTeX.
 
-    folder : folder that a command left, or a file of results
-    to : csv, every digit, or latex, rounded, for booktabs
-    output : where to; `tables` in the folder if absent
+    folder : folder that a command has written, or its results.nc
+    to : csv (every digit, units in the heading) or latex (rounded, for booktabs)
+    output : folder for the tables; if absent, `tables` in the folder
     """
     from .tables import export
 
@@ -325,20 +331,23 @@ def animate(
     seconds: float = 6.0,
     folder: str | Path = "crosscheck-animation",
     workers: int | None = None,
-    progress: bool = False,
+    progress: bool | Preparing = False,
 ) -> Path:
-    """Draw a scene as it moves in time, in one and in three dimensions side by side.
+    """Animate a scene in time, 1D and 3D side by side.
 
-    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
-    output : a .gif, or an .mp4 where ffmpeg is there; the name of the scene with .gif if absent
-    frames : how many pictures
-    seconds : how long the animation lasts [s]
-    folder : folder of what has been solved
+    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
+    output : file to write, .gif, or .mp4 if ffmpeg is installed; if absent, the name of the scene with .gif
+    frames : number of pictures
+    seconds : length of the animation [s]
+    folder : folder for the solved contacts
     """
-    from contextlib import nullcontext
-
     from .animation import animate
-    from .console import watch
+    from .console import Preparing, watch
 
-    with watch().solving() if progress else nullcontext() as told:
+    if not progress:
+        return animate(scene, output, frames, seconds, folder, workers, None)
+    with (
+        progress if isinstance(progress, Preparing) else Preparing() as preparing,
+        watch(preparing).solving() as told,
+    ):
         return animate(scene, output, frames, seconds, folder, workers, told)

@@ -2,7 +2,7 @@
 
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -22,22 +22,53 @@ def say(text: str, error: bool = False) -> None:
     typer.echo(text, err=error)
 
 
-def watch(lines: bool = False) -> "Watch":
+class Preparing:
+    """A bar from the first second, while a command imports, reads and plans; a context, ended by whoever is next.
+
+    lines : whether lines are printed in place of bars
+    """
+
+    def __init__(self, lines: bool = False) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+        self.lines, self.console = lines, Console(highlight=False, soft_wrap=True)
+        shown = self.console.is_terminal and not lines
+        columns = BarColumn(bar_width=24), TimeElapsedColumn(), TextColumn("{task.description}")
+        self.bar = Progress(*columns, console=self.console, transient=True, disable=not shown)
+        self.bar.add_task("preparing", total=None)
+
+    def __enter__(self) -> "Preparing":
+        self.bar.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.end()
+
+    def end(self) -> None:
+        """Take the bar away, once or again."""
+        self.bar.stop()
+
+
+def watch(preparing: Preparing) -> "Watch":
     """What tells a terminal how far a run is: bars, or a line for each solve and each figure.
 
-    lines : whether each is a line
+    preparing : what is shown until then, on the same terminal
     """
-    from rich.console import Console
-
     from . import progress
     from .pipeline import Watch
 
-    console = Console(highlight=False, soft_wrap=True)
-    return Watch(
-        lambda line: console.print(line, markup=False),
-        lambda: progress.Watched(console, pause=0.0, bar=False) if lines else progress.Watched(console),
-        lambda count: _figures(console, count, lines),
-    )
+    console, lines = preparing.console, preparing.lines
+
+    def solving() -> progress.Watched:
+        preparing.end()
+        return progress.Watched(console, pause=0.0, bar=False) if lines else progress.Watched(console)
+
+    def writing(count: int) -> AbstractContextManager[Callable[[str], Any]]:
+        preparing.end()
+        return _figures(console, count, lines)
+
+    return Watch(lambda line: console.print(line, markup=False), solving, writing)
 
 
 @contextmanager
@@ -69,7 +100,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt as interrupt:
-        say("Interrupted. What is solved is kept: the same command resumes from there.", error=True)
+        say("Interrupted. Solved contacts are kept: the same command resumes from there.", error=True)
         raise typer.Exit(INTERRUPTED) from interrupt
     except (ValueError, LookupError, RuntimeError) as error:
         from scene import Refused, SolveError
@@ -91,5 +122,5 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""
         told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        say(f"crosscheck: {where}{told}{'' if early else '. What is solved and stored is kept.'}", error=True)
+        say(f"crosscheck: {where}{told}{'' if early else '. Solved contacts are kept.'}", error=True)
         raise typer.Exit(MISTAKE if early else FAILED) from error

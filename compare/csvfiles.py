@@ -47,7 +47,7 @@ def read(path: Path) -> DataFrame:
     except Unreadable as error:
         raise InvalidInput(str(error)) from error
     except (ValueError, MemoryError) as error:
-        raise InvalidInput(f"{path}: is no table as a command leaves it: {brief(str(error))}") from error
+        raise InvalidInput(f"{path}: is not a table that a command has written: {brief(str(error))}") from error
 
 
 def _numbers(column: Series) -> Series:

@@ -1,7 +1,7 @@
 """Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -13,7 +13,16 @@ from .suggest import known, suggestion
 _TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
 _ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
+WIDTH = 100
 FOLDERS = {"scene": "scenes", "study": "ownstudies"}  # by kind
+# Headings of scenes by the command that takes them, and of studies.
+SCENES = {
+    "run": "Scenes: crosscheck run NAME",
+    "plan": "Scenes that crosscheck run does not compare: crosscheck plan NAME",
+}
+STUDIES = "Studies: crosscheck study NAME"
+ALL = "`crosscheck study all` does the first six of them."
+NEW = "`crosscheck new NAME` copies a scene, or a study that is a file, for you to change."
 
 
 class NotReady(LookupError):
@@ -43,8 +52,55 @@ class Ready:
     text: str
 
 
+@dataclass(frozen=True)
+class About:
+    """Title of a study, and what it is about, for people."""
+
+    title: str
+    about: str
+
+
+# Studies that are no files. Their texts stand here, as those who list them import no solver.
+CATALOGUE = {
+    "collapse": About(
+        "Does friction collapse on one curve?",
+        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 on a Kelvin solid, across the knee of the "
+        "curve, at prescribed load and at prescribed depth.",
+    ),
+    "solids": About(
+        "Do other solids collapse on one curve too?",
+        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 at prescribed load, on a standard linear solid, "
+        "E_g = 10 E_r, and on a solid whose loss grows as the root of the frequency.",
+    ),
+    "hurst": About(
+        "Hurst exponents from 0.1 to 0.9",
+        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, of several Hurst exponents, "
+        "with the same rms height and the same waves.",
+    ),
+    "parameters": About(
+        "One parameter at a time",
+        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, with another rms height, "
+        "another shortest wave, another relaxation time.",
+    ),
+    "regime": About(
+        "The regime of the paper",
+        "Roughness that is small against the depth and steep against the body, which in three dimensions takes "
+        "waves far shorter than the contact: a spectrum rolled off at a q_r of 20 or more.",
+    ),
+    "depth": About(
+        "Force and depth",
+        "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
+        "linear solid.",
+    ),
+    "trust": About(
+        "When can one dimension be trusted?",
+        "The ratio of 1D over 3D, learned from scenes that both solved, and its errors on scenes it never saw.",
+    ),
+}
+
+
 class Listing(dict[str, Any]):
-    """What can be named, each with a title and what it is about; printed, a list for people.
+    """What can be named, each with a title and what it is about; printed, a table of names and titles.
 
     offered : by name; groups : headings with the names below each, all names under none if absent
     end : last line
@@ -57,32 +113,54 @@ class Listing(dict[str, Any]):
         self.groups, self.end = groups or {"": list(offered)}, end
 
     def __str__(self) -> str:
+        return self._table(lambda name, width: [])
+
+    @property
+    def details(self) -> str:
+        """The table with what each is about: what the command prints under -v."""
+        return self._table(lambda name, width: wrap(self[name].about, WIDTH - width))
+
+    def _table(self, below: Callable[[str, int], list[str]]) -> str:
         width = max((len(name) for name in self), default=0) + 2
         lines = []
         for heading, names in self.groups.items():
-            lines += [f"{heading}:", ""] if heading else []
+            lines += [heading] if heading else []
+            lines += [f"{'Name':{width}s}Title", "-" * (width + max(len(self[name].title) for name in names))]
             for name in names:
-                lines.append(f"{name:{width}s}{self[name].title}")
-                lines += wrap(self[name].about, 79, initial_indent=width * " ", subsequent_indent=width * " ")
+                lines += [f"{name:{width}s}{self[name].title}"]
+                lines += [" " * width + line for line in below(name, width)]
             lines.append("")
         return "\n".join([*lines, self.end]).strip("\n")
 
     __repr__ = __str__
 
 
-def ready() -> Listing:
-    """Scenes and studies that come with the package: scenes, then studies, by name. Nothing is imported for it."""
+def ready() -> dict[str, Ready]:
+    """Scenes and studies that come as files: scenes, then studies, by name. Nothing is imported for it."""
     found = {}
     for kind, folder in FOLDERS.items():
         paths = [path for path in (files("compare") / folder).iterdir() if path.name.endswith(".toml")]
         for path in sorted(paths, key=lambda path: path.name):
             each = _ready(kind, path.name.removesuffix(".toml"), path.read_text(encoding="utf-8"))
             found[each.name] = each
-    groups = {
-        f"{what}, crosscheck {command} NAME": [name for name, each in found.items() if each.command == command]
-        for command, what in (("run", "Scenes"), ("plan", "Scenes that nothing compares"), ("study", "Studies"))
+    return found
+
+
+def studies() -> Listing:
+    """Every study that comes with the package: those of the paper's claims, then those of files."""
+    found = CATALOGUE | {name: each for name, each in ready().items() if each.kind == "study"}
+    return Listing(found, {STUDIES: list(found)}, ALL)
+
+
+def offered() -> Listing:
+    """Every scene and every study that comes with the package."""
+    scenes = {name: each for name, each in ready().items() if each.kind == "scene"}
+    groups: dict[str, Sequence[str]] = {
+        heading: [name for name, each in scenes.items() if each.command == command]
+        for command, heading in SCENES.items()
     }
-    return Listing(found, groups, "`crosscheck new NAME` writes one into a file of your own.")
+    asked = studies()
+    return Listing(scenes | asked, groups | dict(asked.groups), NEW)
 
 
 def find(name: str) -> Ready:

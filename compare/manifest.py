@@ -114,7 +114,7 @@ def folders(folder: str | Path) -> Iterator[Folder]:
     own = folder / NAME
     paths = [own] if own.exists() else sorted(folder.glob(f"*/{NAME}"))
     if not paths:
-        raise InvalidInput(f"{folder}: no {NAME} here or just below: no command left anything in it")
+        raise InvalidInput(f"{folder}: no {NAME} here or one level below: no command has written this folder")
     return (Folder(path.parent, _read(path)) for path in paths)
 
 
@@ -168,7 +168,7 @@ def _read(path):
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
         reason = f"{brief(where)}: {first['msg']}" if where else first["msg"]
-    raise InvalidInput(f"{path}: is none that a command of this version wrote: {reason}")
+    raise InvalidInput(f"{path}: was not written by this version of the command: {reason}")
 
 
 def _storable(value):

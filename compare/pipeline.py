@@ -75,7 +75,7 @@ def run(
     cost.refuse(count, yes)
     below = manifest.inside(output, study.place) if study.place else output
     if Path(study.place).parts[:1] == (SOLVED,):
-        raise InvalidInput(f"place = {study.place}: there lies what has been solved, choose another")
+        raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
     if cost.contacts:
         watch.told(str(cost))
@@ -89,7 +89,11 @@ def run(
         if not swept.faults:
             raise
         whole = len(swept.faults) == len(swept.outcomes)
-        what = "nothing was solved" if whole else f"what was solved cannot be judged without what broke: {error}"
+        what = (
+            "nothing was solved"
+            if whole
+            else f"the solved contacts cannot be judged without the broken ones: {error}"
+        )
         raise Broken("; ".join([what, *faults(swept, output)])) from error
     manifest.remove(below)
     results.write(below / results.NAME, answers)

@@ -1,21 +1,38 @@
 """What a person sees while tasks are solved: a bar on a terminal, plain lines elsewhere."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 from rich import progress as bars
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.table import Column
 
 from scene.printable import printable
 
 from .amounts import duration
+from .cost import SECONDS
 from .outcome import Outcome
 from .runner import Progress
 from .task import Task
 
 # Seconds between lines where there is no terminal to draw a bar on.
 PAUSE = 5.0
+# Seconds that workers take to start, until the first task is solved.
+START = 3.0
+
+
+class Moving(bars.Progress):
+    """A bar that is brought up to date each time it is drawn. before : brings it up to date"""
+
+    def __init__(self, *columns: bars.ProgressColumn, before: Callable[[], Any], **options: Any):
+        self.before = before
+        super().__init__(*columns, **options)
+
+    def get_renderables(self) -> Iterable[RenderableType]:
+        """What is drawn, of now."""
+        self.before()
+        yield from super().get_renderables()
 
 
 class Watched(Progress):
@@ -30,8 +47,9 @@ class Watched(Progress):
     ):
         self.console, self.pause, self.clock = console, pause, clock
         self.shown = bar and console.is_terminal
+        self.row: bars.TaskID | None = None
         # Where there is little room, what is being solved is cut off first, then the bar, never the times.
-        self.bar = bars.Progress(
+        self.bar = Moving(
             bars.BarColumn(bar_width=24),
             bars.TextColumn("{task.percentage:3.0f} %", table_column=Column(no_wrap=True, min_width=5)),
             bars.TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=7)),
@@ -42,15 +60,16 @@ class Watched(Progress):
                 markup=False,
                 table_column=Column(ratio=1, no_wrap=True, overflow="ellipsis"),
             ),
+            before=self._move,
             console=console,
             get_time=clock,
             expand=True,
             transient=True,
             disable=not self.shown,
         )
-        self.row: bars.TaskID | None = None
         self.total = self.done = self.failed = self.reused = 0
-        self.doing, self.running = "", dict[Task, None]()
+        # Tasks that are solved now, with the times when they were handed out; and the time that solved ones took.
+        self.doing, self.running, self.taken = "", dict[Task, float](), 0.0
 
     def __enter__(self):
         self.bar.start()
@@ -71,22 +90,23 @@ class Watched(Progress):
         self.total, self.done, self.failed, self.reused = len(tasks), 0, 0, reused
         self.start = self.last = self.clock()
         self.work, self.all_work = 0.0, sum(task.work for task in tasks) or 1.0
+        self.reached = self.taken = 0.0
         self.row = self.bar.add_task("", total=self.all_work, counts=self._counts(), left="?")
         if tasks and not self.shown:
             self.console.print(f"{len(tasks)} tasks to solve" + (f", {reused} reused" if reused else ""))
 
     def started(self, task: Task) -> None:
         """A task is handed out to a worker."""
-        self.running[task] = None
+        self.running[task] = self.clock()
         self._tell()
 
     def finished(self, task: Task, outcome: Outcome) -> None:
         """A task is solved and stored, or has failed."""
-        self.running.pop(task, None)
+        now = self.clock()
+        self.taken += now - self.running.pop(task, now)
         self.done, self.work = self.done + 1, self.work + task.work
         self.failed += any(row.reason is not None for row in outcome.rows)
         self._tell()
-        now = self.clock()
         if not self.shown and now - self.last >= self.pause:
             self.last = now
             self.said(f"{self._counts()}, {self._left()} left, solved {task.label}")
@@ -99,12 +119,33 @@ class Watched(Progress):
         """Nothing more is started."""
         self.doing = "finishing "
         if not self.shown:
-            self.console.print("finishing what is being solved")
+            self.console.print("finishing the tasks under way")
         self._tell()
 
+    def _reached(self):
+        """Work that is done, with the share of running tasks that they should have by now; it never falls.
+
+        A unit of work takes what it took until now, and before any is solved, what it is expected to take. After
+        its time a task counts half, and the rest comes ever more slowly: the bar neither stops nor is full.
+        """
+        known = self.work and self.taken
+        now, unit, start = self.clock(), self.taken / self.work if known else SECONDS, 0.0 if known else START
+        shares = (
+            task.work * (now - since) / (now - since + unit * task.work + start)
+            for task, since in list(self.running.items())
+            if now > since
+        )
+        self.reached = max(self.reached, self.work, self.work + sum(shares))
+        return self.reached
+
     def _left(self):
-        """Time left if a unit of work goes on taking what it took."""
-        return duration((self.clock() - self.start) * (self.all_work / self.work - 1) if self.work else None)
+        """Time left if the work goes on as it went until now."""
+        reached = self._reached()
+        return duration((self.clock() - self.start) * (self.all_work / reached - 1) if reached else None)
+
+    def _move(self):
+        if self.row is not None:
+            self.bar.update(self.row, completed=self._reached(), left=self._left())
 
     def _counts(self):
         return f"{self.done}/{self.total}" + (f", {self.failed} failed" if self.failed else "")
@@ -112,5 +153,4 @@ class Watched(Progress):
     def _tell(self):
         if self.row is not None:
             what = self.doing + printable(next((task.label for task in self.running), ""))
-            now = {"counts": self._counts(), "left": self._left()}
-            self.bar.update(self.row, completed=self.work, description=what, **now)
+            self.bar.update(self.row, counts=self._counts(), description=what)

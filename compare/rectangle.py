@@ -1,14 +1,16 @@
 """Rectangle: contacts of one scene at every speed and every load or depth, and what they came to as Datasets."""
 
+# xarray is imported where a Dataset is made: to count contacts, as `crosscheck plan` does, takes none.
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from math import nan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -21,6 +23,9 @@ from .outcome import Outcome, Row
 from .path import Path, by_contact, joined
 from .task import SceneTask, Task, draws_of
 from .vocabulary import attributes
+
+if TYPE_CHECKING:
+    import xarray
 
 FINE, COARSE = "fine", "coarse"
 # Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
@@ -142,6 +147,8 @@ class Rectangle:
         return tuple(found)
 
     def _dataset(self, name, rows):
+        import xarray
+
         grids = self.grids[name]
         shape = len(grids), len(self.speeds), len(self.values), -1
 
@@ -206,6 +213,8 @@ def contacts_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
 
 def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
     """Everything solved of some rectangles: a Dataset for each rectangle and solver, at /rectangle/solver."""
+    import xarray
+
     answers = by_contact(outcomes)
     parts = {
         f"/{name}/{solver}": dataset

@@ -58,7 +58,7 @@ def redraw(
     except ValueError as error:
         raise InvalidInput(str(error)) from error
     if not drawn:
-        raise InvalidInput(f"{folder}: what is left here has no figures")
+        raise InvalidInput(f"{folder}: no command has written figures here")
     return drawn
 
 

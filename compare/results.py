@@ -69,7 +69,7 @@ def load(folder: str | Path) -> xarray.DataTree:
             raise InvalidInput(str(error)) from error
         # A file that was made to look like one of ours raises nearly anything.
         except Exception as error:
-            raise InvalidInput(f"{path}: is no file of results, or is damaged: {brief(str(error))}") from error
+            raise InvalidInput(f"{path}: is not a file of results, or is damaged: {brief(str(error))}") from error
     try:
         return xarray.DataTree.from_dict(parts)
     except (ValueError, KeyError, TypeError) as error:

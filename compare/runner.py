@@ -98,7 +98,7 @@ def sweep(
         stored |= _stored([task for task in tasks if task not in stored], store)
         missing = sorted({task: None for task in tasks if task not in stored}, key=lambda task: -task.work)
         if other := store.by_other_code(missing):
-            progress.said(f"{other} tasks are stored as other code solved them: they are solved again")
+            progress.said(f"{other} stored tasks were solved by other code: they are solved again")
         progress.planned(missing, len(stored))
         with _workers(missing, workers, fresh, scheduler, progress) as pool:
             course = _Course(deque(missing), store, pool, progress, interrupts)
@@ -198,9 +198,7 @@ class _Course:
             if self.interrupts:
                 return
             if self.deaths[task] < self.workers.tries:
-                self.progress.said(
-                    f"{task.label}: a worker died as it solved this or beside it; tried again alone"
-                )
+                self.progress.said(f"{task.label}: its worker process died; the task is tried again alone")
                 self.suspects.append(task)
                 return
             times = f"{self.deaths[task]} times, the last time alone"

@@ -18,6 +18,8 @@ from .files import Unreadable, checked, content
 from .printable import brief
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+UNIT = f'the unit of its heights: give unit = "um", or --unit um on the command line, out of {", ".join(UNITS)}'
+PIXEL = 'the side of a pixel: give pixel = "1 um", or --pixel "1 um" on the command line'
 LEAST = 4  # pixels a side: what a cubic between pixels takes
 SIDE = 5120
 MOST_PIXELS = SIDE**2  # that are read of a file
@@ -35,32 +37,38 @@ def read_heights(path: str | Path, pixel=None, unit: str | None = None):
         numbers alone, a row a line, separated by commas, semicolons, tabs or blanks (.csv, .txt; what follows a #
         is skipped), or anything else that the package SurfaceTopography reads (extra `topography`)
     pixel : [m], where the file states none
-    unit : of all numbers in a file that states none; those of arrays and texts are metres without it
+    unit : of all numbers in a file that states none, as arrays and texts do not: "m", "mm", "um" or "nm"
 
     Raises ValueError naming the file and what is allowed.
     """
-    if unit is not None and not (isinstance(unit, str) and unit in UNITS):
-        raise ValueError(f"unit = {briefly(unit)}: one of {', '.join(UNITS)}")
+    if unit is not None:
+        _metre(unit)
     if not isinstance(path, str | Path):
         raise ValueError(f"file = {briefly(path)}: a path is needed")
     path = checked(path, MOST_BYTES)
     kind = path.suffix.lower()
-    plain = kind in ARRAYS | TEXTS
-    heights, stated, own = (_array if kind in ARRAYS else _text if plain else _scan)(path)
+    heights, stated, own = (_array if kind in ARRAYS else _text if kind in TEXTS else _scan)(path)
     name = brief(str(path))
-    if own is None and unit is None and not plain:
-        raise ValueError(f"{name} does not state the unit of its heights: give unit, one of {', '.join(UNITS)}")
     if own is not None and unit is not None:
         raise ValueError(f"unit = {unit!r}: {name} states its own, {brief(str(own))}, leave unit out")
     if pixel is not None and stated is not None:
         raise ValueError(f"pixel = {briefly(pixel)}: {name} states its own, {stated}, leave pixel out")
-    if pixel is None and stated is None:
-        raise ValueError(f"{name} does not state the size of a pixel: give pixel [m]")
-    metre = 1.0 if unit is None else UNITS[unit]
+    needed = {UNIT: own is None and unit is None, PIXEL: pixel is None and stated is None}
+    if lacking := [each for each, lacks in needed.items() if lacks]:
+        raise ValueError(f"{name} does not state {'; nor '.join(lacking)}")
+    metre = 1.0 if unit is None else _metre(unit)  # a file that states its unit is read in metres
     # First the numbers in full: those of half precision end where nanometres begin.
     with np.errstate(over="ignore"):
         heights = heights.astype(float, copy=False)
     return heights * metre, tuple(side * metre for side in stated) if pixel is None else pixel
+
+
+def _metre(unit):
+    """A unit of heights [m]."""
+    plain = unit.replace("µ", "u").replace("μ", "u") if isinstance(unit, str) else unit
+    if not (isinstance(plain, str) and plain in UNITS):
+        raise ValueError(f"unit = {briefly(unit)}: one of {', '.join(UNITS)}")
+    return UNITS[plain]
 
 
 def check_layout(shape: tuple[int, ...], dtype: np.dtype) -> None:

@@ -126,7 +126,7 @@ Pixel = Annotated[
 
 def _or_file(schema: dict[str, Any]) -> None:
     """In JSON schema: a file in place of heights."""
-    schema["properties"] |= {"file": {"type": "string"}, "unit": {"enum": list(UNITS)}}
+    schema["properties"] |= {"file": {"type": "string"}, "unit": {"enum": [*UNITS, "µm"]}}
     del schema["required"]
     schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", "pixel"]}]
 
@@ -145,8 +145,8 @@ class Scanned:
     shortest_kept : waves shorter than this are left out [m]; absent, every wave of the map is kept
 
     In place of heights `file` is the path of a file, read once and kept as numbers; a relative path starts at the
-    working directory. `pixel`, and `unit` of the heights ("m", "mm", "um", "nm"; "m" if absent), are those of
-    the file where it states them, see `read_heights`.
+    working directory. `pixel`, and `unit` of the heights ("m", "mm", "um", "nm"), are needed where the file
+    does not state them, see `read_heights`.
     """
 
     heights: Heights

@@ -18,6 +18,8 @@ MOST_ROWS = 5_000
 _LEAST_FREQUENCIES, _WIDEST = 4, 1e40
 MOST = 20_000_000  # bytes of a file
 _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
+# Of a heading: a unit in brackets, as in "F_N [mN]", stays with its name, and only commas and the like part words.
+_MARKS, _BLANKS = re.compile(r"\s*[,;\t]\s*"), re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")
 _NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 Frequencies = tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...]
 Moduli = tuple[Pressure, ...]
@@ -77,11 +79,12 @@ def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[t
     heading: list[str] = []
     rows: list[tuple[float, ...]] = []
     for number, line in enumerate(text.split("\n"), start=1):
-        cells = _SEPARATOR.split(line.partition("#")[0].strip())
+        line = line.partition("#")[0].strip()
+        cells, named = _SEPARATOR.split(line), (_MARKS if _MARKS.search(line) else _BLANKS).split(line)
         if cells == [""]:
             continue
-        if not rows and not any(_is_number(cell) for cell in cells):
-            heading = cells
+        if not rows and not any(_is_number(cell) for cell in (cells[0], *named)):
+            heading = named
         else:
             rows.append(_row(cells, names, f"{brief(str(path))}, line {number}"))
     return heading, rows

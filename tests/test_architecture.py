@@ -35,7 +35,7 @@ FLOORS = (
     {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film"},
     {"declaration", "results", "report", "pipeline", "animation", "tables"},
     {"studies", "planning", "json_schema"},
-    {"commands", "console", "cli", "__init__", "__main__"},
+    {"commands", "completion", "console", "cli", "__init__", "__main__"},
 )
 FILES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 JUDGE = [path for path in FILES if path.relative_to(ROOT).parts[0] == "compare"]

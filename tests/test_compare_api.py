@@ -150,7 +150,7 @@ def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
     assert of_scene.feasible
     assert {*of_scene} == {"MDR", "BEM", "trust"}
     assert str(compare.plan(TINY)["BEM"]) == str(TINY.bem.plan(SLIDING))
-    assert all(str(each) in str(of_scene) for each in of_scene.values())
+    assert all(str(each) in of_scene.details for each in of_scene.values())
 
 
 def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):

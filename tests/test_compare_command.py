@@ -1,5 +1,6 @@
 """The command as a person runs it: in a process of its own, from a file to a report."""
 
+import inspect
 import json
 import os
 import re
@@ -7,16 +8,26 @@ import signal
 import subprocess
 import sys
 import time
+from typing import get_args, get_type_hints
 
 import pandas
 import pytest
 from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
-from compare.cli import app
+from compare import commands, completion, library, pages
+from compare.cli import COMMANDS, app
+from compare.docstrings import documented
 from compare.finding import COLUMNS
+from compare.json_schema import KINDS
 from compare.library import ready
+from compare.plots.journals import JOURNALS
 from compare.store import Store
+from compare.studies.catalogue import SIZES, STUDIES
+from compare.studies.workprecision.study import DIAGRAMS
+from compare.tables import FORMS
+from scene import Topography
+from scene.heightfile import UNITS
 
 TINY = (
     SCENE
@@ -167,8 +178,8 @@ def ask(*arguments):
 @pytest.mark.parametrize(
     ("command", "names", "width"),
     [
-        ("list", tuple(ready()), 120),
-        ("study", ("collapse", "solids", "hurst", "parameters", "regime", "depth"), 80),
+        ("list", (*ready(), *library.studies()), 120),
+        ("study", (*STUDIES, "trust", *(name for name, each in ready().items() if each.kind == "study")), 80),
         ("workprecision", ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "extent", "costs"), 100),
     ],
 )
@@ -182,9 +193,76 @@ def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, widt
     assert not list(tmp_path.iterdir())
 
 
+def test_all_lists_name_the_same_studies_and_say_more_where_more_is_asked():
+    (heading,) = library.studies().groups
+    short, listed = (re.sub("[- \\n]+", " ", ask(each).output) for each in ("study", "list"))
+    assert short.partition(" `")[0] in listed
+    long = " ".join(ask("study", "-v").output.split())
+    assert long.startswith(f"{heading} Name Title ")
+    for name, each in library.studies().items():
+        assert f"{name} {each.title} {each.about}" in long
+        assert each.about not in short
+    assert " ".join(ready()["hertz"].about.split()) in " ".join(ask("list", "-v").output.split())
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
+def test_help_says_all_that_the_docstrings_say_brackets_included(command):
+    told = "".join(ask(command.title, "--help").output.split()).casefold()
+    about, own = documented(command.function.__doc__)
+    parameters = {*inspect.signature(command.callback()).parameters} - {"quiet", "verbose", "json"}
+    shared = documented(commands.__doc__)[1]
+    for text in (about, *((own | shared if name not in own else own)[name] for name in parameters)):
+        assert "".join(text.partition(". From Python")[0].split()).casefold() in told
+    if "journal" in parameters:
+        assert ",".join(JOURNALS) in told
+    # and the list of commands, the first sentence
+    line = next(each for each in ask("--help").output.splitlines() if each.startswith(f"  {command.title} "))
+    assert line.split(maxsplit=1)[1] == f"{about.partition('. ')[0].rstrip('.')}."
+
+
+def test_some_help_stands_in_brackets():
+    assert "F_N [N]" in " ".join(ask("mastercurve", "--help").output.split())
+    assert "[s]" in ask("animate", "--help").output
+
+
+def complete(*words):
+    """What a shell is given for the last word."""
+    asked = {
+        "_CROSSCHECK_COMPLETE": "complete_bash",
+        "COMP_WORDS": " ".join(["crosscheck", *words]),
+        "COMP_CWORD": str(len(words)),
+    }
+    return CliRunner().invoke(app, [], env=asked, prog_name="crosscheck").output.split()
+
+
+def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "quiet.toml").touch()
+    for command in ("run", "plan", "trust", "animate"):
+        assert complete(command, "qui") == ["quick-start", "quiet.toml"]
+    assert complete("study", "steep-") == ["steep-and-fast", "steep-and-slow"]
+    assert complete("new", "quick") == ["quick-start"]
+    assert complete("workprecision", "ex") == ["extent"]
+    assert complete("figures", "folder", "--journal", "el") == ["elsevier"]
+    assert complete("run", "quick-start", "--form") == ["--format"]
+
+
+def test_the_values_that_a_shell_completes_are_those_that_are_allowed():
+    values = completion.VALUES
+    assert set(values["size"]) == set(SIZES)
+    assert set(values["format"]) == set(pages.FORMATS)
+    assert set(values["figures"]) == set(pages.FORMS)
+    assert set(values["unit"]) == set(UNITS)
+    assert set(values["to"]) == set(FORMS)
+    assert set(values["kind"]) == set(KINDS)
+    for name in ("level", "repeat", "peaks"):
+        assert set(values[name]) == set(get_args(get_type_hints(Topography)[name]))
+    assert set(completion.DIAGRAMS) == set(DIAGRAMS)
+
+
 def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    compared, alone = ask("list").output.split("Scenes that nothing compares, crosscheck plan NAME:")
+    compared, alone = ask("list").output.split("Scenes that crosscheck run does not compare: crosscheck plan NAME")
     assert "\nhertz " in compared
     assert "\nthin-layer " in alone
     for name, command in (("quick-start", "run"), ("thin-layer", "plan")):

@@ -118,8 +118,45 @@ def test_a_heading_says_what_the_columns_are(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "heading",
+    [
+        "speed [mm/s], mu [1], F_N [mN]",
+        "v [mm/s] COF F_N [mN]",
+        "v / mm/s; mu / 1; normal force / mN",
+        "v(mm/s)\tµ\tFN (mN)",
+    ],
+)
+def test_a_heading_says_the_units_of_the_columns(tmp_path, heading):
+    plain = study(tmp_path, table()).data
+    rows = (line.split(",") for line in table(order=(2, 0, 1)).splitlines())
+    text = "\n".join(f"{1e3 * float(v)},{mu},{1e3 * float(load)}" for v, mu, load in rows)
+    found_ = study(tmp_path, f"{heading}\n{text}", "named.csv").data
+    for name in plain:
+        np.testing.assert_allclose(found_[name], plain[name], rtol=1e-14)
+
+
+def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
+    for repeats, drawn in ((3, True), (1, False)):
+        made = study(tmp_path, table(repeats))
+        (plot,) = made.plots(made.answers({}), made.findings(made.answers({})))
+        points = plot.tables[shifted_curves.NAME]
+        with style.applied():
+            axes = shifted_curves.figure(plot.tables, **plot.options).axes[0]
+        bars = next(each for each in axes.containers if each.has_yerr).lines[2][0].get_segments()
+        ends = np.array([segment[:, 1] for segment in bars])
+        expected = points[["friction_coefficient_low", "friction_coefficient_high"]].to_numpy()
+        assert np.isfinite(expected).all() == drawn
+        if drawn:
+            np.testing.assert_allclose(ends, expected, rtol=1e-12)
+        else:
+            assert np.ptp(ends, axis=1).max() == 0
+
+
+@pytest.mark.parametrize(
     ("text", "said"),
     [
+        ("mu, F_N [mPa], v\n1,2,3\n", "the heading gives F_N in 'mPa': the unit of a force, as N, is needed"),
+        ("mu [N], F_N, v\n1,2,3\n", "the heading gives mu in 'N': no unit is needed"),
         ("mu,F,w\n1,2,3\n", "must name each of mu, F_N, v once"),
         ("1,2\n", "line 1: 2 columns; mu, F_N and v are needed"),
         ("0,5;1,0;3,2\n", "line 1: 6 columns.*numbers have decimal points"),

@@ -407,7 +407,7 @@ HDF5 = {
 @pytest.mark.parametrize("kind", HDF5)
 def test_what_hdf5_can_hold_and_no_command_writes_is_refused(tmp_path, kind):
     sealed(tmp_path / "results.nc", HDF5[kind])
-    with pytest.raises(InvalidInput, match=r"results\.nc: is no file of results"):
+    with pytest.raises(InvalidInput, match=r"results\.nc: is not a file of results"):
         results.load(tmp_path)
 
 

@@ -7,14 +7,29 @@ from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
 from bem3d import BEM
+from compare import run
 from compare.cli import app
 from compare.planning import plans
+from compare.rectangle import contacts_of
 from compare.studies.trust.verdict import trust
 from mdr1d import MDR
 from scene import Scene
 from scene.plan import Plan
 from scene.reading import read
 
+TINY = """
+[study]
+speeds = [0.1, 1.0]
+pressing = [0.5, 2.0]
+load_speeds = [0.1]
+depths = [1.0]
+surfaces = 2
+profiles = 2
+[bem]
+points = 32
+[mdr]
+points = 1000
+"""
 PLANE = """
 [indenter]
 type = "plane"
@@ -43,27 +58,46 @@ def written(tmp_path):
     return write
 
 
-def told(path):
-    return CliRunner().invoke(app, ["plan", str(path)])
+def told(path, *options):
+    return CliRunner().invoke(app, ["plan", str(path), *options])
 
 
-def test_both_plans_of_a_scene_are_printed_and_are_those_of_the_solvers(written):
+def test_a_plan_is_five_lines(written):
+    answer = told(written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n"))
+    assert answer.exit_code == 0
+    lines = answer.output.splitlines()
+    assert [each[:9].rstrip() for each in lines] == ["contacts", "time", "memory", "simulated", "left out"]
+    assert max(map(len, lines)) <= 100
+
+
+def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
+    path = written(SCENE + TINY)
+    report = run(path, tmp_path / "out", workers=1, report=False)
+    solved = sum(len(getattr(task, "scenes", (task,))) for task in contacts_of(report.study.rectangles()))
+    assert plans(path).cost == report.study.cost()
+    assert solved <= plans(path).cost.contacts < 1.5 * solved
+    assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
+
+
+def test_the_details_are_both_plans_of_the_solvers(written):
     path = written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n")
-    answer = told(path)
+    answer, short = told(path, "-v"), told(path)
     assert answer.exit_code == 0
     case = written(SCENE)
     scene = read(case, Scene)
     plans = MDR(points=700).plan(scene), BEM(points=96).plan(scene), trust(scene)
-    assert answer.output == "\n\n".join(map(str, plans)) + "\n"
+    assert answer.output == "\n\n".join([short.output.rstrip(), *map(str, plans)]) + "\n"
 
 
 def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
     path = written(PLANE.format(shortest=1e-4))
-    answer = told(path)
+    answer = told(path, "-v")
     assert answer.exit_code == 0
     assert "MDR cannot solve this scene: indenter = Plane: it is no body of revolution" in answer.output
     assert "\nBEM, 128 points a side" in answer.output
     assert isinstance(plans(path)["BEM"], Plan)
+    refused = next(line for line in told(path).output.splitlines() if line.startswith("refused"))
+    assert "MDR cannot solve this scene: indenter = Plane" in refused
 
 
 def test_where_all_refuse_the_status_says_so(written):

@@ -8,6 +8,7 @@ import sys
 import time
 from concurrent.futures import Future
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -242,7 +243,7 @@ def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_a
     assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
     again = [line for line in heard.said_lines if line.startswith(tasks[0].label)]
     assert len(again) == min(deaths, Processes.tries - 1)
-    assert again[0].endswith("a worker died as it solved this or beside it; tried again alone")
+    assert again[0].endswith("its worker process died; the task is tried again alone")
     (row,) = swept.outcomes[tasks[0]].rows
     if deaths < Processes.tries:
         assert row.normal_force == 100.0
@@ -325,7 +326,7 @@ def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, mo
     monkeypatch.undo()
     heard = Heard()
     assert sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1, progress=heard).solved == 3
-    assert heard.said_lines == ["2 tasks are stored as other code solved them: they are solved again"]
+    assert heard.said_lines == ["2 stored tasks were solved by other code: they are solved again"]
 
 
 def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, monkeypatch):
@@ -434,7 +435,7 @@ def test_lines_tell_time_left_failures_and_what_was_reused():
         "3 tasks to solve, 5 reused",
         f"1/3, 6 s left, solved {tasks[0].label}",
         "a worker ended",
-        "finishing what is being solved",
+        "finishing the tasks under way",
         "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
     ]
 
@@ -460,6 +461,38 @@ def test_a_bar_tells_the_same_on_a_terminal():
     for part in ("1/2, 1 failed", "3 min 20 s left", "67 %"):
         assert part in said
     assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
+
+
+def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
+    console, clock = lines(terminal=True), Clock()
+    tasks = loads(4.0, 2.0)
+    shown = []
+
+    def look():
+        told.bar.refresh()
+        shown.append(told.bar.tasks[0].percentage)
+
+    with Watched(console, clock=clock) as told:
+        told.planned(tasks, 0)
+        told.started(tasks[0])
+        look()
+        for _ in range(20):
+            clock.now += 1.0
+            look()
+        assert shown[0] == 0
+        assert shown[1] > 1
+        assert all(earlier < later for earlier, later in pairwise(shown))
+        assert shown[-1] < 100 * 4 / 6
+        told.finished(tasks[0], Outcome((Row(1.0),)))
+        look()
+        assert shown[-1] == pytest.approx(100 * 4 / 6)
+        told.started(tasks[1])
+        clock.now += 10.0
+        look()
+        assert 100 * 4 / 6 < shown[-1] < 100
+        told.finished(tasks[1], Outcome((Row(1.0),)))
+        look()
+        assert shown[-1] == pytest.approx(100)
 
 
 def test_durations_are_said_as_people_say_them():

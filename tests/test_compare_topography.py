@@ -176,7 +176,7 @@ def test_steep_maps_ask_whether_units_are_right():
     map_ = sampled(ROUGH)
     slope = describe(map_).rms_slope_spectral
     (warning,) = describe(replace(map_, heights=1e6 * map_.heights.heights)).warnings
-    assert warning.startswith(f"an rms slope of {1e6 * slope:.3g} is none of a surface: check the unit")
+    assert warning.startswith(f"the rms slope is {1e6 * slope:.3g}, which no surface has: check the unit")
     for times, said in ((0.999, 0), (1.001, 1)):
         steep = describe(replace(map_, heights=times * spectra.STEEP / slope * map_.heights.heights))
         assert len(steep.warnings) == said
@@ -209,7 +209,7 @@ def test_rows_without_power_lie_no_more_decades_below_the_axes_than_rounding_doe
 def test_a_number_is_finite_or_has_its_reason(tmp_path, kind, length, pixel):
     heights = EDGES[kind].astype(float)
     heights *= length / np.abs(heights).max()
-    study = Map.of(saved(tmp_path, heights), pixel=pixel)
+    study = Map.of(saved(tmp_path, heights), pixel=pixel, unit="m")
     findings = study.findings(study.answers({}))
     assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
     assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
@@ -289,7 +289,19 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
 @pytest.mark.parametrize(
     ("heights", "stated", "said"),
     [
-        (NOISE, {}, "does not state the size of a pixel"),
+        (
+            NOISE,
+            {},
+            'does not state the side of a pixel: give pixel = "1 um", or --pixel "1 um" on the command line',
+        ),
+        (
+            NOISE,
+            {"pixel": 1.0, "unit": None},
+            'does not state the unit of its heights: give unit = "um", or --unit um',
+        ),
+        (NOISE, {"unit": None}, "of its heights: give unit"),
+        (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
+        (NOISE, {"pixel": "1 Pa"}, "a length"),
         (NOISE, {"pixel": [-1.0]}, "greater than 0"),
         (NOISE, {"pixel": 1.0, "level": "cubic"}, "'mean', 'tilt' or 'curvature'"),
         (NOISE, {"pixel": 1.0, "unit": "ell"}, "unit = 'ell': one of m, mm, um, nm"),
@@ -309,7 +321,7 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
 def test_a_mistake_is_named_in_a_line_and_leaves_no_folder(tmp_path, heights, stated, said):
     path = saved(tmp_path, heights)
     with pytest.raises(InvalidInput) as refused:
-        compare.topography(path, output=tmp_path / "out", **stated)
+        compare.topography(path, output=tmp_path / "out", **({"unit": "m"} | stated))
     assert said in str(refused.value)
     assert heights is NOISE or str(path) in str(refused.value)
     assert "\n" not in str(refused.value)
@@ -318,7 +330,7 @@ def test_a_mistake_is_named_in_a_line_and_leaves_no_folder(tmp_path, heights, st
 
 @pytest.mark.parametrize(("repeat", "level"), [("periodic", "mean"), ("mirror", "tilt")])
 def test_without_a_level_that_of_what_repeats_is_taken(tmp_path, repeat, level):
-    study = Map.of(saved(tmp_path, sampled(ROUGH, 32).heights.heights), pixel=1.0, repeat=repeat)
+    study = Map.of(saved(tmp_path, sampled(ROUGH, 32).heights.heights), pixel=1.0, unit="m", repeat=repeat)
     assert f'level: "{level}" taken off; repeat: "{repeat}"' in "".join(study.lines())
 
 

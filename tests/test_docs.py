@@ -172,7 +172,7 @@ def files(tmp_path, monkeypatch):
 
 def test_the_examples_of_the_page_on_scenes_run(files, capsys):
     for block in PYTHON.findall((DOCS / "scenes.md").read_text(encoding="utf-8")):
-        exec(block.replace('file="tyre-tread.sur"', 'file="tread.npy", pixel=1e-5'), {})
+        exec(block.replace('file="tyre-tread.sur"', 'file="tread.npy", pixel=1e-5, unit="m"'), {})
     fraction, friction = capsys.readouterr().out.splitlines()[0].split()
     assert 0 < float(fraction) < 1
     assert float(friction) > 0

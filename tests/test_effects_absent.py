@@ -118,7 +118,7 @@ def test_of_a_measured_body_functions_are_called(tmp_path):
     x = 5e-5 * np.arange(-20, 21)
     np.save(tmp_path / "ball.npy", -(x**2 + x[:, None] ** 2) / 0.02)
     with watched() as called:
-        body = Measured(file=tmp_path / "ball.npy", pixel=5e-5)
+        body = Measured(file=tmp_path / "ball.npy", pixel=5e-5, unit="m")
         BEM(points=48).solve(Scene(body, SOLID, Indent(load=0.05)))
     assert MODULES["measured body"] | MODULES["measured file"] <= called.files
 

@@ -174,7 +174,7 @@ roughness = {{type = "topography", file = "{}"{}}}
 
 @pytest.mark.parametrize("kind", MAPS)
 def test_a_map_of_heights_is_read_or_refused(spoil, kind):
-    pixel = "" if kind == "npz" else ', pixel = "10 um"'
+    pixel = ', unit = "m"' if kind == "npz" else ', unit = "m", pixel = "10 um"'
 
     def law(content, in_scene, with_trust):
         path = spoil(f"map.{kind}", content)
@@ -186,7 +186,7 @@ def test_a_map_of_heights_is_read_or_refused(spoil, kind):
                 SolveError,
             )
         else:
-            reading(lambda path: Map.of(path, pixel=None if kind == "npz" else 1e-5), path)
+            reading(lambda path: Map.of(path, pixel=None if kind == "npz" else 1e-5, unit="m"), path)
 
     fuzz(law, spoilt(MAPS[kind]), st.booleans(), seldom, tries=TRIES // len(MAPS))
 

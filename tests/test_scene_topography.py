@@ -121,7 +121,7 @@ def test_a_scene_file_without_level_has_that_of_what_repeats(tmp_path, monkeypat
     monkeypatch.chdir(tmp_path)
     np.save("surface.npy", drawn((5, 6)))
     for repeat, level in (("periodic", "mean"), ("mirror", "tilt")):
-        (tmp_path / "scene.toml").write_text(FILE + f"pixel = 1e-6\nrepeat = '{repeat}'\n")
+        (tmp_path / "scene.toml").write_text(FILE + f"pixel = 1e-6\nunit = 'm'\nrepeat = '{repeat}'\n")
         assert read("scene.toml", Scene).roughness.level == level
 
 
@@ -355,7 +355,7 @@ def test_plain_files_are_read_as_they_are(tmp_path, name, write):
     # text keeps 18 digits
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=1e-15)
     assert found.pixel == (1e-6, 2e-6)
-    assert Topography(file=tmp_path / name, pixel=1e-6) == Topography(heights=heights, pixel=1e-6)
+    assert Topography(file=tmp_path / name, pixel=1e-6, unit="m") == Topography(heights=heights, pixel=1e-6)
 
 
 def test_an_archive_states_its_pixel_in_the_unit_of_its_heights(tmp_path):
@@ -363,10 +363,10 @@ def test_an_archive_states_its_pixel_in_the_unit_of_its_heights(tmp_path):
     np.savez(path, heights=heights, pixel=3.0)
     assert Topography(file=path, unit="nm").pixel == pytest.approx((3e-9, 3e-9))
     with pytest.raises(ValidationError, match="states its own"):
-        Topography(file=path, pixel=1e-6)
+        Topography(file=path, pixel=1e-6, unit="m")
     for pixel in (4e-6, [4e-6], [3e-6, 4e-6]):
         np.savez(path, heights=heights, pixel=pixel)
-        assert Topography(file=path) == Topography(heights=heights, pixel=(np.ravel(pixel)[0], 4e-6))
+        assert Topography(file=path, unit="m") == Topography(heights=heights, pixel=(np.ravel(pixel)[0], 4e-6))
     for pixel, said in (
         (np.full(3, 1e-6), r"a pixel of shape \(3,\)"),
         ("a", "a pixel of shape .* and type <U1"),
@@ -375,10 +375,10 @@ def test_an_archive_states_its_pixel_in_the_unit_of_its_heights(tmp_path):
     ):
         np.savez(path, heights=heights, pixel=pixel)
         with pytest.raises(ValidationError, match=f"a.npz has {said}"):
-            Topography(file=path)
+            Topography(file=path, unit="m")
     np.savez(path, other=heights)
     with pytest.raises(ValidationError, match="holds other, and no array heights"):
-        Topography(file=path, pixel=1e-6)
+        Topography(file=path, pixel=1e-6, unit="m")
 
 
 # Arrays that are no maps, and what is said of each.
@@ -399,7 +399,7 @@ def test_a_scene_file_whose_map_is_none_is_told_the_table_the_file_and_what_is_a
     (heights, said), name = NO_MAPS[kind], f"map.{ending}"
     save = np.save if ending == "npy" else lambda path, heights: np.savez(path, heights=heights)
     save(name, heights)
-    text = FILE.replace("surface.npy", name) + "pixel = 1e-6\n"
+    text = FILE.replace("surface.npy", name) + "pixel = 1e-6\nunit = 'm'\n"
     if table == "indenter":
         text = text[text.index("[elastomer]") :].replace("roughness", "indenter").replace("topography", "measured")
     (tmp_path / "scene.toml").write_text(text)
@@ -439,7 +439,7 @@ def test_what_is_wrong_with_a_file_is_said_with_its_name(tmp_path, name, content
     if content is not None:
         path.write_text(content)
     with pytest.raises(ValidationError, match=named) as error:
-        Topography(file=path, **stated)
+        Topography(file=path, **({"unit": "m"} | stated))
     assert repr(name[-6:])[1:-1] in says(error) or "unit" in stated
     assert len(says(error)) < 1000
 
@@ -498,7 +498,7 @@ def test_an_array_that_is_no_map_is_refused_by_its_header(tmp_path, kind, ending
     if ending == "npz":
         archive(path, [("heights.npy", content)])
     with pytest.raises(ValidationError, match=said) as error:
-        Topography(file=path, pixel=1e-6)
+        Topography(file=path, pixel=1e-6, unit="m")
     assert f"a.{ending}" in says(error)
     assert says(error).isprintable()
     assert len(says(error)) < 1000
@@ -514,7 +514,7 @@ def test_numbers_of_any_real_type_and_order_are_read(tmp_path, dtype, by_columns
         (tmp_path / "a.npy").write_bytes(content)
         archive(tmp_path / "a.npz", [("heights.npy", content)])
         for name in ("a.npy", "a.npz"):
-            found = Topography(file=tmp_path / name, pixel=1.0)
+            found = Topography(file=tmp_path / name, pixel=1.0, unit="m")
             assert np.array_equal(found.heights.heights, heights.astype(float))
 
 
@@ -523,7 +523,7 @@ def test_an_archive_is_refused_that_holds_no_heights_or_several_or_is_damaged(tm
 
     def refused(said, pixel=1e-6):
         with pytest.raises(ValidationError, match=said) as error:
-            Topography(file=path, pixel=pixel)
+            Topography(file=path, pixel=pixel, unit="m")
         assert "a.npz" in says(error)
         assert says(error).isprintable()
 
@@ -552,7 +552,7 @@ def test_an_archive_is_refused_that_holds_no_heights_or_several_or_is_damaged(tm
         for damaged in (whole[:place] + bytes([whole[place] ^ 0x55]) + whole[place + 1 :], whole[:place]):
             path.write_bytes(damaged)
             with suppress(ValidationError):
-                assert Topography(file=path, pixel=1.0) == Topography(heights=drawn((5, 6)), pixel=1.0)
+                assert Topography(file=path, pixel=1.0, unit="m") == Topography(heights=drawn((5, 6)), pixel=1.0)
 
 
 def test_what_would_unpack_to_more_than_its_header_says_is_not_unpacked(tmp_path, monkeypatch):
@@ -565,13 +565,13 @@ def test_what_would_unpack_to_more_than_its_header_says_is_not_unpacked(tmp_path
     tracemalloc.start()
     try:
         with pytest.raises(ValidationError, match=f"{lying} bytes beside its header, and shape .* takes 240"):
-            Topography(file=path, pixel=1e-6)
+            Topography(file=path, pixel=1e-6, unit="m")
         # and one that hides it
         content = path.read_bytes()
         sizes = [(len(array((5, 6))) + data).to_bytes(4, "little") for data in (lying, 240)]
         path.write_bytes(content.replace(*sizes))
         with pytest.raises(ValidationError, match="CRC"):
-            Topography(file=path, pixel=1e-6)
+            Topography(file=path, pixel=1e-6, unit="m")
         assert tracemalloc.get_traced_memory()[1] < lying / 4
     finally:
         tracemalloc.stop()
@@ -583,7 +583,7 @@ def test_larger_files_than_are_read_are_not_opened(tmp_path, name):
     with path.open("wb") as file:
         file.truncate(MOST_BYTES + 1)
     with pytest.raises(ValidationError, match=r"has .* MB, and at most .* MB are read"):
-        Topography(file=path, pixel=1e-6)
+        Topography(file=path, pixel=1e-6, unit="m")
 
 
 @pytest.mark.parametrize(
@@ -605,7 +605,7 @@ def test_a_text_is_read_line_by_line_and_no_further_than_a_map_goes(tmp_path, mo
     path = tmp_path / "a.csv"
     path.write_text(content)
     with pytest.raises(ValidationError, match=f"a.csv cannot be read as rows of numbers: .*{said}") as error:
-        Topography(file=path, pixel=1e-6)
+        Topography(file=path, pixel=1e-6, unit="m")
     assert says(error).isprintable()
     assert len(says(error)) < 1000
 
@@ -753,7 +753,9 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
     found = read("scene.toml", Scene)
     assert found.roughness == Topography(heights=1e-6 * drawn((5, 6)), pixel=(1e-6, 2e-6), seed=3)
     (tmp_path / "scene.toml").write_text(FILE)
-    with pytest.raises(InvalidInput, match=r"roughness: surface.npy does not state the size of a pixel"):
+    with pytest.raises(
+        InvalidInput, match=r"roughness: surface.npy does not state the unit .* nor the side of a pixel"
+    ):
         read("scene.toml", Scene)
     (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\npath"))
     with pytest.raises(InvalidInput) as error:

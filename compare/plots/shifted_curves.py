@@ -149,7 +149,7 @@ def _curves(axes: Axes, points: DataFrame, across: str, colours: Any) -> None:
     lines = [np.column_stack([x[each], mu[each]]) for each in at]
     shade = [colours[each[0]] for each in at]
     axes.add_collection(LineCollection(lines, colors=shade, linewidths=style.width(0.45), zorder=2))
-    bars = {"fmt": "none", "ecolor": colours, "elinewidth": style.width(0.45), "capsize": 0}
+    bars = {"fmt": "none", "ecolor": colours, "elinewidth": style.width(0.8), "capsize": 0}
     intervals(axes, x, points, "friction_coefficient", **bars)
     holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
     scatter(axes, x, mu, holds, colours, 0.5, 0.35, zorder=2.5)

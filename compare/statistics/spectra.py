@@ -190,7 +190,10 @@ def _of_directions(slopes) -> Iterator[str]:
 
 def _of_slope(slope) -> Iterator[str]:
     if slope > STEEP:
-        yield f"an rms slope of {slope:.3g} is none of a surface: check the unit of the heights, and the pixel"
+        yield (
+            f"the rms slope is {slope:.3g}, which no surface has: check the unit of the heights and the side of a "
+            "pixel"
+        )
 
 
 def mapped(rings: Rings) -> np.ndarray:

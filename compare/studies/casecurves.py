@@ -13,6 +13,7 @@ from .. import exact
 from ..cases import Case
 from ..rectangle import COARSE, FINE, Rectangle, on_two_grids
 
+DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
 CURVES = {

@@ -20,6 +20,7 @@ from ..statistics.jackknife import Sample, mean
 from ..statistics.means import FRICTION, Compared, compared
 from .casecurves import (
     CURVES,
+    DIMENSIONS,
     LOAD,
     OWN,
     ROUGH_DEPTH,
@@ -31,7 +32,6 @@ from .casecurves import (
 )
 from .points import stacked
 
-DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 TOLERANCE = 0.05
 AS_HALVED = "The change on halving understates the error by 1 / (1 - 2^-p) at order p: twice at first order."
 

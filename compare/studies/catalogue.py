@@ -11,6 +11,7 @@ from mdr1d import MDR
 from scene import Fractional, Indent, Kelvin, Program, Slide, Stage, StandardLinearSolid
 from scene.scales import elastic_contact
 
+from ..library import CATALOGUE
 from .contacts import SHORTEST, STEEP, kelvin, resolved
 from .paper import parameters
 from .series import Series
@@ -151,43 +152,16 @@ def _regime(size: Size) -> Iterator[Series]:
             yield _at_depths(deep, f"{shape}-depth", f"{title}, depth prescribed", scene, loads[::2])
 
 
+_SERIES = {
+    "collapse": _collapse,
+    "solids": _solids,
+    "hurst": _hurst,
+    "parameters": _parameters,
+    "regime": _regime,
+    "depth": _depth_study,
+}
 STUDIES = {
-    "collapse": ReadyStudy(
-        "Does friction collapse on one curve?",
-        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 on a Kelvin solid, across the knee of the "
-        "curve, at prescribed load and at prescribed depth.",
-        _collapse,
-    ),
-    "solids": ReadyStudy(
-        "Other solids",
-        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 at prescribed load, on a standard linear solid, "
-        "E_g = 10 E_r, and on a solid whose loss grows as the root of the frequency.",
-        _solids,
-    ),
-    "hurst": ReadyStudy(
-        "From H = 0.1 to 0.9",
-        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, of several Hurst exponents, "
-        "with the same rms height and the same waves.",
-        _hurst,
-    ),
-    "parameters": ReadyStudy(
-        "One parameter at a time",
-        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, with another rms height, "
-        "another shortest wave, another relaxation time.",
-        _parameters,
-    ),
-    "regime": ReadyStudy(
-        "The regime of the paper",
-        "Roughness that is small against the depth and steep against the body, which in three dimensions takes "
-        "waves far shorter than the contact: a spectrum rolled off at a q_r of 20 or more.",
-        _regime,
-    ),
-    "depth": ReadyStudy(
-        "Force and depth",
-        "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
-        "linear solid.",
-        _depth_study,
-    ),
+    name: ReadyStudy(CATALOGUE[name].title, CATALOGUE[name].about, series) for name, series in _SERIES.items()
 }
 
 

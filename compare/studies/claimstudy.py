@@ -17,7 +17,7 @@ from ..declaration import Study
 from ..describe import described, slug
 from ..finding import REPORTED, VERDICTS, Finding, claimed, sentences
 from ..inputs import located
-from ..library import Listing, ready
+from ..library import ready, studies
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
 from ..rectangle import Rectangle
@@ -30,7 +30,6 @@ from .inputs import study_of
 from .judgement import JudgedSeries, judge_series
 from .points import failures, points
 from .series import SOLVERS, Contacts, Series
-from .trust.study import TrustStudy
 
 ALL = "all"
 UNMATCHED = (
@@ -90,14 +89,6 @@ class ClaimStudy(Study):
         for rectangle in found.rectangles().values():
             rectangle.refuse()
         return found
-
-    @classmethod
-    def listing(cls) -> Listing:
-        """Studies that come with the package."""
-        return Listing(
-            {**STUDIES, TrustStudy.name: TrustStudy},
-            end=f"`crosscheck study {ALL}` does all of them; a file of your own is a study too.",
-        )
 
     @property
     def title(self) -> str:  # type: ignore[override]
@@ -237,10 +228,8 @@ def _located(name: str | Path) -> Path:
     try:
         return located(name, "study")
     except InvalidInput as error:
-        offered = ready()
-        if not lexists(name) and str(name) not in offered:
-            own = [each for each, found in offered.items() if found.kind == "study"]
-            known("NAME", str(name), [*STUDIES, ALL, *own], str(error))
+        if not lexists(name) and str(name) not in ready():
+            known("NAME", str(name), [*studies(), ALL], str(error))
         raise
 
 

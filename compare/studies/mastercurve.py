@@ -1,5 +1,6 @@
 """Friction that a user measured at several loads and speeds, shifted onto one curve: `crosscheck mastercurve`."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,6 +11,7 @@ import numpy as np
 import xarray
 
 from scene.printable import brief
+from scene.quantities import NEWTON, SPEED
 from scene.reading import InvalidInput
 from scene.table import read_rows
 
@@ -27,10 +29,14 @@ from ..vocabulary import attributes
 COLUMNS = ("mu", "F_N", "v")
 # Names of the columns that a heading may have, in lower case.
 CALLED = {
-    "mu": ("mu", "µ", "μ", "friction", "friction_coefficient"),
+    "mu": ("mu", "µ", "μ", "friction", "friction_coefficient", "cof"),
     "F_N": ("f_n", "fn", "load", "normal_force", "force"),
-    "v": ("v", "speed", "velocity"),
+    "v": ("v", "speed", "velocity", "sliding_speed"),
 }
+UNITS = {"F_N": NEWTON, "v": SPEED}  # mu has none
+PLAIN = ("1", "-")  # written for none
+# "F_N [mN]", "F_N (mN)", "F_N / mN", or a name alone.
+_NAMED = re.compile(r"(?P<name>[^\[(/]*?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*\(?(?P<c>[^()]+)\)?)?")
 LEAST_LOADS = 2
 MOST_SPEEDS, MOST_POINTS = 100, 5_000
 MEASURED = "measured"
@@ -162,13 +168,14 @@ class Mastercurve(Study):
 
 
 def read_measured(path: str | Path) -> xarray.Dataset:
-    """Table of friction coefficient mu, normal force F_N [N] and speed v [m/s], a row a measurement.
+    """Table of friction coefficient mu, normal force F_N and speed v, a row a measurement, in SI.
 
-    Columns stand in this order, or as a heading names them. Raises ValueError naming file and line.
+    Columns stand in this order, or as a heading names them, and are in [N] and [m/s], or in the units that the
+    heading gives: "v [mm/s], F_N [mN], mu". Raises ValueError naming file and line.
     """
     heading, rows = read_rows(path, COLUMNS)
-    order = _order(heading)
-    columns = np.array(rows, float).reshape(-1, len(COLUMNS))[:, order].T
+    order, units = _order_and_units(heading)
+    columns = (np.array(rows, float).reshape(-1, len(COLUMNS)) * units)[:, order].T
     variables = {
         name: ("measurement", column, attributes(name))
         for name, column in zip(VARIABLES.values(), columns, strict=True)
@@ -211,14 +218,32 @@ def _curve(speed, loads, scatter):
     return Curve(speed, np.log(sorted(loads)), np.log(friction), np.array(error))
 
 
-def _order(heading):
-    """Columns of mu, F_N and v."""
+def _order_and_units(heading):
+    """Columns of mu, F_N and v, and the units of all columns in SI, in the order of the heading."""
     if not heading:
-        return list(range(len(COLUMNS)))
-    meant = [next((name for name in COLUMNS if cell.lower() in CALLED[name]), cell) for cell in heading]
+        return list(range(len(COLUMNS))), np.ones(len(COLUMNS))
+    cells = [_NAMED.fullmatch(cell) for cell in heading]
+    names = [
+        "_".join(found["name"].lower().split()) if found else cell
+        for cell, found in zip(heading, cells, strict=True)
+    ]
+    meant = [next((column for column in COLUMNS if name in CALLED[column]), name) for name in names]
     if sorted(meant) != sorted(COLUMNS):
-        names = "; ".join(f"{name} as {', '.join(called)}" for name, called in CALLED.items())
+        allowed = "; ".join(f"{name} as {', '.join(called)}" for name, called in CALLED.items())
         raise ValueError(
-            f"the heading {brief(repr(heading))} must name each of {', '.join(COLUMNS)} once: {names}"
+            f"the heading {brief(repr(heading))} must name each of {', '.join(COLUMNS)} once: {allowed}"
         )
-    return [meant.index(name) for name in COLUMNS]
+    stated = [next(filter(None, found.group("a", "b", "c")), "").strip() for found in cells]
+    units = [_unit(column, unit) for column, unit in zip(meant, stated, strict=True)]
+    return [meant.index(name) for name in COLUMNS], np.array(units)
+
+
+def _unit(column, stated):
+    """The unit of a column in SI. Raises ValueError for a unit of anything else."""
+    if not stated or (column not in UNITS and stated in PLAIN):
+        return 1.0
+    needed = "no unit" if column not in UNITS else f"the unit of {UNITS[column].kind}, as {UNITS[column].symbol},"
+    try:
+        return UNITS[column].value(f"1 {stated}")
+    except (KeyError, ValueError) as error:
+        raise ValueError(f"the heading gives {column} in {brief(repr(stated))}: {needed} is needed") from error

@@ -33,6 +33,7 @@ from ..views import view
 from ..vocabulary import attributes
 from .casecurves import (
     CURVES,
+    DIMENSIONS,
     OWN,
     curves,
     edge_slope,
@@ -41,7 +42,7 @@ from .casecurves import (
     scaled_speed,
     slow_friction,
 )
-from .casefindings import DIMENSIONS, ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
+from .casefindings import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
 from .trust.verdict import Trust, trust
 
 FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import nan
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import xarray
 from pydantic import TypeAdapter, ValidationError
@@ -23,6 +23,7 @@ from ..statistics.spectra import Description, describe
 from ..task import Batch, Task
 from ..vocabulary import attributes
 
+Side: TypeAlias = str | float
 WAVES = "Rms of the derivatives of its waves."
 DIFFERENCES = "Rms of the differences between neighbours over a pixel."
 EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
@@ -68,12 +69,13 @@ class Map(Study):
     command = "topography"
 
     @classmethod
-    def of(cls, file: str | Path, pixel: float | Sequence[float] | None = None, **stated: Any) -> "Map":
+    def of(cls, file: str | Path, pixel: Side | Sequence[Side] | None = None, **stated: Any) -> "Map":
         """The study of a file. Raises InvalidInput for what the file or a field of `Topography` does not allow.
 
-        pixel : side of a pixel [m], or sides along x and y; what is None, is left to the file or the default
+        pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
+            default
         """
-        sides = pixel if pixel is None or isinstance(pixel, int | float) else tuple(pixel)
+        sides = pixel if pixel is None or isinstance(pixel, Side) else tuple(pixel)
         if isinstance(sides, tuple) and len(sides) < 2:
             sides = sides[0] if sides else None
         stated |= {"pixel": sides}
@@ -144,7 +146,8 @@ class Map(Study):
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
-        return sentences([each for each in findings if each.claim.id in told])
+        warnings = [f"Warning: {each}." for each in self.description.warnings]
+        return [*warnings, *sentences([each for each in findings if each.claim.id in told])]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         return [plots.plot(self.description)]
@@ -155,12 +158,11 @@ class Map(Study):
         return [Text("\n\n".join(self.lines())), *plots, Findings(findings)]
 
     def lines(self) -> list[str]:
-        """Size of the map, what was done to it, the band of the law, and warnings."""
+        """Size of the map, what was done to it, and the band of the law."""
         found, map_ = self.description, self.description.topography
         (rows, columns), (x, y), (px, py) = map_.heights.shape, map_.size, map_.pixel
         return [
             f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
             f'level: "{map_.level}" taken off; repeat: "{map_.repeat}"; peaks: "{map_.peaks}"',
             *([f"self-affine band: {found.band}"] if found.band else []),
-            *(f"warning: {each}" for each in found.warnings),
         ]

@@ -139,4 +139,4 @@ def _inline(value: Any) -> str:
 
 
 def _entry(name, value):
-    return f'file = "{name}.npy"' if isinstance(value, np.ndarray) else f"{name} = {_inline(value)}"
+    return f'file = "{name}.npy", unit = "m"' if isinstance(value, np.ndarray) else f"{name} = {_inline(value)}"

@@ -15,6 +15,7 @@ from scene import Scene
 
 from ...declaration import Study
 from ...finding import Claim, Finding
+from ...library import CATALOGUE
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Table, Text
 from ...plots import regime_map
@@ -80,8 +81,7 @@ class TrustStudy(Study):
     _judged: dict = field(default_factory=dict, init=False, repr=False, compare=False)
 
     command, name = "study", "trust"
-    title = "When can one dimension be trusted?"
-    about = "The ratio of 1D over 3D, learned from scenes that both solved, and its errors on scenes it never saw."
+    title, about = CATALOGUE["trust"].title, CATALOGUE["trust"].about
 
     @classmethod
     def of(cls, size: str) -> "TrustStudy":
