@@ -318,6 +318,26 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
     return export(folder, to, output)
 
 
+def draw(
+    scene: Asked, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
+) -> Report:
+    """Draw the deformed surface in 3D under its pressure, the row of springs in 1D, and the forces of both.
+
+    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
+    interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
+    """
+    from .studies.draw import Drawing
+
+    if interactive:
+        from . import interactive as pages
+
+        pages.refuse()
+    report = solve(Drawing.of(scene), output, **options)
+    if interactive:
+        pages.write(report)
+    return report
+
+
 def animate(
     scene: Asked,
     output: str | Path | None = None,
