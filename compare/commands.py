@@ -307,10 +307,10 @@ def figures(
 
 
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write the tables of results into files: CSV with units, or LaTeX for a paper.
+    """Write results into files: tables as CSV with units or as LaTeX, surfaces for ParaView.
 
     folder : folder that a command left, or a file of results
-    to : csv, every digit, or latex, rounded, for booktabs
+    to : csv, every digit; latex, rounded, for booktabs; or vtk, surfaces for ParaView, which takes the extra vtk
     output : where to; `tables` in the folder if absent
     """
     from .tables import export
@@ -326,15 +326,15 @@ def draw(
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
     """
+    from . import interactive as turning
+    from .page import Plot
     from .studies.draw import Drawing
 
     if interactive:
-        from . import interactive as pages
-
-        pages.refuse()
-    report = solve(Drawing.of(scene), output, **options)
+        turning.refuse()
+    report = solve(Drawing.of(scene, interactive), output, **options)
     if interactive:
-        pages.write(report)
+        turning.write(*report.page.every(Plot), report.output)
     return report
 
 

@@ -20,10 +20,10 @@ from .prefixes import prefixed
 NAME = "draw"
 SURFACE, ROW, LINES = f"{NAME}-surface", f"{NAME}-row", f"{NAME}-line-force"
 MOST_POINTS = 30_000  # of the surface: finer grids are averaged over squares of pixels
-STRIPS = 56  # along the picture, each a spring
+STRIPS = 44  # along the picture, each a spring
 STRIP_DEPTH = 0.4  # of the length of a contact that is alike along y, the piece of it that is drawn
 HEIGHT = 3.7  # [inch]
-COILS, COIL = 5, 0.28  # of a spring, and half their width over the distance of springs
+COILS, COIL = 4, 0.32  # of a spring, and half their width over the distance of springs
 
 
 def plot(scene: Scene, surface: xarray.Dataset, row: xarray.Dataset | None) -> Plot:
@@ -52,6 +52,7 @@ def plot(scene: Scene, surface: xarray.Dataset, row: xarray.Dataset | None) -> P
         "At the end of the program.": isinstance(motion, Program),
         "(b) Springs that press in colour; each stands for a strip of the profile.": row is not None,
         f"({letter(1 + (row is not None))}) Force per length, means over the same strips.": True,
+        "Each model has a rough surface of its own.": row is not None and scene.roughness is not None,
     }
     caption = " ".join(sentence for sentence, holds in told.items() if holds)
     alternative = "Left a block of elastomer with a dent coloured by pressure, right springs and their forces."
@@ -77,9 +78,11 @@ def figure(
         row(panels[0], tables[ROW], tables[LINES], span)
     compared(panels[-1], tables[LINES], span, unit)
     panels[-1].set_title(_title(1 + springs, "force per length"))
+    if springs:
+        panels[0].set_title(_title(1, "1D: row of springs"))
     style.lay_out(drawing, passes=2)
     if springs:
-        panels[0].set_title(_title(1, f"1D: row of springs, heights × {_enlarged(panels[0]):.2g}"))
+        panels[0].set_title(_title(1, f"1D: row of springs, heights × {_enlarged(panels[0], tables[ROW], span):.2g}"))
     return drawing
 
 
@@ -95,9 +98,8 @@ def surface(
     if sliding:
         relief.arrow(axes, x, y, height, camera, "indenter slides", sliding > 0)
     axes.set_title(f"{title}, heights × {enlarged:g}")
-    shades.colours(
-        drawing, image, f"pressure [{pascal}]", ax=axes, location="bottom", extend="max", shrink=0.7, aspect=32
-    )
+    place = {"location": "bottom", "panchor": (0.5, 1.0), "shrink": 0.7, "aspect": 32, "pad": 0.02}
+    shades.colours(drawing, image, f"pressure [{pascal}]", ax=axes, extend="max", **place)
 
 
 def row(axes: Axes, section: DataFrame, lines: DataFrame, span: Sequence[float]) -> None:
@@ -131,7 +133,7 @@ def compared(axes: Axes, lines: DataFrame, span: Sequence[float], unit: str) -> 
     x, pitch = along * lines["x"], along * (lines["x"][1] - lines["x"][0])
     if "line_force_1d" in lines:
         look = {"color": style.COLOUR["MDR"], "alpha": 0.55, "linewidth": 0}
-        axes.bar(x, up * lines["line_force_1d"], width=0.75 * pitch, label="1D: force of the springs", **look)
+        axes.bar(x, up * lines["line_force_1d"], width=0.75 * pitch, label="1D: springs", **look)
     look = {"color": style.COLOUR["BEM"], "linewidth": style.width()}
     axes.stairs(up * three, along * _edges(lines["x"].to_numpy()), baseline=None, label="3D: pressure integrated over y", **look)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{x_unit}]", ylabel=f"line force [{name}]")
@@ -170,7 +172,7 @@ def _means(ends, values, edges):
 def _shown(surface: xarray.Dataset) -> DataFrame:
     """Means over squares of pixels, of which no more are left than a picture tells apart."""
     if surface.sizes["y"] == 1:
-        deep = STRIP_DEPTH * float(np.ptp(surface["x"]))
+        deep = STRIP_DEPTH * float(np.ptp(surface["x"].values))
         surface = xarray.concat([surface.assign_coords(y=[side * deep]) for side in (-0.5, 0.5)], "y")
     step = max(1, ceil((surface.sizes["x"] * surface.sizes["y"] / MOST_POINTS) ** 0.5))
     squares = {"x": step, "y": min(step, surface.sizes["y"] // 2)}
@@ -185,10 +187,10 @@ def _spring(x, bottom, top, wide):
     return np.column_stack([x + across, bottom + up * (top - bottom)])
 
 
-def _enlarged(axes: Axes) -> float:
-    """How often heights are enlarged in a panel, from its place and limits, both in the same power of ten."""
-    box, (left, right), (low, high) = axes.get_window_extent(), axes.get_xlim(), axes.get_ylim()
-    return (box.height / (high - low)) / (box.width / (right - left))
+def _enlarged(axes: Axes, section: DataFrame, span) -> float:
+    """How often heights are enlarged in the panel of the springs, once it has its place."""
+    box, limits = axes.get_window_extent(), touching.heights([touching.section_of(section)], (span[0], span[1]))
+    return (box.height / np.ptp(limits)) / (box.width / np.ptp(span))
 
 
 def _title(k, text):

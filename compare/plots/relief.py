@@ -18,8 +18,8 @@ from . import style, touching
 from .prefixes import prefixed
 
 # Of the deeper side of the surface, the height that the relief takes as drawn, at most; and the block below it.
-TALL, BLOCK = 0.28, 0.12
-EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 10), (1, 2, 5)).ravel()
+TALL, BLOCK = 0.22, 0.08
+EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 10), (1, 2, 3, 5)).ravel()
 LIGHT = np.array([-0.45, 0.35, 0.82])  # towards the light, from the left and behind
 DULLEST, ON_PRESSURE = 0.45, 0.5  # of full light in full shade; of that shade, how much lies on colours of pressure
 TICK = 0.018  # of the width of the picture
@@ -31,7 +31,7 @@ class Camera:
     """Parallel projection from the front right: azimuth and elevation [rad], and how often heights are enlarged."""
 
     azimuth: float = np.radians(24)
-    elevation: float = np.radians(38)
+    elevation: float = np.radians(42)
     exaggeration: float = 1.0
 
     def place(self, x, y, z) -> tuple[np.ndarray, np.ndarray]:
@@ -72,7 +72,7 @@ def block(axes: Axes, x, y, height, pressure, highest: float, camera: Camera) ->
     mesh.set_linewidth(0.1)
     for side, sun in (((x, y[0], height[0]), 0.86), ((x[-1], y, height[:, -1]), 0.72)):
         _wall(axes, camera, *np.broadcast_arrays(*side), base, sun)
-    axes.set(aspect="equal", xmargin=0.0, ymargin=0.0)
+    axes.set(aspect="equal", anchor="N")
     axes.set_axis_off()
     return scale
 
@@ -103,7 +103,7 @@ def ruled(axes: Axes, x, y, height, camera: Camera) -> None:
         axes.add_collection(lines)
         look = {"fontsize": style.small(), "ha": sides[0], "va": sides[1]}
         for tick, end in zip(ticks, ends, strict=True):
-            axes.text(*(end + 0.4 * length * np.array(out)), f"{scale * tick:.10g}", **look)
+            axes.text(*(end + 0.4 * length * np.array(out)), f"{scale * tick:.10g}".replace("-", "−"), **look)
         middle = np.transpose(place(along[[0, -1]].mean())) + 4.2 * length * np.array(out)
         axes.text(*middle, f"{name} [{unit}]", fontsize=style.size(), ha=sides[0], va=sides[1])
     _standing(axes, x, y, height, camera, length)
@@ -122,18 +122,18 @@ def _standing(axes, x, y, height, camera, length):
 
 
 def arrow(axes: Axes, x, y, height, camera: Camera, text: str, forwards: bool) -> None:
-    """Arrow along x above the far edge, with words: which way what presses slides."""
-    lift = height.max() + 0.1 * np.ptp(y) / camera.exaggeration
-    ends = np.array([0.62, 0.22]) if forwards else np.array([0.22, 0.62])
-    start, end = np.transpose(camera.place(x[0] + ends * np.ptp(x), y[-1], lift))
+    """Arrow along x above the far edge, with words: which way what presses slides, forwards along -x."""
+    lift = height.max() + 0.07 * np.ptp(y) / camera.exaggeration
+    part = np.array([0.9, 0.55] if forwards else [0.55, 0.9])
+    across, up = camera.place(x[0] + part * np.ptp(x), y[-1], lift)
     look = {"arrowstyle": "-|>", "color": style.ink(), "linewidth": style.width(0.9), "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", end, start, arrowprops=look)
-    middle = (start + end) / 2
-    axes.annotate(
+    start, end = zip(across, up, strict=True)
+    axes.annotate("", end, start, arrowprops=look, annotation_clip=False)
+    axes.plot(across, up, alpha=0.0)  # by which the axes make room
+    axes.text(
+        across.mean(),
+        up.mean() + 0.02 * np.ptp(x),
         text,
-        middle,
-        xytext=(0, 3),
-        textcoords="offset points",
         fontsize=style.small(),
         ha="center",
         va="bottom",

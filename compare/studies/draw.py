@@ -10,6 +10,7 @@ import xarray
 from scene import Refused, Solver, SolveError
 from scene.protocol import refuse
 
+from .. import interactive as turning
 from ..cases import Case
 from ..declaration import Study
 from ..finding import Claim, Finding
@@ -38,16 +39,18 @@ class Drawing(Study):
     case : scene, and settings of the solvers
     tasks : of BEM, and of MDR unless it refuses
     refused : why there is no row of springs; empty where there is one
+    interactive : whether the page links one of the surface that turns
     """
 
     case: Case
     tasks: tuple[SceneTask, ...]
     refused: str = ""
+    interactive: bool = False
 
     command, title = "draw", "One contact"
 
     @classmethod
-    def of(cls, scene: Asked) -> "Drawing":
+    def of(cls, scene: Asked, interactive: bool = False) -> "Drawing":
         """Drawing of a scene. Raises InvalidInput, and Refused of what no picture shows."""
         case = case_of(scene)
         if case.heating is not None and case.heating.feedback is not None:
@@ -57,7 +60,7 @@ class Drawing(Study):
             tasks.append(_task(case.mdr, case))
         except Refused as error:
             refused = str(error)
-        return cls(case, tuple(tasks), refused)
+        return cls(case, tuple(tasks), refused, interactive)
 
     @property
     def inputs(self) -> Mapping[str, Any]:
@@ -118,6 +121,8 @@ class Drawing(Study):
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
+        if self.interactive:
+            said.append(Text(f"The surface, to be turned in a browser: [{turning.NAME}]({turning.NAME})."))
         return [*plots, *said, Findings(findings)]
 
 
