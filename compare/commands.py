@@ -334,7 +334,7 @@ def draw(
         turning.refuse()
     report = solve(Drawing.of(scene, interactive), output, **options)
     if interactive:
-        turning.write(*report.page.every(Plot), report.output)
+        turning.write(next(report.page.every(Plot)), report.output)
     return report
 
 

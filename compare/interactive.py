@@ -5,6 +5,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from scene import Refused
 
 from .page import Plot
@@ -16,7 +18,7 @@ from .store import write as write_whole
 NAME = "surface.html"
 EXTRA = 'pip install "mdr-bem-crosscheck[interactive]"'
 FREE = "rgb(226,222,206)"  # of the surface where nothing presses
-TALLEST = 0.35  # of the longer side of the surface: its heights as shown
+LONGEST = 1.8  # side of the surface, in units of plotly
 
 
 def refuse() -> None:
@@ -51,7 +53,14 @@ def _page(table, options: Mapping[str, Any]) -> str:
         customdata=high * fields["gap"].to_numpy(),
         cmin=0.0,
         cmax=up * options["highest"],
-        colorscale=[[0.0, FREE], [1e-3, "#fde725"], [0.33, "#35b779"], [0.66, "#31688e"], [1.0, "#440154"]],
+        colorscale=[
+            [0.0, FREE],
+            [0.01, FREE],
+            [0.02, "#fde725"],
+            [0.33, "#35b779"],
+            [0.66, "#31688e"],
+            [1.0, "#440154"],
+        ],
         colorbar={"title": f"pressure [{pascal}]"},
         hovertemplate=(
             f"x %{{x:.4g}} {x_unit}, y %{{y:.4g}} {x_unit}<br>height %{{z:.4g}} {z_unit}<br>"
@@ -59,17 +68,18 @@ def _page(table, options: Mapping[str, Any]) -> str:
         ),
     )
     wide, deep = x[-1] - x[0], y[-1] - y[0]
-    tall = options["enlarged"] * float(fields["displacement"].to_numpy().max() - fields["displacement"].to_numpy().min())
-    longest = max(wide, deep)
+    tall = options["enlarged"] * np.ptp(fields["displacement"].to_numpy())
+    unit = max(wide, deep) / LONGEST
     slides = {1: ", indenter slides along −x", -1: ", indenter slides along +x"}.get(options["sliding"], "")
     layout = {
         "title": f"Deformed surface, heights × {options['enlarged']:g}{slides}",
         "scene": {
             "xaxis_title": f"x [{x_unit}]",
             "yaxis_title": f"y [{x_unit}]",
-            "zaxis_title": f"height [{z_unit}]",
+            "zaxis": {"title": f"height [{z_unit}]", "nticks": 3},
+            "camera": {"eye": {"x": 0.6, "y": -1.5, "z": 1.1}},
             "aspectmode": "manual",
-            "aspectratio": {"x": 1.5 * wide / longest, "y": 1.5 * deep / longest, "z": 1.5 * tall / longest},
+            "aspectratio": {"x": wide / unit, "y": deep / unit, "z": tall / unit},
         },
     }
-    return graph_objects.Figure(surface, layout).to_html(include_plotlyjs=True)
+    return graph_objects.Figure(surface, layout).to_html(include_plotlyjs=True, default_height="95vh")

@@ -135,7 +135,9 @@ class Rectangle:
                 together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
                 contacts = tuple(
-                    SceneTask(solver, each, keeps_fields=first and not k, work=len(each) * work_of(solver, each[0]))
+                    SceneTask(
+                        solver, each, keeps_fields=first and not k, work=len(each) * work_of(solver, each[0])
+                    )
                     for k, each in enumerate(together)
                 )
                 found.append((name, contacts))

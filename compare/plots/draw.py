@@ -1,7 +1,8 @@
-"""One contact as a picture: the deformed surface in 3D under its pressure, the row of springs, and both line forces."""
+"""One contact: the deformed surface in 3D under its pressure, the row of springs in 1D, and the forces of both."""
 
 from collections.abc import Sequence
 from math import ceil
+from typing import Any
 
 import numpy as np
 import xarray
@@ -20,9 +21,9 @@ from .prefixes import prefixed
 NAME = "draw"
 SURFACE, ROW, LINES = f"{NAME}-surface", f"{NAME}-row", f"{NAME}-line-force"
 MOST_POINTS = 30_000  # of the surface: finer grids are averaged over squares of pixels
-STRIPS = 44  # along the picture, each a spring
+STRIPS, SPRINGS = 112, 2  # along the picture; strips for each spring that is drawn
 STRIP_DEPTH = 0.4  # of the length of a contact that is alike along y, the piece of it that is drawn
-HEIGHT = 3.7  # [inch]
+LEAST, AROUND, SHARE = 2.9, 1.35, 0.5  # height of the figure, around the block [inch]; of its width, the block's
 COILS, COIL = 4, 0.32  # of a spring, and half their width over the distance of springs
 
 
@@ -41,7 +42,7 @@ def plot(scene: Scene, surface: xarray.Dataset, row: xarray.Dataset | None) -> P
     speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
     options = {
         "enlarged": relief.exaggeration(wide, deep, relieved),
-        "highest": touching.highest_pressure(surface["pressure"].values),
+        "highest": touching.highest_pressure(shown["pressure"].to_numpy()),
         "unit": "N/m²" if isinstance(scene.indenter, Cylinder) else "N/m",
         "sliding": int(np.sign(speed)),
     }
@@ -50,8 +51,8 @@ def plot(scene: Scene, surface: xarray.Dataset, row: xarray.Dataset | None) -> P
         "A piece of a contact that is alike along y.": surface.sizes["y"] == 1,
         "One cell, which repeats.": isinstance(scene.indenter, Plane),
         "At the end of the program.": isinstance(motion, Program),
-        "(b) Springs that press in colour; each stands for a strip of the profile.": row is not None,
-        f"({letter(1 + (row is not None))}) Force per length, means over the same strips.": True,
+        "(b) Some of the springs, in colour where they press.": row is not None,
+        f"({letter(1 + (row is not None))}) Force per length, means over strips.": True,
         "Each model has a rough surface of its own.": row is not None and scene.roughness is not None,
     }
     caption = " ".join(sentence for sentence, holds in told.items() if holds)
@@ -59,9 +60,7 @@ def plot(scene: Scene, surface: xarray.Dataset, row: xarray.Dataset | None) -> P
     return Plot(NAME, figure, tables, caption, alternative, options)
 
 
-def figure(
-    tables: Tables, enlarged: float, highest: float, unit: str = "N/m", sliding: int = 0
-) -> Figure:
+def figure(tables: Tables, enlarged: float, highest: float, unit: str = "N/m", sliding: int = 0) -> Figure:
     """(a) The deformed surface under its pressure. (b) The row of springs. (c) Force per length of both models.
 
     enlarged : how often heights of (a) are; highest : pressure at which its colours end [Pa]
@@ -70,8 +69,9 @@ def figure(
     """
     springs, x = ROW in tables, tables[LINES]["x"].to_numpy()
     span = _edges(x)[[0, -1]]
-    drawing = style.canvas("double", HEIGHT)
-    left, right = drawing.subfigures(1, 2, width_ratios=(1.45, 1))
+    aspect = relief.Camera().aspect(*(float(np.ptp(tables[SURFACE][name])) for name in ("x", "y")))
+    drawing = style.canvas("double", max(LEAST, AROUND + SHARE * style.across("double") * aspect))
+    left, right = drawing.subfigures(1, 2, squeeze=False, width_ratios=(1.45, 1))[0]
     surface(left, left.subplots(), tables[SURFACE], enlarged, highest, sliding, _title(0, "3D: deformed surface"))
     panels = right.subplots(1 + springs, 1, sharex=True, squeeze=False)[:, 0]
     if springs:
@@ -82,7 +82,9 @@ def figure(
         panels[0].set_title(_title(1, "1D: row of springs"))
     style.lay_out(drawing, passes=2)
     if springs:
-        panels[0].set_title(_title(1, f"1D: row of springs, heights × {_enlarged(panels[0], tables[ROW], span):.2g}"))
+        panels[0].set_title(
+            _title(1, f"1D: row of springs, heights × {enlarged_in(panels[0], tables[ROW], span):.2g}")
+        )
     return drawing
 
 
@@ -98,8 +100,8 @@ def surface(
     if sliding:
         relief.arrow(axes, x, y, height, camera, "indenter slides", sliding > 0)
     axes.set_title(f"{title}, heights × {enlarged:g}")
-    place = {"location": "bottom", "panchor": (0.5, 1.0), "shrink": 0.7, "aspect": 32, "pad": 0.02}
-    shades.colours(drawing, image, f"pressure [{pascal}]", ax=axes, extend="max", **place)
+    bar = axes.inset_axes((0.14, -0.09, 0.62, 0.035))
+    shades.colours(drawing, image, f"pressure [{pascal}]", cax=bar, orientation="horizontal", extend="max")
 
 
 def row(axes: Axes, section: DataFrame, lines: DataFrame, span: Sequence[float]) -> None:
@@ -111,12 +113,14 @@ def row(axes: Axes, section: DataFrame, lines: DataFrame, span: Sequence[float])
     indenter = np.minimum(up * seen.indenter, high)
     axes.fill_between(along * seen.x, indenter, high, color=touching.rigid(), linewidth=0)
     touching.level(axes)
-    places = lines["x"].to_numpy()
+    places = _edges(lines["x"].to_numpy())[SPRINGS // 2 :: SPRINGS]
     pressing = np.histogram(seen.x[seen.touching], _edges(places))[0] > 0
     tops = up * np.interp(places, seen.x, seen.surface)
     wide = along * COIL * (places[1] - places[0])
     for chosen, colour, times in ((~pressing, touching.skin(), 0.45), (pressing, style.COLOUR["MDR"], 0.75)):
-        springs = [_spring(along * at, low, top, wide) for at, top in zip(places[chosen], tops[chosen], strict=True)]
+        springs = [
+            _spring(along * at, low, top, wide) for at, top in zip(places[chosen], tops[chosen], strict=True)
+        ]
         axes.add_collection(LineCollection(springs, colors=[colour], linewidths=style.width(times)))
     axes.plot(along * seen.x, up * seen.surface, color=touching.skin(), linewidth=style.width(0.5))
     axes.axhline(low, color=style.ink(), linewidth=style.width(2.0))
@@ -130,12 +134,12 @@ def compared(axes: Axes, lines: DataFrame, span: Sequence[float], unit: str) -> 
     (along, x_unit), three = prefixed(span, "m"), lines["line_force_3d"]
     both = [lines[name] for name in ("line_force_1d", "line_force_3d") if name in lines]
     up, name = prefixed([each.max() for each in both], unit)
-    x, pitch = along * lines["x"], along * (lines["x"][1] - lines["x"][0])
+    edges, look = along * _edges(lines["x"].to_numpy()), dict[str, Any]()
     if "line_force_1d" in lines:
-        look = {"color": style.COLOUR["MDR"], "alpha": 0.55, "linewidth": 0}
-        axes.bar(x, up * lines["line_force_1d"], width=0.75 * pitch, label="1D: springs", **look)
-    look = {"color": style.COLOUR["BEM"], "linewidth": style.width()}
-    axes.stairs(up * three, along * _edges(lines["x"].to_numpy()), baseline=None, label="3D: pressure integrated over y", **look)
+        look = {"color": style.COLOUR["MDR"], "alpha": 0.45, "fill": True}
+        axes.stairs(up * lines["line_force_1d"], edges, label="1D: force of the springs", **look)
+    look = {"color": style.COLOUR["BEM"], "linewidth": style.width(), "baseline": None}
+    axes.stairs(up * three, edges, label="3D: pressure integrated over y", **look)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{x_unit}]", ylabel=f"line force [{name}]")
     axes.set_ylim(0, 1.45 * up * max(each.max() for each in both))
     axes.legend(loc="upper right", handlelength=1.4, borderaxespad=0.1)
@@ -173,7 +177,7 @@ def _shown(surface: xarray.Dataset) -> DataFrame:
     """Means over squares of pixels, of which no more are left than a picture tells apart."""
     if surface.sizes["y"] == 1:
         deep = STRIP_DEPTH * float(np.ptp(surface["x"].values))
-        surface = xarray.concat([surface.assign_coords(y=[side * deep]) for side in (-0.5, 0.5)], "y")
+        surface = surface.reindex(y=[-deep / 2, deep / 2], method="nearest")
     step = max(1, ceil((surface.sizes["x"] * surface.sizes["y"] / MOST_POINTS) ** 0.5))
     squares = {"x": step, "y": min(step, surface.sizes["y"] // 2)}
     return surface.coarsen(squares, boundary="trim").mean().to_dataframe().reset_index()
@@ -187,7 +191,7 @@ def _spring(x, bottom, top, wide):
     return np.column_stack([x + across, bottom + up * (top - bottom)])
 
 
-def _enlarged(axes: Axes, section: DataFrame, span) -> float:
+def enlarged_in(axes: Axes, section: DataFrame, span) -> float:
     """How often heights are enlarged in the panel of the springs, once it has its place."""
     box, limits = axes.get_window_extent(), touching.heights([touching.section_of(section)], (span[0], span[1]))
     return (box.height / np.ptp(limits)) / (box.width / np.ptp(span))

@@ -1,17 +1,18 @@
-"""A surface seen obliquely from above, as a block of which the top is deformed: parallel projection, lit from a side.
+"""A surface seen obliquely from above: a block with a deformed top, in parallel projection, lit from one side.
 
-Quadrilaterals are drawn from the farthest to the nearest, so that what is near covers what is far. Lengths along x,
-y and heights keep their ratios to the axes drawn at the edges; heights are exaggerated by a number that is stated.
+Faces are drawn from the farthest to the nearest, so that what is near covers what is far. Heights are enlarged by
+a number that is stated.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from math import radians
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
-from matplotlib.colors import Normalize, to_rgb
+from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
 from . import style, touching
@@ -21,17 +22,23 @@ from .prefixes import prefixed
 TALL, BLOCK = 0.22, 0.08
 EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 10), (1, 2, 3, 5)).ravel()
 LIGHT = np.array([-0.45, 0.35, 0.82])  # towards the light, from the left and behind
-DULLEST, ON_PRESSURE = 0.45, 0.5  # of full light in full shade; of that shade, how much lies on colours of pressure
+DULLEST, ON_PRESSURE = (
+    0.45,
+    0.5,
+)  # of full light in full shade; of that shade, how much lies on colours of pressure
 TICK = 0.018  # of the width of the picture
 CMAP = "viridis_r"
 
 
 @dataclass(frozen=True)
 class Camera:
-    """Parallel projection from the front right: azimuth and elevation [rad], and how often heights are enlarged."""
+    """Parallel projection from the front right.
 
-    azimuth: float = np.radians(24)
-    elevation: float = np.radians(42)
+    azimuth, elevation : [rad]; exaggeration : how often heights are enlarged
+    """
+
+    azimuth: float = radians(24)
+    elevation: float = radians(42)
     exaggeration: float = 1.0
 
     def place(self, x, y, z) -> tuple[np.ndarray, np.ndarray]:
@@ -40,6 +47,11 @@ class Camera:
         away = y * np.cos(self.azimuth) - x * np.sin(self.azimuth)
         up = away * np.sin(self.elevation) + self.exaggeration * z * np.cos(self.elevation)
         return x * np.cos(self.azimuth) + y * np.sin(self.azimuth), up
+
+    def aspect(self, width: float, depth: float) -> float:
+        """Height over width of a level surface in the picture."""
+        across, up = self.place(np.array([0, width, width, 0]), np.array([0, 0, depth, depth]), 0.0)
+        return float(np.ptp(up) / np.ptp(across))
 
     @property
     def tilt(self) -> float:
@@ -50,8 +62,8 @@ class Camera:
 
 def exaggeration(width: float, depth: float, relief: float) -> float:
     """Round number by which heights are enlarged, on a surface of a width and a depth, and a relief [m]."""
-    most = TALL * max(width, depth) / relief if relief > 0 else 1.0
-    return float(EXAGGERATIONS[max(np.searchsorted(EXAGGERATIONS, most * (1 + 1e-9)) - 1, 0)])
+    fitting = EXAGGERATIONS[EXAGGERATIONS * relief <= TALL * max(width, depth)]
+    return float(fitting.max(initial=EXAGGERATIONS[0])) if relief > 0 else 1.0
 
 
 def block(axes: Axes, x, y, height, pressure, highest: float, camera: Camera) -> ScalarMappable:
@@ -67,11 +79,13 @@ def block(axes: Axes, x, y, height, pressure, highest: float, camera: Camera) ->
     colours = np.where(middle[..., None] > 0, scale.to_rgba(middle)[..., :3], touching.elastomer())
     shade = _shade(x, y, height, camera.exaggeration)
     shade = np.where(middle > 0, 1 - ON_PRESSURE * (1 - shade), shade)[..., None]
-    mesh = axes.pcolormesh(across, up, np.clip(colours * shade, 0, 1)[far], shading="flat", rasterized=True, antialiased=False)
+    mesh = axes.pcolormesh(
+        across, up, np.clip(colours * shade, 0, 1)[far], shading="flat", rasterized=True, antialiased=False
+    )
     mesh.set_edgecolor("face")
     mesh.set_linewidth(0.1)
-    for side, sun in (((x, y[0], height[0]), 0.86), ((x[-1], y, height[:, -1]), 0.72)):
-        _wall(axes, camera, *np.broadcast_arrays(*side), base, sun)
+    _wall(axes, camera, x, np.full_like(x, y[0]), height[0], base, 0.86)
+    _wall(axes, camera, np.full_like(y, x[-1]), y, height[:, -1], base, 0.72)
     axes.set(aspect="equal", anchor="N")
     axes.set_axis_off()
     return scale
@@ -99,20 +113,20 @@ def ruled(axes: Axes, x, y, height, camera: Camera) -> None:
         ticks = _ticks(scale * along[[0, -1]]) / scale
         feet = np.transpose(place(ticks))
         ends = feet + length * np.array(out)
-        lines = LineCollection([*zip(feet, ends, strict=True)], **_thin())
+        lines = LineCollection([*zip(feet, ends, strict=True)], colors=[style.ink()], linewidths=style.width(0.5))
         axes.add_collection(lines)
-        look = {"fontsize": style.small(), "ha": sides[0], "va": sides[1]}
-        for tick, end in zip(ticks, ends, strict=True):
-            axes.text(*(end + 0.4 * length * np.array(out)), f"{scale * tick:.10g}".replace("-", "−"), **look)
+        look: dict[str, Any] = {"fontsize": style.small(), "ha": sides[0], "va": sides[1]}
+        for tick, (across, up) in zip(ticks, ends + 0.4 * length * np.array(out), strict=True):
+            axes.text(across, up, f"{scale * tick:.10g}".replace("-", "−"), **look)
         middle = np.transpose(place(along[[0, -1]].mean())) + 4.2 * length * np.array(out)
-        axes.text(*middle, f"{name} [{unit}]", fontsize=style.size(), ha=sides[0], va=sides[1])
+        axes.text(middle[0], middle[1], f"{name} [{unit}]", **look | {"fontsize": style.size()})
     _standing(axes, x, y, height, camera, length)
 
 
 def _standing(axes, x, y, height, camera, length):
     """A bar as high as a round height, at the left behind, with how often heights are enlarged."""
-    room = max(np.ptp(height), 1e-30)
-    size = float(max(each for each in EXAGGERATIONS * 1e-12 if each <= room))
+    lengths = EXAGGERATIONS * 1e-12
+    size = float(lengths[lengths <= np.ptp(height)].max(initial=lengths[0]))
     scale, unit = prefixed(size, "m")
     across, up = camera.place(x[0], y[0], np.array([height[0, 0] - size, height[0, 0]]))
     across = across - 1.5 * length
@@ -156,11 +170,7 @@ def _shade(x, y, height, enlarged):
     return np.clip(1 + (lit - level) * (1 - DULLEST), DULLEST, 1.15)
 
 
-def _ticks(ends: Sequence[float] | np.ndarray) -> np.ndarray:
+def _ticks(ends) -> np.ndarray:
     """A few round numbers between two."""
-    ticks = MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]).tick_values(*ends)
+    ticks = np.asarray(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]).tick_values(*ends))
     return ticks[(ends[0] <= ticks) & (ticks <= ends[1])]
-
-
-def _thin():
-    return {"colors": style.ink(), "linewidths": style.width(0.5)}

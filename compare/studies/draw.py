@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from scene import Refused, Solver, SolveError
+from scene import Refused, SolveError, Solver
 from scene.protocol import refuse
 
 from .. import interactive as turning
@@ -16,7 +16,7 @@ from ..declaration import Study
 from ..finding import Claim, Finding
 from ..inputs import Asked, case_of
 from ..outcome import Outcome
-from ..page import Block, Findings, Plot, Text
+from ..page import Block, Plot, Text
 from ..plots import draw as plots
 from ..rectangle import work_of
 from ..task import Batch, SceneTask, Task
@@ -54,7 +54,9 @@ class Drawing(Study):
         """Drawing of a scene. Raises InvalidInput, and Refused of what no picture shows."""
         case = case_of(scene)
         if case.heating is not None and case.heating.feedback is not None:
-            raise Refused("heating.feedback: the surface is drawn at a temperature that is given, leave feedback out")
+            raise Refused(
+                "heating.feedback: the surface is drawn at a temperature that is given, leave feedback out"
+            )
         tasks, refused = [_task(case.bem, case)], ""
         try:
             tasks.append(_task(case.mdr, case))
@@ -78,12 +80,13 @@ class Drawing(Study):
         for name, outcome in found.items():
             if outcome.rows[0].reason:
                 raise SolveError(f"{name}: {outcome.rows[0].reason}")
-        seen = view(self.case.scene, self.case.bem, {name: each.fields for name, each in found.items() if each.fields})
+        seen = view(
+            self.case.scene, self.case.bem, {name: each.fields for name, each in found.items() if each.fields}
+        )
         if seen is None or seen.space is None or not seen.space.touching.any():
             raise SolveError("nothing touches in 3D, so there is nothing to draw: press deeper")
-        parts = {f"/{SURFACE}": _surface(seen)}
-        if "MDR" in found:
-            parts[f"/{ROW}"] = _row(seen, found["MDR"].fields)
+        surface, row = datasets(seen, found["MDR"].fields if "MDR" in found else {})
+        parts = {f"/{SURFACE}": surface} | ({} if row is None else {f"/{ROW}": row})
         for dataset, outcome in zip(parts.values(), found.values(), strict=True):
             for name in NUMBERS:
                 value = getattr(outcome.rows[0], name)
@@ -95,17 +98,19 @@ class Drawing(Study):
         surface, row = _parts(answers)
         if row is None:
             return []
-        pressed = "depth" if self.case.motion.pressed_by != "depth" else "normal_force"
-        ratios = {pressed: float(row[pressed] / surface[pressed])}
-        if self.case.slides:
-            one, three = (float(each["friction_force"] / each["normal_force"]) for each in (row, surface))
-            ratios["friction coefficient"] = one / three
+        ratios = {}
+        if surface["normal_force"] > 0 and row["normal_force"] > 0:
+            pressed = "normal_force" if self.case.motion.pressed_by == "depth" else "depth"
+            ratios = {pressed: float(row[pressed] / surface[pressed])}
+            if self.case.slides:
+                one, three = (float(each["friction_force"] / each["normal_force"]) for each in (row, surface))
+                ratios["friction coefficient"] = one / three
         claims = [
             Claim(f"draw.{name.split('_')[-1].split()[0]}", f"The {name.replace('_', ' ')} in 1D over that in 3D")
             for name in ratios
         ]
         values = [*ratios.values()]
-        if "line_force" in row:
+        if row.get("line_force", np.zeros(1)).any():
             lines = plots.line_forces(surface, row).drop(columns="x")
             claims.append(APART)
             values.append(float((lines / lines.sum()).diff(axis=1).iloc[:, 1].abs().sum() / 2))
@@ -123,7 +128,7 @@ class Drawing(Study):
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
         if self.interactive:
             said.append(Text(f"The surface, to be turned in a browser: [{turning.NAME}]({turning.NAME})."))
-        return [*plots, *said, Findings(findings)]
+        return [*plots, *said]
 
 
 def _task(solver: Solver, case: Case) -> SceneTask:
@@ -134,6 +139,14 @@ def _task(solver: Solver, case: Case) -> SceneTask:
 def _parts(answers):
     """Datasets of the surface, and of the row of springs or None."""
     return tuple(answers[name].to_dataset() if name in answers else None for name in (SURFACE, ROW))
+
+
+def datasets(seen: View, line: Mapping[str, np.ndarray]) -> tuple[xarray.Dataset, xarray.Dataset | None]:
+    """What is worth seeing of a contact: the surface around it, and the row of springs where there is one.
+
+    line : fields of the answer of MDR
+    """
+    return _surface(seen), None if seen.line is None else _row(seen, line)
 
 
 def _surface(seen: View) -> xarray.Dataset:
