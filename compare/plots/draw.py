@@ -79,12 +79,10 @@ def figure(tables: Tables, enlarged: float, highest: float, unit: str = "N/m", s
     compared(panels[-1], tables[LINES], span, unit)
     panels[-1].set_title(_title(1 + springs, "force per length"))
     if springs:
-        panels[0].set_title(_title(1, "1D: row of springs"))
+        panels[0].set_title(_title(1, "1D: springs"))
     style.lay_out(drawing, passes=2)
     if springs:
-        panels[0].set_title(
-            _title(1, f"1D: row of springs, heights × {enlarged_in(panels[0], tables[ROW], span):.2g}")
-        )
+        panels[0].set_title(_title(1, f"1D: springs, heights × {enlarged_in(panels[0], tables[ROW], span):.2g}"))
     return drawing
 
 
@@ -134,12 +132,12 @@ def compared(axes: Axes, lines: DataFrame, span: Sequence[float], unit: str) -> 
     (along, x_unit), three = prefixed(span, "m"), lines["line_force_3d"]
     both = [lines[name] for name in ("line_force_1d", "line_force_3d") if name in lines]
     up, name = prefixed([each.max() for each in both], unit)
-    edges, look = along * _edges(lines["x"].to_numpy()), dict[str, Any]()
+    x = lines["x"].to_numpy()
     if "line_force_1d" in lines:
-        look = {"color": style.COLOUR["MDR"], "alpha": 0.45, "fill": True}
-        axes.stairs(up * lines["line_force_1d"], edges, label="1D: force of the springs", **look)
-    look = {"color": style.COLOUR["BEM"], "linewidth": style.width(), "baseline": None}
-    axes.stairs(up * three, edges, label="3D: pressure integrated over y", **look)
+        look: dict[str, Any] = {"color": style.COLOUR["MDR"], "alpha": 0.45, "fill": True}
+        axes.stairs(up * lines["line_force_1d"], along * _edges(x), label="1D: force of the springs", **look)
+    look = style.look("BEM", marker="", linestyle="-", label="3D: pressure integrated over y")
+    axes.plot(along * x, up * three, drawstyle="steps-mid", **look)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{x_unit}]", ylabel=f"line force [{name}]")
     axes.set_ylim(0, 1.45 * up * max(each.max() for each in both))
     axes.legend(loc="upper right", handlelength=1.4, borderaxespad=0.1)
