@@ -15,7 +15,7 @@ from scene import Cylinder, Plane, Program, Scene
 
 from ..page import Plot, Tables
 from . import relief, shades, style, touching
-from .lettering import letter
+from .lettering import clear, letter
 from .prefixes import prefixed
 
 NAME = "draw"
@@ -72,17 +72,17 @@ def figure(tables: Tables, enlarged: float, highest: float, unit: str = "N/m", s
     aspect = relief.Camera().aspect(*(float(np.ptp(tables[SURFACE][name])) for name in ("x", "y")))
     drawing = style.canvas("double", max(LEAST, AROUND + SHARE * style.across("double") * aspect))
     left, right = drawing.subfigures(1, 2, squeeze=False, width_ratios=(1.45, 1))[0]
-    surface(left, left.subplots(), tables[SURFACE], enlarged, highest, sliding, _title(0, "3D: deformed surface"))
+    surface(left, left.subplots(), tables[SURFACE], enlarged, highest, sliding, _title(0, "3D"))
     panels = right.subplots(1 + springs, 1, sharex=True, squeeze=False)[:, 0]
     if springs:
         row(panels[0], tables[ROW], tables[LINES], span)
     compared(panels[-1], tables[LINES], span, unit)
     panels[-1].set_title(_title(1 + springs, "force per length"))
     if springs:
-        panels[0].set_title(_title(1, "1D: springs"))
-    style.lay_out(drawing, passes=2)
+        panels[0].set_title(_title(1, "1D"))
+    clear(drawing, panels[-1:])
     if springs:
-        panels[0].set_title(_title(1, f"1D: springs, heights × {enlarged_in(panels[0], tables[ROW], span):.2g}"))
+        panels[0].set_title(_title(1, f"1D, heights × {enlarged_in(panels[0], tables[ROW], span):.2g}"))
     return drawing
 
 
@@ -139,7 +139,7 @@ def compared(axes: Axes, lines: DataFrame, span: Sequence[float], unit: str) -> 
     look = style.look("BEM", marker="", linestyle="-", label="3D: pressure integrated over y")
     axes.plot(along * x, up * three, drawstyle="steps-mid", **look)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{x_unit}]", ylabel=f"line force [{name}]")
-    axes.set_ylim(0, 1.45 * up * max(each.max() for each in both))
+    axes.set_ylim(0, 1.4 * up * max(each.max() for each in both))
     axes.legend(loc="upper right", handlelength=1.4, borderaxespad=0.1)
 
 
