@@ -1,5 +1,6 @@
 from .cases import Case as Case
 from .commands import animate as animate
+from .commands import draw as draw
 from .commands import export as export
 from .commands import figures as figures
 from .commands import friction_plot as friction_plot

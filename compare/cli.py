@@ -193,6 +193,7 @@ COMMANDS = (
     Command(commands.schema, said=_schema),
     Command(commands.figures, said=_paths),
     Command(commands.export, said=_paths),
+    Command(commands.draw),
     Command(commands.animate, said=lambda path: f"Animation: {path.resolve()}"),
 )
 for _each in COMMANDS:

@@ -313,15 +313,36 @@ def figures(
 
 
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write the tables of results as CSV or LaTeX.
+    """Write results into files: tables as CSV or LaTeX, surfaces for ParaView.
 
     folder : folder that a command has written, or its results.nc
-    to : csv (every digit, units in the heading) or latex (rounded, for booktabs)
-    output : folder for the tables; if absent, `tables` in the folder
+    to : csv (every digit, units in the heading), latex (rounded, for booktabs), or vtk (surfaces for ParaView,
+        which takes the extra vtk)
+    output : folder for the files; if absent, `tables` in the folder
     """
     from .tables import export
 
     return export(folder, to, output)
+
+
+def draw(
+    scene: Asked, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
+) -> Report:
+    """Draw the deformed surface in 3D under its pressure, the row of springs in 1D, and the forces of both.
+
+    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
+    interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
+    """
+    from . import interactive as turning
+    from .page import Plot
+    from .studies.draw import Drawing
+
+    if interactive:
+        turning.refuse()
+    report = solve(Drawing.of(scene, interactive), output, **options)
+    if interactive:
+        turning.write(next(report.page.every(Plot)), report.output)
+    return report
 
 
 def animate(

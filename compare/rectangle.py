@@ -71,7 +71,7 @@ class Rectangle:
         """What all contacts take, by counting."""
         points, draws = len(self.speeds) * len(self.values), self.draws if self.random else {}
         costs = [
-            Cost(points * draws.get(name, 1), points * draws.get(name, 1) * _work(solver, self.scene))
+            Cost(points * draws.get(name, 1), points * draws.get(name, 1) * work_of(solver, self.scene))
             for name, grids in self.grids.items()
             for solver in grids.values()
         ]
@@ -140,7 +140,9 @@ class Rectangle:
                 together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
                 contacts = tuple(
-                    SceneTask(solver, each, keeps_fields=first and not k, work=len(each) * _work(solver, each[0]))
+                    SceneTask(
+                        solver, each, keeps_fields=first and not k, work=len(each) * work_of(solver, each[0])
+                    )
                     for k, each in enumerate(together)
                 )
                 found.append((name, contacts))
@@ -224,7 +226,7 @@ def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) 
     return xarray.DataTree.from_dict(parts)
 
 
-def _work(solver, scene):
+def work_of(solver, scene):
     """Cost of a contact in passes over a point of a grid, roughly."""
     if isinstance(solver, MDR):
         # As measured: a mode costs a tenth of all else.

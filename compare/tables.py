@@ -1,6 +1,7 @@
-"""Tables of a folder for others: CSV with units in its heads, LaTeX for a paper."""
+"""Results of a folder for others: CSV with units in its heads, LaTeX for a paper, surfaces for ParaView."""
 
 from collections.abc import Iterator
+from operator import methodcaller
 from pathlib import Path
 
 import xarray
@@ -9,12 +10,12 @@ from pandas import DataFrame
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from . import csvfiles, manifest, rectangle, results
+from . import csvfiles, manifest, rectangle, results, store, vtk
 from .pages import latex
 from .suggest import known
 from .vocabulary import entry
 
-FORMS = {"csv": ".csv", "latex": ".tex"}
+FORMS = {"csv": ".csv", "latex": ".tex", "vtk": vtk.ENDING}
 TABLES = "tables"
 # No paper has room for more rows, or for more columns.
 MOST_ROWS, MOST_COLUMNS = 100, 12
@@ -23,19 +24,24 @@ PRINTED = ("sentence", "where", "dimension", "expected", "tolerance", "value", "
 
 
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write the tables of results into files; returns them.
+    """Write results into files; returns them.
 
     folder : that a command left, or that has such folders, or a file of results
-    to : "csv", every digit and a unit behind each name, or "latex", rounded, for booktabs, without what no page
-        has room for
+    to : "csv", every digit and a unit behind each name; "latex", rounded, for booktabs, without what no page
+        has room for; or "vtk", the surfaces for ParaView
     output : where to; `tables` in the folder, or beside the file, if absent
 
-    Raises InvalidInput where there is no table or a file is damaged, OSError for what cannot be written.
+    Raises InvalidInput where there is nothing of the kind or a file is damaged, Refused of vtk without its extra,
+    OSError for what cannot be written.
     """
     known("to", to, FORMS)
+    if to == "vtk":
+        vtk.refuse()
     folder = Path(folder)
     if output is None:
         output = manifest.inside(folder.parent if folder.is_file() else folder, TABLES)
+    if to == "vtk":
+        return _surfaces(folder, Path(output))
     written = []
     for name, frame in dict(_tables(folder)).items():
         if to == "latex":
@@ -45,6 +51,19 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
             csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else _csv(frame))
     if not written:
         raise InvalidInput(f"{folder}: holds no table that {to} could show")
+    return written
+
+
+def _surfaces(folder: Path, output: Path) -> list[Path]:
+    """Write a file for each Dataset with fields over y and x."""
+    written = []
+    for node in results.load(folder).subtree:
+        if content := vtk.content(node.to_dataset(inherit=False)):
+            written.append(manifest.inside(output, f"{node.path.strip('/') or folder.stem}{vtk.ENDING}"))
+            store.make(written[-1].parent)
+            store.write(written[-1], methodcaller("write", content))
+    if not written:
+        raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
     return written
 
 

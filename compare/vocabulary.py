@@ -164,6 +164,8 @@ eq_19 : Coefficient of friction of Eq. 19 at the same load and speed, in one dim
 indenter : Height of the rigid indenter above the undeformed surface. [m]
 surface : Height of the surface of the elastomer above the undeformed one. [m]
 touching : Whether indenter and elastomer touch.
+line_force_1d : Force per length of the springs, mean over a strip along x. [N/m]
+line_force_3d : Pressure integrated over y, mean over a strip along x. [N/m]
 
 Of series of contacts, and of the figures of a study.
 off_curve : ln of friction less that of the common curve at the shifted force. [1]

@@ -26,14 +26,16 @@ DOORS = {
     "pint": {"scene/units.py"},
     "h5py": {"compare/results.py"},
     "distributed": {"compare/cluster.py"},
+    "plotly": {"compare/interactive.py"},
+    "meshio": {"compare/vtk.py"},
 }
 # Floors of the judge, from the ground up: a room imports rooms of its own floor and of those below.
 FLOORS = (
     {"outcome", "vocabulary", "suggest", "amounts", "digits", "docstrings", "library"},
     {"task", "path", "cost", "finding", "exact", "page", "describe"},
     {"store", "workers", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
-    {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film"},
-    {"declaration", "results", "report", "pipeline", "animation", "tables"},
+    {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film", "vtk"},
+    {"interactive", "declaration", "results", "report", "pipeline", "animation", "tables"},
     {"studies", "planning", "json_schema"},
     {"commands", "completion", "console", "cli", "__init__", "__main__"},
 )
