@@ -9,10 +9,12 @@ from . import finding, rectangle
 from .cost import Cost
 from .finding import FAILS, Claim, Finding
 from .outcome import Outcome
-from .page import Block, Findings, Page, Plot
+from .page import Block, Findings, Page, Plot, Section, Text
 from .rectangle import Rectangle
 from .statistics.jackknife import judge
 from .task import Batch, Task
+
+SETTING = "Setting"
 
 
 class Study:
@@ -77,10 +79,16 @@ class Study:
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """Blocks of the page below the answer."""
+        """Figures, findings and other tables, alone or in sections."""
         return [*plots, Findings(findings)]
 
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Setting of the study: what was solved and how it is judged; it stands last on the page."""
+        return [Text(self.about)] if self.about else []
+
     def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
-        """The page."""
+        """Page with the answer first and the setting last."""
         blocks = self.blocks(answers, findings, self.plots(answers, findings))
-        return Page(self.title, self.answer(findings), blocks)
+        setting = self.setting(answers)
+        last = [Section(SETTING, setting)] if setting else []
+        return Page(self.title, self.answer(findings), [*blocks, *last])

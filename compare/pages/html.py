@@ -14,7 +14,7 @@ from ..manifest import FINDINGS, made
 from ..page import Page, Plot, Section, Table
 from ..plots.rendering import Picture
 from ..vocabulary import Term, entry, stem
-from . import prose
+from . import mathematics, prose
 from .columns import columns
 
 # A longer table is no reading, and a larger file is not put into the page.
@@ -65,6 +65,8 @@ def _content(used, pictures, tables, figures) -> dict[str, Any]:
         "pictures": pictures,
         "figures": figures,
         "prose": lambda markdown: Markup(prose.html(markdown)),
+        "typeset": lambda words: Markup(mathematics.typeset(words, escape, mathematics.mathml)),
+        "mathml": lambda latex: Markup(mathematics.mathml(latex)),
         "rows": lambda table: _rows(table.frame, used, people=True),
         "head": lambda label, name: Markup(_head(label, name, used)),
         "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),

@@ -154,7 +154,7 @@ class Regress(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """What asks for attention first, then a table of all; why the tolerances are what they are, once."""
+        """Quantities that ask for attention, then a table of all."""
         wrong = [each for each in findings if each.stated != HOLDS]
         rows = [
             {
@@ -166,10 +166,16 @@ class Regress(Study):
             }
             for each in findings
         ]
-        blocks: list[Block] = [Findings(wrong, "What asks for attention.")] if wrong else []
-        blocks.append(Table("quantities", DataFrame(rows), f"Every quantity, against {self.path.name}."))
+        table = Table("quantities", DataFrame(rows), f"Every quantity, against {self.path.name}.")
+        attention = (
+            [Findings(wrong, "Quantities that moved, are new, are gone or have no value.")] if wrong else []
+        )
+        return [*attention, table]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Quantities in a sentence, and the reason for each tolerance, once."""
         reasons = dict.fromkeys(f"{each.tolerance:g}: {each.reason}." for each in self.quantities)
-        return [*blocks, Section("Tolerances", [Text(reason) for reason in reasons])]
+        return [Text(self.about), Section("Tolerances", [Text(reason) for reason in reasons])]
 
 
 def tolerances_moved(found: Finding) -> float:

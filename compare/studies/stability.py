@@ -14,7 +14,7 @@ from ..hardcases.collection import CASES
 from ..hardcases.examination import Examination
 from ..hardcases.hardcase import SIZES, Check
 from ..outcome import Outcome
-from ..page import Block, Page, Section, Table, Text
+from ..page import Block, Plot, Section, Table, Text
 from ..suggest import known
 from ..task import Batch, Task
 from ..vocabulary import attributes
@@ -110,7 +110,9 @@ class Stability(Study):
                 },
             )
 
-    def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
         """Number of cases that keep their law, then a table for each group."""
         judged = list(self._judged(answers))
         groups = list(dict.fromkeys(finding.where for finding, _ in judged))
@@ -120,9 +122,11 @@ class Stability(Study):
             | {outcome: int((frame["outcome"] == outcome).sum()) for outcome in (SOLVED, REFUSED, BROKEN)}
             for group, frame in frames.items()
         ]
-        blocks: list[Block] = [Text(ABOUT), Table("groups", DataFrame(counts), f"Hard cases, size {self.size}.")]
-        blocks += [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
-        return Page(self.title, self.answer(findings), blocks)
+        sections = [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
+        return [Table("groups", DataFrame(counts), f"Hard cases, size {self.size}."), *sections]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        return [Text(ABOUT)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         """Number of cases that keep their law, and a sentence for each that does not."""

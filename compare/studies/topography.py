@@ -144,7 +144,8 @@ class Map(Study):
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
-        return sentences([each for each in findings if each.claim.id in told])
+        found = sentences([each for each in findings if each.claim.id in told])
+        return [*found, *(f"Warning: {each}." for each in self.description.warnings)]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         return [plots.plot(self.description)]
@@ -152,15 +153,17 @@ class Map(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        return [Text("\n\n".join(self.lines())), *plots, Findings(findings)]
+        return [*plots, Findings(findings)]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        return [Text("\n\n".join(self.lines()))]
 
     def lines(self) -> list[str]:
-        """Size of the map, what was done to it, the band of the law, and warnings."""
+        """Size of the map, treatment of its heights, and the band of the law."""
         found, map_ = self.description, self.description.topography
         (rows, columns), (x, y), (px, py) = map_.heights.shape, map_.size, map_.pixel
         return [
             f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
             f'level: "{map_.level}" taken off; repeat: "{map_.repeat}"; peaks: "{map_.peaks}"',
             *([f"self-affine band: {found.band}"] if found.band else []),
-            *(f"warning: {each}" for each in found.warnings),
         ]

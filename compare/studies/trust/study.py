@@ -14,7 +14,7 @@ from pandas import DataFrame
 from scene import Scene
 
 from ...declaration import Study
-from ...finding import Claim, Finding
+from ...finding import Claim, Finding, claimed, sentences
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Table, Text
 from ...plots import regime_map
@@ -162,15 +162,13 @@ class TrustStudy(Study):
         return [regime_map.plot(regime_table(model=friction), ABOUT_FAMILY, WIDE)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A sentence for each finding."""
-        return [f"{each.verdict}: {each.claim.sentence}: {each.found()}." for each in findings]
+        return sentences(claimed(findings))
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         scores = self.scores(answers)
         return [
-            Text(ABOUT),
             *plots,
             Table(
                 "advice",
@@ -186,6 +184,10 @@ class TrustStudy(Study):
                 ],
             ),
         ]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """The campaign, and the meaning of its errors."""
+        return [Text(ABOUT)]
 
 
 def _smooth(scene: Scene) -> tuple[SceneTask, SceneTask]:
@@ -232,30 +234,30 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
     half, most = WANTED[name]
     own = np.abs(used.own)
 
-    def claimed(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
+    def measured(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
         return _measured(Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning), measure, count)
 
     split = "Quantile of the relative error over held-out scenes with advice use or multiply"
     for id, share, bound in (("median", 0.5, half), ("nine-in-ten", 0.9, most)):
         told = "Half" if share == 0.5 else "Nine in ten"
-        yield claimed(
+        yield measured(
             id, f"{told} of the {name} errors of corrected 1D are at most {100 * bound:g} %", 0.0, bound,
             lambda draw, share=share: float(np.quantile(own[draw], share)),
             f"{split}, the scatter of the surfaces of the truth taken out",
         )  # fmt: skip
-        yield claimed(
+        yield measured(
             f"{id}-raw", f"{told} of these, the scatter of the truth in them", 0.0, np.nan,
             lambda draw, share=share: float(np.quantile(np.abs(used.errors[draw]), share)), split,
         )  # fmt: skip
-    yield claimed(
+    yield measured(
         "coverage", f"95 % of the {name} ratios lie within their interval", 0.95, 0.02,
         lambda draw: used.taken(draw).covered, "Share within the interval, which the scatter of the truth widens",
     )  # fmt: skip
-    yield claimed(
+    yield measured(
         "one-surface", f"95 % of single surfaces have a {name} ratio within theirs", 0.95, 0.02,
         lambda draw: used.taken(draw).surfaces_covered, "Share within the interval of one surface",
     )  # fmt: skip
-    yield claimed(
+    yield measured(
         "usable", f"At least 80 % of the scenes need no 3D for their {name}", 1.0, 0.2,
         lambda draw: float(score.usable[draw].mean()),
         "Share of the held-out scenes with advice use or multiply", score.usable.size,

@@ -124,14 +124,18 @@ class WorkPrecision(Study):
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         """A section a diagram."""
-        found: list[Block] = [Text(ABOUT.replace("\n", " "))]
+        found = []
         for each in self.diagrams:
             figures = [plot for plot in plots if plot.name.startswith(f"workprecision-{each.name}")]
             tables = each.tables(answers.children[each.name])
-            found.append(
-                Section(each.title, [Text(each.about), *figures, *tables, Findings(self._of(each, findings))])
-            )
+            found.append(Section(each.title, [*figures, *tables, Findings(self._of(each, findings))]))
         return found
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Meaning of errors and times, and the contacts of each diagram."""
+        return [Text(ABOUT.replace("\n", " "))] + [
+            Section(f"Contacts of the diagram: {each.title}", [Text(each.about)]) for each in self.diagrams
+        ]
 
     @staticmethod
     def _of(diagram, findings):
