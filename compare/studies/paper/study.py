@@ -164,7 +164,7 @@ class Paper(Study):
         return [
             Text(ABOUT),
             Text(_solved(answers, self.reproduction(answers).slow)),
-            Section("Where this departs from the paper, or the paper leaves a choice", [Text(OPEN)]),
+            Section("How this departs from the paper", [Text(OPEN)]),
         ]
 
     def _shifted(self, lossy, findings):
