@@ -1,4 +1,4 @@
-"""Where arrays live and who transforms them: the only door to the Fourier transforms and to the GPU.
+"""Engines, which hold arrays and transform them: the only door to the Fourier transforms and to the GPU.
 
 A plane of ny x nx values is convolved as rows, then columns, then rows again. Rows of zeros that pad a plane
 are never transformed, and columns go block by block, forward, through the symbol and back, while in the cache.
@@ -146,7 +146,7 @@ _DOUBLE = Engine()
 
 
 def _remainder(size):
-    """What is left of a number without its factors 2, 3 and 5."""
+    """Factor of a number that is left without its factors 2, 3 and 5."""
     for factor in (2, 3, 5):
         while size % factor == 0:
             size //= factor

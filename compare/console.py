@@ -1,4 +1,4 @@
-"""What a person sees of a command: how far it is, and every mistake in a line."""
+"""Output of a command for people: its progress, and every mistake in a line."""
 
 import signal
 from collections.abc import Callable, Iterator
@@ -23,7 +23,7 @@ def say(text: str, error: bool = False) -> None:
 
 
 def watch(lines: bool = False) -> "Watch":
-    """What tells a terminal how far a run is: bars, or a line for each solve and each figure.
+    """Watch that shows the progress of a run on a terminal: bars, or a line for each solve and each figure.
 
     lines : whether each is a line
     """
@@ -58,7 +58,7 @@ def _figures(console: Any, count: int, lines: bool) -> Iterator[Callable[[str], 
 
 @contextmanager
 def said_to_people(output: str, solves: bool) -> Iterator[None]:
-    """Every mistake and every interrupt as one line, and the status that goes with it.
+    """Report every mistake and every interrupt in one line, with the exit status that goes with it.
 
     output : the option that names the folder, with its value
     solves : whether something may have been stored before it went wrong

@@ -35,7 +35,7 @@ class Study:
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """What was asked, as JSON can hold it."""
+        """Inputs of the command, as JSON can hold them."""
         return {}
 
     def rectangles(self) -> Mapping[str, Rectangle]:
@@ -47,7 +47,7 @@ class Study:
         return ()
 
     def cost(self) -> Cost:
-        """What all solves take at most; of rectangles by counting, before their tasks are built."""
+        """Upper bound of the cost of all solves; rectangles are counted before their tasks are built."""
         if rectangles := self.rectangles():
             return sum((each.cost for each in rectangles.values()), Cost())
         return Cost.of(task for batch in self.batches() for task in batch.tasks)
@@ -61,7 +61,7 @@ class Study:
         return rectangle.tree(self.rectangles(), outcomes)
 
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        """What becomes of each claim."""
+        """Findings on each claim."""
         return [judge(claim, answers) for claim in self.claims()]
 
     def failed(self, findings: Sequence[Finding]) -> bool:

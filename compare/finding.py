@@ -110,7 +110,7 @@ class Finding:
 
     @property
     def undecidable(self) -> str:
-        """Why no verdict is possible whatever the number is; empty if one is."""
+        """Reason why no verdict is possible whatever the number is; empty if one is."""
         if self.reason:
             return self.reason
         if not isfinite(self.value):
@@ -121,12 +121,12 @@ class Finding:
 
     @property
     def why(self) -> str:
-        """Why there is no verdict, or what else has to be said; else empty."""
+        """Reason why there is no verdict, or a remark on a stated verdict; else empty."""
         return self.reason or (self.undecidable if self.verdict == UNDECIDED else "")
 
     @property
     def place(self) -> str:
-        """Where it was measured, with the regime, in words."""
+        """Place of the measurement, with the regime, in words."""
         return ", ".join(part for part in (self.where, self.regime) if part)
 
     def found(self, figures: int = digits.DIGITS) -> str:
@@ -147,7 +147,7 @@ class Finding:
 
     @property
     def basis(self) -> str:
-        """What the interval is made of, in words."""
+        """Parts of the interval in words: number of surfaces, and error of the grid."""
         if not isfinite(self.grid):
             return ""
         surfaces = f"{self.draws} surfaces, " if self.draws else ""

@@ -44,7 +44,7 @@ class Ready:
 
 
 class Listing(dict[str, Any]):
-    """What can be named, each with a title and what it is about; printed, a list for people.
+    """List of what can be named, each with its title and subject; printed, it is for people.
 
     offered : by name; groups : headings with the names below each, all names under none if absent
     end : last line
@@ -86,7 +86,7 @@ def ready() -> Listing:
 
 
 def find(name: str) -> Ready:
-    """That of a name. Raises NotReady."""
+    """Content of a name. Raises NotReady."""
     every = ready()
     if name not in every:
         from scene.printable import brief  # slow, and only a mistake needs it

@@ -70,7 +70,7 @@ class Plot:
 
     @property
     def files(self) -> Tables:
-        """Its tables by the names of their files, without .csv, with the folder."""
+        """Tables of the plot by the names of their files, without .csv, with the folder."""
         return {f"{self.folder}{name}": frame for name, frame in self.tables.items()}
 
     def figure(self) -> Figure:

@@ -1,4 +1,4 @@
-"""What both solvers would do about a scene, and what the 1D answer would be worth."""
+"""Plans of both solvers for a scene, and the worth of the 1D answer by the trust map."""
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -14,7 +14,7 @@ class Plans(dict[str, Plan | str | Trust]):
 
     @property
     def feasible(self) -> bool:
-        """Whether any solver would solve it."""
+        """Whether any solver would solve the scene."""
         return any(isinstance(each, Plan) for each in self.values())
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""What a person sees while tasks are solved: a bar on a terminal, plain lines elsewhere."""
+"""Progress for people while tasks are solved: a bar on a terminal, plain lines elsewhere."""
 
 import time
 from collections.abc import Callable, Sequence

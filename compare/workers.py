@@ -167,7 +167,7 @@ class Processes:
 
 
 def _begin(ready):
-    """In a worker: it heeds no terminal, and ends at once when its parent ends, in whatever way."""
+    """Begin a worker, which heeds no terminal and ends at once when its parent ends, in whatever way."""
     for number in FROM_THE_TERMINAL:
         signal.signal(number, signal.SIG_IGN)
     parent = multiprocessing.parent_process()

@@ -125,7 +125,7 @@ Pixel = Annotated[
 
 
 def _or_file(schema: dict[str, Any]) -> None:
-    """In JSON schema: a file in place of heights."""
+    """Allow a file in place of heights in a JSON schema."""
     schema["properties"] |= {"file": {"type": "string"}, "unit": {"enum": list(UNITS)}}
     del schema["required"]
     schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", "pixel"]}]
@@ -136,7 +136,7 @@ MAPPED = ConfigDict(**CLOSED, json_schema_extra=_or_file)
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
 class Scanned:
-    """What was measured.
+    """Measured map of heights.
 
     heights : rows along y of heights along x [m], both ascending
     pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
@@ -183,13 +183,13 @@ class Scanned:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Of the map, along x and along y [m]."""
+        """Sides of the map, along x and along y [m]."""
         rows, columns = self.heights.shape
         return columns * self.pixel[0], rows * self.pixel[1]
 
     @property
     def sides(self) -> tuple[float, float]:
-        """Of the rectangle that repeats, along x and along y [m]: of the map with its mirror images."""
+        """Sides of the rectangle that repeats, the map with its mirror images, along x and along y [m]."""
         return 2 * self.size[0], 2 * self.size[1]
 
     def _turned(self) -> np.ndarray:

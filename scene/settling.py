@@ -78,7 +78,7 @@ def _ahead(tried: Sequence[tuple[float, float]]) -> float:
 
 
 def _between(low: float, high: float, tried: Sequence[tuple[float, float]]) -> float:
-    """Where the last two trials let expect it; by halves, or those of decades, where that leaves the bracket."""
+    """Next trial by the last two; by halves, or by halves of decades, where that leaves the bracket."""
     guess = _expected(*tried[-2:])
     if low < guess < high:
         return guess

@@ -146,7 +146,7 @@ def _product(factors):
 
 
 def _called(name):
-    """What the registry calls it. Raises Unreadable, with what comes closest, where it does not know it."""
+    """Name of a unit in the registry. Raises Unreadable, with the closest name, where it does not know it."""
     name, registry = _SHORT.get(name, name), _registry()
     known = registry.parse_unit_name(name)
     plural = name.endswith("s") and len(name) <= 4 and known and known == registry.parse_unit_name(name[:-1])

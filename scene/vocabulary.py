@@ -1,4 +1,4 @@
-"""What every number and every field that a solver gives is: its unit, its axes, and one sentence with the sign."""
+"""Vocabulary of every number and every field of a solver: its unit, its axes, and one sentence with the sign."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Entry:
-    """What a word of a Result means.
+    """Meaning of a word of a Result.
 
     unit : SI, "1" of pure numbers and counts
     text : one sentence, with sign and convention

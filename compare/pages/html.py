@@ -57,7 +57,7 @@ def anchor(*parts: str) -> str:
 
 
 def _content(used, pictures, tables, figures) -> dict[str, Any]:
-    """What the templates need beside the page. used : terms that it defines; None without definitions"""
+    """Functions and values for the templates. used : terms that the page defines; None without definitions"""
     return {
         "kind": lambda block: type(block).__name__,
         "anchor": anchor,

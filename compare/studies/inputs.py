@@ -95,7 +95,7 @@ Claims = Annotated[tuple[Claim, ...], Field(min_length=1)]
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class _Shared:
-    """What a study states for all of its series, and each of them for itself.
+    """Fields that a study states for all of its series, or each of them for itself.
 
     scene : name of a ready scene, from which every table is taken that is not stated
     indenter, elastomer, roughness, temperature : as of a scene; what a series states takes the place of what is
@@ -156,7 +156,7 @@ class StudyFile(_Shared):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class _Contact:
-    """What a series comes to once everything is put together."""
+    """Contact of a series once everything is put together."""
 
     indenter: Body
     elastomer: Elastomer
@@ -220,7 +220,7 @@ class _Stated:
         )
 
     def misfits(self) -> Iterator[str]:
-        """What does not go together in it."""
+        """Contradictions between the fields."""
         pressing, moved = self.of("loads", "depths"), self.of("speeds", "rates")
         for given, names, least in ((pressing, "loads, depths", 1), (moved, "speeds, rates", 0)):
             if not least <= len(given) <= 1:
@@ -327,7 +327,7 @@ def _in_file(mistake, own, number):
 
 
 def _refused(stated: _Stated, number: int) -> Iterator[str]:
-    """What the solvers lack, at the least size."""
+    """Refusals of the solvers at the least size."""
     try:
         for rectangle in stated.series(SIZES["quick"]).rectangles.values():
             rectangle.refuse()

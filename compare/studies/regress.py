@@ -1,4 +1,4 @@
-"""Has the accuracy moved? Quantities that say how far one model is from another, beside what they were.
+"""Has the accuracy moved? Ratios between models, held against their stored values.
 
 The baseline is a file of stored values. It says what is, and nothing is tuned to it: one that moves beyond its
 tolerance is an error found, or an improvement to be reviewed and stored.
@@ -218,7 +218,7 @@ def check(
     folder: Path | None = None,
     workers: int | None = None,
 ) -> None:
-    """For use in a test: nothing has moved. Raises AssertionError that lists what has, InvalidInput.
+    """Assert in a test that nothing has moved. Raises AssertionError that lists what has, InvalidInput.
 
     baseline, quantities : those of the package, unless others are given
     folder : of what has been solved; without it all is solved again, and nothing kept

@@ -118,7 +118,7 @@ class Run(Study):
         return [each for case in self.judged(answers) for each in case.claims]
 
     def judged(self, answers: xarray.DataTree) -> Sequence[CaseFindings]:
-        """What the answers to each case say."""
+        """Findings, curves and points of each case."""
         if self._found.get("answers") is not answers:
             self._found.update(answers=answers, cases=[self._judged(name, answers) for name in self.cases])
         return self._found["cases"]
@@ -134,7 +134,7 @@ class Run(Study):
 
     @cached_property
     def trusts(self) -> Mapping[str, Trust]:
-        """What 1D is worth by the trust map, by case: foretold, and not from what is solved here."""
+        """Advice of the trust map on 1D, by case: foretold, and not from what is solved here."""
         return {name: trust(case.scene) for name, case in self.cases.items()}
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:

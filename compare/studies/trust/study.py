@@ -229,7 +229,7 @@ def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
 
 
 def _findings(name: str, score: Score) -> Iterator[Finding]:
-    """What becomes of each claim on one quantity."""
+    """Findings on each claim of one quantity."""
     used = score.used
     half, most = WANTED[name]
     own = np.abs(used.own)

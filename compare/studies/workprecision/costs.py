@@ -1,4 +1,4 @@
-"""What a solve costs: ladders measured, the powers they follow, and what those say of larger sizes."""
+"""Costs of a solve: measured ladders, their power laws, and forecasts for larger sizes."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass

@@ -42,7 +42,7 @@ def _model_plots(node: xarray.DataTree) -> Iterator[Plot]:
 
 
 def _model_tables(node: xarray.DataTree) -> Iterator[Table]:
-    """What wanted errors take, in words."""
+    """Tables of the effort for wanted errors, in words."""
     for what, names in ASKED.items():
         rows = cells([each for each in regimes_of(node) if each.quantity in names])
         caption = f"To know {what}: model, settings, time."
@@ -74,7 +74,7 @@ def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
 
 
 def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
-    """What scatters between surfaces, what a grid leaves, and times to wanted errors."""
+    """Findings on the scatter of surfaces, the error of a grid, and times to wanted errors."""
     for each in rough_means(node):
         first, where, grid = each.plain[0], each.where, each.grid_error
         scatter, bias = first.levels[0].scatter, first.bias

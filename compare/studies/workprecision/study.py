@@ -1,4 +1,4 @@
-"""What accuracy costs in time: `crosscheck workprecision`."""
+"""Cost of accuracy in time: `crosscheck workprecision`."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
