@@ -135,7 +135,7 @@ class BEM:
         """
         wanted = {"friction": friction, "depth": depth, "load": load}
         for name in {"points", "tolerance"} & settings.keys():
-            raise ValueError(f"{name} = {settings[name]!r}: it is what is chosen")
+            raise ValueError(f"{name} = {settings[name]!r}: it is chosen by the wanted errors, leave it out")
         return accuracy.choose(
             cls(**settings), scene, {name: error for name, error in wanted.items() if error is not None}
         )

@@ -226,5 +226,5 @@ def _missed(scene, grid):
     )
     if isinstance(rough, Scanned):
         kept = 2 * FULLER * max(*rough.pixel, grid.pixel)
-        reason += f"; {field}.shortest_kept = {kept:.3g} would leave out what they cannot carry"
+        reason += f"; {field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"
     return [reason]

@@ -130,12 +130,12 @@ class Case:
         """Raise Refused, with the reasons, if a solver lacks what the scene asks for, or nothing compares it."""
         if not isinstance(self.motion, Indent | Slide):
             raise Refused(
-                f"motion = {type(self.motion).__name__}: what is compared is pressed in or slides steadily, use "
-                "Indent or Slide, or solve it from Python with each solver"
+                f"motion = {type(self.motion).__name__}: only bodies that are pressed in or slide steadily are "
+                "compared, use Indent or Slide, or solve it from Python with each solver"
             )
         if self.interface is not None and isinstance(self.motion, Slide):
             raise Refused(
-                "interface = Coulomb with motion = Slide: what is compared is the loss in the elastomer, and the "
+                "interface = Coulomb with motion = Slide: only the loss in the elastomer is compared, and the "
                 "interface adds coefficient * F_N to it in both solvers; leave interface out, or solve it from "
                 "Python, where the measure friction_in_elastomer is the loss"
             )

@@ -1,4 +1,4 @@
-"""Workers of a dask.distributed cluster, with the same code. What comes back is stored by this process alone."""
+"""Workers of a dask.distributed cluster, with the same code. This process alone stores their answers."""
 
 import logging
 import os
@@ -153,7 +153,7 @@ def differences(here: Mapping[str, Mapping[str, str]], there: Any) -> str:
     there : as code_of gives it, or the exception that came in its place
     """
     if isinstance(there, BaseException):
-        return f"it does not say what it solves with ({type(there).__name__}: {there})"
+        return f"it does not state its code ({type(there).__name__}: {there})"
     code = [name for name, digest in here["code"].items() if there["code"].get(name) != digest]
     other = [f"its code of {', '.join(code)} is another"] if code else []
     for name, mine in here["versions"].items():

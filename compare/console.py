@@ -69,7 +69,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt as interrupt:
-        say("Interrupted. What is solved is kept: the same command resumes from there.", error=True)
+        say("Interrupted. Solved tasks are kept: the same command resumes from there.", error=True)
         raise typer.Exit(INTERRUPTED) from interrupt
     except (ValueError, LookupError, RuntimeError) as error:
         from scene import Refused, SolveError
@@ -91,5 +91,5 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""
         told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        say(f"crosscheck: {where}{told}{'' if early else '. What is solved and stored is kept.'}", error=True)
+        say(f"crosscheck: {where}{told}{'' if early else '. Solved tasks are kept.'}", error=True)
         raise typer.Exit(MISTAKE if early else FAILED) from error

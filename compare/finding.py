@@ -210,8 +210,8 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
             here = [each for each in own if each.dimension == dimension]
             verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
             said = [_said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts]
-            said = ("; it " if any(";" in each for each in said) else ", ").join(said)
-            parts.append(f"In {dimension} it {said}" if dimension in ("1D", "3D") else f"It {said}")
+            told = ("; it " if any(";" in each for each in said) else ", ").join(said)
+            parts.append(f"In {dimension} it {told}" if dimension in ("1D", "3D") else f"It {told}")
         found.append(". ".join([f"{sentence}{claimed}", *parts]) + ".")
     return found
 

@@ -75,7 +75,7 @@ def run(
     cost.refuse(count, yes)
     below = manifest.inside(output, study.place) if study.place else output
     if Path(study.place).parts[:1] == (SOLVED,):
-        raise InvalidInput(f"place = {study.place}: there lies what has been solved, choose another")
+        raise InvalidInput(f"place = {study.place}: this folder holds solved tasks, choose another")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
     if cost.contacts:
         watch.told(str(cost))
@@ -89,7 +89,7 @@ def run(
         if not swept.faults:
             raise
         whole = len(swept.faults) == len(swept.outcomes)
-        what = "nothing was solved" if whole else f"what was solved cannot be judged without what broke: {error}"
+        what = "nothing was solved" if whole else f"the rest cannot be judged without the broken ones: {error}"
         raise Broken("; ".join([what, *faults(swept, output)])) from error
     manifest.remove(below)
     results.write(below / results.NAME, answers)
@@ -106,7 +106,7 @@ def run(
 
 
 def _solve(batches, output, workers, scheduler, watch) -> SweepResult:
-    """Solve what the folder does not have. What is timed is solved here and alone, whatever the scheduler."""
+    """Solve what the folder does not have. Timed tasks are solved here, one by one, whatever the scheduler."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in batches:
         if not batch.tasks:

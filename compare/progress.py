@@ -99,7 +99,7 @@ class Watched(Progress):
         """Nothing more is started."""
         self.doing = "finishing "
         if not self.shown:
-            self.console.print("finishing what is being solved")
+            self.console.print("finishing the solves under way")
         self._tell()
 
     def _left(self):

@@ -58,7 +58,7 @@ def redraw(
     except ValueError as error:
         raise InvalidInput(str(error)) from error
     if not drawn:
-        raise InvalidInput(f"{folder}: what is left here has no figures")
+        raise InvalidInput(f"{folder}: the folder holds results without figures")
     return drawn
 
 

@@ -307,7 +307,7 @@ def _check_balanced(work, dissipated, stored):
     missed = np.abs(stored + dissipated - work).max()
     if not missed <= _BALANCED * most:
         raise SolveError(
-            f"work, what is stored and what is lost balance only to a relative {missed / most:.1e}: "
+            f"work, stored energy and loss balance only to a relative {missed / most:.1e}: "
             "the lengths or times of the scene differ by more than rounding allows"
         )
 

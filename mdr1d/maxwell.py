@@ -172,8 +172,8 @@ def _landing(here, there, slope, pixel, u, u_end, pushes, rates, decay):
 def _release(f, rate, width, y, moduli, lengths):
     """Place at which the force f(t) of the contact falls to zero within a width; NOWHERE if it does not.
 
-    f(t) = f + rate t + sum_k b_k (exp(-t/m_k) - 1), b_k = K_k (y_k - m_k rate). There is one change of sign at most: the sign at the end tells whether, and a bracket that shrinks by Newton
-    steps, or by halves where those are slow, tells where.
+    f(t) = f + rate t + sum_k b_k (exp(-t/m_k) - 1), b_k = K_k (y_k - m_k rate), changes sign once at most: the end
+    tells whether, and a bracket that shrinks by Newton steps, or by halves where those are slow, tells where.
     """
     if f < 0.0:
         return 0.0

@@ -22,7 +22,7 @@ QUOTIENT = 1e-12  # rounding of a quotient of lengths
 
 @plain(frozen=True, init=False)
 class HeightMap:
-    """Rows and columns of heights [m], which cannot be changed. What it is made of stands beside its fields.
+    """Rows and columns of heights [m], which cannot be changed. The heights themselves are no field.
 
     shape : (rows, columns), rows along y and columns along x, both ascending
     digest : of shape and heights, as hexadecimal digits: maps of equal digests have equal heights

@@ -53,7 +53,7 @@ PATTERN = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-−]?[0-9]+)?\s*[^\s
 
 
 class Unreadable(ValueError):
-    """What is no quantity of the unit that is asked for; the message says why, or nothing if that goes without."""
+    """A text is no quantity of the wanted unit; the message says why, unless that is obvious."""
 
 
 def in_si(text: str, unit: str, difference: bool = True) -> float:

@@ -75,7 +75,7 @@ INTERFACE = r"interface = Coulomb with motion = Slide: .*; leave interface out"
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"motion": PROGRAM}, "motion = Program: what is compared"),
+        ({"motion": PROGRAM}, "motion = Program: only bodies that are pressed in or slide"),
         ({"interface": Coulomb(0.3)}, INTERFACE),
         ({"interface": Coulomb(0.3), "elastomer": Elastic(modulus=1e6)}, INTERFACE),
         ({"interface": Coulomb(0.3), "motion": Slide(speed=0.0, load=1.0)}, INTERFACE),

@@ -218,7 +218,7 @@ def test_a_task_may_fail_in_any_way(tmp_path):
         "leaves": "SystemExit: 3",
         "cannot be sent": "TypeError: cannot pickle it",
         "cannot come back": "Can't pickle",
-        "not whole": "ValueError: what it gave is not whole: 0 rows, fields []",
+        "not whole": "ValueError: its answer is not whole: 0 rows, fields []",
     }
     tasks = [Odd(way) for way in (*ways, "none")]
     swept = sweep(tasks, Store(tmp_path), workers=1)
@@ -434,7 +434,7 @@ def test_lines_tell_time_left_failures_and_what_was_reused():
         "3 tasks to solve, 5 reused",
         f"1/3, 6 s left, solved {tasks[0].label}",
         "a worker ended",
-        "finishing what is being solved",
+        "finishing the solves under way",
         "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
     ]
 

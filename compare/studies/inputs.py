@@ -98,7 +98,7 @@ class _Shared:
     """Fields that a study states for all of its series, or each of them for itself.
 
     scene : name of a ready scene, from which every table is taken that is not stated
-    indenter, elastomer, roughness, temperature : as of a scene; what a series states takes the place of what is
+    indenter, elastomer, roughness, temperature : as in a scene; what a series states takes the place of what is
         stated for all, name by name, unless it states another type. Bodies are spheres, cones and power laws, and
         roughness is self-affine
     speeds : of sliding [m/s], two at least; with rates absent too, the bodies are at rest
@@ -230,9 +230,9 @@ class _Stated:
             if isinstance(values, tuple) and list(values) != sorted(set(values)):
                 yield f"{name} = {brief(repr(list(values)))}: from the least to the greatest, each once"
         if "rates" in moved and "depths" not in pressing:
-            yield "rates: what is pressed in at a rate is pressed to depths, give depths"
+            yield "rates: a body pressed in at a rate is pressed to depths, give depths"
         if "rates" in moved and "temperature" in self.contact:
-            yield "rates: what is pressed in is stated at its own temperature, leave temperature out"
+            yield "rates: a pressed-in solid is stated at its own temperature, leave temperature out"
         if "speeds" in moved and isinstance(moved["speeds"], tuple) and len(moved["speeds"]) < 2:
             yield "speeds: at least two, or none for bodies at rest"
         for solver, least in (("bem", 32), ("mdr", 16)):

@@ -56,7 +56,7 @@ class Regress(Study):
 
     command = "regress"
     title = "Has the accuracy moved?"
-    about = "Ratios that say how far one answer is from another, beside what they were."
+    about = "Ratios that say how far one answer is from another, held against their stored values."
 
     def __post_init__(self):
         ids = [quantity.id for quantity in self.quantities]

@@ -151,7 +151,7 @@ MODELS = Diagram(
 SURFACES = Diagram(
     "surfaces",
     "How many surfaces, on how many points",
-    "A rough contact has the mean over surfaces as its answer. The error of a mean is what the grid leaves, "
+    "A rough contact has the mean over surfaces as its answer. The error of a mean is that of the grid, "
     "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
     lambda size: [each for each in regimes.rough(size) if each.name.endswith(("rest", "middle"))],
     _surface_findings,
