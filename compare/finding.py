@@ -204,7 +204,7 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
         claims = {each.claimed for each in own if each.claimed}
-        claimed = f" (claimed {claims.pop()})" if len(claims) == 1 else ""
+        claimed = f" (claimed {claims.pop().replace(' ± ', ' to within ')})" if len(claims) == 1 else ""
         parts = []
         for dimension in dict.fromkeys(each.dimension for each in own):
             here = [each for each in own if each.dimension == dimension]

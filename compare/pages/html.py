@@ -65,7 +65,7 @@ def _content(used, pictures, tables, figures) -> dict[str, Any]:
         "pictures": pictures,
         "figures": figures,
         "prose": lambda markdown: Markup(prose.html(markdown)),
-        "typeset": lambda words: Markup(mathematics.typeset(words, escape, mathematics.mathml)),
+        "typeset": lambda words: Markup(_typeset(words)),
         "mathml": lambda latex: Markup(mathematics.mathml(latex)),
         "rows": lambda table: _rows(table.frame, used, people=True),
         "head": lambda label, name: Markup(_head(label, name, used)),
@@ -99,8 +99,13 @@ def _cell(column, value, shown):
     label = f' data-label="{escape(column.title)}"'
     if isinstance(value, float):
         return f'<td class="number"{label} data-value="{value!r}">{escape(shown)}</td>'
-    words = ' class="words"' if len(shown) > LONG else ""
-    return f"<td{words}{label}>{escape(shown)}</td>"
+    if len(shown) > LONG:
+        return f'<td class="words"{label}>{_typeset(shown)}</td>'
+    return f"<td{label}>{escape(shown)}</td>"
+
+
+def _typeset(words):
+    return mathematics.typeset(words, escape, mathematics.mathml)
 
 
 def _download(name: str, tables: Mapping[str, str]) -> str:
