@@ -78,7 +78,7 @@ def _check(grid, history):
 
 
 def _grid(solver, problem, program):
-    """As stated, the period of a plane, or around all contacts that the program could hold for ever."""
+    """Extent as stated, the period of a plane, or around all contacts that the program could hold for ever."""
     scene = problem.scene
     if isinstance(scene.indenter, Plane):
         return Grid(solver.points, scene.roughness.period, width=problem.width)

@@ -38,7 +38,7 @@ class Layered:
 
     @classmethod
     def of(cls, layer: Layer, poisson_ratio: float) -> "Layered":
-        """As a scene states it."""
+        """Layer as a scene states it."""
         return cls(layer.thickness, Bonded(poisson_ratio) if layer.base == "bonded" else Frictionless())
 
     def elastic(self, grid):
@@ -132,7 +132,7 @@ class ByPixel:
     thickness: float
 
     def __call__(self, x, s, ny):
-        """At x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
+        """Displacement at x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
         reach, (x, s) = _reach(self.thickness), np.broadcast_arrays(x, s)
         out, seen = np.zeros((*x.shape, ny)), np.abs(x - s) < reach
         rows = int(min(ny, reach + 1))
@@ -163,7 +163,7 @@ class ByStrip:
     thickness: float
 
     def __call__(self, x, s, ny):
-        """At x - s: its shape, then (1,)."""
+        """Displacement at x - s: its shape, then (1,)."""
         x = x - s
         return np.where(np.abs(x) < _reach(self.thickness), 2 / np.pi * self._left(x), 0.0)[..., None]
 

@@ -33,7 +33,7 @@ class Flow:
 
     @classmethod
     def of(cls, elastomer, speed: float) -> "Flow":
-        """At a speed [m/s]; at rest every mode has relaxed and the solid is elastic."""
+        """Flow at a speed [m/s]; at rest every mode has relaxed and the solid is elastic."""
         instantaneous, compliances, times = elastomer.retardation()
         if speed == 0 or len(times) == 0:
             return cls(elastomer.indentation_modulus, 1.0, np.empty(0), np.empty(0))

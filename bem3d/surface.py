@@ -113,7 +113,7 @@ class RoughSurface:
 
     @property
     def rms_height(self) -> float:
-        """Over a period [m]."""
+        """Rms height over a period [m]."""
         return self.waves.rms_height
 
     @property

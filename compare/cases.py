@@ -69,7 +69,7 @@ class Study:
 
 @dataclass(frozen=True)
 class Plan:
-    """Every value that is solved at: as in Study, and smooth_speeds [m/s] of the smooth body."""
+    """Values that are solved at: those of Study, and smooth_speeds [m/s] of the smooth body."""
 
     speeds: tuple[float, ...]
     pressing: tuple[float, ...]

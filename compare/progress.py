@@ -96,7 +96,7 @@ class Watched(Progress):
         self.console.print(printable(line), markup=False)
 
     def interrupted(self) -> None:
-        """Nothing more is started."""
+        """Tell that nothing more is started."""
         self.doing = "finishing "
         if not self.shown:
             self.console.print("finishing the solves under way")

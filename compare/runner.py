@@ -33,7 +33,7 @@ class Progress:
         """Remark for people: a worker died, there is none, another run is waited for."""
 
     def interrupted(self) -> None:
-        """Nothing more is started; the solves under way are waited for."""
+        """Tell that nothing more is started; the solves under way are waited for."""
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,7 @@ class Heated(Term):
         return self._estimated(solve) if self.part.feedback is None else self._fed_back(solve)
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:
-        """As often as it is solved."""
+        """Plan of the solves that feedback usually takes."""
         if self.part.feedback is None:
             return plan
         again = f"the {SOLVES} solves that feedback usually takes"

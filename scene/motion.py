@@ -81,7 +81,7 @@ class Indent(_Pressed):
 
 
 def pressed(by: str, value: float) -> Indent:
-    """At rest under a value of what is named, one of `UNITS`."""
+    """Motion to rest under a value of the named quantity, one of `UNITS`."""
     given: dict[str, Any] = {by: value}
     return Indent(**given)
 

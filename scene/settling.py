@@ -68,7 +68,7 @@ def _check(trial, agreed):
 
 
 def _ahead(tried: Sequence[tuple[float, float]]) -> float:
-    """As warm as the last trial makes it; farther, to where the secant ends, while the rise grows."""
+    """Next trial, as warm as the last one makes it; farther, to the end of the secant, while the rise grows."""
     x, excess = tried[-1]
     if len(tried) == 1:
         return x + excess

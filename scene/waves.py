@@ -49,12 +49,12 @@ class Waves:
 
     @cached_property
     def rms_height(self) -> float:
-        """Over a period [m]."""
+        """Rms height over a period [m]."""
         return self.unit * sqrt(self.power.sum())
 
     @cached_property
     def rms_slope(self) -> float:
-        """Spectral, of the full gradient [1]."""
+        """Spectral rms slope of the full gradient [1]."""
         return self._rms_slope(self.along_x, self.along_y)
 
     @cached_property

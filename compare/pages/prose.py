@@ -25,7 +25,7 @@ PLAIN: Marks = {
 
 
 def html(markdown: str) -> str:
-    """As HTML; what is HTML already is shown as text."""
+    """Markdown as HTML; marks of HTML in it are shown as text."""
     return _PARSER.render(markdown)
 
 

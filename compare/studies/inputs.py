@@ -50,7 +50,7 @@ class _Range:
         return self
 
     def values(self, count: int) -> tuple[float, ...]:
-        """As many as are stated, else so many."""
+        """Number that is stated, else the given one."""
         return between(self.least, self.greatest, self.count or count)
 
 

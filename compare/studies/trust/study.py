@@ -37,9 +37,9 @@ ABOUT = """Each scene is a point of a design over dimensionless groups, solved i
 surfaces until its scatter is known. Gaussian processes learn the ratio of 1D over 3D from these scenes alone.
 Those held out were drawn by another seed, and no model was fitted to them.
 
-Errors are of all held-out scenes whose advice is "use" or "multiply". In each measured error lies the scatter of
-the surfaces behind the truth; the error of the map alone is what remains when it is split as the variances of both
-stand."""
+Errors are those of all held-out scenes whose advice is "use" or "multiply". Each measured error contains the
+scatter of the surfaces behind the truth. The error of the map alone is the share that remains when the two are
+split in proportion to their variances."""
 # What the map is to keep, of each quantity: median error, error of nine in ten.
 WANTED = {"friction": (0.02, 0.08), "depth": (0.01, 0.05), "force": (0.01, 0.05)}
 BOOTSTRAPS = 200

@@ -104,7 +104,7 @@ def _unless_missed(law, check):
 
 
 def _ensembles(each, points) -> Iterator[Forecast]:
-    """As many times what one surface was measured to take: how that scatters between surfaces is not known."""
+    """Time of one surface times their number: how that scatters between surfaces is not known."""
     for n in points:
         grid = f"{n} points" if each.dimension == "1D" else f"{n}² points"
         told = each.name, each.title, f"surfaces-{n}", f"{SURFACES} surfaces with {grid}", "core hours"

@@ -36,12 +36,11 @@ DIAGRAMS: Mapping[str, Diagram] = {
     )
 }
 ALL = "all"
-ABOUT = """Errors are relative: against a closed form where there is one, elsewhere against a far finer solution of
-the same, whose own error is the grey band; points within it are drawn hollow and say only that they are as good as
-that. Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
-solve alone in a process of its own, after one that loads compiled code. A setting counts as reaching an error only
-if all finer ones of its ladder do; the finest has none that could confirm it. A solve that fails is NaN, with its
-reason in the table."""
+ABOUT = """Errors are relative. The reference is a closed form where there is one, elsewhere a far finer solution,
+whose own error is the grey band; points within the band are hollow and are known to be no worse than that. Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
+solve alone in a process of its own, after one that loads compiled code. A setting reaches an error only if all
+finer ones of its ladder do; no finer one confirms the finest. A solve that fails is NaN, with its reason in the
+table."""
 
 
 @dataclass(frozen=True)
