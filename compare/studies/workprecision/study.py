@@ -37,10 +37,11 @@ DIAGRAMS: Mapping[str, Diagram] = {
 }
 ALL = "all"
 ABOUT = """Errors are relative. The reference is a closed form where there is one, elsewhere a far finer solution,
-whose own error is the grey band; points within the band are hollow and are known to be no worse than that. Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
-solve alone in a process of its own, after one that loads compiled code. A setting reaches an error only if all
-finer ones of its ladder do; no finer one confirms the finest. A solve that fails is NaN, with its reason in the
-table."""
+whose own error is the grey band; points within the band are hollow and are known to be no worse than that.
+Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
+solve alone in a process of its own, after one that loads compiled code. A setting reaches an error only if
+all finer ones of its ladder do; no finer one confirms the finest. A solve that fails is NaN, with its
+reason in the table."""
 
 
 @dataclass(frozen=True)
