@@ -57,7 +57,7 @@ class Assured:
 
     @property
     def confirmed(self) -> bool:
-        """Whether everything changed by less than the error wanted of it."""
+        """Whether every quantity changed by less than the error wanted of it."""
         return all(self.change[name] <= wanted for name, wanted in self.wanted.items())
 
 
@@ -98,7 +98,7 @@ class Choice:
 
 
 class Answer(Protocol):
-    """What two answers are compared by: a Result, or numbers of one."""
+    """Numbers by which two answers are compared: a Result, or numbers of one."""
 
     @property
     def friction_coefficient(self) -> float: ...
@@ -111,7 +111,7 @@ class Answer(Protocol):
 
 
 def apart(scene: Scene, name: str, one: Answer, other: Answer) -> float:
-    """How far two answers to one scene are apart in friction, depth or load, relative to the other."""
+    """Relative difference of two answers to one scene in friction, depth or load; relative to the second."""
     match name:
         case "friction":
             values = one.friction_coefficient, other.friction_coefficient
@@ -168,7 +168,7 @@ def resolution(scene: Scene, measures: Mapping[str, float]) -> float:
 
 
 def band(scene: Scene) -> str:
-    """How fast a scene slides: the length of its memory over the shortest length that its contact has to show."""
+    """Class of speed of a scene, by the length of its memory over the shortest length of its contact."""
     flow, rough = Flow.of(scene.solid, scene.motion.speed), scene.roughness
     if flow.at_rest:
         return "rest"
@@ -179,14 +179,14 @@ def band(scene: Scene) -> str:
 
 
 def typical(scene: Scene, points: int) -> dict[str, float]:
-    """What such a body at such a speed takes on a square of so many points a side, by the names of `COSTS`."""
+    """Costs of such a body at such a speed on a square of so many points a side, by the names of `COSTS`."""
     kind = _body(scene), band(scene)
     return {name: _between(ladder()[*kind, name], points) for name in COSTS}
 
 
 @cache
 def ladder() -> Mapping[tuple[str, str, str], np.ndarray]:
-    """By body (smooth, rough), band and quantity: resolutions and largest errors (2, rungs), sorted.
+    """Largest errors and their resolutions (2, rungs), sorted, by body (smooth, rough), band and quantity.
 
     Quantities: friction; pressing, of depth or load alike; and `COSTS`, of which there are points a side and what
     a solve takes: processor seconds, operator applications.
@@ -211,12 +211,12 @@ def _needed(name, rungs, error):
 
 
 def _expected(rungs, resolved):
-    """Of the last rung passed."""
+    """Error of the last rung of the ladder that is reached."""
     return float(rungs[1][max(0, np.searchsorted(rungs[0], resolved, side="right") - 1)])
 
 
 def _between(rungs, points):
-    """In proportion to a power of the points, that of the nearest two rungs."""
+    """Cost between two rungs of the ladder, by a power of the points."""
     x, y = np.log(rungs)
     k = int(np.clip(np.searchsorted(x, np.log(points)), 1, len(x) - 1))
     slope = (y[k] - y[k - 1]) / (x[k] - x[k - 1])

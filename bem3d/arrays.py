@@ -1,4 +1,4 @@
-"""What a solve holds in memory, by formula: arrays of its stages, as `Array`s of a plan."""
+"""Memory of a solve by formula: the arrays of its stages, as `Array`s of a plan."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -22,7 +22,7 @@ Shape = tuple[int, int]
 
 
 def engine_of(engine: Engine, scene: Scene) -> Engine:
-    """That of the problem: single rows are solved in double."""
+    """Engine of the problem: single rows are solved in double precision."""
     return engine if row_width(scene) is None else replace(engine, precision="double")
 
 
@@ -33,7 +33,7 @@ def padded(engine: Engine, shape: Shape) -> Shape:
 
 
 def product(engine: Engine, name: str, shape: Shape, sizes: Shape, real: bool) -> Iterator[Array]:
-    """What a product with a symbol holds, on transforms of these sizes."""
+    """Arrays of a product with a symbol, on transforms of these sizes."""
     kind = engine.real if real else engine.complex
     yield Array(f"{name}: symbol", (sizes[0] // 2 + 1, sizes[1] // 2 + 1), kind().itemsize)
     yield Array(f"{name}: waves", (shape[0], sizes[1] // 2 + 1), engine.complex().itemsize)

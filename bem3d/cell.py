@@ -44,7 +44,7 @@ class Cell:
         return PeriodicFilter(grid.shape, elastic, self.engine)
 
     def foundation(self, grid: Grid) -> Foundation | None:
-        """What of the operator is not in the elastic half-space; None at rest."""
+        """Part of the operator that the elastic half-space does not have; None at rest."""
         return Foundation.of(self.flow, grid, wraps=True)
 
     def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:

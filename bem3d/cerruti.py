@@ -27,7 +27,7 @@ def free(grid: Grid, poisson_ratio: float, engine: Engine) -> FreePair:
 
 
 def periodic(grid: Grid, poisson_ratio: float, engine: Engine) -> PeriodicPair:
-    """The same on a cell, free of mean."""
+    """Tractions along x and y -> displacements, on a cell that repeats; without the mean."""
 
     def symbols(q_y, q_x):
         q, coupling = _lengths(q_y, q_x), poisson_ratio / (1 - poisson_ratio)
@@ -72,7 +72,7 @@ def kernels(points: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _over_pixels(primitive):
-    """From the double primitive at the corners of pixels."""
+    """Integral over each pixel, from the double primitive at the corners of pixels."""
     return np.diff(np.diff(primitive, axis=0), axis=1)
 
 

@@ -158,7 +158,7 @@ class _OnSet:
         self._plane[:] = 0
 
     def restricted(self, plane):
-        """Its values on the set."""
+        """Values of a plane on the set of contact."""
         values = plane.reshape(-1)[self.where]
         return values - values.mean() if self.mean_free else values
 

@@ -1,4 +1,4 @@
-"""Where arrays live and who transforms them: the only door to the Fourier transforms and to the GPU.
+"""Engines, which hold arrays and transform them: the only door to the Fourier transforms and to the GPU.
 
 A plane of ny x nx values is convolved as rows, then columns, then rows again. Rows of zeros that pad a plane
 are never transformed, and columns go block by block, forward, through the symbol and back, while in the cache.
@@ -89,7 +89,7 @@ class Engine:
         """The product of two planes with a symmetric matrix of symbols: callable, (2, ny, nx) -> (2, ny, nx).
 
         symbols : xx, xy, yy (my//2+1, mx//2+1), real, unnormalized; xx and yy even in q_y, xy odd
-        shape, padded : as of `product`, my > 1
+        shape, padded : as for `product`, my > 1
         """
         if self.on_gpu:
             return WholePair(symbols, shape, padded, self.xp, self.complex)
@@ -146,7 +146,7 @@ _DOUBLE = Engine()
 
 
 def _remainder(size):
-    """What is left of a number without its factors 2, 3 and 5."""
+    """Factor of a number that is left without its factors 2, 3 and 5."""
     for factor in (2, 3, 5):
         while size % factor == 0:
             size //= factor

@@ -34,7 +34,7 @@ class Foundation:
 
     @classmethod
     def of(cls, flow: Flow, grid: Grid, wraps: bool = False) -> "Foundation | None":
-        """That of a flow on a grid, with a relaxed compliance of one; None at rest, where it changes nothing."""
+        """Foundation of a flow on a grid, with a relaxed compliance of one; None at rest."""
         if flow.at_rest:
             return None
         lengths = flow.in_pixels(grid)

@@ -11,7 +11,7 @@ from .problem import Problem
 
 @dataclass(frozen=True)
 class Friction:
-    """What the surface takes from the indenter, found in four ways.
+    """Friction of the surface on the indenter, found in four ways.
 
     by_traction, by_loss, by_work, by_curvature : [N]; see theory, Eqs. 2, 5d, 5e
     mean_curvature : of d2z/dx2 weighted with the pressure [1/m]
@@ -28,7 +28,7 @@ class Friction:
 
     @classmethod
     def of(cls, problem: Problem, grid: Grid, pressure: np.ndarray) -> Self:
-        """From the pressure [Pa] (rows, points)."""
+        """Friction from the pressure [Pa] (rows, points)."""
         slopes = problem.slopes(grid, problem.surface(grid))
         loss, work = problem.lost(grid, pressure)
         curvature = curvature_by_pressure(problem, grid, pressure)
@@ -59,7 +59,7 @@ class Friction:
         )
 
     def measures(self, normal_force: float) -> dict[str, float]:
-        """As of a result."""
+        """Measures of a result by name."""
         return {
             "curvature_by_pressure": self.mean_curvature,
             "friction_by_traction": self.by_traction,

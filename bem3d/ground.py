@@ -1,4 +1,4 @@
-"""What lies below the surface: displacement by a loaded pixel, by a loaded strip and by a wave of pressure.
+"""Media below the surface: displacement by a loaded pixel, by a loaded strip and by a wave of pressure.
 
 Lengths are in pixels and pressures in units of the relaxed E*, as in `influence`.
 """
@@ -13,7 +13,7 @@ from .grid import Grid
 
 
 class Ground(Protocol):
-    """What a medium asks of it."""
+    """Ground below the surface, as a medium uses it."""
 
     def elastic(self, grid: Grid) -> np.ndarray:
         """Elastic kernel of a pixel, as `influence.elastic`."""

@@ -59,7 +59,7 @@ def marched(solver, scene, started) -> Result:
 
 
 def _frames(history):
-    """With shifts from where the grid is at the end."""
+    """Frames of a history, with shifts from the place of the grid at the end."""
     if not history.frames:
         return {}
     return {**history.frames, "frame_shift": history.frames["frame_shift"] - history.offset}
@@ -78,7 +78,7 @@ def _check(grid, history):
 
 
 def _grid(solver, problem, program):
-    """As stated, the period of a plane, or around all contacts that the program could hold for ever."""
+    """Extent as stated, the period of a plane, or around all contacts that the program could hold for ever."""
     scene = problem.scene
     if isinstance(scene.indenter, Plane):
         return Grid(solver.points, scene.roughness.period, width=problem.width)
@@ -106,7 +106,7 @@ class _Mirrored(Problem):
 
 
 def _held(grid):
-    """What a grid covers."""
+    """Box that a grid covers."""
     half = grid.extent / 2
     (x, y), across = grid.centre, half if grid.width is None else 0.0
     return Box(x - half, x + half, y - across, y + across)

@@ -61,7 +61,7 @@ class Marching:
 
 
 class Plain(Marching):
-    """By the arrays of a module xp, numpy or cupy."""
+    """Sums and updates of an iteration by the arrays of a module xp, numpy or cupy."""
 
     def __init__(self, xp=np):
         self.xp = xp

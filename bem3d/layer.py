@@ -38,7 +38,7 @@ class Layered:
 
     @classmethod
     def of(cls, layer: Layer, poisson_ratio: float) -> "Layered":
-        """As a scene states it."""
+        """Layer as a scene states it."""
         return cls(layer.thickness, Bonded(poisson_ratio) if layer.base == "bonded" else Frictionless())
 
     def elastic(self, grid):
@@ -70,7 +70,7 @@ class Layered:
         return _shown(ByStrip, self.base, self.thickness / pixel)
 
     def falsified(self, pixel, radius: float):
-        """What pixels [m] of a free surface falsify in the force of a contact of this radius [m], over the force.
+        """Relative error of the force of a contact of this radius [m] by the pixels [m] of a free surface.
 
         With l the length over which a layer spreads the pressure and x = (l/a)^2, of pixels D (any shape)
 
@@ -89,7 +89,7 @@ class Layered:
 
 
 def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[str]:
-    """Why a grid on the free surface of a layer falsifies a contact, if it does.
+    """Reason why a grid on the free surface of a layer falsifies a contact, if it does.
 
     radius : of the contact [m]; without one that of a contact that fills the grid
     """
@@ -105,7 +105,7 @@ def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[st
 
 
 def _remedy(layer, poisson_ratio, grid, radius):
-    """What would do in the place of a grid."""
+    """Advice on a grid that would not falsify the contact."""
     good = Layered.of(layer, poisson_ratio).falsified(grid.extent / ALLOWED, radius) <= FALSIFIED
     if good.any():
         enough = ALLOWED[good.argmax()]
@@ -132,7 +132,7 @@ class ByPixel:
     thickness: float
 
     def __call__(self, x, s, ny):
-        """At x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
+        """Displacement at x - s, rows 0..ny-1: shape of x - s, then (ny,)."""
         reach, (x, s) = _reach(self.thickness), np.broadcast_arrays(x, s)
         out, seen = np.zeros((*x.shape, ny)), np.abs(x - s) < reach
         rows = int(min(ny, reach + 1))
@@ -163,7 +163,7 @@ class ByStrip:
     thickness: float
 
     def __call__(self, x, s, ny):
-        """At x - s: its shape, then (1,)."""
+        """Displacement at x - s: its shape, then (1,)."""
         x = x - s
         return np.where(np.abs(x) < _reach(self.thickness), 2 / np.pi * self._left(x), 0.0)[..., None]
 
@@ -193,7 +193,7 @@ class Thin:
 
 
 def _reach(thickness):
-    """Of a pixel all parts of which are within REACH [pixel]."""
+    """Distance of a pixel all parts of which are within REACH [pixel]."""
     return REACH * thickness - 1
 
 
@@ -208,11 +208,11 @@ class LayerTerm(Term):
     """The thickness enters the response, and nothing else."""
 
     def medium(self, medium, scene: Scene):
-        """The same surface, of a layer."""
+        """Medium with the same surface on a layer."""
         return replace(medium, ground=Layered.of(self.part, scene.solid.poisson_ratio))
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:
-        """With the table of what the base takes off; on a surface that repeats each wave has a factor."""
+        """Plan with the table of what the base takes off; a surface that repeats needs none."""
         if isinstance(scene.indenter, Plane):
             return plan
         table = Array("what the base takes off", PIECES)

@@ -29,7 +29,7 @@ DISTANCES, AT_ONCE = 64, 4096  # distances summed and pieces made at once: half 
 
 
 class Base(Protocol):
-    """What the layer lies on. Waves t > 0 of any shape."""
+    """Base on which the layer lies. Waves t > 0 of any shape."""
 
     @property
     def springs(self) -> float:
@@ -110,7 +110,7 @@ def _sinh_less(z, gone):
 
 
 class Taken:
-    """What the base takes off the displacement by a load, over (1/pi) p dA / E*, at a distance in thicknesses.
+    """Displacement by a load that the base takes off, over (1/pi) p dA / E*, at a distance in thicknesses.
 
     Of a load on a point 1/r - c(r), of one along a line -2 ln r - 2 c(r): both vanish beyond REACH.
     """

@@ -175,7 +175,7 @@ class _Touch:
         return self.gap + self.depth - heights if self.pressure.any() else np.zeros(heights.shape)
 
     def sums(self, slopes):
-        """What a history keeps of it."""
+        """Numbers of the contact that a history keeps."""
         traction = -np.sum(self.pressure * slopes)
         count = np.count_nonzero(self.pressure)
         return self.depth, self.pressure.sum(), traction, count, self.violation, self.rounds
@@ -255,7 +255,7 @@ class _Press:
 
 
 def _history(problem, program, grid, times, rows, touch, material, frames):
-    """In SI units."""
+    """History of the contact in SI units."""
     seen, depth, pressure, traction, count, violation, rounds, power = rows.T
     middle, force = (times[1:] + times[:-1]) / 2, problem.flow.modulus * grid.patch
     depth_given = program.pressed_by == "depth"

@@ -49,11 +49,11 @@ class Creep:
         return brentq(excess, 0.5, 1.0) * step
 
     def kept(self, time: float) -> np.ndarray:
-        """Of the displacement of each mode (K,)."""
+        """Part of the displacement of each mode that is kept after a time (K,)."""
         return np.exp(-time / self.times)
 
     def gained(self, time: float) -> np.ndarray:
-        """Of the relaxed displacement by each mode, 1 - kept (K,)."""
+        """Part of the relaxed displacement that each mode gains in a time, 1 - kept (K,)."""
         return -np.expm1(-time / self.times)
 
     def compliance(self, time: float) -> float:
@@ -67,7 +67,7 @@ class Creep:
 
 
 class Material:
-    """What a window of (ny, nx) points remembers, as it is kept around an indenter that moves on.
+    """Memory of the elastomer in a window of (ny, nx) points that is kept around a moving indenter.
 
     creep : the modes
     """
@@ -76,7 +76,7 @@ class Material:
         self.creep, self._around, self._window = creep, around, around.window
 
     def offset(self, path: float) -> float:
-        """How far the points are downstream from where the grid has them, on a path [m]."""
+        """Distance of the points downstream from their place on the grid, on a path [m]."""
         return path - self._window.shifts * self._window.grid.pixel
 
     def follow(self, path: float, time: float) -> int:

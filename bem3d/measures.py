@@ -1,4 +1,4 @@
-"""What a solved contact measures of itself, on a grid and under a rough surface."""
+"""Measures of a solved contact, of its grid and of its rough surface."""
 
 import numpy as np
 

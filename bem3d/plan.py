@@ -1,4 +1,4 @@
-"""What this solver would do about a scene: grids and kernels as `Problem` builds them, costs by the ladder."""
+"""Plan of this solver for a scene: grids and kernels as `Problem` builds them, costs by the ladder."""
 
 from dataclasses import replace
 from math import ceil, log10
@@ -37,7 +37,7 @@ LEFT_OUT = {
 
 
 def plan_of(solver, scene: Scene) -> Plan:
-    """What a BEM would simulate. Nothing is solved: where a window has to be found, its size is an estimate."""
+    """Plan of a scene for a BEM. Nothing is solved: where a window has to be found, its size is an estimate."""
     return _plan(solver, scene, _expected)
 
 
@@ -79,7 +79,7 @@ def _shape(solver, scene):
 
 
 class _March:
-    """What a program adds to a contact: steps, and sheets that follow the material around the window."""
+    """Parts that a program adds to a contact: steps, and sheets that follow the material around the window."""
 
     def __init__(self, solver, scene):
         program, extent = scene.motion, _extent(solver, scene)
@@ -98,7 +98,7 @@ class _March:
         ]
 
     def arrays(self, engine):
-        """What it holds beside the contact of a step."""
+        """Arrays of a program beside the contact of a step."""
         yield Array("modes in the window", (self.modes, *self.grid.shape))
         yield Array("heights and slopes at places within a pixel", (self.places, *self.grid.shape))
         if self.frames:
@@ -114,7 +114,7 @@ class _March:
 
 
 def _extent(solver, scene):
-    """Of the window [m]: the period, as stated, all of a map, or about that of the smooth relaxed contact."""
+    """Side of the window [m]: the period, as stated, all of a map, or estimated from the smooth contact."""
     if isinstance(scene.indenter, Plane):
         return scene.roughness.period
     if solver.extent is not None:
@@ -135,13 +135,13 @@ def _method(scene, flow, march):
 
 
 def _doubts(solver, scene):
-    """Of a window that is an estimate: that of a contact at rest, and on a layer that of a half-space."""
+    """Doubts about a window that is estimated from a contact at rest on a half-space."""
     if solver.extent is None and not isinstance(scene.indenter, Plane):
         yield from window.unresolved(scene, Grid(solver.points, _extent(solver, scene), width=row_width(scene)))
 
 
 def _grids(solver, scene, march):
-    """In words: where the window is sought, the way from coarse to fine, and what is followed beside it."""
+    """Grids in words: to find the window, from coarse to fine, and for the sheets around the window."""
     fixed = isinstance(scene.indenter, Plane) or solver.extent is not None
     if not fixed:
         coarse = min(solver.points, window.COARSE)
@@ -161,7 +161,7 @@ def _grids(solver, scene, march):
 
 
 def _kernels(scene, flow, shape):
-    """Those of the elastomer on the finest grid, with what terms make of it left out."""
+    """Kernels of the elastomer on the finest grid; changes by terms are left out."""
     rows, points = shape
     repeats = isinstance(scene.indenter, Plane)
     form, values = ("symbol", shape) if repeats else ("kernel", (rows, 2 * points))
@@ -186,7 +186,7 @@ def _held(solver, scene, flow, shape, march):
 
 
 def _expected(solver, scene, shape, march):
-    """Of a steady contact by the ladder, times what parts that the ladder has not were measured to make of it."""
+    """Costs of a steady contact by the ladder, times the measured factors of parts that the ladder has not."""
     if shape[0] == 1:
         return not_known("the ladder has squares, no rows")
     if isinstance(scene.indenter, Plane):

@@ -33,7 +33,7 @@ class Unseen(SolveError):
 
 
 def row_width(scene: Scene) -> float | None:
-    """Of the single row of pixels [m] that stands for a contact alike all along y; None when it is not."""
+    """Width of the single row of pixels [m] that stands for a contact alike all along y; else None."""
     match scene:
         case Scene(indenter=Cylinder()):
             return 1.0  # forces are per metre
@@ -103,7 +103,7 @@ class Problem:
 
     @property
     def width(self) -> float | None:
-        """As of `row_width`."""
+        """Width of the single row of pixels [m], see `row_width`."""
         return row_width(self.scene)
 
     def completed(self, result: Result, grid: Grid) -> Result:
@@ -129,7 +129,7 @@ class Problem:
         return self.scene.indenter.shortest if isinstance(self.scene.indenter, Measured) else None
 
     def points_per_wave(self, grid: Grid) -> float:
-        """Of the shortest; nan if there is none."""
+        """Points on the shortest wave; nan if there is none."""
         shortest = self.shortest(grid)
         return nan if shortest is None else float(shortest / grid.pixel)
 
@@ -159,7 +159,7 @@ class Problem:
     def solve(
         self, finest: Grid, tolerance: float, start: Start | None = None, beside: Start | None = None
     ) -> contact.Contact:
-        """From the coarsest grid to the finest, each started from the one before; in units of `solve_on`.
+        """Contact on the finest grid, each grid started from the coarser one; in units of `solve_on`.
 
         start : whose points are then doubled until they are those of the finest
         beside : of a neighbouring scene, from which the finest grid starts where it is the nearer one
@@ -177,7 +177,7 @@ class Problem:
         return self.solve_on(finest, surface, tolerance, start, beside)
 
     def start(self, grid: Grid, pressure: np.ndarray) -> Start:
-        """Where to begin the next solve, from a pressure in units of the relaxed E*."""
+        """Start of the next solve, from a pressure in units of the relaxed E*."""
         return Start(grid, pressure, self.medium.foundation(grid))
 
     def solve_on(self, grid: Grid, surface, tolerance: float, *starts: Start | None) -> contact.Contact:

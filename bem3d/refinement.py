@@ -36,11 +36,24 @@ class _Points:
     def __getitem__(self, chosen) -> "_Points":
         return _Points(self.row[chosen], self.column[chosen], self.height[chosen], self.gap[chosen])
 
+    def within(self, others: "_Points") -> np.ndarray:
+        """Whether each lies in one of some pixels twice as wide (m,)."""
+        own, wide = (np.stack([each.row, each.column], axis=1) for each in (self, others))
+        return np.isin((own // 2) @ [2**20, 1], wide @ [2**20, 1])
+
+
+def _steps(times: int) -> list[int]:
+    """Factors to refine by, one after the other. Raises ValueError for what is no power of two."""
+    if times < 1 or times & (times - 1):
+        raise ValueError(f"times = {times!r}: a power of two, as 1, 2, 4")
+    return [2**k for k in range(1, times.bit_length())] or [1]
+
 
 def refined(solver, result: Result, times: int = 2) -> Result:
     """A steady contact on pixels `times` as fine, in the window in which it was solved.
 
     solver, result : the `BEM` that answered, and its answer with its fields
+    times : a power of two
 
     The answer is that of `solver` on as many points, to its tolerance. Its fields are those of the points in
     contact: x, y [m] and pressure [Pa], (m,). Raises SolveError for programs, planes and lines, and where too much
@@ -53,11 +66,12 @@ def refined(solver, result: Result, times: int = 2) -> Result:
     x, y = result.fields["x"], result.fields["y"]
     pixel = float(x[-1] - x[0]) / (len(x) - 1)
     coarse = Grid(len(x), pixel * len(x), (float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2))
-    fine = replace(coarse, points=times * coarse.points)
-    near = _near(problem, coarse, fine, result, solver)
-    kernel = _kernel(problem, fine)
-    touching, pressure, depth, violation, rounds = _solved(problem, fine, near, kernel, solver.tolerance)
-    del kernel
+    fine, touching = coarse, None
+    for factor in _steps(times):
+        fine = replace(coarse, points=factor * coarse.points)
+        near = _near(problem, coarse, fine, result, solver)
+        begun = near.gap <= 0 if touching is None else near.within(touching)
+        touching, pressure, depth, violation, rounds = _solved(problem, fine, near, begun, solver.tolerance)
     friction = _friction(problem, fine, touching, pressure)
     force = float(pressure.sum() * fine.patch)
     return Result(
@@ -122,15 +136,17 @@ def _between(kernel, at: _Points, loaded: _Points) -> np.ndarray:
     return found
 
 
-def _solved(problem, grid, near, kernel, tolerance):
+def _solved(problem, grid, near, touches, tolerance):
     """Points in contact, their pressure [Pa], depth [m], violation and rounds.
+
+    touches : the points with which to begin (m,), bool
 
     On a set of contact the pressure is exact. What pulls is dropped first, and what penetrates is added once
     nothing pulls.
     """
-    motion, modulus = problem.scene.motion, problem.flow.modulus
+    motion, modulus, kernel = problem.scene.motion, problem.flow.modulus, _kernel(problem, grid)
     heights = near.height / grid.pixel
-    lowest, touches = heights.min(initial=np.inf), near.gap <= 0
+    lowest = heights.min(initial=np.inf)
     for rounds in range(1, ROUNDS + 1):
         where = np.flatnonzero(touches)
         if len(where) > MOST:

@@ -33,7 +33,7 @@ class Flow:
 
     @classmethod
     def of(cls, elastomer, speed: float) -> "Flow":
-        """At a speed [m/s]; at rest every mode has relaxed and the solid is elastic."""
+        """Flow at a speed [m/s]; at rest every mode has relaxed and the solid is elastic."""
         instantaneous, compliances, times = elastomer.retardation()
         if speed == 0 or len(times) == 0:
             return cls(elastomer.indentation_modulus, 1.0, np.empty(0), np.empty(0))
@@ -45,16 +45,16 @@ class Flow:
         return len(self.lengths) == 0
 
     def collocation(self, grid: Grid) -> float:
-        """How far [m] behind a pixel's centre the gap is measured: from 0 to half a pixel."""
+        """Distance [m] behind a pixel's centre at which the gap is measured: from 0 to half a pixel."""
         return float(-np.angle(self.compliance(np.pi, grid.pixel)) / np.pi * grid.pixel)
 
     def lag(self, grid: Grid) -> float:
-        """That of the grid's shortest wave in quarters of its period: 0 of an elastic solid, 1 of a fluid."""
+        """Lag of the grid's shortest wave in quarters of its period: 0 of an elastic solid, 1 of a fluid."""
         return self.collocation(grid) / (grid.pixel / 2)
 
     @property
     def trail(self) -> float:
-        """By what length [m] a slow contact trails its relaxed self: speed times the mean lag of the elastomer."""
+        """Length [m] by which a slow contact trails the relaxed one: speed times the mean lag of the elastomer."""
         return float(self.shares @ self.lengths)
 
     @property
@@ -65,7 +65,7 @@ class Flow:
         return float(self.shares * self.lengths / self.trail @ self.lengths)
 
     def slowness(self, grid: Grid) -> float:
-        """How far friction is known by the first order in the speed better than by the pressure: 1 to 0.
+        """Weight of friction to first order in the speed against friction by the pressure: 1 to 0.
 
         The next order is left out; relative to the first it is about the length of the modes that lose most, over
         that of the shortest wave. Friction by loss has an error of about a pixel over that wave. Rough and smooth

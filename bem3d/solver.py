@@ -135,7 +135,7 @@ class BEM:
         """
         wanted = {"friction": friction, "depth": depth, "load": load}
         for name in {"points", "tolerance"} & settings.keys():
-            raise ValueError(f"{name} = {settings[name]!r}: it is what is chosen")
+            raise ValueError(f"{name} = {settings[name]!r}: it is chosen by the wanted errors, leave it out")
         return accuracy.choose(
             cls(**settings), scene, {name: error for name, error in wanted.items() if error is not None}
         )
@@ -146,11 +146,11 @@ class BEM:
 
     @property
     def engine(self) -> Engine:
-        """Where it computes."""
+        """Engine that computes."""
         return Engine(self.transforms, self.threads, self.precision)
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Why the scene cannot be solved."""
+        """Reasons why the scene cannot be solved."""
         reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if isinstance(scene.indenter, Cylinder) and scene.roughness is not None:
             reasons.append("a rough Cylinder is no line contact: leave roughness out, or take a Sphere or a Plane")
@@ -167,7 +167,7 @@ class BEM:
         return reasons or shortage(memory_of(self, scene), self.engine.memory)
 
     def plan(self, scene: Scene) -> Plan:
-        """What would be simulated of a scene, and what it costs; nothing is solved.
+        """Plan of a scene: the parts that would be simulated, and their costs; nothing is solved.
 
         Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
         of numbers. Other reasons for which a solve may fail it does not see.
@@ -261,7 +261,7 @@ class BEM:
         )
 
     def settings(self, problem: Problem, grid: Grid) -> dict:
-        """What it solved with, the derived settings included."""
+        """Settings of the solve, derived ones included."""
         rough = problem.scene.roughness
         return {
             "points": self.points,

@@ -67,7 +67,7 @@ class RoughSurface:
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """As of its waves."""
+        """Amplitudes of its waves."""
         return self.waves.amplitudes
 
     def heights(self, x, y):
@@ -92,7 +92,7 @@ class RoughSurface:
         return _cosines(y, self.waves.step_y, len(even)) @ shares @ _cosines(x, self.waves.step_x, even.shape[1]).T
 
     def _spans_a_period(self, x, y):
-        """Whether the points divide a period evenly: then one transform does it."""
+        """Whether the points divide a period evenly, so that one transform suffices."""
         counts = np.array([len(y), len(x)])
         pixels = 2 * np.pi / (np.array([self.waves.step_y, self.waves.step_x]) * counts)
         given = np.array([np.ptp(y) / max(len(y) - 1, 1), np.ptp(x) / max(len(x) - 1, 1)])
@@ -113,7 +113,7 @@ class RoughSurface:
 
     @property
     def rms_height(self) -> float:
-        """Over a period [m]."""
+        """Rms height over a period [m]."""
         return self.waves.rms_height
 
     @property

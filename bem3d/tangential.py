@@ -105,7 +105,7 @@ class Tangential:
         self.work = self.transforms = 0.0
 
     def solved(self, motion) -> stickslip.Traction:
-        """By a displacement or a force. Raises SolveError."""
+        """Tractions by a displacement or a force. Raises SolveError."""
         if not (motion.displacement or motion.force):
             return self._uniform(0.0)
         most = self._coefficient * self._load
@@ -126,7 +126,7 @@ class Tangential:
             ) from error
 
     def _drawn(self, displacement, held):
-        """By a displacement [m]; held : greatest limit over E*."""
+        """Tractions by a displacement [m]; held : greatest limit over E*."""
         wanted = max(displacement / float(self._grid.pixel), LEAST)
         # A cell that touches everywhere moves freely with its mean, up to limits, be it drawn ever so little.
         limits = self._limits(held, held if self._shares.all() else wanted)
@@ -135,13 +135,13 @@ class Tangential:
         return self._descended(limits, drawn, None)
 
     def _pulled(self, force, held):
-        """By a force [N]."""
+        """Tractions by a force [N]."""
         wanted = max(force / float(self._modulus * self._grid.patch), LEAST)
         limits = self._limits(held, wanted)
         return self._descended(limits, None, wanted / self._unit)
 
     def _limits(self, held, wanted):
-        """In the unit that is taken for the greatest limit and for what is wanted, both over E*."""
+        """Limits of the traction, in a unit chosen from the greatest limit and the wanted number, both over E*."""
         self._unit = min(held, wanted)
         return self._shares * min(held / self._unit, LARGE)
 
@@ -150,7 +150,7 @@ class Tangential:
         return float(found.traction[0].sum() * self._pressure * self._grid.patch)
 
     def measures(self, found: stickslip.Traction) -> dict[str, float]:
-        """As of a result."""
+        """Measures of a result by name."""
         slipping = int(np.count_nonzero(found.slipping))
         return {
             "friction_in_interface": self.friction(found),
@@ -163,7 +163,7 @@ class Tangential:
         }
 
     def fields(self, found: stickslip.Traction) -> dict[str, np.ndarray]:
-        """As of a result: traction [Pa] and slip [m], where it touches."""
+        """Fields of a result by name: traction [Pa] and slip [m], where it touches."""
         traction, slip = self._pressure * found.traction, self._length * found.slip
         slip[0] += self._beyond * found.slipping
         return {f"traction_{axis}": plane for axis, plane in zip("xy", traction, strict=False)} | {
@@ -171,18 +171,18 @@ class Tangential:
         }
 
     def _displacement(self, found):
-        """What was given [m], or of the force that was."""
+        """Displacement [m]: the one given, or the one that the given force makes."""
         given = self._problem.scene.motion.displacement
         return found.displacement * self._length if given is None else given
 
     @property
     def _pressure(self):
-        """That of a traction of one [Pa]."""
+        """Pressure of a traction of one [Pa]."""
         return self._unit * self._modulus
 
     @property
     def _length(self):
-        """That of a displacement of one [m]."""
+        """Length of a displacement of one [m]."""
         return self._unit * self._grid.pixel
 
     def _uniform(self, displacement):
@@ -191,7 +191,7 @@ class Tangential:
         return stickslip.Traction(np.zeros_like(slip)[None], slip[None], slip > 0, displacement, 0.0, 0)
 
     def _descended(self, limit, displacement, force):
-        """From the coarsest grid to the finest, each started from the one before.
+        """Tractions on the finest grid, solved from the coarsest on, each grid started from the one before.
 
         displacement : in pixels of the finest
         """
@@ -247,7 +247,7 @@ class Tangential:
 
 
 def _components(scene, rows):
-    """Of tractions: where nothing couples both axes, those along the pull alone."""
+    """Number of components of the tractions: where nothing couples both axes, those along the pull alone."""
     return 1 if rows == 1 or scene.solid.poisson_ratio == 0 else 2
 
 

@@ -1,4 +1,4 @@
-"""What boundary elements do about one part of a scene."""
+"""Term of the boundary elements: their treatment of one part of a scene."""
 
 from typing import Any
 

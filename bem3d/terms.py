@@ -1,4 +1,4 @@
-"""What this solver has for each part of a scene: its table of terms."""
+"""Table of terms: this solver's treatment of each part of a scene."""
 
 from scene import (
     WLF,

@@ -73,7 +73,7 @@ def _longest(program, pixel, share):
 
 
 def _ends(duration, step, before):
-    """Of the steps in a stage, from its start: growing after a step `before` it, then alike."""
+    """Ends of the steps in a stage, from its start: growing after a step `before` it, then equal."""
     growths = ceil(np.log(max(step / before, 1.0)) / np.log(GROWTH))
     ends = np.cumsum(before * GROWTH ** np.arange(1, growths)) if growths else np.empty(0)
     ends = ends[ends < duration - step]

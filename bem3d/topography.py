@@ -11,7 +11,7 @@ class MeasuredRoughness(Term):
     """The map repeats as it states; on a Plane, what repeats is the cell."""
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Of maps with more waves than fit in memory, and of cells that are no squares."""
+        """Reasons to refuse maps with more waves than fit in memory, and cells that are no squares."""
         reasons, (along_x, along_y) = [], self.part.sides
         if (crowded := self.part.crowded) is not None:
             reasons.append(f"roughness = Topography has {crowded}")

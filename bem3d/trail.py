@@ -10,7 +10,7 @@ from .problem import Problem, Start
 
 @dataclass
 class Trail:
-    """What solves leave behind for those that follow: of the same scene on other grids, and of its neighbours.
+    """Starts that solves leave for those that follow: of the same scene on other grids, and of its neighbours.
 
     A scene is placed once for all grids. A contact starts from the next coarser one of the same scene, or from the
     last on as many points, where that is nearer. Whatever the trail holds, the answer is that of a solve alone,
@@ -30,7 +30,7 @@ class Trail:
             self._own.clear()
 
     def placed(self, problem: Problem, points: int) -> window.Placed:
-        """Where the contact of the scene is, for a grid of so many points."""
+        """Place of the contact of the scene, for a grid of so many points."""
         coarse = min(points, window.COARSE)
         if coarse not in self._placed:
             self._placed[coarse] = window.fitted(problem, coarse)

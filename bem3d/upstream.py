@@ -1,4 +1,4 @@
-"""What a contact has done to the elastomer around the window, before that comes in.
+"""Deformation of the elastomer around the window, before it enters.
 
 The displacement by a contact falls only as 1/r: what lies upstream creeps long before it is touched, and carries
 that into the window. It is followed on sheets of material points around the window, each twice as wide as the one
@@ -37,11 +37,11 @@ class Sheet:
 
     @property
     def x(self):
-        """Of the columns along the flow [m] (nx,), in the frame of the material."""
+        """Places of the columns along the flow [m] (nx,), in the frame of the material."""
         return self.grid.x - self.shifts * self.grid.pixel
 
     def way(self, path: float) -> int:
-        """To shift, 1 or -1, where the indenter on its path [m] is more than half a pixel off the middle; or 0."""
+        """Direction to shift, 1 or -1, with the indenter on its path [m] half a pixel off the middle; or 0."""
         off = path / self.grid.pixel - self.shifts
         return 0 if abs(off) <= 0.5 + 1e-6 else 1 if off > 0 else -1  # half a pixel is usual, and stays
 
@@ -57,7 +57,7 @@ class Sheet:
 
 
 def wider_grids(grid: Grid, path: float) -> list[Grid]:
-    """Those of the sheets around a window: nothing from beyond the widest comes into it on a path [m]."""
+    """Grids of the sheets around a window; nothing from beyond the widest enters the window on a path [m]."""
     if path == 0:
         return []
     count = int(np.ceil(np.log2(1 + 2 * path / grid.extent))) + 1
@@ -107,7 +107,7 @@ class Endless:
 
 
 class Returning(Endless):
-    """The same under an indenter that comes back, and finds the wake that it left.
+    """Surroundings under an indenter that comes back and finds the wake that it left.
 
     kept : of the displacement of each mode (K,) after a time [s]
     """

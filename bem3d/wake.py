@@ -20,7 +20,7 @@ AGREEMENT = 1e-3  # of what gap and displacement span: to less the pressure disp
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What lies around a contact, arrays (M, N) in m on rectangular pixels.
+    """Surroundings of a contact: arrays (M, N) in m on rectangular pixels.
 
     x, y : centres of the pixels (N,), (M,), along and across the flow from the indenter's axis
     lag : how far downstream of them indenter and surface are seen, less than a pixel
@@ -96,7 +96,7 @@ def heights(solver, scene: Scene, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _at_the_end(solver, scene, fields):
-    """Of a program: the surface where the gap is known, on the grid."""
+    """Surface at the end of a program, where the gap is known, on the grid."""
     indenter, depth = heights(solver, scene, fields["x"], fields["y"]), float(fields["depth"][-1])
     return Surroundings(fields["x"], fields["y"], 0.0, indenter, fields["gap"] - indenter + depth, depth)
 
@@ -109,7 +109,7 @@ def _grid_of(fields):
 
 
 def _extended(grid, left, right, aside):
-    """With so many pixels more on its sides."""
+    """Grid with so many pixels more on its sides."""
     points = grid.points + left + right
     x, y = grid.centre
     return Piece(

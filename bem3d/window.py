@@ -57,7 +57,7 @@ def _risen(scene):
 
 
 class Placed(NamedTuple):
-    """Where a contact is: a box around it, the window over the box, and the coarse contact that told, if any."""
+    """Place of a contact: a box around it, the window over the box, and the coarse contact found in it, if any."""
 
     box: Box
     margin: float
@@ -69,7 +69,7 @@ class Placed(NamedTuple):
 
 
 def fitted(problem: Problem, points: int) -> Placed:
-    """Where the contact is, found on grids of at most COARSE points a side."""
+    """Place of the contact, found on grids of at most COARSE points a side."""
     points = min(points, COARSE)
     placed, widened = Placed(surroundings(problem), 1.0, None), 0
     while widened < ATTEMPTS:
@@ -203,7 +203,7 @@ def check_layer(scene, grid: Grid, radius: float | None = None) -> None:
 
 
 def unresolved(scene, grid: Grid) -> list[str]:
-    """Why the grid cannot carry the roughness, the map of a measured body or the layer, if it cannot."""
+    """Reasons why the grid cannot carry the roughness, the map of a measured body or the layer."""
     return _falsified(scene, grid) + _missed(scene, grid)
 
 
@@ -226,5 +226,5 @@ def _missed(scene, grid):
     )
     if isinstance(rough, Scanned):
         kept = 2 * FULLER * max(*rough.pixel, grid.pixel)
-        reason += f"; {field}.shortest_kept = {kept:.3g} would leave out what they cannot carry"
+        reason += f"; {field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"
     return [reason]

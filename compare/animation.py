@@ -133,7 +133,7 @@ def record(film: Film, path: Path, seconds: float) -> None:
 
 
 def _draw(film, writer, path):
-    """Every instant, panels laid out once: they stay where they are, and laying out takes as long as all else."""
+    """Frames of every instant. Panels are laid out once, as laying out takes as long as all else."""
     shown, last = MarchFigure(film), len(film.times) - 1
     shown.drawing.set_dpi(DOTS_PER_INCH)
     shown.show(last)

@@ -69,7 +69,7 @@ class Study:
 
 @dataclass(frozen=True)
 class Plan:
-    """Every value that is solved at: as in Study, and smooth_speeds [m/s] of the smooth body."""
+    """Values that are solved at: those of Study, and smooth_speeds [m/s] of the smooth body."""
 
     speeds: tuple[float, ...]
     pressing: tuple[float, ...]
@@ -84,7 +84,8 @@ class Plan:
 class Case:
     """The content of a case file. A file that holds a scene and nothing else is a case.
 
-    title, notes : for the report; each note says how the case departs from the paper
+    title, notes : for the report, notes in a sentence each
+    departures : of a case of the paper: sentences that say how the case departs from it
     indenter, elastomer, motion, roughness, layer, temperature, heating, interface : of the scene
     study : what is varied around it
     bem, mdr : settings of the solvers in three dimensions and in one
@@ -92,6 +93,7 @@ class Case:
 
     title: str = ""
     notes: tuple[str, ...] = ()
+    departures: tuple[str, ...] = ()
     indenter: Indenter
     elastomer: Elastomer
     motion: Motion

@@ -70,7 +70,7 @@ class Command:
 
     @property
     def solves(self) -> bool:
-        """Whether it has the options of all commands that solve."""
+        """Whether the command has the options of all commands that solve."""
         return "options" in inspect.signature(self.function).parameters
 
     @property

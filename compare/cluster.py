@@ -1,4 +1,4 @@
-"""Workers of a dask.distributed cluster, with the same code. What comes back is stored by this process alone."""
+"""Workers of a dask.distributed cluster, with the same code. This process alone stores their answers."""
 
 import logging
 import os
@@ -153,7 +153,7 @@ def differences(here: Mapping[str, Mapping[str, str]], there: Any) -> str:
     there : as code_of gives it, or the exception that came in its place
     """
     if isinstance(there, BaseException):
-        return f"it does not say what it solves with ({type(there).__name__}: {there})"
+        return f"it does not state its code ({type(there).__name__}: {there})"
     code = [name for name, digest in here["code"].items() if there["code"].get(name) != digest]
     other = [f"its code of {', '.join(code)} is another"] if code else []
     for name, mine in here["versions"].items():
@@ -163,19 +163,19 @@ def differences(here: Mapping[str, Mapping[str, str]], there: Any) -> str:
 
 
 def introduced(packages: Sequence[str]) -> dict[str, Mapping[str, str | None]]:
-    """On a worker: what it solves with, as code_of, and the threads of its libraries."""
+    """Code of a worker, as code_of, with the threads of its libraries; runs on the worker."""
     return {**code_of(packages), "threads": {name: os.environ.get(name) for name in BLAS}}
 
 
 def answered_there(packed: bytes, packages: Sequence[str], here: Mapping) -> bytes:
-    """On a worker: the answer to a task, both pickled. Raises VersionMismatch of one that has just come."""
+    """Answer to a task, both pickled; runs on a worker. Raises VersionMismatch of a worker that has just come."""
     if differs := differences(here, code_of(packages)):
         raise VersionMismatch(differs)
     return answered(packed)
 
 
 def _executing(dask_worker) -> list[str]:
-    """On a worker: keys of what it is solving."""
+    """Keys of the tasks that a worker is solving; runs on the worker."""
     return [state.key for state in dask_worker.state.executing]
 
 
@@ -196,7 +196,7 @@ def _connected(address) -> "Client":
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """What the library logs of a connection that is lost is said in one line, by us."""
+    """Silence the log of the library on a lost connection, which we report in one line."""
     loggers = [logging.getLogger(name) for name in NOISE]
     before = [each.level for each in loggers]
     for each in loggers:

@@ -1,4 +1,4 @@
-"""What every command does, as functions of the same names, arguments and defaults: `crosscheck X` is `compare.X`.
+"""Commands as functions of the same names, arguments and defaults: `crosscheck X` is `compare.X`.
 
 A function that solves returns a `report.Report` and prints nothing: printed, the report is what the command
 prints; in a notebook it shows tables, and its `figures`. Interrupted or killed, the same call resumes. As worker

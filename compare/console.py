@@ -1,4 +1,4 @@
-"""What a person sees of a command: how far it is, and every mistake in a line."""
+"""Output of a command for people: its progress, and every mistake in a line."""
 
 import signal
 from collections.abc import Callable, Iterator
@@ -89,7 +89,7 @@ def _figures(console: Any, count: int, lines: bool) -> Iterator[Callable[[str], 
 
 @contextmanager
 def said_to_people(output: str, solves: bool) -> Iterator[None]:
-    """Every mistake and every interrupt as one line, and the status that goes with it.
+    """Report every mistake and every interrupt in one line, with the exit status that goes with it.
 
     output : the option that names the folder, with its value
     solves : whether something may have been stored before it went wrong

@@ -1,4 +1,4 @@
-"""What a study takes in contacts, time and bytes, by counting: known before a task of it is built."""
+"""Cost of a study in contacts, time and bytes, by counting: known before a task of it is built."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields

@@ -9,10 +9,12 @@ from . import finding, rectangle
 from .cost import Cost
 from .finding import FAILS, Claim, Finding
 from .outcome import Outcome
-from .page import Block, Findings, Page, Plot
+from .page import Block, Findings, Page, Plot, Section, Text
 from .rectangle import Rectangle
 from .statistics.jackknife import judge
 from .task import Batch, Task
+
+SETTING = "Setting"
 
 
 class Study:
@@ -33,7 +35,7 @@ class Study:
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """What was asked, as JSON can hold it."""
+        """Inputs of the command, as JSON can hold them."""
         return {}
 
     def rectangles(self) -> Mapping[str, Rectangle]:
@@ -45,7 +47,7 @@ class Study:
         return ()
 
     def cost(self) -> Cost:
-        """What all solves take at most; of rectangles by counting, before their tasks are built."""
+        """Upper bound of the cost of all solves; rectangles are counted before their tasks are built."""
         if rectangles := self.rectangles():
             return sum((each.cost for each in rectangles.values()), Cost())
         return Cost.of(task for batch in self.batches() for task in batch.tasks)
@@ -59,7 +61,7 @@ class Study:
         return rectangle.tree(self.rectangles(), outcomes)
 
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        """What becomes of each claim."""
+        """Findings on each claim."""
         return [judge(claim, answers) for claim in self.claims()]
 
     def failed(self, findings: Sequence[Finding]) -> bool:
@@ -77,10 +79,16 @@ class Study:
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """Blocks of the page below the answer."""
+        """Figures, findings and other tables, alone or in sections."""
         return [*plots, Findings(findings)]
 
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Setting of the study: what was solved and how it is judged; it stands last on the page."""
+        return [Text(self.about)] if self.about else []
+
     def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
-        """The page."""
+        """Page with the answer first and the setting last."""
         blocks = self.blocks(answers, findings, self.plots(answers, findings))
-        return Page(self.title, self.answer(findings), blocks)
+        setting = self.setting(answers)
+        last = [Section(SETTING, setting)] if setting else []
+        return Page(self.title, self.answer(findings), [*blocks, *last])

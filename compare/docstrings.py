@@ -1,4 +1,4 @@
-"""What docstrings say: their first paragraph, and the lines "name : text" about fields and arguments."""
+"""Content of docstrings: their first paragraph, and the lines "name : text" about fields and arguments."""
 
 import re
 from collections.abc import Iterator

@@ -116,7 +116,7 @@ def started(scene: Scene) -> Scene:
 
 
 def _length(scene):
-    """That a start slides [m]: of a plane a period, of a measured body a side of its map."""
+    """Length that a start slides [m]: a period of a plane, a side of the map of a measured body."""
     if isinstance(scene.indenter, Plane):
         return scene.roughness.period
     if isinstance(scene.indenter, Measured):

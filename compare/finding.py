@@ -13,7 +13,7 @@ HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "
 # How the share of the grid in an interval is known.
 HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exact", "unknown"
 BOTH = "1D/3D"
-# Places of one verdict that a statement names one by one.
+# Findings on a claim in one dimension that a statement tells one by one.
 SHOWN = 4
 
 
@@ -110,7 +110,7 @@ class Finding:
 
     @property
     def undecidable(self) -> str:
-        """Why no verdict is possible whatever the number is; empty if one is."""
+        """Reason why no verdict is possible whatever the number is; empty if one is."""
         if self.reason:
             return self.reason
         if not isfinite(self.value):
@@ -121,12 +121,12 @@ class Finding:
 
     @property
     def why(self) -> str:
-        """Why there is no verdict, or what else has to be said; else empty."""
+        """Reason why there is no verdict, or a remark on a stated verdict; else empty."""
         return self.reason or (self.undecidable if self.verdict == UNDECIDED else "")
 
     @property
     def place(self) -> str:
-        """Where it was measured, with the regime, in words."""
+        """Place of the measurement, with the regime, in words."""
         return ", ".join(part for part in (self.where, self.regime) if part)
 
     def found(self, figures: int = digits.DIGITS) -> str:
@@ -147,7 +147,7 @@ class Finding:
 
     @property
     def basis(self) -> str:
-        """What the interval is made of, in words."""
+        """Parts of the interval in words: number of surfaces, and error of the grid."""
         if not isfinite(self.grid):
             return ""
         surfaces = f"{self.draws} surfaces, " if self.draws else ""
@@ -196,31 +196,34 @@ def claimed(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def sentences(findings: Sequence[Finding]) -> list[str]:
-    """A statement for each claim, from all of its findings: where it holds, fails, is undecided."""
+    """A statement for each claim, from all of its findings: where it holds, fails, is undecided.
+
+    Few findings in one dimension are told one by one, many by the number of places and the range of values.
+    """
     found = []
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
+        claims = {each.claimed for each in own if each.claimed}
+        claimed = f" (claimed {claims.pop().replace(' ± ', ' to within ')})" if len(claims) == 1 else ""
         parts = []
         for dimension in dict.fromkeys(each.dimension for each in own):
             here = [each for each in own if each.dimension == dimension]
             verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
-            said = ", ".join(
-                _said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts
-            )
-            parts.append(f"in {dimension} it {said}" if dimension in ("1D", "3D") else f"it {said}")
-        text = "; ".join(parts)
-        found.append(f"{sentence}. {text[:1].upper()}{text[1:]}.")
+            said = [_said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts]
+            told = ("; it " if any(";" in each for each in said) else ", ").join(said)
+            parts.append(f"In {dimension} it {told}" if dimension in ("1D", "3D") else f"It {told}")
+        found.append(". ".join([f"{sentence}{claimed}", *parts]) + ".")
     return found
 
 
 def _said(verdict, findings, of):
     """Places of one verdict on a claim: each with its number, or how many and their range."""
     verb = {UNDECIDED: "is undecided", REPORTED: "is"}.get(verdict, verdict)
-    if len(findings) > SHOWN:
+    if of > SHOWN:
         known = [each.value for each in findings if isfinite(each.value)]
-        reach = f", from {digits.number(min(known), 3)} to {digits.number(max(known), 3)}" if known else ""
+        reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max))) if known else ""
         count = f"all {of}" if len(findings) == of else f"{len(findings)} of {of}"
-        return f"{verb} in {count} places{reach}"
+        return f"{verb} in {count} places{f' ({reach})' if reach else ''}"
     if verdict == REPORTED:
         places = (f" for {each.where}" if each.where else "" for each in findings)
         return f"{verb} " + _listed([number(each) + place for each, place in zip(findings, places, strict=True)])
@@ -231,6 +234,8 @@ def _said(verdict, findings, of):
 
 def _listed(parts):
     *first, last = parts
+    if any(", " in part for part in parts):
+        return "; ".join(parts)
     return f"{', '.join(first)} and {last}" if first else last
 
 

@@ -74,7 +74,7 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
 
 
 def _other_kind(path: Path, kind: str) -> str | None:
-    """What a file is if it is not of this kind: a study has series, a scene its motion; None if that is open."""
+    """Kind of a file that is not of this kind: a study has series, a scene its motion; None if that is open."""
     try:
         tables = parsed(text_of(path), path)
     except InvalidInput:

@@ -36,7 +36,7 @@ def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
 
 
 class _Documented(GenerateJsonSchema):
-    """With what the docstrings say of each class and its fields, and types stated where they decide."""
+    """Schema with the docstrings of each class and its fields, and with types stated where they decide."""
 
     def dataclass_schema(self, schema):
         found = super().dataclass_schema(schema)

@@ -164,7 +164,7 @@ def offered() -> Listing:
 
 
 def find(name: str) -> Ready:
-    """That of a name. Raises NotReady."""
+    """Content of a name. Raises NotReady."""
     every = ready()
     if name not in every:
         from scene.printable import brief  # slow, and only a mistake needs it

@@ -63,7 +63,7 @@ class PlotEntry(BaseModel):
 
 
 class Manifest(BaseModel):
-    """What is read of the manifest of a folder, in which more stands.
+    """Part of the manifest of a folder that is read; the file has more.
 
     plots : figures that can be drawn again
     tables : names of the CSV files, without ending
@@ -136,12 +136,12 @@ def versions() -> dict[str, str]:
 
 
 def machine() -> dict[str, Any]:
-    """What the numbers were computed on."""
+    """Machine on which the numbers were computed."""
     return {"system": platform.system(), "machine": platform.machine(), "processors": os.cpu_count()}
 
 
 def made() -> dict[str, str]:
-    """What a page was made with and on, in words."""
+    """Versions and machine that made a page, in words."""
     where = machine()
     return {
         "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
@@ -172,7 +172,7 @@ def _read(path):
 
 
 def _storable(value):
-    """What JSON can hold: null for NaN, and what is no value of JSON as its fields or as text."""
+    """Value that JSON can hold: null for NaN, and a value unknown to JSON as its fields or as text."""
     return json.loads(to_json(value, inf_nan_mode="null", fallback=_plain))
 
 

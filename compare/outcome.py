@@ -1,4 +1,4 @@
-"""What comes of a task: the numbers of each of its scenes, and fields for pictures."""
+"""Outcome of a task: the numbers of each of its scenes, and fields for pictures."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -14,7 +14,7 @@ Tables: TypeAlias = Mapping[str, DataFrame]
 
 @dataclass(frozen=True)
 class Text:
-    """Paragraphs in Markdown: emphasis, `code`, links and lists, nothing else."""
+    """Paragraphs in Markdown: emphasis, `code`, links, lists, formulas in LaTeX between dollars."""
 
     markdown: str
 
@@ -70,7 +70,7 @@ class Plot:
 
     @property
     def files(self) -> Tables:
-        """Its tables by the names of their files, without .csv, with the folder."""
+        """Tables of the plot by the names of their files, without .csv, with the folder."""
         return {f"{self.folder}{name}": frame for name, frame in self.tables.items()}
 
     def figure(self) -> Figure:
@@ -80,22 +80,32 @@ class Plot:
 
 @dataclass(frozen=True)
 class Section:
-    """Blocks under a heading."""
+    """Blocks under a heading, in the order of reading."""
 
     title: str
     blocks: Sequence["Block"]
 
+    def __post_init__(self):
+        object.__setattr__(self, "blocks", in_order(self.blocks))
+
 
 Block: TypeAlias = Text | Table | Findings | Plot | Section
+# Order of reading on every page and in every section: figures before tables, and sections last.
+ORDER = (Text, Plot, Findings, Table, Section)
+
+
+def in_order(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Blocks in the order of reading; blocks of one kind keep theirs."""
+    return tuple(sorted(blocks, key=lambda block: ORDER.index(type(block))))
 
 
 @dataclass(frozen=True)
 class Page:
-    """A page.
+    """A page, in the order of reading: the answer, figures, findings, other tables, sections.
 
     title : of the page
-    answer : a sentence for each claim, generated from all findings: what stands first
-    blocks : figures, tables and sections, in the order of reading
+    answer : a sentence for each claim, generated from all findings
+    blocks : of the page below the answer; those given are put in the order of reading
     about : facts on how it was made, by name: versions, machine, times
     """
 
@@ -103,6 +113,9 @@ class Page:
     answer: Sequence[str]
     blocks: Sequence[Block]
     about: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self):
+        object.__setattr__(self, "blocks", in_order(self.blocks))
 
     def tables(self) -> Iterator[tuple[str, DataFrame]]:
         """Name of its file, without .csv, and frame of every table that is shown or drawn; some come twice."""

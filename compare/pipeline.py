@@ -110,7 +110,7 @@ def run(
 
 
 def _solve(batches, output, workers, scheduler, watch) -> SweepResult:
-    """Solve what the folder does not have. What is timed is solved here and alone, whatever the scheduler."""
+    """Solve what the folder does not have. Timed tasks are solved here, one by one, whatever the scheduler."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in batches:
         if not batch.tasks:

@@ -1,4 +1,4 @@
-"""What a person sees while tasks are solved: a bar on a terminal, plain lines elsewhere."""
+"""Progress for people while tasks are solved: a bar on a terminal, plain lines elsewhere."""
 
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -116,7 +116,7 @@ class Watched(Progress):
         self.console.print(printable(line), markup=False)
 
     def interrupted(self) -> None:
-        """Nothing more is started."""
+        """Tell that nothing more is started."""
         self.doing = "finishing "
         if not self.shown:
             self.console.print("finishing the tasks under way")

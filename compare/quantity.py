@@ -48,7 +48,7 @@ class Quantity:
 
     @property
     def tasks(self) -> list[Task]:
-        """What has to be solved."""
+        """Tasks to be solved for the quantity."""
         return [side for side in (self.numerator, self.denominator) if not isinstance(side, int | float)]
 
     def measured(self, outcomes: Mapping[Task, Outcome]) -> tuple[list[float], list[float]]:

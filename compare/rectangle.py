@@ -68,7 +68,7 @@ class Rectangle:
 
     @property
     def cost(self) -> Cost:
-        """What all contacts take, by counting."""
+        """Cost of all contacts, by counting."""
         points, draws = len(self.speeds) * len(self.values), self.draws if self.random else {}
         costs = [
             Cost(points * draws.get(name, 1), points * draws.get(name, 1) * work_of(solver, self.scene))

@@ -26,7 +26,7 @@ SCREEN = 110  # dots per inch of what a notebook shows
 
 @dataclass(frozen=True, repr=False)
 class Report:
-    """What a study came to. Printed, it is what the command prints; in a notebook, tables and figures.
+    """Report of a study. Printed, it is what the command prints; in a notebook, tables and figures.
 
     study : the question
     answers : everything that was solved, an xarray.DataTree with a Dataset for each rectangle and solver
@@ -62,7 +62,7 @@ class Report:
 
     @property
     def faults(self) -> list[str]:
-        """What is told of tasks that broke, in lines."""
+        """Lines on tasks that broke."""
         return faults(self.swept, self.output)
 
     def __str__(self) -> str:

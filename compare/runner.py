@@ -18,7 +18,7 @@ PULSE = 0.2
 
 
 class Progress:
-    """What a sweep tells while it runs; this one says nothing."""
+    """Progress of a sweep while it runs; this one says nothing."""
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
         """The tasks that have to be solved, and how many more the store has."""
@@ -30,15 +30,15 @@ class Progress:
         """A task is solved and stored, or has failed: then its rows have a reason."""
 
     def said(self, line: str) -> None:
-        """What a person wants to know besides: a worker died, there is none, another run is waited for."""
+        """Remark for people: a worker died, there is none, another run is waited for."""
 
     def interrupted(self) -> None:
-        """Nothing more is started; the solves under way are waited for."""
+        """Tell that nothing more is started; the solves under way are waited for."""
 
 
 @dataclass(frozen=True)
 class SweepResult:
-    """What came of a sweep.
+    """Outcomes of a sweep, with counts, time and faults.
 
     outcomes : by task
     solved, reused : how many tasks were handed to workers, and how many the store had
@@ -145,7 +145,7 @@ class _Course:
     faults: dict[Task, str] = field(default_factory=dict)
 
     def run(self) -> Iterator[tuple[Task, Outcome]]:
-        """What comes of each task. Raises KeyboardInterrupt, and OSError as sweep."""
+        """Outcome of each task. Raises KeyboardInterrupt, and OSError as sweep."""
         told: set[Task] = set()
         winding_up = False
         while self.queue or self.suspects or self.out:

@@ -96,7 +96,7 @@ class Store:
         return sum((name := key(task)) not in self._places and name[:DIGEST] in questions for task in tasks)
 
     def trace(self, task: Task) -> Path:
-        """Where it is told how a task broke."""
+        """File with the traceback of a task that broke."""
         return self.folder / f"{key(task)}{TRACE}"
 
     @contextmanager

@@ -96,7 +96,7 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
 
 
 def _printable(frame: DataFrame) -> DataFrame:
-    """What a paper has room for; nothing of a table that is too long or too wide."""
+    """Table that a paper has room for; nothing of one that is too long or too wide."""
     if set(PRINTED) <= set(frame.columns):
         frame = frame[list(PRINTED)]
     fits = len(frame) <= MOST_ROWS and len(frame.columns) <= MOST_COLUMNS

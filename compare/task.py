@@ -16,7 +16,7 @@ SCENES = TypeAdapter(tuple[Scene, ...])
 
 
 class Task(Protocol):
-    """What one worker solves in one go; equal tasks have equal answers.
+    """Task that one worker solves in one go; equal tasks have equal answers.
 
     label : short description for people
     work : rough cost, in units that are the same for all tasks; it orders them and tells how far they are
@@ -137,7 +137,7 @@ def draws_of(scene: Scene, count: int) -> tuple[Scene, ...]:
 
 
 def _pressed(motion):
-    """What presses, with its unit; depths in micrometres."""
+    """Load or depth that is prescribed, with its unit; depths in micrometres."""
     value, unit = motion.greatest, UNITS[motion.pressed_by]
     return f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
 

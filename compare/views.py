@@ -122,7 +122,7 @@ def _radius(scene):
 
 
 def _line(fields):
-    """Where it touches, the displacement is the depth less the profile."""
+    """View of the line in 1D; where it touches, the displacement is the depth less the profile."""
     touching = fields["contact"].astype(bool)
     known = touching.any()
     depth = float(np.mean((fields["displacement"] + fields["profile"])[touching])) if known else np.nan
@@ -186,7 +186,7 @@ def _worth_seeing(scene, touched, radius):
 
 
 def _space(scene, bem, plane, span, aside):
-    """With what the grid of the answer leaves out of the view."""
+    """View of the space in 3D, with the parts that the grid of the answer leaves out."""
     x, y = plane["x"], plane["y"]
     beyond = {
         "upstream": max(x[0] - span[0], 0.0),

@@ -12,14 +12,14 @@ from .docstrings import documented
 
 @dataclass(frozen=True)
 class Term(Entry):
-    """Entry with its formula in symbols, and the equation of docs/theory.md or of the paper that it comes from."""
+    """Entry with its formula in LaTeX, and the equation of docs/theory.md or of the paper that it comes from."""
 
     formula: str = ""
     source: str = ""
 
 
 # Words of the judge: a line is "name : text [unit] | formula | source", without what is not there.
-_WORDS = """
+_WORDS = r"""
 Of Datasets: coordinates, and what scene.vocabulary has under another name.
 grid : Which grid of the solver: fine, as the settings say, or coarse, with half the points a side.
 points : Points of the grid along a side. [1]
@@ -80,7 +80,7 @@ solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that ove
     boundary elements, 3D. exact: closed form.
 body : Rough, or smooth: the same body without its roughness.
 curve : Curve that a point belongs to.
-friction : Coefficient of friction: mean friction force over mean normal force. [1] | μ = F_x / F_N | theory, Eq. 2
+friction : Coefficient of friction: mean friction force over mean normal force. [1] | \mu = F_x/F_N | theory, Eq. 2
 friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
 
 Of what accuracy costs: laws of cost, forecasts, surfaces on several grids, and what an error asks for.
@@ -130,7 +130,7 @@ drag_law : Friction over real contact, likewise. [1]
 slope_law : Rms slope of what touches, likewise. [1]
 contact : Real contact, where pressure is not zero: a length [m] in 1D, an area [m²] in 3D.
 friction_spread : Friction by traction less friction by energy lost, over the friction force, mean over surfaces.
-    [1] | |F_traction − F_loss| / |F_x| | theory, Eq. 5d
+    [1] | \lvert F_\mathrm{traction} - F_\mathrm{loss}\rvert/\lvert F_x\rvert | theory, Eq. 5d
 log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1] |  | Popov et al. 2014, Eq. 23
 log_lift : Shift of a curve along ln mu, beside that along ln F_N, onto the common curve. [1]
 shifted_force : Normal force times the shift of its curve. [N]
@@ -148,7 +148,7 @@ Of measured maps.
 q : Wave number; of a ring, the mean of its waves. [rad/m]
 density_2d : Two-sided spectral density C_2D, mean over directions. [m⁴]
 density_1d : Two-sided spectral density C_1D of the line scans along x, mean over the rows. [m³]
-density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_1D = π q C_2D
+density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_\mathrm{1D} = \pi q\,C_\mathrm{2D}
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
 ratio : Number in one dimension over that in three. [1]
@@ -186,7 +186,7 @@ smooth_normal_force : Normal force on the body without its roughness. [N]
 low_speed : Friction of the rough body in the exact limit of low speed, from its contact at rest. [1]
 smooth_low_speed : Friction of the smooth body in the exact limit of low speed. [1]
 friction_1d_over_3d : Coefficient of friction in 1D over that in 3D. [1]
-friction_over_plateau : Friction over that of the plateau. [1] | μ / (√2 s) | Popov et al. 2014, Eq. 14
+friction_over_plateau : Friction over that of the plateau. [1] | \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
 contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]
 contact_over_period : Diameter of the smooth relaxed contact over the period of the roughness. [1]
 fails : Number of findings that fail. [1]
@@ -195,23 +195,23 @@ series : Title of the series.
 shape : Shape of the bodies.
 
 Dimensionless groups.
-depth_over_height : Depth of the smooth relaxed contact over the rms height of the roughness. [1] | d / h₀
+depth_over_height : Depth of the smooth relaxed contact over the rms height of the roughness. [1] | d/h_0
 shortest_in_contact : Radius of the smooth relaxed contact times the highest wave number of the roughness. [1] | a
     q_s
-pressure_over_slope : Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D. [1] | F_N
-    / (π a² E* h′)
-memory_over_contact : Length slid in the mean lag τ of the solid over the radius of the contact. [1] | v τ / a
-memory_over_shortest : Length slid in the mean lag τ times the highest wave number. [1] | v τ q_s
-xi : Variable of the law; friction over its plateau in the limit of low speed. [1] | ξ = (v τ s / √2) (8 G₀ /
-    F_N)^(n/(n+1)) ((n+1) / (c n))^(1/(n+1)) | Popov et al. 2014, Eq. 18
-normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1] | μ̃ = μ / (√2 s) |
-    Popov et al. 2014, Eq. 14
-alpha : Exponent of the law that joins low speed and plateau. [1] | μ̃ = (1 + ξ^−α)^(−1/α) | Popov et al. 2014, Eq.
-    19
+pressure_over_slope : Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D. [1] |
+    F_N/(\pi a^2 E^* h^{\prime})
+memory_over_contact : Length slid in the mean lag τ of the solid over the radius of the contact. [1] | v\tau/a
+memory_over_shortest : Length slid in the mean lag τ times the highest wave number. [1] | v\tau q_s
+xi : Variable of the law; friction over its plateau in the limit of low speed. [1] | \xi = \frac{v\tau s}{\sqrt{2}}
+    \left(\frac{8 G_0}{F_N}\right)^{n/(n+1)} \left(\frac{n+1}{c n}\right)^{1/(n+1)} | Popov et al. 2014, Eq. 18
+normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1] |
+    \tilde\mu = \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
+alpha : Exponent of the law that joins low speed and plateau. [1] |
+    \tilde\mu = (1 + \xi^{-\alpha})^{-1/\alpha} | Popov et al. 2014, Eq. 19
 
 Of cost and accuracy.
 relative_error : Error of a quantity against a closed form, or against a far finer solution whose own error is
-    stated. [1] | |y / y_true − 1|
+    stated. [1] | \lvert y/y_\mathrm{true} - 1\rvert
 reference_error : Relative error of the reference; what is at or below it is only known to be as good as that. [1]
 processor : Processor time of one thread from the scene to the result: the least of several repeats, each alone in
     a process that has loaded compiled code. [s]
@@ -230,7 +230,7 @@ study : Parameter that is varied while all others are held.
 step : Number of the value of the parameter. [1]
 parameter : Value of the parameter that is varied, in its SI unit; angles in radians.
 hurst : Hurst exponent of the roughness. [1]
-macroscopic_modulus : Modulus on the scale of the contact over the static one. [1] | |G(v/a)|/G₀
+macroscopic_modulus : Modulus on the scale of the contact over the static one. [1] | \lvert G(v/a)\rvert/G_0
 points_fitted : Points that a straight line through the logarithms was fitted to.
 slope : Slope of the line, the exponent of ξ. [1]
 factor : Factor of the power law. [1]

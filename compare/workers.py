@@ -61,7 +61,7 @@ def answered(packed: bytes) -> bytes:
         task = pickle.loads(packed)
         outcome = task.solve()
         if not task.fits(outcome):
-            raise ValueError(f"what it gave is not whole: {len(outcome.rows)} rows, fields {[*outcome.fields]}")
+            raise ValueError(f"its answer is not whole: {len(outcome.rows)} rows, fields {[*outcome.fields]}")
         return pickle.dumps(outcome)
     # A worker is nobody's program: what a task ends by SystemExit ends that task.
     except (Exception, SystemExit) as error:
@@ -167,7 +167,7 @@ class Processes:
 
 
 def _begin(ready):
-    """In a worker: it heeds no terminal, and ends at once when its parent ends, in whatever way."""
+    """Begin a worker, which heeds no terminal and ends at once when its parent ends, in whatever way."""
     for number in FROM_THE_TERMINAL:
         signal.signal(number, signal.SIG_IGN)
     parent = multiprocessing.parent_process()

@@ -1,67 +1,107 @@
-"""The sphere of Fig. 1 with every wave of the paper's spectrum: writes docs/spectrum.md and docs/spectrum.csv.
+"""Bodies of Fig. 1 with every wave of the paper's spectrum: writes docs/spectrum.md, .csv and the figure.
 
-What has been solved once is in docs/spectrum/solved; from nothing it takes twenty minutes and 10 GB of memory.
+What has been solved once is in docs/spectrum/solved; from nothing it takes an hour and 8 GB of memory.
 """
 
-from dataclasses import replace
-from math import nan, pi
+from dataclasses import dataclass, replace
+from math import log2, nan, pi
 from pathlib import Path
 
+import numpy as np
+from matplotlib.patches import Circle
 from pandas import DataFrame
 from rich.console import Console
-from tables import table
+from tables import replaced, table
 
-from bem3d import BEM
+from bem3d import BEM, refined
 from compare.csvfiles import text, write_text
+from compare.plots import style
 from compare.progress import Watched
 from compare.runner import sweep
 from compare.store import Store
 from compare.studies.paper import parameters
 from compare.task import SceneTask, draws_of
 from mdr1d import MDR
+from scene import Result, Scene
 from scene.scales import elastic_contact
 
 PAGE = Path(__file__).with_suffix(".md")
-# Points a side in three dimensions, two pixels a wave at least, and along the line; profiles.
-FINER, ONE, PROFILES = (2100, 4096, 8192), 11000, 20
-INTRODUCTION = """# The spectrum of the paper, once
+ONE, PROFILES = 11000, 20  # points of the line, and profiles
+GRIDS, TIMES = (2048, 4096), (2, 4)  # solved on all pixels; pixels of the last of them refined so many times
+SHAPES = "sphere", "cone"
+HEADER = (
+    "|points|pixels a wave|friction|by traction|by loss|depth [µm]|real over nominal contact|points in contact|"
+    "processor time [s]"
+)
 
-The sphere of Fig. 1 with all waves of the paper's own spectrum, down to two of its pixels, 4 µm: 1 N, 0.1 m/s, one
-surface. Its rms slope is far beyond any linear theory; the numbers say what the model makes of it. In 1D, means of
-20 profiles. Written by `python docs/spectrum.py`.
 
-"""
-HEADER = "|points|friction|by traction, by loss|depth [µm]|real over nominal contact|rms slope|processor time [s]"
+@dataclass(frozen=True)
+class Refined:
+    """A grid, and the points in contact refined `times` below it."""
+
+    solver: BEM
+    times: int
+    name = "BEM"
+    packages = "bem3d", "scene"
+
+    @property
+    def points(self) -> int:
+        """Points along a side that as fine a grid would have."""
+        return self.times * self.solver.points
+
+    def solve(self, scene: Scene) -> Result:
+        """Contact on the grid, then refined."""
+        return refined(self.solver, self.solver.solve(scene), self.times)
 
 
 def main() -> None:
-    """Solve what is not solved yet, and write the page and its table."""
-    scene = parameters.contact("sphere")
+    """Solve what is not solved yet, and write the page, its table and its figure."""
+    tasks = {shape: _tasks(shape) for shape in SHAPES}
+    with Watched(Console()) as progress:
+        # The finest takes 8 GB: one at a time.
+        store, every = Store(PAGE.with_suffix("") / "solved"), [task for each in tasks.values() for task in each]
+        swept = sweep(every, store, workers=1, progress=progress)
+    rows = [_row(shape, task, swept.outcomes[task].rows) for shape, each in tasks.items() for task in each]
+    frame = DataFrame(rows)
+    write_text(PAGE.with_suffix(".csv"), text(frame))
+    for shape in SHAPES:
+        own = frame[frame["shape"] == shape]
+        replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + _sentence(shape, own))
+    finest = tasks["sphere"][-2]
+    with style.applied():
+        drawing = _figure(finest.scenes[0], swept.outcomes[finest])
+        drawing.savefig(PAGE.with_suffix(".png"), dpi=200)
+
+
+def _tasks(shape):
+    """Contacts in three dimensions, from coarse to fine, and in one."""
+    scene = parameters.contact(shape)
     shortest = 2 * parameters.LENGTH / parameters.POINTS
     scene = replace(scene, roughness=replace(scene.roughness, shortest=shortest))
     first = replace(scene, roughness=replace(scene.roughness, seed=1))
-    tasks = [SceneTask(BEM(points=points), (scene,)) for points in FINER]
-    tasks.append(SceneTask(MDR(points=ONE), draws_of(first, PROFILES)))
-    with Watched(Console()) as progress:
-        # The finest takes 10 GB: one at a time.
-        swept = sweep(tasks, Store(PAGE.with_suffix("") / "solved"), workers=1, progress=progress)
-    rows = [_row(task, swept.outcomes[task].rows) for task in tasks]
-    write_text(PAGE.with_suffix(".csv"), text(DataFrame(rows)))
-    write_text(PAGE, INTRODUCTION + table(HEADER, map(_line, rows)) + "\n")
+    solvers = [
+        *(BEM(points=points) for points in GRIDS),
+        *(Refined(BEM(points=GRIDS[-1]), each) for each in TIMES),
+    ]
+    kept = [SceneTask(each, (scene,), keeps_fields=isinstance(each, Refined)) for each in solvers]
+    return [*kept, SceneTask(MDR(points=ONE), draws_of(first, PROFILES))]
 
 
-def _row(task, solved):
+def _row(shape, task, solved):
     """Means over surfaces or profiles."""
     nominal, mean = elastic_contact(task.scenes[0]).radius, DataFrame([row.measures for row in solved]).mean()
-    three, count = isinstance(task.solver, BEM), len(solved)
+    three, count = not isinstance(task.solver, MDR), len(solved)
     force = solved[0].normal_force
     return {
+        "shape": shape,
         "dimension": "3D" if three else "1D",
         "points": task.solver.points,
+        "pixels_a_wave": mean.get("points_per_shortest_wave", nan),
         "friction": sum(row.friction_coefficient for row in solved) / count,
         "depth": sum(row.depth for row in solved) / count,
         "contact": mean["contact_area"] / (pi * nominal**2) if three else mean["contact_length"] / (2 * nominal),
-        "rms_slope": solved[0].measures["rms_slope"],
+        "contact_points": mean.get("contact_points", nan),
+        "rms_slope": mean.get("rms_slope", nan),
         "by_traction": mean["friction_by_traction"] / force if three else nan,
         "by_loss": mean["friction_by_loss"] / force if three else nan,
         "seconds": sum(row.seconds for row in solved),
@@ -69,10 +109,16 @@ def _row(task, solved):
 
 
 def _line(row):
-    ways = f"{row['by_traction']:.2f}, {row['by_loss']:.2f}" if row["dimension"] == "3D" else ""
-    numbers = (f"{row['points']}", f"{row['friction']:.2f}", ways, f"{1e6 * row['depth']:.1f}")
-    return row["dimension"], *numbers, f"{row['contact']:.2%}", f"{row['rms_slope']:.2f}", f"{row['seconds']:.0f}"
-
-
-if __name__ == "__main__":
-    main()
+    three = row.dimension == "3D"
+    numbers = (
+        f"{row.points}",
+        f"{row.pixels_a_wave:.1f}" if three else "",
+        f"{row.friction:.2f}",
+        f"{row.by_traction:.2f}" if three else "",
+        f"{row.by_loss:.2f}" if three else "",
+        f"{1e6 * row.depth:.1f}",
+        f"{row.contact:.3%}",
+        f"{row.contact_points:.0f}" if three else "",
+        f"{row.seconds:.0f}",
+    )
+    return row.dimension, *numbers

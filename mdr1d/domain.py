@@ -1,4 +1,4 @@
-"""What the arguments of a formula may be: each function raises ValueError naming the argument and its value."""
+"""Checks of the arguments of a formula: each function raises ValueError naming the argument and its value."""
 
 from numbers import Integral
 

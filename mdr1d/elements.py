@@ -51,7 +51,7 @@ class Solid(NamedTuple):
 
 
 class State(NamedTuple):
-    """Of all elements: which touch (N,), stretches y (N, K) of those, smoothed forces r (N, Q) [m] of the rest."""
+    """State: elements that touch (N,), stretches y (N, K) of those, smoothed forces r (N, Q) [m] of the rest."""
 
     touching: np.ndarray
     stretches: np.ndarray
@@ -59,7 +59,7 @@ class State(NamedTuple):
 
 
 class Sums(NamedTuple):
-    """What a step adds up over the elements, for stiffness 1.
+    """Sums of a step over the elements, for stiffness 1.
 
     force : at the end of the step [m]
     impulse : int f dt [m s]
@@ -106,7 +106,7 @@ def _factors(width, times, table):
 
 @compiled
 def _landing(clearance, rate, r, solid, width):
-    """When the free surface meets c, which rises at a rate from a clearance below it; NOWHERE if not in the width.
+    """Time at which the free surface meets c, rising at a rate from a clearance below it; NOWHERE beyond width.
 
     The clearance is convex: Newton from the left never oversteps.
     """
@@ -129,8 +129,11 @@ def _landing(clearance, rate, r, solid, width):
 
 @compiled
 def _release(f, rate, y, solid, width):
-    """When f(t) = f + rate t + sum_k b_k (exp(-t/m_k) - 1), b_k = K_k (y_k - m_k rate), negative after the width,
-    falls to zero: a bracket that shrinks by Newton steps, or by halves where those are slow."""
+    """Time at which the force f(t) of an element falls to zero; it is negative after the width.
+
+    f(t) = f + rate t + sum_k b_k (exp(-t/m_k) - 1), b_k = K_k (y_k - m_k rate). A bracket shrinks by Newton steps,
+    or by halves where those are slow.
+    """
     if f < 0.0:
         return 0.0
     positive, negative = 0.0, width
@@ -209,7 +212,7 @@ def _leave(u, y, solid, r):
 
 @compiled
 def _meeting(c, rate, r, solid, duration):
-    """When a free element lands in a step; NOWHERE if it does not."""
+    """Time at which a free element lands in a step; NOWHERE if it does not."""
     u = u_end = fall = 0.0
     c_end = c + rate * duration
     for j in range(r.size):
@@ -309,7 +312,7 @@ def advance(approaches, rates, slopes, duration, state, solid):
 
 @compiled
 def _ahead(approaches, rates, duration, state, solid, full):
-    """What of the step ahead does not depend on how far the indenter sinks in it.
+    """Part of the step ahead that does not depend on how far the indenter sinks in it.
 
     Of an element that touches, its force at the end without sinking, and how that grows; of a free one, its
     approach at the end over its displacement, and zero. Returns also how far the indenter sinks until the first of
@@ -359,11 +362,11 @@ def _carried(sunk, start, growth, approaches, rates, duration, state, solid, ful
 
 @compiled
 def sinking(load, guess, approaches, rates, duration, state, solid):
-    """How far [m] the indenter sinks in a step for the elements to carry a load at its end.
+    """Depth [m] that the indenter sinks in a step for the elements to carry a load at its end.
 
     load : over stiffness and spacing of the elements [m]
     guess : to begin with [m]
-    approaches, rates : as of `advance`, for an indenter that does not sink
+    approaches, rates : as for `advance`, for an indenter that does not sink
 
     Returns it, and the misfit of the load [m]. The force increases with the depth: a bracket shrinks by Newton
     steps, or by halves where those are slow. The force of a dashpot begins with a jump where an element lands: a

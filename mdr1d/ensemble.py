@@ -111,7 +111,7 @@ class _Series:
         self.enough = self.coefficient * (radius + self.pixel) ** self.exponent
 
     def solve(self, surface: Surface, ratio: float):
-        """What press_many finds on one profile, drawn with a unit rms height; its rms slope; and the last ratio.
+        """Answer of press_many on one profile, drawn with a unit rms height; its rms slope; and the last ratio.
 
         ratio : of the depth to the smooth one, from which the first search starts
         """

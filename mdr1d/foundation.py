@@ -28,7 +28,7 @@ _TOGETHER = 64
 
 
 class Contact(NamedTuple):
-    """What one sweep adds up, for stiffness K = 1 per length; multiply forces by K [Pa].
+    """Sums of one sweep, for stiffness K = 1 per length; multiply forces by K [Pa].
 
     force : int f dx / K [m^2]
     dissipation : friction force as the energy lost per length slid [m^2], int l u'^2 dx of a Kelvin foundation,
@@ -58,7 +58,7 @@ class Contact(NamedTuple):
 
 @compiled
 def _landing(here, there, slope, pixel, u, memory, decay):
-    """Where in an interval the free surface meets the profile, from its left node, and its height there.
+    """Place in an interval, from its left node, at which the free surface meets the profile, and its height there.
 
     NOWHERE if it does not. here, there : d - g at the left and the right node; u : displacement of the free
     surface at the left node. The clearance u exp(-t/l) - (d - g) is convex: it has one minimum, and Newton from
@@ -106,7 +106,7 @@ def _landing(here, there, slope, pixel, u, memory, decay):
 
 @compiled
 def _clear(heights, i, depth, u, decay, displacement):
-    """From a free node on, the intervals in which the profile stays above the free surface at their end.
+    """Number of intervals from a free node on in which the profile stays above the free surface at their end.
 
     Returns the one after them, and u at its left node.
     """
@@ -123,7 +123,7 @@ def _clear(heights, i, depth, u, decay, displacement):
 
 @compiled
 def _releases(heights, pixel, memory, depth):
-    """In how many intervals contact ends that begins at their left node."""
+    """Number of intervals in which contact ends that begins at their left node."""
     count, per_pixel = 0, 1.0 / pixel
     for k in range(heights.size - 1):
         slope = (heights[k + 1] - heights[k]) * per_pixel
@@ -147,7 +147,7 @@ def _sums(heights, pixel, memory, depth):
 
 @compiled
 def _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed):
-    """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
+    """First interval after those that touch throughout from a node on, and their sums.
 
     Most of a sweep are these, and a processor takes some of them at once.
     """
@@ -244,7 +244,7 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
 
 @compiled
 def nearer(approach, force, stiffness, load, lower, upper, most):
-    """Where to look next for the approach that carries a load, and the bracket, once one carries a force.
+    """Next trial of the approach that carries a load, and the bracket, once one carries a force.
 
     As if the force went on as the power of the approach that it is here: Newton's step for their logarithms. Where
     that leaves the bracket, its middle. most : an approach that is surely enough

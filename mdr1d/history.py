@@ -91,7 +91,7 @@ def _check_touched(body, history: History):
 
 
 def _measures(scene, body, history: History):
-    """Of the contact at the end; NaN where nothing touches."""
+    """Measures of the contact at the end; NaN where nothing touches."""
     touching = np.flatnonzero(history.touching)
     span = float(np.ptp(touching)) + 1 if len(touching) else np.nan
     elastomer, length = scene.solid, float(history.length[-1])

@@ -157,7 +157,7 @@ class _Row:
 
     @property
     def x(self):
-        """Where the elements are [m]."""
+        """Places of the elements [m]."""
         return self._body.x[:-1] + self._place * self._body.pixel
 
     @property
@@ -207,7 +207,7 @@ class _Row:
         return leaving
 
     def rates(self, depth_rate, duration):
-        """At which d - g rises over the elements (N,) [m/s]."""
+        """Rates at which d - g rises over the elements (N,) [m/s]."""
         return depth_rate - self._moved * self._body.pixel / duration * self._slopes
 
     def sinking(self, load, guess, depth, duration, until):
@@ -216,7 +216,7 @@ class _Row:
         return sinking(load, guess, depth - self.heights, rates, until, self.state, self._solid)
 
     def advance(self, depth, depth_rate, duration) -> Sums:
-        """To the end of the step."""
+        """Advance to the end of the step."""
         slopes = self._at_nodes if self._moved == 0 and self._place in (0, 1) else self._slopes
         approaches, rates = depth - self.heights, self.rates(depth_rate, duration)
         sums = advance(approaches, rates, slopes, duration, self.state, self._solid)
@@ -225,7 +225,7 @@ class _Row:
 
 
 class _Returning(_Row):
-    """The same under an indenter that comes back: what it leaves behind recovers freely, and is met again."""
+    """Row under an indenter that comes back: elements left behind recover freely, and are met again."""
 
     def __init__(self, body: Profile, modes: Modes):
         super().__init__(body, modes)
@@ -234,7 +234,7 @@ class _Returning(_Row):
         self._energies = np.zeros(len(modes.compliances))  # of all of them, in each mode
 
     def follow(self, line: Timeline, k):
-        """As of `_Row`; nothing is lost with what leaves."""
+        """Begin a step, as `_Row` does; nothing is lost with elements that leave."""
         solid, now = self._solid, line.times[k]
         while self._passed != line.passed[k]:
             way = 1 if self._passed < line.passed[k] else -1
@@ -248,7 +248,7 @@ class _Returning(_Row):
         return super().follow(line, k)
 
     def advance(self, depth, depth_rate, duration) -> Sums:
-        """As of `_Row`, with what is behind."""
+        """Advance to the end of the step, as `_Row` does, with the elements left behind."""
         sums, before = super().advance(depth, depth_rate, duration), self._energies.sum()
         self._energies *= np.exp(-2 * duration / self._solid.retarded)
         stored = self._energies.sum()
@@ -256,7 +256,7 @@ class _Returning(_Row):
 
 
 class _Depth:
-    """How fast the indenter sinks by a program of depths."""
+    """Rate at which the indenter sinks by a program of depths."""
 
     def __init__(self, program: Program):
         self._program = program
@@ -267,7 +267,7 @@ class _Depth:
 
 
 class _Load:
-    """How fast the indenter sinks by a program of loads.
+    """Rate at which the indenter sinks by a program of loads.
 
     The load is met at the end of a step. A dashpot feels the rate, and that of a step belongs to its middle: with
     one, the load is met at the part 1/(1 - exp(-z)) - 1/z of a step of z = duration/T, so that a linear depth
@@ -307,7 +307,7 @@ def _check_balanced(work, dissipated, stored):
     missed = np.abs(stored + dissipated - work).max()
     if not missed <= _BALANCED * most:
         raise SolveError(
-            f"work, what is stored and what is lost balance only to a relative {missed / most:.1e}: "
+            f"work, stored energy and loss balance only to a relative {missed / most:.1e}: "
             "the lengths or times of the scene differ by more than rounding allows"
         )
 

@@ -99,7 +99,7 @@ def _fading(pushes, decay, ahead):
 
 @compiled
 def _clear(heights, i, depth, u, pushes, decay, ahead, displacement):
-    """From a free node on, the intervals in which the profile stays above the free surface at their end.
+    """Number of intervals from a free node on in which the profile stays above the free surface at their end.
 
     Returns the one after them, and u at its nodes.
     """
@@ -117,7 +117,7 @@ def _clear(heights, i, depth, u, pushes, decay, ahead, displacement):
 
 @summed
 def _clearance(t, pushes, rates):
-    """How far the free surface falls on its way t, and how fast at its end."""
+    """Fall of the free surface on its way t, and its rate at the end."""
     fallen = fall = 0.0
     for j in range(pushes.size):
         lost = -expm1(-t * rates[j])
@@ -128,7 +128,7 @@ def _clearance(t, pushes, rates):
 
 @compiled
 def _landing(here, there, slope, pixel, u, u_end, pushes, rates, decay):
-    """Where in an interval the free surface meets the profile, from its left node; NOWHERE if it does not.
+    """Place in an interval, from its left node, where the free surface meets the profile; else NOWHERE.
 
     u, u_end : free surface at both nodes; pushes : at the left one. The clearance is convex: Newton from the left
     never oversteps, and comes to where it rises again if there is no landing.
@@ -170,11 +170,10 @@ def _landing(here, there, slope, pixel, u, u_end, pushes, rates, decay):
 
 @compiled
 def _release(f, rate, width, y, moduli, lengths):
-    """Where f(t) = f + rate t + sum_k b_k (exp(-t/m_k) - 1), b_k = K_k (y_k - m_k rate), falls to zero within a
-    width; NOWHERE if it does not.
+    """Place at which the force f(t) of the contact falls to zero within a width; NOWHERE if it does not.
 
-    There is one change of sign at most: the sign at the end tells whether, and a bracket that shrinks by Newton
-    steps, or by halves where those are slow, tells where.
+    f(t) = f + rate t + sum_k b_k (exp(-t/m_k) - 1), b_k = K_k (y_k - m_k rate), changes sign once at most: the end
+    tells whether, and a bracket that shrinks by Newton steps, or by halves where those are slow, tells where.
     """
     if f < 0.0:
         return 0.0
@@ -233,7 +232,7 @@ def _move(source, target):
 def _pressed(
     heights, i, pixel, depth, drag, y, table, of_rise, heat_of_rise, moduli, ahead, displacement, touching, pushed
 ):
-    """From a node that touches on, the intervals that touch throughout: the one after them, and their sums.
+    """First interval after those that touch throughout from a node on, and their sums.
 
     Of force, heat, traction and squared slopes. Most of a sweep is this loop.
     """

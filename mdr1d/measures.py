@@ -1,4 +1,4 @@
-"""What is measured on a solved profile, beside its forces and its depth."""
+"""Measures of a solved profile, beside its forces and its depth."""
 
 from math import sqrt
 

@@ -1,4 +1,4 @@
-"""What this solver would do about a scene: a foundation needs no kernels, and its costs go by node and sweep."""
+"""Plan of this solver for a scene: a foundation needs no kernels, and its costs go by node and sweep."""
 
 from math import ceil
 from pathlib import Path
@@ -33,7 +33,7 @@ LEFT_OUT = {
 
 
 def plan_of(solver, scene: Scene, layout) -> Plan:
-    """What an MDR would simulate. Nothing is solved; a smooth grid may be drawn closer around the contact.
+    """Plan of a scene for an MDR. Nothing is solved; a smooth grid may be drawn closer around the contact.
 
     layout : the `Grid` to begin with
     """

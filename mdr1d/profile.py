@@ -1,4 +1,4 @@
-"""From the three-dimensional indenter to the one-dimensional profile g(x) = c_n |x|^n + h(x), Eqs. 1 and 2."""
+"""Profile in one dimension of a three-dimensional indenter, g(x) = c_n |x|^n + h(x), Eqs. 1 and 2."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache

@@ -95,7 +95,7 @@ class MDR:
         return "MDR"
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Why the scene cannot be solved, one sentence each; empty when it can."""
+        """Reasons why the scene cannot be solved, one sentence each; empty when it can."""
         reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if not reasons and scene.roughness is not None:
             band = band_of(scene.roughness, self.spectrum)
@@ -103,7 +103,7 @@ class MDR:
         return reasons or shortage(plan_of(self, scene, self._laid_out(scene)).memory)
 
     def plan(self, scene: Scene) -> Plan:
-        """What would be simulated of a scene, and what it costs; nothing is solved.
+        """Plan of a scene: the parts that would be simulated, and their costs; nothing is solved.
 
         Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
         of numbers. Other reasons for which a solve may fail it does not see.
@@ -163,7 +163,7 @@ class MDR:
         )
 
     def settings(self, scene: Scene, layout: Grid) -> dict:
-        """What it solved with, the derived settings included."""
+        """Settings of the solve, derived ones included."""
         return {
             "points": 2 * layout.half,
             "extent": layout.extent,
@@ -226,7 +226,7 @@ def _too_broad(band: Band) -> list[str]:
 
 
 def _unresolved(band: Band, layout: Grid, points: int) -> list[str]:
-    """What is wrong with the grid for the roughness."""
+    """Reasons why the grid does not resolve the roughness."""
     if layout.period is None or layout.period < band.nodes:
         shortest = "" if band.shortest is None else f", shortest = {band.shortest:g},"
         enough = ceil(band.nodes * layout.extent / band.period)

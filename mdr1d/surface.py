@@ -27,26 +27,26 @@ MOST_NODES, _LEAST_NODES = 2**25, 4
 
 @dataclass(frozen=True)
 class Band:
-    """Of the waves of a line: its period and shortest wavelength [m], None where the nodes are the cut-off."""
+    """Band of waves of a line: period and shortest wavelength [m], None where the nodes are the cut-off."""
 
     period: float
     shortest: float | None
 
     @property
     def waves(self) -> float:
-        """Of the shortest in a period; nan where the nodes are the cut-off."""
+        """Number of the shortest waves in a period; nan where the nodes are the cut-off."""
         return nan if self.shortest is None else self.period / self.shortest
 
     @property
     def nodes(self) -> int:
-        """In a period that the shortest wave asks for, two of them to a wave."""
+        """Number of nodes in a period, two to the shortest wave."""
         if self.shortest is None:
             return _LEAST_NODES
         return ceil(2 * self.waves * (1 - 1e-12))
 
 
 def band_of(roughness: Roughness, spectrum: Spectrum = "mapped") -> Band:
-    """Of a line that stands for a scene's roughness.
+    """Band of a line that stands for a scene's roughness.
 
     A measured map has waves in all directions, the shortest of them across its pixels' corners; its rows have
     those along x.
@@ -127,7 +127,7 @@ def amplitudes(roughness: SelfAffine, bandwidth: float, spectrum: Spectrum = "ma
 
 @dataclass(frozen=True, eq=False)
 class LineFamily:
-    """What lines of one spectrum have in common on one grid, before a seed.
+    """Family of lines of one spectrum on one grid, before a seed.
 
     amplitudes : of the waves k = 1, 2, ... (K,) [m], fixed or, if gaussian, the root of their mean squares
     nodes : in a period; pixel : their spacing [m]

@@ -1,4 +1,4 @@
-"""What the one-dimensional foundation does about one part of a scene."""
+"""Term of the one-dimensional foundation: its treatment of one part of a scene."""
 
 from scene import Result, terms
 

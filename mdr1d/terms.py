@@ -1,4 +1,4 @@
-"""What this solver has for each part of a scene: its table of terms, and what it lacks, with the reason."""
+"""Table of terms: this solver's treatment of each part of a scene, and the parts that it lacks."""
 
 from scene import (
     WLF,

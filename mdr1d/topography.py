@@ -16,12 +16,12 @@ class MeasuredRoughness(Term):
     """The map repeats as it states; lines are drawn from its waves."""
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Of maps with more waves than fit in memory."""
+        """Reasons to refuse maps with more waves than fit in memory."""
         return [] if self.part.crowded is None else [f"roughness = Topography has {self.part.crowded}"]
 
 
 def amplitudes(topography: Topography) -> np.ndarray:
-    """Of the waves k = 1, 2, ... of a mapped line (K,) [m]: C_1D = pi q C_2D as a sum over the waves of the map.
+    """Amplitudes of the waves k = 1, 2, ... of a mapped line (K,) [m]: C_1D = pi q C_2D as a sum over waves.
 
     Wave k has the mean square of all waves of the map whose wave number, in any direction, lies within half a step
     of its own. Their sum is the mean square of the map.

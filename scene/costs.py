@@ -1,4 +1,4 @@
-"""What a solve is expected to cost: of a plain contact, and what the parts of a scene multiply that with."""
+"""Expected costs of a solve: those of a plain contact, times the factors of the parts of a scene."""
 
 import csv
 from collections.abc import Callable, Iterable, Mapping
@@ -34,7 +34,7 @@ def at_tolerance(counted: Mapping[str, float], decades: float) -> dict[str, floa
 
 
 def two_digits(value: float) -> str:
-    """Of a number, written out up to a million."""
+    """Two digits of a number, written out up to a million."""
     return f"{float(f'{value:.2g}'):g}"
 
 
@@ -46,7 +46,7 @@ def not_known(why: str) -> dict[str, Expected]:
 def expected(
     plain: Callable[[], Mapping[str, float]], why: str, parts: Iterable[object], table: Path
 ) -> dict[str, Expected]:
-    """By the names of `COSTS`.
+    """Expected costs by the names of `COSTS`.
 
     plain : gives those of a contact without these parts, by `why`; asked only where all parts are known
     parts : of a scene, each of which multiplies them by its line of the table
@@ -62,6 +62,6 @@ def expected(
 
 @cache
 def multiples(table: Path) -> Mapping[str, Mapping[str, float]]:
-    """By the name of a part's type: what it multiplies each of `COSTS` with; of a CSV of part and costs."""
+    """Factors on each of `COSTS` by the name of a part's type, from a CSV of part and costs."""
     with table.open(encoding="utf-8", newline="") as file:
         return {row["part"]: {cost: float(row[cost]) for cost in COSTS} for row in csv.DictReader(file)}

@@ -1,4 +1,4 @@
-"""What may be read: regular files up to a size, and nothing else that a path leads to."""
+"""Reading of files: regular ones up to a size, and nothing else that a path leads to."""
 
 import os
 from functools import partial
@@ -23,7 +23,7 @@ def checked(path: str | Path, most: int) -> Path:
 
 
 def content(path: str | Path, most: int) -> bytes:
-    """What a regular file of at most `most` bytes holds; waits for no other process. Raises Unreadable."""
+    """Bytes of a regular file of at most `most` bytes; waits for no other process. Raises Unreadable."""
     checked(path, most)
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     handle = _asked(path, os.open, path, flags)
@@ -42,7 +42,7 @@ def content(path: str | Path, most: int) -> bytes:
 
 
 def text(path: str | Path, most: int) -> str:
-    """What such a file holds as UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable."""
+    """Text of such a file in UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable."""
     held = content(path, most)
     try:
         decoded = held.decode("utf-8-sig")
@@ -62,7 +62,7 @@ def _refuse(path, status, most):
 
 
 def _asked(path, system, *arguments):
-    """What the operating system answers about a path. Raises Unreadable."""
+    """Answer of the operating system about a path. Raises Unreadable."""
     try:
         return system(*arguments)
     except FileNotFoundError as error:

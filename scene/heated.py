@@ -42,7 +42,7 @@ class Heated(Term):
         return self._estimated(solve) if self.part.feedback is None else self._fed_back(solve)
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:
-        """As often as it is solved."""
+        """Plan of the solves that feedback usually takes."""
         if self.part.feedback is None:
             return plan
         again = f"the {SOLVES} solves that feedback usually takes"
@@ -82,7 +82,7 @@ class Heated(Term):
         return answered
 
     def _estimates(self, result):
-        """Of a solved contact, name -> rise of temperature [K]."""
+        """Estimates of the heating of a solved contact, name -> rise of temperature [K]."""
         solid, speed = result.scene.solid, result.scene.motion.speed
         height = result.measures.get("rms_height", 0.0)
         stiffer = 1 / (2 * (1 - solid.poisson_ratio))  # E*/4 over G
@@ -101,7 +101,7 @@ class Heated(Term):
 
 @dataclass(frozen=True)
 class _Trial:
-    """As of `settling`, with the answer behind it."""
+    """Trial of `settling`, with the answer behind it."""
 
     warmer: float
     result: Result

@@ -80,7 +80,7 @@ def check_layout(shape: tuple[int, ...], dtype: np.dtype) -> None:
 
 
 def _array(path):
-    """Of numpy: its heights, the pixel if it has one, and no unit."""
+    """Heights of a file of numpy, its pixel if it has one, and no unit."""
     held = content(path, MOST_BYTES)
 
     def heights(shape, dtype):
@@ -185,14 +185,14 @@ def _at_most(seconds):
 
 @contextmanager
 def _silent():
-    """Nothing is warned of, nor printed."""
+    """Keep a reader from warning and printing."""
     with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
         warnings.simplefilter("ignore")
         yield
 
 
 def _scan(path):
-    """By SurfaceTopography, the file's default channel; in metres where the file states a unit."""
+    """Default channel of a file by SurfaceTopography; in metres where the file states a unit."""
     name = brief(str(path))
     try:
         with _silent():

@@ -22,7 +22,7 @@ QUOTIENT = 1e-12  # rounding of a quotient of lengths
 
 @plain(frozen=True, init=False)
 class HeightMap:
-    """Rows and columns of heights [m], which cannot be changed. What it is made of stands beside its fields.
+    """Rows and columns of heights [m], which cannot be changed. The heights themselves are no field.
 
     shape : (rows, columns), rows along y and columns along x, both ascending
     digest : of shape and heights, as hexadecimal digits: maps of equal digests have equal heights
@@ -136,7 +136,7 @@ MAPPED = ConfigDict(**CLOSED, json_schema_extra=_or_file)
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
 class Scanned:
-    """What was measured.
+    """Measured map of heights.
 
     heights : rows along y of heights along x [m], both ascending
     pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
@@ -183,13 +183,13 @@ class Scanned:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Of the map, along x and along y [m]."""
+        """Sides of the map, along x and along y [m]."""
         rows, columns = self.heights.shape
         return columns * self.pixel[0], rows * self.pixel[1]
 
     @property
     def sides(self) -> tuple[float, float]:
-        """Of the rectangle that repeats, along x and along y [m]: of the map with its mirror images."""
+        """Sides of the rectangle that repeats, the map with its mirror images, along x and along y [m]."""
         return 2 * self.size[0], 2 * self.size[1]
 
     def _turned(self) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 
 
 def nearest(times: np.ndarray, duration: float, count: int) -> np.ndarray:
-    """Which steps are nearest to `count` instants alike apart, the last of them at the end; each step once.
+    """Steps nearest to `count` instants that are equally spaced, the last of them at the end; each step once.
 
     times : of the steps (S,) [s], rising; duration : of the program [s]
     """
@@ -17,15 +17,15 @@ def nearest(times: np.ndarray, duration: float, count: int) -> np.ndarray:
 
 
 class Frames:
-    """What is kept of some steps of a march, name by name; of none where no instants are asked for."""
+    """Numbers and arrays kept of some steps of a march, by name; none where no instants are asked for."""
 
     def __init__(self, times: np.ndarray, duration: float, count: int):
-        """As of `nearest`."""
+        """Arguments as for `nearest`."""
         self._steps = frozenset(nearest(times, duration, count).tolist())
         self._kept: dict[str, list[Any]] = {}
 
     def __contains__(self, step: int) -> bool:
-        """Whether anything is to be kept of it."""
+        """Whether anything of a step is to be kept."""
         return step in self._steps
 
     def keep(self, **values: Any) -> None:

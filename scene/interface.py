@@ -1,4 +1,4 @@
-"""What the two surfaces do to one another where they touch, besides pressing."""
+"""Interaction of the two surfaces where they touch, besides pressing."""
 
 from typing import Literal
 

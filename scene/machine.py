@@ -18,7 +18,7 @@ def memory() -> int:
 
 
 def shortage(needed: int, there: int | None = None) -> list[str]:
-    """Why so many bytes cannot be held, in a sentence; empty where they can. there : of this process if absent"""
+    """Reason why so many bytes do not fit, or nothing. there : bytes there are, of this process if absent"""
     there = memory() if there is None else there
     if needed <= there:
         return []
@@ -52,7 +52,7 @@ def _of_groups() -> Iterator[int]:
 
 
 def _of_process() -> Iterator[int]:
-    """What `ulimit` leaves to this process."""
+    """Memory that `ulimit` leaves to this process."""
     try:
         import resource
     except ImportError:  # Windows

@@ -95,7 +95,7 @@ def _without_waves(heights, sides, shortest):
 
 
 class _Spline:
-    """Of the heights over a unit of their own, on whole pixels."""
+    """Spline of the heights over a unit of their own, on whole pixels."""
 
     def __init__(self, body: Measured):
         # Only measured bodies need it.

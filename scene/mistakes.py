@@ -1,4 +1,4 @@
-"""What is wrong with the content of a file: every mistake at once, one line each, with what was probably meant."""
+"""Mistakes in the content of a file: all at once, one line each, with what was probably meant."""
 
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -76,7 +76,7 @@ def _error(adapter, content):
 
 
 def _placed(error, content, order) -> list[tuple[Place, Any]]:
-    """What an error tells of, each with its place, in the order of the file."""
+    """Mistakes of an error, each with its place, in the order of the file."""
     found = [(place(each["loc"], content), each) for each in error.errors(include_url=False)]
     return sorted(found, key=lambda each: order(each[0]))
 
@@ -140,7 +140,7 @@ def _misspelt_type(where, content):
 
 
 def _remaining(error, content, left_out, order) -> Iterator[Mistake]:
-    """What is wrong with values, and what is missing; nothing of a table as a whole that has lost a part."""
+    """Wrong values, and missing fields; nothing of a table as a whole that has lost a part."""
     poorer = {where[:depth] for where in left_out for depth in range(len(where) + 1)}
     for number, (where, mistake) in enumerate(_placed(error, content, order)):
         kind, value, allowed = mistake["type"], mistake["input"], mistake["msg"].removeprefix("Value error, ")
@@ -180,7 +180,7 @@ def _dotted(where):
 
 
 def _brief(value):
-    """Whether a message is clearer by it: a table, or rows of numbers, say nothing that their own does not."""
+    """Whether a value is short enough for a message: tables and rows of numbers are not."""
     if isinstance(value, list | tuple):
         return not any(isinstance(each, list | tuple | dict) for each in value) and all(map(_brief, value))
     if isinstance(value, int):
@@ -189,7 +189,7 @@ def _brief(value):
 
 
 def _with_what_is_missing(error, content, adapter):
-    """The same mistakes where what is missing is there, but wrong: its message then says what is allowed."""
+    """Mistakes with a wrong value in the place of each missing one, so that its message says what is allowed."""
     filled = deepcopy(content)
     for mistake in error.errors(include_url=False):
         where, stands = place(mistake["loc"], content), MISSING
@@ -229,7 +229,7 @@ def _leads_on(where, content):
 
 
 def _at(where, content):
-    """What stands at a place; None where nothing does."""
+    """Content at a place; None where there is nothing."""
     try:
         return reduce(getitem, where, content)
     except (LookupError, TypeError):
@@ -237,7 +237,7 @@ def _at(where, content):
 
 
 def _order(content: Any) -> Callable[[Place], list[int]]:
-    """Of places in a file; what is missing comes after what stands in the same table."""
+    """Order of places in a file; a missing field comes after those of the same table."""
     numbers: dict[int, dict[str, int]] = {}
 
     def of(where):

@@ -23,7 +23,7 @@ class Relaxation:
 
     @classmethod
     def of(cls, equilibrium, moduli=(), times=()) -> "Relaxation":
-        """From branches in any order; those of equal times are one."""
+        """Modes from branches in any order; those of equal times are one."""
         return cls(equilibrium, *_distinct(moduli, times))
 
     @property
@@ -44,7 +44,7 @@ class Relaxation:
         return self.equilibrium + self.viscosity * i_omega + (phase / (1 + phase)) @ self.moduli
 
     def retardation(self) -> "Retardation":
-        """The same solid by its creep. Retardation times are the zeros of G(s) at s = -1/time,
+        """Creep of the same solid. Retardation times are the zeros of G(s) at s = -1/time,
 
         equilibrium = viscosity / x + sum_k moduli[k] times[k] / (x - times[k]), and compliances its residues.
         """
@@ -69,7 +69,7 @@ class Retardation:
 
     @classmethod
     def of(cls, instantaneous, compliances=(), times=()) -> "Retardation":
-        """From elements in any order; those of equal times are one."""
+        """Modes from elements in any order; those of equal times are one."""
         return cls(instantaneous, *_distinct(compliances, times))
 
     def compliance(self, t):
@@ -82,7 +82,7 @@ class Retardation:
         return self.instantaneous + (1 / (1 + phase)) @ self.compliances
 
     def relaxation(self) -> Relaxation:
-        """The same solid by its relaxation. Relaxation times are the zeros of J(s) at s = -1/time,
+        """Relaxation of the same solid. Relaxation times are the zeros of J(s) at s = -1/time,
 
         0 = instantaneous / x + sum_k compliances[k] / (x - times[k]), and moduli its residues.
         """

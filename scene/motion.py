@@ -1,4 +1,4 @@
-"""How the indenter moves: to rest, sliding steadily, sheared or by a program, and what presses it."""
+"""Motions of the indenter: to rest, sliding steadily, sheared or by a program, under a load or to a depth."""
 
 from functools import cached_property
 from typing import Annotated, Any, Literal
@@ -38,7 +38,7 @@ TANGENTIAL = UnitOfOthers("N, or N/m of a cylinder", ("0.3 N", "10 N/m"))
 
 
 class _Pressed:
-    """What presses the indenter: exactly one of `UNITS`."""
+    """Load or depth of the indenter: exactly one of `UNITS`."""
 
     @model_validator(mode="after")
     def _exactly_one(self):
@@ -81,7 +81,7 @@ class Indent(_Pressed):
 
 
 def pressed(by: str, value: float) -> Indent:
-    """At rest under a value of what is named, one of `UNITS`."""
+    """Motion to rest under a value of the named quantity, one of `UNITS`."""
     given: dict[str, Any] = {by: value}
     return Indent(**given)
 
@@ -179,13 +179,13 @@ class Stage:
 
     @property
     def given(self) -> dict[str, float]:
-        """What the stage prescribes, name -> value at its end."""
+        """Quantities that the stage prescribes, name -> value at its end."""
         values = {name: getattr(self, name, None) for name in UNITS}
         return {name: value for name, value in values.items() if value is not None}
 
     @property
     def oscillation(self) -> Oscillation | None:
-        """What is added to the ramp; None without an amplitude."""
+        """Oscillation that is added to the ramp; None without an amplitude."""
         amplitude, frequency = self.amplitude, self.frequency
         return Oscillation(amplitude, frequency, self.duration) if amplitude and frequency else None
 
@@ -247,7 +247,7 @@ class Program:
 
     @property
     def duration(self) -> float:
-        """Of all stages [s]."""
+        """Duration of all stages [s]."""
         return float(self._times[-1])
 
     @property
@@ -275,7 +275,7 @@ class Program:
         return values
 
     def path(self, time):
-        """How far forwards the indenter is from where it began [m] at a time [s], any shape."""
+        """Path of the indenter forwards from its start [m] at a time [s], any shape."""
         return np.interp(time, self._times, self._paths)
 
     @property
@@ -294,7 +294,7 @@ class Program:
 
     @cached_property
     def _levels(self):
-        """What is prescribed at `_times`."""
+        """Prescribed load or depth at `_times`."""
         levels = [0.0]
         for stage in self.stages:
             end = stage.given.get(self.pressed_by, levels[-1])
@@ -303,7 +303,7 @@ class Program:
 
     @property
     def _swings(self):
-        """Of each stage that oscillates, its place and the lowest and highest value."""
+        """Place of each stage that oscillates, with its lowest and highest value."""
         starts = self._levels[:-1]
         return [
             (k, *stage.oscillation.about(start, stage.given.get(self.pressed_by, start)))

@@ -16,14 +16,14 @@ Place = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Names:
-    """By the JSON schema of what the file should be."""
+    """Names that a file may have, by the JSON schema of its content."""
 
     schema: Mapping[str, Any]
 
     @classmethod
     @lru_cache(maxsize=8)
     def of(cls, adapter: TypeAdapter) -> Self:
-        """Of what an adapter reads."""
+        """Names of the content that an adapter reads."""
         try:
             return cls(adapter.json_schema())
         except PydanticInvalidForJsonSchema:  # of types whose names nothing tells

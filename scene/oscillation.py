@@ -21,7 +21,7 @@ class Oscillation:
 
     @property
     def periods(self) -> float:
-        """In the duration; any number."""
+        """Number of periods in the duration; any number."""
         return self.frequency * self.duration
 
     @property

@@ -1,4 +1,4 @@
-"""What a solver would do about a scene, before it does: what is built, what that costs, and what is left out."""
+"""Plan of a solver for a scene, before it solves: parts that are built, their costs, and parts left out."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
@@ -27,7 +27,7 @@ NO_OSCILLATION = "no steps are there to follow one"
 
 @dataclass(frozen=True)
 class Kernel:
-    """What is built once and multiplied with over and over.
+    """Kernel that is built once and multiplied with over and over.
 
     name : what of
     form : "kernel", values on the grid, rows along y, or "symbol", a factor on each wave of such a grid
@@ -44,7 +44,7 @@ class Kernel:
 
 @dataclass(frozen=True)
 class Array:
-    """What is held while a stage of the solve is at its largest. itemsize : bytes of a value."""
+    """Array that is held while a stage of the solve is at its largest. itemsize : bytes of a value."""
 
     name: str
     shape: tuple[int, ...]
@@ -52,7 +52,7 @@ class Array:
 
     @property
     def bytes(self) -> int:
-        """All of it."""
+        """Bytes of the whole array."""
         return prod(self.shape) * self.itemsize
 
     def __str__(self) -> str:
@@ -61,14 +61,14 @@ class Array:
 
 @dataclass(frozen=True)
 class Modes:
-    """Of the elastomer, as far as they are simulated. times : the shortest and the longest [s]; none of none."""
+    """Modes of the elastomer that are simulated. times : the shortest and the longest [s]; None without modes."""
 
     count: int
     times: tuple[float, float] | None = None
 
     @classmethod
     def of(cls, times: Sequence[float]) -> "Modes":
-        """By their times [s]."""
+        """Modes by their times [s]."""
         return cls(len(times), (float(min(times)), float(max(times))) if len(times) else None)
 
     def __str__(self) -> str:
@@ -80,7 +80,7 @@ class Modes:
 
 @dataclass(frozen=True)
 class Plan:
-    """What a solver would simulate of one scene, and nothing else. Printed, it is a page.
+    """Plan of what a solver would simulate of one scene, and nothing else. Printed, it is a page.
 
     solver, settings : name, and the settings that matter here, in words
     terms : by the field of the scene, what is simulated for the part that stands there
@@ -189,7 +189,7 @@ def absent(scene: Scene, meanings: Mapping[str, str]) -> dict[str, str]:
 
 
 def left_out(scene: Scene, meanings: Mapping[str, str]) -> dict[str, str]:
-    """What a scene does not ask for, and what follows from that.
+    """Parts that a scene does not ask for, and what follows from that.
 
     meanings : of absent fields, for the solver, and of "time" and "flow", where nothing changes or flows
     """

@@ -1,4 +1,4 @@
-"""What a solver is, and the two ways in which it may decline to answer."""
+"""Protocol of a solver, and the two ways in which it may decline to answer."""
 
 from contextlib import contextmanager
 from dataclasses import Field
@@ -32,7 +32,7 @@ class Solver(Protocol):
         """Short name, unique among solvers."""
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Why the scene cannot be solved, one sentence each; empty when it can."""
+        """Reasons why the scene cannot be solved, one sentence each; empty when it can."""
 
     def solve(self, scene: Scene) -> Result:
         """The answer. Raises Refused before, SolveError after the attempt."""

@@ -55,7 +55,7 @@ class Unit:
 
     @property
     def allowed(self) -> str:
-        """What is taken, in words."""
+        """Allowed values in words."""
         return f"{self.kind}, as {self.example} or {self.number:g} (in {self.symbol})"
 
     def value(self, given: Any) -> Any:
@@ -160,7 +160,7 @@ def unit_of(cls: type, field: str) -> str | None:
 
 
 def by_name(given: Any) -> dict[str, Any] | None:
-    """What is stated for the fields of a dataclass, in Python or in a table; None of anything else."""
+    """Values stated for the fields of a dataclass, in Python or in a table, by name; None of anything else."""
     if isinstance(given, ArgsKwargs):
         return None if given.args else given.kwargs or {}
     return given if isinstance(given, dict) else None

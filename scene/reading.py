@@ -54,7 +54,7 @@ def text_of(path: str | Path) -> str:
 
 
 def parsed(text: str, path: str | Path) -> dict[str, Any]:
-    """What a text of TOML says; path : that it is of, for mistakes. Raises InvalidInput."""
+    """Content of a text in TOML; path : of its file, for mistakes. Raises InvalidInput."""
     try:
         if _ENDLESS.search(text):
             raise RecursionError
@@ -71,7 +71,7 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
 
 
 def made(content: dict[str, Any], what: Any, path: str | Path):
-    """What a file holds as `what`. Raises InvalidInput, naming the file, as `read` does."""
+    """Content of a file as `what`. Raises InvalidInput, naming the file, as `read` does."""
     adapter = validator(what)
     try:
         return adapter.validate_python(content)
@@ -81,7 +81,7 @@ def made(content: dict[str, Any], what: Any, path: str | Path):
 
 @lru_cache(maxsize=8)
 def validator(what: Any) -> TypeAdapter:
-    """What validates content as `what`, made once: that takes longer than its use."""
+    """Validator of content as `what`, made once: that takes longer than its use."""
     return TypeAdapter(what)
 
 
@@ -93,7 +93,7 @@ def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
 
 
 def _levels(content):
-    """Of tables and lists in one another, counted up to one more than DEEPEST."""
+    """Levels of tables and lists in one another, counted up to one more than DEEPEST."""
     level, count = [content], 0
     while level and count <= DEEPEST:
         level, count = [inner for each in level for inner in _inside(each)], count + 1

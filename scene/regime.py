@@ -1,4 +1,4 @@
-"""Where a rough contact stands against what the laws of Popov et al., Sci. Rep. 4, 3750 (2014) presuppose."""
+"""Regime of a rough contact against the conditions of the laws of Popov et al., Sci. Rep. 4, 3750 (2014)."""
 
 from dataclasses import dataclass
 
@@ -27,7 +27,7 @@ class Regime:
 
     @classmethod
     def of(cls, profile, contact, rms_height, longest, rms_slope) -> "Regime":
-        """Of roughness of an rms height and a longest wavelength [m] on a one-dimensional profile.
+        """Regime of roughness of an rms height and a longest wavelength [m] on a one-dimensional profile.
 
         profile : coefficient c_n [m^(1-n)] and exponent n of g = c_n |x|^n
         contact : radius a and depth d [m] of the smooth relaxed contact
@@ -41,7 +41,7 @@ class Regime:
 
     @property
     def flags(self) -> dict[str, bool]:
-        """Which conditions hold, by name: h0 << d, 2a < L, macro slope << roughness slope, small slopes."""
+        """Whether each condition holds, by name: h0 << d, 2a < L, macro slope << roughness slope, small slopes."""
         return {
             "h0 << d": self.height_over_depth <= MUCH_LESS_HEIGHT,
             "2a < L": self.contact_over_period < 1,

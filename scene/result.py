@@ -1,4 +1,4 @@
-"""What a solver answers: the same fields from either dimension."""
+"""Result of a solver: the same fields from either dimension."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -74,7 +74,7 @@ class SelfAffine:
 
     @property
     def flat(self) -> bool:
-        """Whether it has no heights, so that it is none."""
+        """Whether the rms height is zero, so that there is no roughness."""
         return self.rms_height == 0
 
     @property
@@ -116,11 +116,11 @@ class SelfAffine:
         return np.where(inside, plateau * falling, 0.0)
 
     def share(self, lower, upper, q_max):
-        """Of <h^2>, what lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
+        """Share of <h^2> that lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
         return self._moment(1, lower, upper) / self._moment(1, self.q_min, q_max)
 
     def share_line_scan(self, lower, upper, q_max):
-        """Of <h^2>, what a line scan has in 0 < lower <= q <= upper <= q_max [rad/m], arrays allowed."""
+        """Share of <h^2> that a line scan has in 0 < lower <= q <= upper <= q_max [rad/m], arrays allowed."""
 
         def above(q):
             return self.share(np.maximum(q, self.q_min), q_max, q_max)
@@ -170,7 +170,7 @@ class Wave:
 
     @property
     def flat(self) -> bool:
-        """Whether it has no heights, so that it is none."""
+        """Whether the rms height is zero, so that there is no roughness."""
         return self.rms_height == 0
 
     @property

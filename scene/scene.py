@@ -20,7 +20,7 @@ from .viscoelastic import Linear
 
 
 def fit_together(parts):
-    """The same parts. Raises ValueError where one does not suit the others."""
+    """Return the parts as they are. Raises ValueError where one does not suit the others."""
     kind, motion = type(parts.indenter).__name__, parts.motion
     allowed, given = parts.indenter.pressed_by, motion.pressed_by
     if given not in allowed:
@@ -77,7 +77,7 @@ class Scene:
 
     @property
     def parts(self) -> dict[str, Any]:
-        """What is there, by the name of its field."""
+        """Parts that the scene has, by the name of their field."""
         given = {field.name: getattr(self, field.name) for field in fields(self)}
         return {name: part for name, part in given.items() if part is not None}
 

@@ -68,7 +68,7 @@ def _check(trial, agreed):
 
 
 def _ahead(tried: Sequence[tuple[float, float]]) -> float:
-    """As warm as the last trial makes it; farther, to where the secant ends, while the rise grows."""
+    """Next trial, as warm as the last one makes it; farther, to the end of the secant, while the rise grows."""
     x, excess = tried[-1]
     if len(tried) == 1:
         return x + excess
@@ -78,7 +78,7 @@ def _ahead(tried: Sequence[tuple[float, float]]) -> float:
 
 
 def _between(low: float, high: float, tried: Sequence[tuple[float, float]]) -> float:
-    """Where the last two trials let expect it; by halves, or those of decades, where that leaves the bracket."""
+    """Next trial by the last two; by halves, or by halves of decades, where that leaves the bracket."""
     guess = _expected(*tried[-2:])
     if low < guess < high:
         return guess

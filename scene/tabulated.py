@@ -100,7 +100,7 @@ class Tabulated(Solid):
 
 @lru_cache(maxsize=64)
 def _fit(solid: Tabulated) -> Relaxation:
-    """With as few times a decade as follow the table about as well as many do."""
+    """Fit with as few times a decade as follow the table about as well as many do."""
     omega, measured = solid.measured()
 
     def at(density):

@@ -21,7 +21,7 @@ _MOST = 700.0  # of |ln a_T|: beyond it the factor leaves the range of numbers
 
 
 def _within_range(law):
-    """The same law. Raises ValueError where its shift is no number."""
+    """Return the law as it is. Raises ValueError where its shift is no number."""
     if not abs(law.log_shift) < _MOST:
         raise ValueError(
             f"temperature = {law.temperature:g} K: times would be longer by exp({law.log_shift:.3g}), beyond the "
@@ -115,11 +115,11 @@ class Shifted(Linear):
 
     @property
     def glassy_modulus(self) -> float:
-        """That of the solid [Pa]."""
+        """Glassy modulus of the solid [Pa]."""
         return self.solid.glassy_modulus
 
     def modes(self) -> Relaxation | Retardation:
-        """Those of the solid, in the form in which it states them. Raises OverflowError for times out of range."""
+        """Modes of the solid, in the form in which it states them. Raises OverflowError for times out of range."""
         stated = self.solid.modes()
         with np.errstate(over="ignore"):
             times = stated.times * self.factor

@@ -17,7 +17,7 @@ Solve = Callable[[Scene], Result]
 
 @dataclass(frozen=True)
 class Term:
-    """What a solver does about one part. Most parts say all of it themselves, and need no more than this.
+    """Treatment of one part by a solver. Most parts say all of it themselves, and need no more than this.
 
     field : of the scene, in which the part stands
     """
@@ -26,7 +26,7 @@ class Term:
     part: Any
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Why the part cannot be solved in this scene, one sentence each; empty when it can."""
+        """Reasons why the part cannot be solved in this scene, one sentence each; empty when it can."""
         return []
 
     def around(self, solve: Solve) -> Solve:
@@ -35,7 +35,7 @@ class Term:
 
     @property
     def says(self) -> str:
-        """What is simulated for the part, in a line for people."""
+        """Simulation of the part in a line for people."""
         return said(self.part)
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:

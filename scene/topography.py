@@ -71,7 +71,7 @@ class Topography(Scanned):
 
     @property
     def tops(self) -> tuple[int, int]:
-        """Of the shortest wave kept on what repeats, along x and along y."""
+        """Numbers of the shortest waves kept on the rectangle that repeats, along x and along y."""
         rows, columns = self.heights.shape
         counts = (columns - 1, rows - 1) if self.repeat == "mirror" else (columns // 2, rows // 2)
         if self.shortest_kept is None:
@@ -95,7 +95,7 @@ class Topography(Scanned):
 
     @property
     def rms_height(self) -> float:
-        """Of the waves kept [m]. A wave of two pixels counts half of what it shows at the pixels."""
+        """Rms height of the waves kept [m]. A wave of two pixels counts half of what it shows at the pixels."""
         return self.waves.rms_height
 
     @property
@@ -105,7 +105,7 @@ class Topography(Scanned):
 
     @property
     def crowded(self) -> str | None:
-        """Why its waves do not fit in memory; None where they do."""
+        """Reason why the waves do not fit in memory; None where they do."""
         if max(self.tops) <= MOST_WAVES:
             return None
         return f"{max(self.tops)} waves a side, {MOST_WAVES} fit in memory: crop the map, or state shortest_kept"
@@ -120,7 +120,7 @@ class Topography(Scanned):
 
     @property
     def place(self) -> tuple[int, int]:
-        """Of the pixel under the axis, from the middle of the map: whole pixels along x, along y."""
+        """Place of the pixel under the axis, from the middle of the map: whole pixels along x, along y."""
         if self.seed == 0:
             return 0, 0
         draw = np.random.default_rng(self.seed)
@@ -129,7 +129,7 @@ class Topography(Scanned):
 
     @property
     def shift(self) -> tuple[float, float]:
-        """The same in metres: heights at (x, y) of the indenter are those of the waves at (x, y) + shift."""
+        """Place in metres: heights at (x, y) of the indenter are those of the waves at (x, y) + shift."""
         (along_x, along_y), (dx, dy) = self.place, self.pixel
         return along_x * dx, along_y * dy
 
@@ -171,7 +171,7 @@ def _from_the_middle(waves, count):
 
 
 def _mirrored(heights, top_x, top_y):
-    """The same of a map with its mirror images: a sum of products of cosines, each of them two or four waves."""
+    """Waves of a map with its mirror images: a sum of products of cosines, each of them two or four waves."""
     # Only maps that are mirrored need it.
     from scipy.fft import dct
 

@@ -53,7 +53,7 @@ PATTERN = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-−]?[0-9]+)?\s*[^\s
 
 
 class Unreadable(ValueError):
-    """What is no quantity of the unit that is asked for; the message says why, or nothing if that goes without."""
+    """A text is no quantity of the wanted unit; the message says why, unless that is obvious."""
 
 
 def in_si(text: str, unit: str, difference: bool = True) -> float:
@@ -146,7 +146,7 @@ def _product(factors):
 
 
 def _called(name):
-    """What the registry calls it. Raises Unreadable, with what comes closest, where it does not know it."""
+    """Name of a unit in the registry. Raises Unreadable, with the closest name, where it does not know it."""
     name, registry = _SHORT.get(name, name), _registry()
     known = registry.parse_unit_name(name)
     plural = name.endswith("s") and len(name) <= 4 and known and known == registry.parse_unit_name(name[:-1])

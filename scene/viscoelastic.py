@@ -1,4 +1,4 @@
-"""What every elastomer offers, derived from one statement of its modes.
+"""Moduli and compliances of every elastomer, derived from one statement of its modes.
 
 Time convention exp(i omega t): G(omega) = G'(omega) + i G''(omega), both >= 0 for omega >= 0.
 """
@@ -50,7 +50,7 @@ class Linear:
 
     @property
     def viscosity(self) -> float:
-        """Of the dashpot beside the Maxwell modes [Pa s]: G(omega) -> i omega viscosity at high frequency.
+        """Dashpot beside the Maxwell modes [Pa s]: G(omega) -> i omega viscosity at high frequency.
 
         Zero for every solid with a finite glassy modulus.
         """

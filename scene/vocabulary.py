@@ -1,4 +1,4 @@
-"""What every number and every field that a solver gives is: its unit, its axes, and one sentence with the sign."""
+"""Vocabulary of every number and every field of a solver: its unit, its axes, and one sentence with the sign."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Entry:
-    """What a word of a Result means.
+    """Meaning of a word of a Result.
 
     unit : SI, "1" of pure numbers and counts
     text : one sentence, with sign and convention
@@ -47,9 +47,7 @@ NUMBERS: Mapping[str, Entry] = {
     "friction_force": _force(
         "Tangential force on the indenter, above zero where it opposes motion forwards, which is along -x."
     ),
-    "residual": Entry(
-        "1", "What is left in the discrete conditions of contact, relative, as the solver defines it."
-    ),
+    "residual": Entry("1", "Residual of the discrete conditions of contact, relative, as the solver defines it."),
     "applications": Entry("1", "Operator applications of the solve, in equivalents of the finest grid."),
     "seconds": Entry("s", "Processor time of the solve."),
 }
@@ -78,7 +76,7 @@ MEASURES: Mapping[str, Entry] = {
     ),
     "friction_by_work": _force("Friction as the work done on the surface, from pixel to pixel, per length slid."),
     "friction_disagreement": Entry(
-        "1", "What estimates of friction differ by, over the normal force: an indicator of its error, no bound."
+        "1", "Difference of estimates of friction over the normal force: an indicator of its error, no bound."
     ),
     "friction_in_elastomer": _force("Part of the friction that the elastomer dissipates."),
     "friction_in_interface": _force("Part of the tangential force that shear of the interface carries."),
@@ -113,7 +111,7 @@ MEASURES: Mapping[str, Entry] = {
         "1", "Operator applications of the tangential problem, in equivalents of the finest grid."
     ),
     "tangential_displacement": Entry("m", "By which the indenter is drawn along -x after it was pressed in."),
-    "tangential_residual": Entry("1", "What is left in the conditions of stick and slip, relative."),
+    "tangential_residual": Entry("1", "Residual of the conditions of stick and slip, relative."),
     "tangential_rounds": Entry("1", "Rounds in which the set of points that slip was sought."),
     "temperature": Entry("K", "Absolute temperature of the elastomer at which heat is balanced."),
     "time_steps": Entry("1", "Steps in time of a program."),

@@ -49,12 +49,12 @@ class Waves:
 
     @cached_property
     def rms_height(self) -> float:
-        """Over a period [m]."""
+        """Rms height over a period [m]."""
         return self.unit * sqrt(self.power.sum())
 
     @cached_property
     def rms_slope(self) -> float:
-        """Spectral, of the full gradient [1]."""
+        """Spectral rms slope of the full gradient [1]."""
         return self._rms_slope(self.along_x, self.along_y)
 
     @cached_property
@@ -82,12 +82,12 @@ class Waves:
         return (np.exp(1j * self.along_y * y) @ self.amplitudes)[1:]
 
     def moved(self, x: float, y: float) -> "Waves":
-        """Those of h(x' + x, y' + y)."""
+        """Waves of h(x' + x, y' + y)."""
         turn = np.exp(1j * self.along_y * y)[:, None] * np.exp(1j * self.along_x * x)
         return Waves(self.step_x, self.step_y, self.amplitudes * turn)
 
     def below(self, highest: float) -> "Waves":
-        """Those up to a wave number [rad/m], on the same lattice."""
+        """Waves up to a wave number [rad/m], on the same lattice."""
         return Waves(self.step_x, self.step_y, np.where(self.q <= highest, self.amplitudes, 0.0))
 
 

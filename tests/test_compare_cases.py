@@ -57,7 +57,7 @@ def test_shipped_cases_are_the_paper_s_sphere_and_cone():
         assert (rough.hurst, rough.rms_height, rough.longest) == (hurst, 5e-5, 1e-2)
         assert max(case.plan().pressing) * case.motion.load == 10.0
         assert case.title
-        assert any("resolved" in note for note in case.notes)
+        assert any("resolved" in each for each in case.departures)
 
 
 def test_a_scene_alone_is_a_case(case):

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+from html import escape
 from html.parser import HTMLParser
 from io import BytesIO
 from math import inf, nan
@@ -24,8 +25,8 @@ from pandas.testing import assert_frame_equal
 
 from compare import csvfiles, digits, manifest, pages, results, tables, vocabulary
 from compare.finding import COLUMNS
-from compare.page import Page, Table
-from compare.pages import latex, markdown, notebook, prose, terminal
+from compare.page import Findings, Page, Plot, Section, Table, Text
+from compare.pages import latex, markdown, mathematics, notebook, prose, terminal
 from compare.plots import touching
 from compare.redraw import function, options, redraw
 from scene.reading import InvalidInput
@@ -149,6 +150,41 @@ def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
         for part in ("<h1>", 'id="answer"', "<figure", "<table", 'id="section-A-sphere"', 'id="data"')
     ]
     assert places == sorted(places)
+
+
+def test_blocks_stand_in_the_order_of_reading_however_they_are_given(folder):
+    given = page()
+    again = Page(given.title, given.answer, given.blocks[::-1])
+    assert (
+        [type(each) for each in again.blocks] == [type(each) for each in given.blocks] == [Plot, Findings, Section]
+    )
+    (section,) = (each for each in again.blocks if isinstance(each, Section))
+    assert [type(each) for each in section.blocks] == [Text, Table, Table]
+
+
+FORMULA = r"$\tilde\mu = (1 + \xi^{-\alpha})^{-1/\alpha}$"
+
+
+def test_a_formula_is_mathml_on_a_page_stays_in_markdown_and_is_in_plain_letters_on_a_terminal():
+    html = prose.html(f"With {FORMULA}.")
+    assert "<math" in html
+    assert "$" not in html
+    assert prose.converted(FORMULA, latex.MARKS, latex.escaped) == FORMULA
+    assert prose.converted(FORMULA, {}) == "μ̃ = (1 + ξ^(-α))^(-1/α)"
+    assert markdown.typeset("friction grows as xi^1, h_0 <i>") == r"friction grows as $\xi^1$, $h_0$ \<i\>"
+    assert mathematics.typeset("exit, v tau/a & xi", str, "[{}]".format) == r"exit, [v\tau/a] & [\xi]"
+
+
+@pytest.mark.parametrize("wrong", ["<b>x</b>", r"\text{<b>}", r"\href{javascript:x}{y}", r"\frac", r"a^", "a & b"])
+def test_a_formula_that_is_not_understood_stands_as_it_is_written_and_is_no_markup(wrong):
+    assert mathematics.mathml(wrong) == f"<code>{escape(wrong)}</code>"
+
+
+def test_every_formula_of_the_vocabulary_is_typeset():
+    formulas = [entry.formula for entry in vocabulary.LABELS.values() if getattr(entry, "formula", "")]
+    assert len(formulas) > 10
+    assert all(mathematics.mathml(each).startswith("<math") for each in formulas)
+    assert all(mathematics.mathml(each).startswith("<math") for each in mathematics.SYMBOLS.values())
 
 
 @pytest.mark.parametrize("form", pages.FORMATS)

@@ -16,7 +16,7 @@ from compare import finding
 from compare.cases import Case, Study
 from compare.describe import described, slug
 from compare.outcome import Outcome, Row
-from compare.page import Findings, Plot, Table
+from compare.page import Findings, Plot, Section, Table
 from compare.path import Path
 from compare.plots import force_depth, style
 from compare.rectangle import COARSE, FINE, tasks_of
@@ -253,7 +253,7 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
     assert plots == {f"small-sphere/{name}" for name in {"contact", "contact-maps", "force-depth"} | friction}
     tables = {table.name: table.frame for table in page.every(Table)}
-    assert set(tables) == {"summary", "small-sphere/trust", "small-sphere/points", "small-sphere/times"}
+    assert set(tables) == {"small-sphere/trust", "small-sphere/points", "small-sphere/times"}
     shown = [each for block in page.every(Findings) for each in block.findings]
     places = [
         [(each.claim.id, each.dimension, each.where) for each in told] for told in (shown, run.findings(answers))
@@ -264,7 +264,18 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     slow = next(each for each in shown if each.claim.id == "run.friction.smooth-slow")
     assert slow.value == pytest.approx(2, abs=0.1)
     assert all("±" not in line for line in page.answer)
+    assert [line[:9] for line in page.answer][-2:] == ["Trust map"] * 2
     assert set(answers["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
+
+
+@pytest.mark.parametrize("departures", [(), ("It is small.",)])
+def test_the_setting_stands_last_and_departs_from_the_paper_only_where_the_case_does(departures):
+    run = Run({"one": replace(CASE, departures=departures), "other": CASE})
+    *others, setting = run.page(answers := run.answers(invented_of(run)), run.findings(answers)).blocks
+    assert {type(each) for each in others} == {Section}
+    assert others[-1].title == "Every claim in every case"
+    assert setting.title == "Setting"
+    assert sum("departs from the paper" in each.title for each in setting.blocks) == len(departures)
 
 
 def test_figures_are_functions_of_what_their_files_hold(report):

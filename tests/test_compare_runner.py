@@ -219,7 +219,7 @@ def test_a_task_may_fail_in_any_way(tmp_path):
         "leaves": "SystemExit: 3",
         "cannot be sent": "TypeError: cannot pickle it",
         "cannot come back": "Can't pickle",
-        "not whole": "ValueError: what it gave is not whole: 0 rows, fields []",
+        "not whole": "ValueError: its answer is not whole: 0 rows, fields []",
     }
     tasks = [Odd(way) for way in (*ways, "none")]
     swept = sweep(tasks, Store(tmp_path), workers=1)

@@ -157,7 +157,12 @@ def test_findings_state_the_law_and_the_page_counts_them():
     assert "no such file: 'scene.toml'" in page.answer[2]  # without the folder of the day
     counts = next(page.every(Table)).frame
     assert counts[["cases", SOLVED, REFUSED, BROKEN]].sum().tolist() == [4, 1, 1, 2]
-    assert [each.title for each in page.blocks if isinstance(each, Section)] == ["Motion", "Shapes", "Extremes"]
+    assert [each.title for each in page.blocks if isinstance(each, Section)] == [
+        "Motion",
+        "Shapes",
+        "Extremes",
+        "Setting",
+    ]
 
 
 def test_there_is_no_other_size():

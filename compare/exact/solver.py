@@ -40,7 +40,7 @@ class Exact:
         return "exact"
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Why there is no closed form for the scene, one sentence each."""
+        """Reasons why there is no closed form for the scene, one sentence each."""
         reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
         if not reasons and scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
             reasons.append(

@@ -46,7 +46,7 @@ class Examination:
         return {"hard case": self.case, "law": self.hard_case.law, "size": asdict(SIZES[self.size])}
 
     def solve(self) -> Outcome:
-        """Every check; whatever a case raises has broken it."""
+        """Outcome of every check of the case; whatever a case raises has broken it."""
         start = time.process_time()
         try:
             found = tuple(self.hard_case.examine(SIZES[self.size]))

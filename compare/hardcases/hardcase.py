@@ -97,7 +97,7 @@ class Group(list[HardCase]):
 
 
 def refusal(what: str, error: type[Exception] | tuple, words: str, ask: Callable, *given, **named) -> Check:
-    """What cannot be answered must be refused with an error whose message contains some words, split by " | ".
+    """Check that a question without an answer is refused by an error with some words, split by " | ".
 
     It counts how many of them are missing; NaN with the wrong error or none.
     """
@@ -112,7 +112,7 @@ def refusal(what: str, error: type[Exception] | tuple, words: str, ask: Callable
 
 
 def invalid(what: str, words: str, ask: Callable, *given, **named) -> Check:
-    """What no part of a scene and no setting takes must be refused when it is made."""
+    """Check that an invalid value of a part or a setting is refused when the part is made."""
     return refusal(what, ValidationError, words, ask, *given, **named)
 
 

@@ -14,7 +14,7 @@ from ..manifest import FINDINGS, made
 from ..page import Page, Plot, Section, Table
 from ..plots.rendering import Picture
 from ..vocabulary import Term, entry, stem
-from . import prose
+from . import mathematics, prose
 from .columns import columns
 
 # A longer table is no reading, and a larger file is not put into the page.
@@ -57,7 +57,7 @@ def anchor(*parts: str) -> str:
 
 
 def _content(used, pictures, tables, figures) -> dict[str, Any]:
-    """What the templates need beside the page. used : terms that it defines; None without definitions"""
+    """Functions and values for the templates. used : terms that the page defines; None without definitions"""
     return {
         "kind": lambda block: type(block).__name__,
         "anchor": anchor,
@@ -65,6 +65,8 @@ def _content(used, pictures, tables, figures) -> dict[str, Any]:
         "pictures": pictures,
         "figures": figures,
         "prose": lambda markdown: Markup(prose.html(markdown)),
+        "typeset": lambda words: Markup(_typeset(words)),
+        "mathml": lambda latex: Markup(mathematics.mathml(latex)),
         "rows": lambda table: _rows(table.frame, used, people=True),
         "head": lambda label, name: Markup(_head(label, name, used)),
         "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),
@@ -97,8 +99,13 @@ def _cell(column, value, shown):
     label = f' data-label="{escape(column.title)}"'
     if isinstance(value, float):
         return f'<td class="number"{label} data-value="{value!r}">{escape(shown)}</td>'
-    words = ' class="words"' if len(shown) > LONG else ""
-    return f"<td{words}{label}>{escape(shown)}</td>"
+    if len(shown) > LONG:
+        return f'<td class="words"{label}>{_typeset(shown)}</td>'
+    return f"<td{label}>{escape(shown)}</td>"
+
+
+def _typeset(words):
+    return mathematics.typeset(words, escape, mathematics.mathml)
 
 
 def _download(name: str, tables: Mapping[str, str]) -> str:

@@ -8,7 +8,7 @@ from pandas import DataFrame
 
 from ..page import Findings, Page, Plot, Section, Table, Text
 from ..plots.rendering import Picture
-from . import prose
+from . import mathematics, prose
 from .columns import claims, columns
 
 MOST_ROWS = 100
@@ -21,20 +21,12 @@ HEAD = r"""\documentclass{article}
 SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
 SUPERSCRIPTS = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 SUBSCRIPTS = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-GREEK = {
-    "Δ": "Delta", "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon",
-    "η": "eta", "θ": "theta", "λ": "lambda", "µ": "mu", "μ": "mu", "ν": "nu",
-    "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau", "φ": "varphi",
-    "ω": "omega", "±": "pm", "×": "times", "·": "cdot", "√": "surd", "≤": "leq",
-    "≥": "geq", "∞": "infty", "°": "circ", "→": "to", "≈": "approx", "∫": "int",
-    "∂": "partial", "∇": "nabla", "′": "prime", "⟨": "langle", "⟩": "rangle", "∝": "propto",
-}  # fmt: skip
 ESCAPED = (
     {character: f"\\{character}" for character in "&%$#_{}"}
     | {character: f"{{{character}}}" for character in "[]*"}  # behind a line's end they would be its arguments
     | {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\n": " ", '"': "''"}
     | {character: f"${character}$" for character in "<>|"}
-    | {character: rf"$\{name}$" for character, name in GREEK.items()}
+    | {character: rf"$\{name}$" for character, name in mathematics.GREEK.items()}
     | {"−": "$-$", "°": r"$^\circ$", "′": r"$'$", "–": "--", "½": r"$\frac{1}{2}$"}
 )
 # Characters that are one symbol together.
@@ -46,6 +38,7 @@ MARKS: prose.Marks = {
     "bullet_list": ("\\begin{itemize}\n", "\\end{itemize}\n\n"),
     "ordered_list": ("\\begin{enumerate}\n", "\\end{enumerate}\n\n"),
     "list_item": (r"\item ", ""),
+    "math": ("$", "$"),
 }
 
 
@@ -54,10 +47,15 @@ def escaped(words: str) -> str:
     return JOINED.sub(lambda found: _symbol(found.group()), words)
 
 
+def typeset(words: str) -> str:
+    """A sentence, escaped, with its symbols as formulas."""
+    return mathematics.typeset(words, escaped, mathematics.dollars)
+
+
 def table(frame: DataFrame, caption: str = "", label: str = "") -> str:
     """A table with booktabs in a float: text on the left, numbers on the right with their errors."""
     shown = columns(frame)
-    texts = [[escaped(" ".join(cell.split())) for cell in column.texts] for column in shown]
+    texts = [[typeset(" ".join(cell.split())) for cell in column.texts] for column in shown]
     # By number, as two columns may have one title once they are escaped.
     styled = DataFrame(dict(enumerate(texts))).style.hide(axis="index")
     styled = styled.format_index(lambda place: escaped(shown[place].title), axis="columns")
@@ -65,7 +63,7 @@ def table(frame: DataFrame, caption: str = "", label: str = "") -> str:
         hrules=True,
         position_float="centering",
         column_format="".join("r" if column.numeric else "l" for column in shown),
-        caption=escaped(caption) or None,
+        caption=typeset(caption) or None,
         label=label or None,
     )
 
@@ -79,7 +77,7 @@ def findings(block: Findings, label: str = "") -> str:
 
 def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
     """The page as a document that stands alone, with its figures beside it."""
-    items = "\n".join(rf"\item {escaped(sentence)}" for sentence in page.answer)
+    items = "\n".join(rf"\item {typeset(sentence)}" for sentence in page.answer)
     parts = [HEAD, rf"\section*{{{escaped(page.title)}}}"]
     parts += [f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"] if items else []
     parts += [*_blocks(page.blocks, 0, pictures), r"\end{document}"]
@@ -107,7 +105,7 @@ def _figure(plot, picture):
     width = rf"width={min(picture.inches[0], 6.2):.2f}in"
     lines = [r"\begin{figure}", r"\centering", rf"\includegraphics[{width}]{{{plot.name}.{form}}}"]
     return "\n".join(
-        [*lines, rf"\caption{{{escaped(plot.caption)}}}", rf"\label{{fig:{plot.name}}}", r"\end{figure}"]
+        [*lines, rf"\caption{{{typeset(plot.caption)}}}", rf"\label{{fig:{plot.name}}}", r"\end{figure}"]
     )
 
 

@@ -7,6 +7,7 @@ from ..manifest import FINDINGS, made
 from ..page import Findings, Page, Plot, Section, Table, Text
 from ..plots.rendering import Picture
 from ..vocabulary import entry, stem
+from . import mathematics
 from .columns import claims, columns
 
 MOST_ROWS = 100
@@ -16,7 +17,7 @@ SPECIAL = re.compile(r"([\\`*\[\]<>|$]|(?<![^\W_])_|_(?![^\W_]))")
 def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
     """The page; what stands in tables is defined at its end."""
     used: dict[str, None] = {}
-    parts = [f"# {escaped(page.title)}", "\n".join(f"- {escaped(sentence)}" for sentence in page.answer)]
+    parts = [f"# {escaped(page.title)}", "\n".join(f"- {typeset(sentence)}" for sentence in page.answer)]
     parts += _blocks(page.blocks, 2, used)
     parts.append(f"All findings, every digit: [{FINDINGS}.csv]({FINDINGS}.csv).")
     if used:
@@ -31,10 +32,15 @@ def escaped(words: str) -> str:
     return SPECIAL.sub(r"\\\1", words)
 
 
+def typeset(words: str) -> str:
+    """A sentence, escaped, with its symbols as formulas."""
+    return mathematics.typeset(words, escaped, mathematics.dollars)
+
+
 def table(heads: list[str], rows: list[list[str]], numeric: list[bool]) -> str:
     """A table of texts, which are escaped; numbers stand on the right."""
     lines = [heads, *rows]
-    cells = [[escaped(" ".join(cell.split())) for cell in line] for line in lines]
+    cells = [[typeset(" ".join(cell.split())) for cell in line] for line in lines]
     cells.insert(1, ["--:" if right else ":--" for right in numeric])
     return "\n".join(f"| {' | '.join(line)} |" for line in cells)
 
@@ -51,7 +57,7 @@ def _blocks(blocks, level, used) -> Iterator[str]:
             case Plot():
                 yield f"![{escaped(block.alternative or block.caption)}]({block.name}.png)"
                 data = ", ".join(f"[{name}.csv]({block.folder}{name}.csv)" for name in block.tables)
-                yield f"{escaped(block.caption)}{f' Data: {data}.' if data else ''}"
+                yield f"{typeset(block.caption)}{f' Data: {data}.' if data else ''}"
             case Section(title, inside):
                 yield f"{'#' * level} {escaped(title)}"
                 yield from _blocks(inside, level + 1, used)
@@ -59,7 +65,7 @@ def _blocks(blocks, level, used) -> Iterator[str]:
 
 def _table(block, used):
     if block.caption:
-        yield escaped(block.caption)
+        yield typeset(block.caption)
     if not block.long and len(block.frame) <= MOST_ROWS:
         shown = columns(block.frame)
         used.update(dict.fromkeys(stem(column.name) for column in shown if entry(column.name)))
@@ -71,7 +77,7 @@ def _table(block, used):
 def _findings(block, used):
     used.update(dict.fromkeys(("verdict", "dimension", "value", "tolerance", "grid_method")))
     if block.caption:
-        yield escaped(block.caption)
+        yield typeset(block.caption)
     shown = claims(block.findings)
     yield table(list(shown), [list(row) for row in zip(*shown.values(), strict=True)], [False] * len(shown))
 
@@ -79,6 +85,7 @@ def _findings(block, used):
 def _definition(name):
     found = entry(name)
     unit = f" [{found.unit.replace('^2', '²')}]" if found.unit else ""
-    formula = f" {found.formula}." if found.formula else ""
+    formula = f" {mathematics.dollars(found.formula)}." if found.formula else ""
     source = f" ({found.source})" if found.source else ""
-    return f"**{escaped(name.replace('_', ' '))}**{escaped(f'{unit}: {found.text}{formula}{source}')}"
+    words = f"{escaped(unit)}: {typeset(found.text)}{formula}{escaped(source)}"
+    return f"**{escaped(name.replace('_', ' '))}**{words}"

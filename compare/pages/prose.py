@@ -1,10 +1,19 @@
-"""Text of a page, which is Markdown, in other forms: emphasis, code, links and lists."""
+"""Text of a page, which is Markdown, in other forms: emphasis, code, links, lists and formulas."""
 
 from collections.abc import Callable, Mapping
 
 from markdown_it import MarkdownIt
+from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-_PARSER = MarkdownIt("commonmark", {"html": False})
+from . import mathematics
+
+_PARSER = MarkdownIt("commonmark", {"html": False}).use(
+    dollarmath_plugin,
+    allow_labels=False,
+    allow_space=False,
+    allow_digits=False,
+    renderer=lambda latex, options: mathematics.mathml(latex.strip()),
+)
 # Before and behind what is marked, by the names of markdown-it; `{href}` is where a link leads to.
 Marks = Mapping[str, tuple[str, str]]
 PLAIN: Marks = {
@@ -16,12 +25,15 @@ PLAIN: Marks = {
 
 
 def html(markdown: str) -> str:
-    """As HTML; what is HTML already is shown as text."""
+    """Markdown as HTML; marks of HTML in it are shown as text."""
     return _PARSER.render(markdown)
 
 
 def converted(markdown: str, marks: Marks, escaped: Callable[[str], str] = str) -> str:
-    """With other marks around what Markdown marks; a mark that is not given is left out."""
+    """Text with other marks in the place of those of Markdown; a mark that is not given is left out.
+
+    A formula is in plain letters, unless it has marks, "math": it then stays as it is.
+    """
     return "".join(_parts(_PARSER.parse(markdown), {**PLAIN, **marks}, escaped)).strip()
 
 
@@ -37,6 +49,9 @@ def _parts(tokens, marks, escaped):
         elif token.type in ("code_inline", "fence", "code_block"):
             before, behind = marks.get("code_inline", ("", ""))
             yield before + escaped(token.content) + behind
+        elif kind.startswith("math"):
+            formula = token.content.strip()
+            yield formula.join(marks["math"]) if "math" in marks else escaped(mathematics.plain(formula))
         elif token.nesting > 0:
             before = "" if token.hidden else before
             links.append(str(token.attrs.get("href", "")))

@@ -1,4 +1,4 @@
-"""What journals ask of figures: widths of their columns, least text, least line."""
+"""Demands of journals on figures: widths of their columns, least text, least line."""
 
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -90,7 +90,7 @@ JOURNALS = {
 
 
 def journal(name: str) -> Journal:
-    """By its name in the table; ValueError lists them for any other."""
+    """Journal by its name in the table; ValueError lists the names for any other."""
     if name in JOURNALS:
         return JOURNALS[name]
     meant = get_close_matches(name, JOURNALS, 1)

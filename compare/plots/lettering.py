@@ -169,7 +169,7 @@ def _settle(axes):
 
 
 def _side(before, behind):
-    """At the beginning, in the middle or at the end, by the gaps on both sides."""
+    """Alignment at the beginning, in the middle or at the end, by the gaps on both sides."""
     return 0 if before < behind / 2 else 2 if behind < before / 2 else 1
 
 

@@ -110,7 +110,7 @@ class MarchFigure:
 
 
 def _clear(axes):
-    """What was drawn of an instant; axes and ticks stay, which take longest."""
+    """Remove the curves of an instant; axes and ticks stay, which take longest."""
     for artist in (*axes.lines, *axes.collections, *axes.images, *axes.texts):
         artist.remove()
 
@@ -124,6 +124,6 @@ def _section(film, solver, k):
 
 
 def _way(film, now):
-    """Which way the elastomer passes at a time [s]."""
+    """Words on the direction in which the elastomer passes at a time [s]."""
     ends = np.cumsum([stage.duration for stage in film.scene.motion.stages])
     return touching.flow(film.scene.motion.stages[min(int(np.searchsorted(ends, now)), len(ends) - 1)].speed)

@@ -1,4 +1,4 @@
-"""What becomes of Eq. 22 with the loss of every wave at its own frequency: its forms against the simulation."""
+"""Forms of Eq. 22, with the loss of one wave or of every wave at its own frequency, against the simulation."""
 
 from collections.abc import Sequence
 

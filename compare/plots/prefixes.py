@@ -7,7 +7,7 @@ PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M
 
 
 def prefixed(values, unit: str) -> tuple[float, str]:
-    """What to multiply values in a unit of SI with, and the unit that they then have: 1 to 1000 at most.
+    """Factor on values in a unit of SI, and the unit that they then have, so that the greatest is 1 to 1000.
 
     Beyond the prefixes, and of nothing but zero or NaN, the unit stays.
     """

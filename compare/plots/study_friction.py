@@ -167,7 +167,7 @@ def _level(axes, curve, dimension, index):
 
 
 def behind(tables: Tables) -> Figure:
-    """What makes slow friction depend on the load: how much touches, with what drag, how steep; over the first."""
+    """Causes of the load in slow friction: real contact, its drag and its slope, each over its first value."""
     every = tables["behind"]
     drawing = style.canvas("double", 2.7)
     panels = drawing.subplots(1, len(BEHIND), sharex=True)

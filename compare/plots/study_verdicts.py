@@ -1,4 +1,4 @@
-"""What becomes of each claim: verdicts in every series, and how far a number is from the one claimed."""
+"""Verdicts on each claim in every series, and the distance of a number from the one claimed."""
 
 from collections.abc import Sequence
 from math import isfinite

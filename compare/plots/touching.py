@@ -137,7 +137,7 @@ def level(axes: Axes) -> None:
 
 
 def flow(speed: float) -> str:
-    """Which way the elastomer passes, seen from the indenter."""
+    """Words on the direction in which the elastomer passes, seen from the indenter."""
     return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"
 
 
@@ -167,7 +167,7 @@ def contact_map(axes: Axes, x, y, touching, displacement, deepest: float, colour
 
 
 def remark(axes: Axes, text: str) -> None:
-    """In the lower left corner, readable on whatever is drawn there."""
+    """Write into the lower left corner, readable on whatever is drawn there."""
     ground = {"facecolor": style.paper(), "edgecolor": "none", "alpha": 0.75, "pad": 1.0}
     axes.text(0.03, 0.04, text, transform=axes.transAxes, fontsize=style.small(), bbox=ground)
 
@@ -199,7 +199,7 @@ def _image(axes, x, y, values, **look):
 
 
 def _places(span, passed):
-    """Where some of the row of elements are, alike apart, after it has passed by a length [m]."""
+    """Places of some of the row of elements, equally spaced, after it has passed by a length [m]."""
     pitch = (span[1] - span[0]) / ELEMENTS
     return span[0] + (passed - span[0]) % pitch + pitch * np.arange(ELEMENTS)
 

@@ -1,4 +1,4 @@
-"""What solves cost: measured, the powers that this follows, and what those say of the largest grid."""
+"""Costs of solves: measured ones, their power laws, and the forecast for the largest grid."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

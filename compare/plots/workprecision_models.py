@@ -88,7 +88,7 @@ def _rough(panel):
 
 
 def _first(panel):
-    """What tells contact and quantity."""
+    """Row that names contact and quantity."""
     return panel if isinstance(panel, Mean) else panel.first
 
 

@@ -95,7 +95,7 @@ class Collapse:
 
     @property
     def inseparable(self) -> str:
-        """Why a horizontal shift cannot be told from a vertical one; empty where it can."""
+        """Reason why a horizontal shift cannot be told from a vertical one; empty where it can."""
         return _inseparable(self.straight)
 
     def points(self, shifts: np.ndarray | None = None) -> DataFrame:
@@ -198,7 +198,7 @@ def _with_errors(data, curves):
 
 
 def _inseparable(straight):
-    """Why curves may be straight parallel lines, by the misfit of such lines; empty where they are not."""
+    """Reason why curves may be straight parallel lines, by the misfit of such lines; empty where they are not."""
     if straight.interval()[0] > STRAIGHT:
         return ""
     return PARALLEL if isfinite(straight.value) else UNSCATTERED
@@ -255,7 +255,7 @@ def _moved(data, fit, guess):
 
 
 def _taken(data, level, lifted, along, both):
-    """What vertical shifts take from the misfit that horizontal ones leave at the least overlap.
+    """Misfit that vertical shifts take from that of horizontal ones at the least overlap.
 
     along, both : guesses of the increments of either fit
     """

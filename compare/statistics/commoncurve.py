@@ -77,7 +77,7 @@ class Fit:
         return common.orthonormal @ (common.orthonormal.T @ moved) - moved
 
     def tangent(self, increments: np.ndarray) -> np.ndarray:
-        """What the fit can change to first order: polynomials, levels and shifts (N, M)."""
+        """Tangent of the fit: changes to first order of polynomials, levels and shifts (N, M)."""
         common = self.common(increments)
         return np.hstack([common.basis, common.slopes[:, None] * self.later])
 

@@ -115,7 +115,7 @@ class MeasuredLadder:
         return self.errors[-1] + self.reference_error
 
     def effort(self, level: float) -> Effort | None:
-        """What a wanted error takes with the error of the reference; None where it is not reached."""
+        """Effort for a wanted error, with the error of the reference; None where it is not reached."""
         k = self.reaching(level - self.reference_error)
         if k is None:
             return None
@@ -133,14 +133,14 @@ class MeasuredLadder:
 
     @property
     def unsolved(self) -> str:
-        """Why there is no error at all; empty where there is one."""
+        """Reason why there is no error at all; empty where there is one."""
         if np.isfinite(self.errors).any():
             return ""
         failed = self.failures
         return f"no step was solved ({failed[0][1]})" if failed else "the reference was not solved"
 
     def cell(self, level: float) -> str:
-        """What a wanted error takes, in words, or why it cannot be told."""
+        """Effort for a wanted error in words, or the reason why it is not known."""
         if self.unsolved:
             return self.unsolved
         if level < self.reference_error:

@@ -198,7 +198,7 @@ def _no_law(reason, x, cost):
 
 
 def _crossing(x, costs, cost):
-    """Where costs that rise in the end pass one; between points by logarithms."""
+    """Size at which costs that rise in the end pass one; between points by logarithms."""
     above = np.flatnonzero(costs > cost)
     if not len(above):
         return inf

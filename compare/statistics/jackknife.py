@@ -254,7 +254,7 @@ def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
 
 
 def student(level: float, freedom: float | np.ndarray) -> float:
-    """By how many standard errors either end of an interval lies off, as often inside as stated."""
+    """Number of standard errors to either end of an interval that covers as often as stated."""
     # scipy.stats has the same functions, and takes a second to import.
     with_errors = np.where(np.asarray(freedom) > 0, freedom, nan)
     found = np.where(
@@ -384,7 +384,7 @@ def measured(
 
 
 def _unknown(draws, numbers):
-    """Why a number or one of its errors is not known; empty where all are."""
+    """Reason why a number or one of its errors is not known; empty where all are."""
     if np.all(np.isfinite(numbers)):
         return ""
     if draws == 1:

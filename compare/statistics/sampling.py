@@ -88,7 +88,7 @@ class Level:
 
 @dataclass(frozen=True)
 class Effort:
-    """What a wanted error takes.
+    """Effort for a wanted error.
 
     solver : by name; settings : in words; seconds : of processor time
     counts : surfaces on each level of a plan
@@ -104,7 +104,7 @@ class Way(Protocol):
     """A way to an answer."""
 
     def effort(self, level: float) -> Effort | None:
-        """What a wanted error takes; None where it is not reached."""
+        """Effort for a wanted error; None where it is not reached."""
 
 
 @dataclass(frozen=True)

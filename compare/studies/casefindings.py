@@ -1,4 +1,4 @@
-"""Claims on one scene in one and in three dimensions, and what its curves say of them."""
+"""Claims on one scene in one and in three dimensions, and their findings on its curves."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -98,7 +98,7 @@ class Shifted:
 
 @dataclass(frozen=True)
 class CaseFindings:
-    """What the answers to one case say.
+    """Findings, curves and points of one case.
 
     name : of the case; folder : of its figures
     datasets : by "curve/solver"

@@ -57,7 +57,7 @@ class ReadyStudy:
 
 
 def _collapse(size: Size) -> Iterator[Series]:
-    """At prescribed load, and at the depths that the smooth relaxed bodies have under these loads."""
+    """Series at prescribed load, and at the depths that the smooth relaxed bodies have under these loads."""
     loads = size.values_of(*LOADS)
     for shape in SHAPES:
         yield _series(size, shape, f"Rough {shape}", kelvin(shape), values=loads)
@@ -112,7 +112,7 @@ def _parameters(size: Size) -> Iterator[Series]:
 
 
 def _depth_study(size: Size) -> Iterator[Series]:
-    """At rest at prescribed depths, and pressed in at constant rates."""
+    """Series at rest at prescribed depths, and pressed in at constant rates."""
     few = size.coarser.at_most(speeds=size.indentations, values=size.indentations, surfaces=6)
     for shape in SHAPES:
         scene = kelvin(shape)

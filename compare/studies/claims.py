@@ -117,8 +117,8 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "eq19.load-exponent": (
             "Eq. 19: at the knee friction falls with the load as the law does",
-            "d ln mu / d ln F_N at the speed at which xi is closest to 1, less that of the law there, least squares "
-            "over the loads or depths.",
+            "d ln mu / d ln F_N at the speed at which xi is closest to 1, less that of the law there, least "
+            "squares over the loads or depths.",
         ),
         "rest.depth-deep": (f"{_DEEP}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
         "rest.depth-shallow": (f"{_SHALLOW}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),

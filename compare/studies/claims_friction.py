@@ -126,7 +126,7 @@ def _slowest(variable, below, answers):
 
 
 def behind(solver: str) -> dict[str, tuple[str, str | None]]:
-    """What makes slow friction depend on the load: a variable, or its ratio to another; by the names of claims."""
+    """Causes of the load in slow friction: a variable, or its ratio to another; by the names of claims."""
     contact = CONTACT[solver]
     return {
         "contact": (contact, None),
@@ -162,7 +162,7 @@ def _closest_to_one(laws) -> tuple[np.ndarray, int | None]:
 
 
 def collapses(contacts: Contacts, solver: str) -> tuple[Collapse, Collapse] | None:
-    """What shifts make of the curves of the rough body on both grids; None where points are too few."""
+    """Collapse of the curves of the rough body on both grids; None where points are too few."""
     try:
         fine, coarse = (collapse(curves(contacts, solver, grid)) for grid in (FINE, COARSE))
     except ValueError:

@@ -33,9 +33,9 @@ from .series import SOLVERS, Contacts, Series
 
 ALL = "all"
 UNMATCHED = (
-    "The roughness is a line in 1D and a surface in 3D. The spectra are tied by the rule of the method, C_1D = π "
-    "q C_2D, which keeps the rms height and the rms of the full gradient; real contact is a length in one and an "
-    "area in the other, and no claim compares them."
+    "The roughness is a line in 1D and a surface in 3D. The rule of the method, "
+    r"$C_\mathrm{1D} = \pi q\,C_\mathrm{2D}$, ties their spectra; it keeps the rms height and the rms of the full "
+    "gradient. Real contact is a length in 1D and an area in 3D, and no claim compares them."
 )
 
 
@@ -140,20 +140,28 @@ class ClaimStudy(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """Verdicts, an overview of them, and what belongs to several series; then each series."""
+        """Verdicts, an overview of them, and findings on several series; then each series."""
         judged = self.judged(answers)
         whole = [plot for plot in plots if not plot.folder]
-        blocks: list[Block] = [Text(self.about), *whole[:1]]
+        blocks: list[Block] = [*whole[:1]]
         if overview := list(_overview(findings)):
             blocks.append(
                 Table("overview", DataFrame(overview), "Findings of each verdict, by claim and dimensionality.")
             )
-        blocks.append(Section("What cannot be matched between the dimensionalities", [Text(UNMATCHED)]))
         if judged.together:
             blocks.append(Section("Several series together", [*whole[1:], Findings(judged.together)]))
         return blocks + [
-            Section(f"{number}. {each.series.title}", list(_section(each, plots)))
+            Section(_numbered(number, each), list(_section(each, plots)))
             for number, each in enumerate(judged.series, 1)
+        ]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """The question, what differs between the dimensionalities, and the contacts of each series."""
+        return [Text(self.about), Text(UNMATCHED)] + [
+            Section(
+                f"Contacts of {_numbered(number, each)}", [Text("\n".join(f"- {line}" for line in _asked(each)))]
+            )
+            for number, each in enumerate(self.judged(answers).series, 1)
         ]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
@@ -171,11 +179,12 @@ class AllStudies(Study):
 
     command, title = "study", "The laws of the paper in one and in three dimensions"
     about = (
-        "Claims of Popov, Voll, Li, Chai, Popov, Sci. Rep. 4, 3750 (2014), asked of one dimension and of three "
-        "on the same scenes. A claim holds if its whole interval of 95 % lies within the tolerance, fails if "
-        "none of it does, and is undecided otherwise, or where an error is unknown. Surfaces are left out at all "
-        "points at once; the interval is wider at both ends by the change on halving the grid. Every series with "
-        "its figures and points is on the page of its study, `crosscheck study NAME`."
+        "The claims are those of Popov, Voll, Li, Chai and Popov, Sci. Rep. 4, 3750 (2014). Each is judged in one "
+        "dimension and in three, on the same scenes. A claim holds if its whole interval of 95 % lies within the "
+        "tolerance and fails if none of it does; otherwise, or where an error is unknown, it is undecided. The "
+        "scatter is found by leaving out each surface in turn, at all points at once, and the interval is wider "
+        "at both ends by the change on halving the grid. The page of each study, `crosscheck study NAME`, shows "
+        "every series with its figures and points."
     )
 
     @property
@@ -208,14 +217,20 @@ class AllStudies(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """Inputs, then a section for each study."""
-        blocks: list[Block] = [Text(self.about), Text(UNMATCHED)]
+        """A section for each study: its figures and findings."""
+        found = []
         for each in self.studies:
             own = [plot for plot in plots if plot.folder == f"{each.name}/"]
-            command = f"`crosscheck study {each.name} --size {each.size}`."
-            verdicts = Findings(claimed(self._own(each, answers)))
-            blocks.append(Section(each.title, [Text(f"{each.about} {command}"), *own, verdicts]))
-        return blocks
+            found.append(Section(each.title, [*own, Findings(claimed(self._own(each, answers)))]))
+        return found
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Rule of the verdict, what differs between the dimensionalities, and each question with its command."""
+        questions = (
+            f"- {each.title} {each.about} `crosscheck study {each.name} --size {each.size}`"
+            for each in self.studies
+        )
+        return [Text(self.about), Text(UNMATCHED), Text("\n".join(questions))]
 
     def _own(self, each, answers):
         """Findings of one study, each with the study in front of its place and its plot."""
@@ -243,15 +258,18 @@ def _overview(findings: Sequence[Finding]) -> Iterator[dict]:
         yield {"sentence": own[0].claim.sentence, "dimension": dimension, **counts}
 
 
+def _numbered(number: int, judged: JudgedSeries) -> str:
+    return f"{number}. {judged.series.title}"
+
+
 def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
-    """What was asked of one series, its figures, findings, points, and what failed."""
+    """Figures of a series, its findings, points, and solves that failed."""
     series = judged.series
-    yield Text("\n".join(f"- {line}" for line in _asked(judged)))
     yield from (plot for plot in plots if plot.folder == f"{series.folder}/")
     if judged.findings:
         yield Findings(judged.findings)
     else:
-        yield Text("No claim can be judged, or none is asked, of this series.")
+        yield Text("No claim can be judged on this series, or none is made of it.")
     yield Table(
         f"{series.folder}/points",
         points(judged.contacts),
@@ -264,7 +282,7 @@ def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
 
 
 def _asked(judged: JudgedSeries) -> Iterator[str]:
-    """Scene, points, draws and grids of a series, in words; slopes and regime as measured."""
+    """Lines on a series: scene, points, draws and grids; slopes and regime, which were measured."""
     series, scene = judged.series, judged.series.scene
     if series.note:
         yield series.note

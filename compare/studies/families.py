@@ -123,7 +123,7 @@ def _apart_by_height(members):
 
 
 def _differ(members):
-    """Whether roughness or solid do."""
+    """Whether roughness or solid differ between series."""
     scenes = [judged.series.scene for judged in members]
     return any(each.roughness != scenes[0].roughness or each.elastomer != scenes[0].elastomer for each in scenes)
 

@@ -50,7 +50,7 @@ class _Range:
         return self
 
     def values(self, count: int) -> tuple[float, ...]:
-        """As many as are stated, else so many."""
+        """Number that is stated, else the given one."""
         return between(self.least, self.greatest, self.count or count)
 
 
@@ -95,10 +95,10 @@ Claims = Annotated[tuple[Claim, ...], Field(min_length=1)]
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class _Shared:
-    """What a study states for all of its series, and each of them for itself.
+    """Fields that a study states for all of its series, or each of them for itself.
 
     scene : name of a ready scene, from which every table is taken that is not stated
-    indenter, elastomer, roughness, temperature : as of a scene; what a series states takes the place of what is
+    indenter, elastomer, roughness, temperature : as in a scene; what a series states takes the place of what is
         stated for all, name by name, unless it states another type. Bodies are spheres, cones and power laws, and
         roughness is self-affine
     speeds : of sliding [m/s], two at least; with rates absent too, the bodies are at rest
@@ -156,7 +156,7 @@ class StudyFile(_Shared):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class _Contact:
-    """What a series comes to once everything is put together."""
+    """Contact of a series once everything is put together."""
 
     indenter: Body
     elastomer: Elastomer
@@ -220,7 +220,7 @@ class _Stated:
         )
 
     def misfits(self) -> Iterator[str]:
-        """What does not go together in it."""
+        """Contradictions between the fields."""
         pressing, moved = self.of("loads", "depths"), self.of("speeds", "rates")
         for given, names, least in ((pressing, "loads, depths", 1), (moved, "speeds, rates", 0)):
             if not least <= len(given) <= 1:
@@ -230,9 +230,9 @@ class _Stated:
             if isinstance(values, tuple) and list(values) != sorted(set(values)):
                 yield f"{name} = {brief(repr(list(values)))}: from the least to the greatest, each once"
         if "rates" in moved and "depths" not in pressing:
-            yield "rates: what is pressed in at a rate is pressed to depths, give depths"
+            yield "rates: a body pressed in at a rate is pressed to depths, give depths"
         if "rates" in moved and "temperature" in self.contact:
-            yield "rates: what is pressed in is stated at its own temperature, leave temperature out"
+            yield "rates: a pressed-in solid is stated at its own temperature, leave temperature out"
         if "speeds" in moved and isinstance(moved["speeds"], tuple) and len(moved["speeds"]) < 2:
             yield "speeds: at least two, or none for bodies at rest"
         for solver, least in (("bem", 32), ("mdr", 16)):
@@ -327,7 +327,7 @@ def _in_file(mistake, own, number):
 
 
 def _refused(stated: _Stated, number: int) -> Iterator[str]:
-    """What the solvers lack, at the least size."""
+    """Refusals of the solvers at the least size."""
     try:
         for rectangle in stated.series(SIZES["quick"]).rectangles.values():
             rectangle.refuse()

@@ -29,12 +29,12 @@ class JudgedSeries:
 
     @property
     def series(self) -> Series:
-        """What was asked."""
+        """Series that was judged."""
         return self.contacts.series
 
 
 def judge_series(contacts: Contacts) -> JudgedSeries:
-    """What each claim comes to on one series, of those that it asks."""
+    """Findings on one series, for the claims that it asks for."""
     series = contacts.series
     if not series.slides:
         return JudgedSeries(contacts, {}, {}, _asked(series, depth_findings(contacts), DEPTH))

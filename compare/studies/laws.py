@@ -1,4 +1,4 @@
-"""What theory says of every point of a series: the paper's laws, and the exact limits of low speed."""
+"""Laws at every point of a series: those of the paper, and the exact limits of low speed."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -18,7 +18,7 @@ from scene.table import read_rows
 from ..declaration import Study
 from ..finding import EXACT, FAILS, Claim, Finding, claimed, sentences
 from ..outcome import Outcome
-from ..page import Block, Findings, Plot, Table
+from ..page import Block, Findings, Plot, Table, Text
 from ..plots import shifted_curves
 from ..statistics import eq23
 from ..statistics.collapse import Collapse, collapse
@@ -165,6 +165,13 @@ class Mastercurve(Study):
     ) -> Sequence[Block]:
         shifts = Table("shifts", self.collapse.shifts, "Natural logarithms of the shifts, with intervals of 95 %.")
         return [*plots, Findings(findings), shifts]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Number and range of the measurements."""
+        loads, speeds = self.data["normal_force"].values, self.data["speed"].values
+        reach = [f"{each.min():.3g} to {each.max():.3g}" for each in (speeds, loads)]
+        counts = f"{loads.size} measurements at {np.unique(speeds).size} speeds from {self.path.name}"
+        return [Text(f"{counts}: speeds of {reach[0]} m/s, loads of {reach[1]} N.")]
 
 
 def read_measured(path: str | Path) -> xarray.Dataset:

@@ -1,4 +1,4 @@
-"""Every point of a series: means over its surfaces with intervals of 95 %, where it lies, and what failed."""
+"""Points of a series: means over its surfaces with intervals of 95 %, their regime, and failed solves."""
 
 from collections.abc import Callable, Mapping
 from math import nan

@@ -1,4 +1,4 @@
-"""Where each point of a study lies: the ratios of a rough contact that decide which laws can hold of it."""
+"""Regime of each point of a study: the ratios of a rough contact that decide which laws can hold."""
 
 from collections.abc import Mapping
 from math import pi

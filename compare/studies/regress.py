@@ -1,4 +1,4 @@
-"""Has the accuracy moved? Quantities that say how far one model is from another, beside what they were.
+"""Has the accuracy moved? Ratios between models, held against their stored values.
 
 The baseline is a file of stored values. It says what is, and nothing is tuned to it: one that moves beyond its
 tolerance is an error found, or an improvement to be reviewed and stored.
@@ -56,7 +56,7 @@ class Regress(Study):
 
     command = "regress"
     title = "Has the accuracy moved?"
-    about = "Ratios that say how far one answer is from another, beside what they were."
+    about = "Ratios that say how far one answer is from another, held against their stored values."
 
     def __post_init__(self):
         ids = [quantity.id for quantity in self.quantities]
@@ -154,7 +154,7 @@ class Regress(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        """What asks for attention first, then a table of all; why the tolerances are what they are, once."""
+        """Quantities that ask for attention, then a table of all."""
         wrong = [each for each in findings if each.stated != HOLDS]
         rows = [
             {
@@ -166,10 +166,16 @@ class Regress(Study):
             }
             for each in findings
         ]
-        blocks: list[Block] = [Findings(wrong, "What asks for attention.")] if wrong else []
-        blocks.append(Table("quantities", DataFrame(rows), f"Every quantity, against {self.path.name}."))
+        table = Table("quantities", DataFrame(rows), f"Every quantity, against {self.path.name}.")
+        attention = (
+            [Findings(wrong, "Quantities that moved, are new, are gone or have no value.")] if wrong else []
+        )
+        return [*attention, table]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Quantities in a sentence, and the reason for each tolerance, once."""
         reasons = dict.fromkeys(f"{each.tolerance:g}: {each.reason}." for each in self.quantities)
-        return [*blocks, Section("Tolerances", [Text(reason) for reason in reasons])]
+        return [Text(self.about), Section("Tolerances", [Text(reason) for reason in reasons])]
 
 
 def tolerances_moved(found: Finding) -> float:
@@ -212,7 +218,7 @@ def check(
     folder: Path | None = None,
     workers: int | None = None,
 ) -> None:
-    """For use in a test: nothing has moved. Raises AssertionError that lists what has, InvalidInput.
+    """Assert in a test that nothing has moved. Raises AssertionError that lists what has, InvalidInput.
 
     baseline, quantities : those of the package, unless others are given
     folder : of what has been solved; without it all is solved again, and nothing kept

@@ -1,6 +1,6 @@
 """Scenes in one and in three dimensions: `crosscheck run`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -119,7 +119,7 @@ class Run(Study):
         return [each for case in self.judged(answers) for each in case.claims]
 
     def judged(self, answers: xarray.DataTree) -> Sequence[CaseFindings]:
-        """What the answers to each case say."""
+        """Findings, curves and points of each case."""
         if self._found.get("answers") is not answers:
             self._found.update(answers=answers, cases=[self._judged(name, answers) for name in self.cases])
         return self._found["cases"]
@@ -135,12 +135,12 @@ class Run(Study):
 
     @cached_property
     def trusts(self) -> Mapping[str, Trust]:
-        """What 1D is worth by the trust map, by case: foretold, and not from what is solved here."""
+        """Advice of the trust map on 1D, by case: foretold, and not from what is solved here."""
         return {name: trust(case.scene) for name, case in self.cases.items()}
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         worth = [
-            f"{name}, {quantity}: {each}"
+            f"Trust map, {quantity} of {name}: {each}"
             for name, found in self.trusts.items()
             for quantity, each in found.worths.items()
         ]
@@ -154,21 +154,27 @@ class Run(Study):
             Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
             for case in cases
         ]
-        return [Table("summary", summary(cases), "Every claim in every case."), *sections]
+        if len(cases) == 1:
+            return sections
+        every = Table("summary", summary(cases), "Number and verdict, or counts of verdicts, of each case.")
+        return [*sections, Section("Every claim in every case", [every])]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Scene and settings of each case, and how a case of the paper departs from it."""
+        return [block for name, case in self.cases.items() for block in _setting(case.title or name, case)]
 
 
 def _blocks(found: CaseFindings, answers, trusted: Trust) -> list[Block]:
-    case, folder = found.case, f"{found.folder}/"
+    folder = f"{found.folder}/"
     others = [each for each in found.claims if each.verdict == finding.REPORTED]
     blocks: list[Block] = [
-        Text(_asked(case)),
-        Table(f"{folder}trust", trusted.table(), "What 1D is worth by the trust map, foretold without solving."),
         *_plots(found, answers),
         Findings(
             finding.claimed(found.claims),
             "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid.",
         ),
         Findings(others, "Numbers that tell how far these can be trusted."),
+        Table(f"{folder}trust", trusted.table(), "Advice of the trust map on 1D, foretold without solving."),
         Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
     ]
     if len(found.failures):
@@ -205,17 +211,23 @@ def _cell(found: Sequence[Finding]) -> str:
     return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
 
 
-def _asked(case: Case) -> str:
-    """What was asked, in words, and how it departs from the paper: a list in Markdown."""
+def _setting(title: str, case: Case) -> Iterator[Block]:
+    """Scene in words, averages, grids and notes of a case; departures only of a case of the paper."""
     plan = case.plan()
     parts = [(each.name, getattr(case, each.name)) for each in fields(Scene)]
-    lines = [f"- {name}: {described(part)}" for name, part in parts if part is not None]
+    lines = [f"{name}: {described(part)}" for name, part in parts if part is not None]
     counts = (
         f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
     )
-    lines.append(f"- averaged: {counts}")
-    lines.append(f"- grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
-    return "\n".join([*lines, "", *(f"- {note}" for note in case.notes)]).strip()
+    lines.append(f"averaged: {counts}")
+    lines.append(f"grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
+    yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
+    if case.departures:
+        yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
+
+
+def _list(lines: Sequence[str]) -> Text:
+    return Text("\n".join(f"- {line}" for line in lines))
 
 
 def _plots(found: CaseFindings, answers) -> list[Plot]:

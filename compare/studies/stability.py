@@ -14,7 +14,7 @@ from ..hardcases.collection import CASES
 from ..hardcases.examination import Examination
 from ..hardcases.hardcase import SIZES, Check
 from ..outcome import Outcome
-from ..page import Block, Page, Section, Table, Text
+from ..page import Block, Plot, Section, Table, Text
 from ..suggest import known
 from ..task import Batch, Task
 from ..vocabulary import attributes
@@ -27,7 +27,7 @@ LONGEST = 120  # characters of a message in a table
 ABOUT = """Each case is a contact in which a solver may fail, with what must hold: a closed form, a limit,
 exact scaling, a balance, or the conditions of contact computed anew by plain sums, in both dimensionalities
 wherever both can be asked. Tolerances are part of the law and say where they come from; N is the number of points
-of the grid. What cannot be answered must be refused by an error that names what is wrong.
+of the grid. A question without an answer must be refused by an error that names the mistake.
 
 A row shows the check that came nearest to its bound, or the message of a refusal; found and allowed are
 relative numbers unless the law says otherwise. Refused, and not answered: lines far beyond v τ/a = 10⁴, depths
@@ -42,7 +42,7 @@ class Stability(Study):
     size: str = "quick"
 
     command = "stability"
-    title = "Where it is hard"
+    title = "Hard cases"
     about = "Contacts in which a solver may fail, each with the law that its answer must keep."
 
     @classmethod
@@ -98,19 +98,21 @@ class Stability(Study):
                 Finding(claim, nearest.found, where=case.group, stated=stated, reason=told),
                 {
                     "case": name,
+                    "outcome": BROKEN if broken else REFUSED if refused else SOLVED,
+                    "found": nearest.found,
+                    "allowed": nearest.allowed,
                     "hard because": case.about,
                     "must hold": case.law,
                     "check": nearest.what,
-                    "found": nearest.found,
-                    "allowed": nearest.allowed,
-                    "outcome": BROKEN if broken else REFUSED if refused else SOLVED,
                     "message": told if len(told) <= LONGEST else f"{told[: LONGEST - 1]}…",
                     "checks": len(rows),
                     "seconds": first.seconds,
                 },
             )
 
-    def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
         """Number of cases that keep their law, then a table for each group."""
         judged = list(self._judged(answers))
         groups = list(dict.fromkeys(finding.where for finding, _ in judged))
@@ -120,15 +122,17 @@ class Stability(Study):
             | {outcome: int((frame["outcome"] == outcome).sum()) for outcome in (SOLVED, REFUSED, BROKEN)}
             for group, frame in frames.items()
         ]
-        blocks: list[Block] = [Text(ABOUT), Table("groups", DataFrame(counts), f"Hard cases, size {self.size}.")]
-        blocks += [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
-        return Page(self.title, self.answer(findings), blocks)
+        sections = [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
+        return [Table("groups", DataFrame(counts), f"Hard cases, size {self.size}."), *sections]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        return [Text(ABOUT)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         """Number of cases that keep their law, and a sentence for each that does not."""
         broken = [each for each in findings if each.stated == FAILS]
-        told = f"{len(findings) - len(broken)} of {len(findings)} hard cases keep their law"
-        told += ", solved or refused as they should." if broken else ": all of them."
+        kept = f"{len(findings) - len(broken)} of" if broken else "All"
+        told = f"{kept} {len(findings)} hard cases keep their law, solved or refused as they should."
         return [told] + [
             f"{each.claim.id.partition('.')[2]} is broken: found {each.value:.2g}, allowed "
             f"{each.claim.tolerance:.2g}. {each.claim.sentence}. {each.reason}".strip()

@@ -120,7 +120,7 @@ def _collapse(judged) -> Plot:
 
 
 def _fitted(judged, solver):
-    """What shifts along the load achieve, where a common curve was found; else None."""
+    """Fit of shifts along the load, where a common curve was found; else None."""
     found = judged.collapses.get(solver)
     return None if found is None or found.horizontal.curve is None else found
 

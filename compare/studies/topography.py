@@ -155,7 +155,10 @@ class Map(Study):
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        return [Text("\n\n".join(self.lines())), *plots, Findings(findings)]
+        return [*plots, Findings(findings)]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        return [Text("\n\n".join(self.lines()))]
 
     def lines(self) -> list[str]:
         """Size of the map, what was done to it, and the band of the law."""

@@ -137,7 +137,7 @@ def _slope_one(slow, fits) -> Iterator[Finding]:
 
 
 def _slow(points):
-    """Where all conditions hold but that on the macroscopic slope."""
+    """Points at which all conditions hold but that on the macroscopic slope."""
     return np.logical_and.reduce([points[FLAG + name].to_numpy(bool) for name in ("xi << 1", "2a < L", "h0 << d")])
 
 

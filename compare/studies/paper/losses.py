@@ -1,7 +1,7 @@
-"""Figs. 5 to 7: friction against load at many speeds, and what shifts along the load make of it.
+"""Figs. 5 to 7: friction against load at many speeds, shifted along the load.
 
-The measured data were never published. What is shifted here is simulated, on a solid whose loss is a power of the
-frequency, Eq. 24.
+The measured data were never published. The friction shifted here is simulated, on a solid whose loss is a power
+of the frequency, Eq. 24.
 """
 
 from collections.abc import Mapping

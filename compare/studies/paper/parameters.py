@@ -46,7 +46,7 @@ class Loss:
 
     @property
     def symbols(self) -> str:
-        """With Greek letters."""
+        """Exponent and time of the loss in Greek letters."""
         return f"β = {self.exponent:g}, τ = {self.relaxation_time:g} s"
 
     @property

@@ -1,4 +1,4 @@
-"""What Eq. 22 says of the friction of Figs. 5 to 7, with the loss at one frequency and with that of every wave."""
+"""Eq. 22 for the friction of Figs. 5 to 7, with the loss at one frequency and with that of every wave."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -26,7 +26,7 @@ SHORTEST, EVERY, WITH_SMOOTH = "shortest wave", "every wave", "every wave and sm
 
 @dataclass(frozen=True)
 class Predicted:
-    """What the laws say of one rubber, arrays (speeds, loads).
+    """Friction of one rubber by the laws, arrays (speeds, loads).
 
     one_frequency, spectral : mu of Eq. 22 with the loss at the shortest wave, and with that of every wave at its
         own frequency; both leave out the macroscopic slope
@@ -46,7 +46,7 @@ class Predicted:
 
 
 def predict(loss: Loss) -> Predicted:
-    """What the laws say of a rubber."""
+    """Friction of a rubber by the laws."""
     speeds, loads = np.array(parameters.SPEEDS)[:, None], np.array(parameters.FORCES)
     scene = parameters.lossy(loss, 1.0, 1.0)
     solid, body, rough = scene.elastomer, scene.indenter, parameters.LOSS_ROUGH

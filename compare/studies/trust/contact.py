@@ -73,7 +73,7 @@ class Contact:
         return Outcome((Row(reason=reason),))
 
     def fits(self, outcome: Outcome) -> bool:
-        """Whether anything was stored."""
+        """Whether the stored outcome has any rows."""
         return bool(outcome.rows)
 
     @property

@@ -53,7 +53,7 @@ class CorrectedMDR:
         return "CorrectedMDR"
 
     def refusals(self, scene: Scene) -> list[str]:
-        """Why the scene cannot be solved, one sentence each: what MDR refuses, and what was never measured."""
+        """Reasons why the scene cannot be solved, one sentence each: MDR refuses it, or it was never measured."""
         return [*self.mdr.refusals(scene), *unmeasured(scene)]
 
     def solve(self, scene: Scene) -> Result:

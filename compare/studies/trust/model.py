@@ -121,7 +121,7 @@ class Model:
 
 
 def lost(groups: np.ndarray) -> np.ndarray:
-    """Where a depth is lost in the roughness (M,): that touches in part, about as high as the body is deep."""
+    """Scenes (M,) whose depth is lost in a roughness that touches in part and is as high as the body is deep."""
     height, pressure = (groups[:, NAMES.index(name)] for name in ("sliding_height", "sliding_pressure"))
     return (height > log(LOST)) & (pressure < 0)
 

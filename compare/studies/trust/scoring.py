@@ -40,7 +40,7 @@ class Score:
 
     @property
     def usable(self) -> np.ndarray:
-        """Which scenes get "use" or "multiply" (N,)."""
+        """Mask of the scenes that get "use" or "multiply" (N,)."""
         return self.advice != SOLVE
 
     @property

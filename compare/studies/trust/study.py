@@ -14,7 +14,7 @@ from pandas import DataFrame
 from scene import Scene
 
 from ...declaration import Study
-from ...finding import Claim, Finding
+from ...finding import Claim, Finding, claimed, sentences
 from ...library import CATALOGUE
 from ...outcome import Outcome
 from ...page import Block, Findings, Plot, Section, Table, Text
@@ -38,9 +38,9 @@ ABOUT = """Each scene is a point of a design over dimensionless groups, solved i
 surfaces until its scatter is known. Gaussian processes learn the ratio of 1D over 3D from these scenes alone.
 Those held out were drawn by another seed, and no model was fitted to them.
 
-Errors are of all held-out scenes whose advice is "use" or "multiply". In each measured error lies the scatter of
-the surfaces behind the truth; the error of the map alone is what remains when it is split as the variances of both
-stand."""
+Errors are those of all held-out scenes whose advice is "use" or "multiply". Each measured error contains the
+scatter of the surfaces behind the truth. The error of the map alone is the share that remains when the two are
+split in proportion to their variances."""
 # What the map is to keep, of each quantity: median error, error of nine in ten.
 WANTED = {"friction": (0.02, 0.08), "depth": (0.01, 0.05), "force": (0.01, 0.05)}
 BOOTSTRAPS = 200
@@ -162,15 +162,13 @@ class TrustStudy(Study):
         return [regime_map.plot(regime_table(model=friction), ABOUT_FAMILY, WIDE)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A sentence for each finding."""
-        return [f"{each.verdict}: {each.claim.sentence}: {each.found()}." for each in findings]
+        return sentences(claimed(findings))
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         scores = self.scores(answers)
         return [
-            Text(ABOUT),
             *plots,
             Table(
                 "advice",
@@ -186,6 +184,10 @@ class TrustStudy(Study):
                 ],
             ),
         ]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """The campaign, and the meaning of its errors."""
+        return [Text(ABOUT)]
 
 
 def _smooth(scene: Scene) -> tuple[SceneTask, SceneTask]:
@@ -227,35 +229,35 @@ def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
 
 
 def _findings(name: str, score: Score) -> Iterator[Finding]:
-    """What becomes of each claim on one quantity."""
+    """Findings on each claim of one quantity."""
     used = score.used
     half, most = WANTED[name]
     own = np.abs(used.own)
 
-    def claimed(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
+    def measured(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
         return _measured(Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning), measure, count)
 
     split = "Quantile of the relative error over held-out scenes with advice use or multiply"
     for id, share, bound in (("median", 0.5, half), ("nine-in-ten", 0.9, most)):
         told = "Half" if share == 0.5 else "Nine in ten"
-        yield claimed(
+        yield measured(
             id, f"{told} of the {name} errors of corrected 1D are at most {100 * bound:g} %", 0.0, bound,
             lambda draw, share=share: float(np.quantile(own[draw], share)),
             f"{split}, the scatter of the surfaces of the truth taken out",
         )  # fmt: skip
-        yield claimed(
+        yield measured(
             f"{id}-raw", f"{told} of these, the scatter of the truth in them", 0.0, np.nan,
             lambda draw, share=share: float(np.quantile(np.abs(used.errors[draw]), share)), split,
         )  # fmt: skip
-    yield claimed(
+    yield measured(
         "coverage", f"95 % of the {name} ratios lie within their interval", 0.95, 0.02,
         lambda draw: used.taken(draw).covered, "Share within the interval, which the scatter of the truth widens",
     )  # fmt: skip
-    yield claimed(
+    yield measured(
         "one-surface", f"95 % of single surfaces have a {name} ratio within theirs", 0.95, 0.02,
         lambda draw: used.taken(draw).surfaces_covered, "Share within the interval of one surface",
     )  # fmt: skip
-    yield claimed(
+    yield measured(
         "usable", f"At least 80 % of the scenes need no 3D for their {name}", 1.0, 0.2,
         lambda draw: float(score.usable[draw].mean()),
         "Share of the held-out scenes with advice use or multiply", score.usable.size,

@@ -1,4 +1,4 @@
-"""What was measured for the trust map, as tables: a row for each rough scene, its groups and its ratios."""
+"""Measurements behind the trust map, as tables: a row for each rough scene, its groups and its ratios."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the 1D answer to a scene is worth: use it, multiply it, or solve in 3D."""
+"""Worth of the 1D answer to a scene: use it, multiply it, or solve in 3D."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ MOST, FEW = 0.5, 2.0
 
 @dataclass(frozen=True)
 class Worth:
-    """What the 1D answer of one quantity is worth.
+    """Worth of the 1D answer for one quantity.
 
     ratio : mean over profiles in 1D over mean over surfaces in 3D; nan if not known
     low, high : its interval of 95 %
@@ -77,7 +77,7 @@ class Worth:
 
     @property
     def factor(self) -> float:
-        """What 1D is multiplied by: 1 / ratio."""
+        """Factor that 1D is multiplied by: 1 / ratio."""
         return 1 / self.ratio
 
     def __str__(self) -> str:
@@ -105,7 +105,7 @@ class Neighbour:
 
 @dataclass(frozen=True)
 class Trust:
-    """What 1D is worth for a scene; None where a quantity is prescribed or zero.
+    """Worth of 1D for a scene; None where a quantity is prescribed or zero.
 
     friction, depth, force : of the coefficient of friction, the depth under a load, the force at a depth
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
@@ -146,7 +146,7 @@ class Trust:
 
 
 def trust(scene: Scene) -> Trust:
-    """What 1D is worth for a scene, from its groups and the smooth body in its place; nothing rough is solved."""
+    """Worth of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved."""
     if reasons := unmeasured(scene):
         return _unknown(scene, f"Off the map: {'; '.join(reasons)}.")
     try:
@@ -168,7 +168,7 @@ def trust(scene: Scene) -> Trust:
 
 
 def unmeasured(scene: Scene) -> list[str]:
-    """What of a scene was never measured, a reason each; empty if all of it was."""
+    """Parts of a scene that were never measured, a reason each; empty if all were."""
     reasons = [
         f"{name} = {type(part).__name__} was not measured" for name in NEVER if (part := getattr(scene, name))
     ]
@@ -241,7 +241,7 @@ def _worth(ratio, error, scatter, because):
 
 
 def _because(name, groups):
-    """What decides the ratio in this part of the map."""
+    """Reason that decides the ratio in this part of the map."""
     if name == "depth" and lost(np.array([astuple(groups)]))[0]:
         return "the roughness is nearly as high as the body is deep"
     flat = "is pressed flat" if groups.sliding_pressure > 0 else "touches in part"

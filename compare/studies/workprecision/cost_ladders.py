@@ -43,7 +43,7 @@ LINES = {
 
 @dataclass(frozen=True)
 class Axis:
-    """What costs are asked against. label : in figures; measure : of the answer, if it is not the value set"""
+    """Axis of costs. label : in figures; measure : of the answer, if it is not the value set"""
 
     label: str
     measure: str = ""

@@ -1,4 +1,4 @@
-"""What a solve costs: ladders measured, the powers they follow, and what those say of larger sizes."""
+"""Costs of a solve: measured ladders, their power laws, and forecasts for larger sizes."""
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -174,7 +174,7 @@ COSTS_DIAGRAM = Diagram(
     "costs",
     "What a solve costs",
     "Time, memory and operator applications of both solvers against points, modes, steps, speed and contact; the "
-    "powers they follow, and what those say of larger sizes.",
+    "powers they follow, and their forecast for larger sizes.",
     lambda size: [CostLadder(name, ladder) for name, ladder in ladders(size).items()],
     _findings,
     _plots,

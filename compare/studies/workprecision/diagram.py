@@ -40,7 +40,7 @@ class Measurable(Protocol):
 
 @dataclass(frozen=True)
 class Diagram:
-    """What the command measures and tells under one name.
+    """Diagram: measurements and findings of the command under one name.
 
     name : of the command and of files
     title, about : what is compared, how and why, for people

@@ -1,4 +1,4 @@
-"""What the laws of cost say of the largest grid, of a machine's memory, and of very many surfaces."""
+"""Forecasts by the laws of cost: the largest grid, a machine's memory, and very many surfaces."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ class Forecast:
 
     @property
     def held(self) -> bool | None:
-        """Whether what was found lies in the interval; None where nothing was found, or nothing forecast."""
+        """Whether the number found lies in the interval; None where nothing was found, or nothing forecast."""
         if self.reason or not isfinite(self.found):
             return None
         return self.low <= self.found <= self.high
@@ -82,7 +82,7 @@ def _checks(each) -> dict[str, Forecast]:
 
 
 def _largest(each, checks) -> Iterator[Forecast]:
-    """Nothing is forecast from a law that has missed already by more than scatter."""
+    """Forecast of the largest size; none from a law that has missed already by more than scatter."""
     time, memory = (
         _unless_missed(each.laws[cost], checks[what])
         for cost, what in (("processor", "time"), ("memory", "memory"))
@@ -104,7 +104,7 @@ def _unless_missed(law, check):
 
 
 def _ensembles(each, points) -> Iterator[Forecast]:
-    """As many times what one surface was measured to take: how that scatters between surfaces is not known."""
+    """Time of one surface times their number: how that scatters between surfaces is not known."""
     for n in points:
         grid = f"{n} points" if each.dimension == "1D" else f"{n}² points"
         told = each.name, each.title, f"surfaces-{n}", f"{SURFACES} surfaces with {grid}", "core hours"

@@ -42,7 +42,7 @@ def _model_plots(node: xarray.DataTree) -> Iterator[Plot]:
 
 
 def _model_tables(node: xarray.DataTree) -> Iterator[Table]:
-    """What wanted errors take, in words."""
+    """Tables of the effort for wanted errors, in words."""
     for what, names in ASKED.items():
         rows = cells([each for each in regimes_of(node) if each.quantity in names])
         caption = f"To know {what}: model, settings, time."
@@ -74,7 +74,7 @@ def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
 
 
 def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
-    """What scatters between surfaces, what a grid leaves, and times to wanted errors."""
+    """Findings on the scatter of surfaces, the error of a grid, and times to wanted errors."""
     for each in rough_means(node):
         first, where, grid = each.plain[0], each.where, each.grid_error
         scatter, bias = first.levels[0].scatter, first.bias
@@ -151,7 +151,7 @@ MODELS = Diagram(
 SURFACES = Diagram(
     "surfaces",
     "How many surfaces, on how many points",
-    "A rough contact has the mean over surfaces as its answer. The error of a mean is what the grid leaves, "
+    "A rough contact has the mean over surfaces as its answer. The error of a mean is that of the grid, "
     "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
     lambda size: [each for each in regimes.rough(size) if each.name.endswith(("rest", "middle"))],
     _surface_findings,

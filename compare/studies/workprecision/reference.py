@@ -66,7 +66,7 @@ class Known:
 
 @dataclass(frozen=True)
 class Reference:
-    """What a ladder is measured against.
+    """Reference that a ladder is measured against.
 
     source : where it is from, for people
     method : how its error is known, see `finding.Finding.grid_method`

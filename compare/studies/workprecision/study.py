@@ -1,4 +1,4 @@
-"""What accuracy costs in time: `crosscheck workprecision`."""
+"""Cost of accuracy in time: `crosscheck workprecision`."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -36,11 +36,11 @@ DIAGRAMS: Mapping[str, Diagram] = {
     )
 }
 ALL = "all"
-ABOUT = """Errors are relative: against a closed form where there is one, elsewhere against a far finer solution of
-the same, whose own error is the grey band; points within it are drawn hollow and say only that they are as good as
-that. Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
-solve alone in a process of its own, after one that loads compiled code. A setting counts as reaching an error only
-if all finer ones of its ladder do; the finest has none that could confirm it. A solve that fails is NaN, with its
+ABOUT = """Errors are relative. The reference is a closed form where there is one, elsewhere a far finer solution,
+whose own error is the grey band; points within the band are hollow and are known to be no worse than that.
+Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
+solve alone in a process of its own, after one that loads compiled code. A setting reaches an error only if
+all finer ones of its ladder do; no finer one confirms the finest. A solve that fails is NaN, with its
 reason in the table."""
 
 
@@ -124,14 +124,18 @@ class WorkPrecision(Study):
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         """A section a diagram."""
-        found: list[Block] = [Text(ABOUT.replace("\n", " "))]
+        found = []
         for each in self.diagrams:
             figures = [plot for plot in plots if plot.name.startswith(f"workprecision-{each.name}")]
             tables = each.tables(answers.children[each.name])
-            found.append(
-                Section(each.title, [Text(each.about), *figures, *tables, Findings(self._of(each, findings))])
-            )
+            found.append(Section(each.title, [*figures, *tables, Findings(self._of(each, findings))]))
         return found
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Meaning of errors and times, and the contacts of each diagram."""
+        return [Text(ABOUT.replace("\n", " "))] + [
+            Section(f"Contacts of the diagram: {each.title}", [Text(each.about)]) for each in self.diagrams
+        ]
 
     @staticmethod
     def _of(diagram, findings):
