@@ -14,7 +14,7 @@ from threading import current_thread, main_thread
 import numpy as np
 
 from .arrayfile import array_in, arrays_in
-from .files import Unreadable, checked, content
+from .files import Unreadable, checked, content, once
 from .printable import brief
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
@@ -46,7 +46,7 @@ def read_heights(path: str | Path, pixel=None, unit: str | None = None):
     path = checked(path, MOST_BYTES)
     kind = path.suffix.lower()
     plain = kind in ARRAYS | TEXTS
-    heights, stated, own = (_array if kind in ARRAYS else _text if plain else _scan)(path)
+    heights, stated, own = once(_array if kind in ARRAYS else _text if plain else _scan, path)
     name = brief(str(path))
     if own is None and unit is None and not plain:
         raise ValueError(f"{name} does not state the unit of its heights: give unit, one of {', '.join(UNITS)}")

@@ -33,6 +33,7 @@ CALLED = {
 }
 LEAST_LOADS = 2
 MOST_SPEEDS, MOST_POINTS = 100, 5_000
+MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 MEASURED = "measured"
 VARIABLES = dict(zip(COLUMNS, ("friction_coefficient", "normal_force", "speed"), strict=True))
 
@@ -166,7 +167,7 @@ def read_measured(path: str | Path) -> xarray.Dataset:
 
     Columns stand in this order, or as a heading names them. Raises ValueError naming file and line.
     """
-    heading, rows = read_rows(path, COLUMNS)
+    heading, rows = read_rows(path, COLUMNS, MOST_ROWS)
     order = _order(heading)
     columns = np.array(rows, float).reshape(-1, len(COLUMNS))[:, order].T
     variables = {
