@@ -117,10 +117,12 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         say(f"crosscheck: {told}", error=True)
         raise typer.Exit(FAILED) from error
     except OSError as error:
+        from scene.printable import brief
+
         from .pipeline import Unwritable
 
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""
-        told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        told = f"{brief(str(error.filename))}: {error.strerror}" if error.filename else str(error)
         say(f"crosscheck: {where}{told}{'' if early else '. Solved contacts are kept.'}", error=True)
         raise typer.Exit(MISTAKE if early else FAILED) from error

@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from scene import Scene
 from scene.files import Unreadable, checked
+from scene.printable import brief
 from scene.reading import MOST, InvalidInput, parsed, read, text_of
 
 from .cases import Case, read_case, shipped_cases
@@ -48,22 +49,22 @@ def case_of(asked: Asked) -> Case:
 
 def located(asked: str | Path, kind: str = "scene") -> Path:
     """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
-    path, every = Path(asked), ready()
+    path, every, name = Path(asked), ready(), brief(str(asked))
     # A folder may be called as a ready one is: that of an earlier run.
     if not (isdir(path) and str(asked) in every):
         try:
             checked(path, MOST)
         except Unreadable as error:
             if isdir(path):
-                raise InvalidInput(f"{asked}: is a folder, and no {kind}") from error
+                raise InvalidInput(f"{name}: is a folder, and no {kind}") from error
             if lexists(path):
                 raise InvalidInput(str(error)) from error
             missing = error
         else:
             if (other := _other_kind(path, kind)) is not None:
-                raise InvalidInput(f"{asked}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {asked}")
+                raise InvalidInput(f"{name}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {name}")
             return path
-    known = [name for name, each in every.items() if each.kind == kind]
+    known = [each.name for each in every.values() if each.kind == kind]
     if str(asked) in known:
         return Path(str(files("compare"))) / FOLDERS[kind] / f"{asked}.toml"
     if str(asked) in every:

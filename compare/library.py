@@ -187,9 +187,12 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
         with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
     except FileExistsError as error:
-        from scene.reading import InvalidInput  # slow, and only a mistake needs it
+        from scene.printable import brief  # slow, and only a mistake needs it
+        from scene.reading import InvalidInput
 
-        raise InvalidInput(f"{path}: is there already, and nothing is overwritten: name another FILE") from error
+        raise InvalidInput(
+            f"{brief(str(path))}: is there already, and nothing is overwritten: name another FILE"
+        ) from error
     return path
 
 

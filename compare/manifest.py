@@ -110,11 +110,13 @@ def folders(folder: str | Path) -> Iterator[Folder]:
     """A folder with a manifest, or those just below it. Raises InvalidInput of none or a damaged one."""
     folder = Path(folder)
     if not folder.is_dir():
-        raise InvalidInput(f"{folder}: no such folder")
+        raise InvalidInput(f"{brief(str(folder))}: no such folder")
     own = folder / NAME
     paths = [own] if own.exists() else sorted(folder.glob(f"*/{NAME}"))
     if not paths:
-        raise InvalidInput(f"{folder}: no {NAME} here or one level below: no command has written this folder")
+        raise InvalidInput(
+            f"{brief(str(folder))}: no {NAME} here or one level below: no command has written this folder"
+        )
     return (Folder(path.parent, _read(path)) for path in paths)
 
 
@@ -127,7 +129,7 @@ def inside(folder: Path, name: str) -> Path:
             return path
     except (OSError, RuntimeError, ValueError):  # of links in a circle, and of names that no file can have
         pass
-    raise InvalidInput(f"{brief(str(path))}: leads out of {folder}")
+    raise InvalidInput(f"{brief(str(path))}: leads out of {brief(str(folder))}")
 
 
 def versions() -> dict[str, str]:
@@ -168,7 +170,7 @@ def _read(path):
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
         reason = f"{brief(where)}: {first['msg']}" if where else first["msg"]
-    raise InvalidInput(f"{path}: was not written by this version of the command: {reason}")
+    raise InvalidInput(f"{brief(str(path))}: was not written by this version of the command: {reason}")
 
 
 def _storable(value):

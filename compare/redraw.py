@@ -58,7 +58,7 @@ def redraw(
     except ValueError as error:
         raise InvalidInput(str(error)) from error
     if not drawn:
-        raise InvalidInput(f"{folder}: no command has written figures here")
+        raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return drawn
 
 
@@ -118,4 +118,4 @@ def options(draw: Callable[..., Figure], entry: manifest.PlotEntry, path: Path) 
     except ValidationError as error:
         first = error.errors()[0]
         where = brief(".".join(map(str, first["loc"])))
-        raise InvalidInput(f"{path}: figure {entry.name}: option {where}: {first['msg']}") from error
+        raise InvalidInput(f"{brief(str(path))}: figure {entry.name}: option {where}: {first['msg']}") from error

@@ -53,10 +53,10 @@ def load(folder: str | Path) -> xarray.DataTree:
     """
     folder = Path(folder)
     if not folder.exists():
-        raise InvalidInput(f"{folder}: no such file or folder")
+        raise InvalidInput(f"{brief(str(folder))}: no such file or folder")
     paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
     if not paths:
-        raise InvalidInput(f"{folder}: no command has left results here")
+        raise InvalidInput(f"{brief(str(folder))}: no command has left results here")
     parts: dict[str, xarray.Dataset] = {}
     for path in paths:
         place = "" if path == folder or path.parent == folder else f"/{path.parent.relative_to(folder).as_posix()}"
@@ -69,11 +69,13 @@ def load(folder: str | Path) -> xarray.DataTree:
             raise InvalidInput(str(error)) from error
         # A file that was made to look like one of ours raises nearly anything.
         except Exception as error:
-            raise InvalidInput(f"{path}: is not a file of results, or is damaged: {brief(str(error))}") from error
+            raise InvalidInput(
+                f"{brief(str(path))}: is not a file of results, or is damaged: {brief(str(error))}"
+            ) from error
     try:
         return xarray.DataTree.from_dict(parts)
     except (ValueError, KeyError, TypeError) as error:
-        raise InvalidInput(f"{folder}: its results do not go together: {brief(str(error))}") from error
+        raise InvalidInput(f"{brief(str(folder))}: its results do not go together: {brief(str(error))}") from error
 
 
 def _unsealed(image):

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from .outcome import Outcome
 from .store import Store, write
 from .task import Task
-from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, unpacked
+from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, starting, unpacked
 
 # Seconds after which an interrupt is noticed.
 PULSE = 0.2
@@ -91,6 +91,8 @@ def sweep(
     if len(stored) == len(set(tasks)):
         progress.planned([], len(stored))
         return SweepResult(stored, 0, len(stored), time.perf_counter() - start)
+    if starting():  # of a script without a guard, run again: it would wait for the folder of its parent
+        raise SystemExit(1)
     with caught() as interrupts, store.writing(lambda: _patience(interrupts), progress.said) as had:
         if not had:
             raise KeyboardInterrupt

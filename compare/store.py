@@ -289,6 +289,8 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
     """
     _clear(path.parent)
     with _named(path):
+        if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
+            raise OSError(errno.EINVAL, "is no regular file, and is not written over")
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.{os.getpid()}.")
         try:
             with os.fdopen(handle, "wb") as file:

@@ -50,7 +50,7 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
             written.append(manifest.inside(Path(output), f"{name}{FORMS[to]}"))
             csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else _csv(frame))
     if not written:
-        raise InvalidInput(f"{folder}: holds no table that {to} could show")
+        raise InvalidInput(f"{brief(str(folder))}: holds no table that {to} could show")
     return written
 
 

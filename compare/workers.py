@@ -36,6 +36,11 @@ def counted(workers: int | None) -> int:
     return workers
 
 
+def starting() -> bool:
+    """Whether this is a worker that still imports the script which asked for workers."""
+    return getattr(multiprocessing.current_process(), "_inheriting", False)
+
+
 @dataclass(frozen=True)
 class Fault:
     """A task that broke: what a solver does not foresee, or does not survive.
@@ -151,7 +156,10 @@ class Processes:
             self.stillborn = 0 if self.ready.value else self.stillborn + 1
             self._end()
         if self.stillborn >= STILLBORN:
-            raise ChildProcessError(f"worker processes ended as they started, {STILLBORN} times")
+            raise ChildProcessError(
+                f"worker processes ended as they started, {STILLBORN} times: a script has to call this under "
+                'if __name__ == "__main__":'
+            )
 
     def call_back(self) -> None:
         """Cancel nothing, as all that is submitted is being solved, see Workers."""

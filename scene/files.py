@@ -1,15 +1,22 @@
 """Reading of files: regular ones up to a size, and nothing else that a path leads to."""
 
 import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import partial
-from itertools import islice
+from itertools import islice, takewhile
 from math import ceil
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
+from typing import Any
 
 from .printable import brief
 
 PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
+
+
+_read: ContextVar[dict | None] = ContextVar("read", default=None)
 
 
 class Unreadable(ValueError):
@@ -34,11 +41,38 @@ def content(path: str | Path, most: int) -> bytes:
         os.close(handle)
         raise
     with open(handle, "rb") as file:
-        pieces = islice(iter(partial(file.read, PIECE), b""), most // PIECE + 1)
+        # None is what has nothing to give now, as some files of the system.
+        pieces = islice(takewhile(bool, iter(partial(file.read, PIECE), b"")), most // PIECE + 1)
         held = _asked(path, b"".join, pieces)
     if len(held) > most:
         raise _unreadable(path, _too_large(len(held), most))
     return held
+
+
+@contextmanager
+def reading_once() -> Iterator[None]:
+    """Within it no file is read twice by `once`, as whoever seeks mistakes beside it would."""
+    token = _read.set({})
+    try:
+        yield
+    finally:
+        _read.reset(token)
+
+
+def once(read: Callable[[str | Path], Any], path: str | Path) -> Any:
+    """What a reader makes of a path, or the ValueError that it raises; within `reading_once` found once."""
+    known = _read.get()
+    if known is None:
+        return read(path)
+    if (read, path) not in known:
+        try:
+            known[read, path] = read(path), None
+        except ValueError as error:
+            known[read, path] = None, error
+    found, refused = known[read, path]
+    if refused is not None:
+        raise refused
+    return found
 
 
 def text(path: str | Path, most: int) -> str:

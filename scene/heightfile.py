@@ -14,7 +14,7 @@ from threading import current_thread, main_thread
 import numpy as np
 
 from .arrayfile import array_in, arrays_in
-from .files import Unreadable, checked, content
+from .files import Unreadable, checked, content, once
 from .printable import brief
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
@@ -47,7 +47,7 @@ def read_heights(path: str | Path, pixel=None, unit: str | None = None):
         raise ValueError(f"file = {briefly(path)}: a path is needed")
     path = checked(path, MOST_BYTES)
     kind = path.suffix.lower()
-    heights, stated, own = (_array if kind in ARRAYS else _text if kind in TEXTS else _scan)(path)
+    heights, stated, own = once(_array if kind in ARRAYS else _text if kind in TEXTS else _scan, path)
     name = brief(str(path))
     if own is not None and unit is not None:
         raise ValueError(f"unit = {unit!r}: {name} states its own, {brief(str(own))}, leave unit out")

@@ -43,7 +43,7 @@ class Names:
         fitting = {
             name: _fits(self._node(child, value), value) for name, child in table.items() if name not in stated
         }
-        here = [name for name, fits in fitting.items() if fits] or list(fitting)
+        fit = [name for name, fits in fitting.items() if fits]
         away = [
             place
             for place, node in self._unstated((), self.schema, content)
@@ -52,11 +52,11 @@ class Names:
         if nearest(name, table, CLOSE) in stated:
             return None
         called = {str(place[-1]): place for place in reversed(away)}
-        if (close := nearest(name, here, CLOSE)) is not None:
+        if (close := nearest(name, fit or fitting, CLOSE)) is not None:
             return (*inside, close)
         if name in called:
             return called[name]
-        if (like := nearest(name, here, _LIKE)) is not None:
+        if (like := nearest(name, fit, _LIKE)) is not None:
             return (*inside, like)
         return called.get(nearest(name, called, _CLOSER) or "")
 

@@ -73,10 +73,11 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
 def made(content: dict[str, Any], what: Any, path: str | Path):
     """Content of a file as `what`. Raises InvalidInput, naming the file, as `read` does."""
     adapter = validator(what)
-    try:
-        return adapter.validate_python(content)
-    except ValidationError as error:
-        raise invalid(path, mistakes(error, content, adapter)) from error
+    with files.reading_once():
+        try:
+            return adapter.validate_python(content)
+        except ValidationError as error:
+            raise invalid(path, mistakes(error, content, adapter)) from error
 
 
 @lru_cache(maxsize=8)

@@ -66,14 +66,14 @@ def read_table(path: str | Path) -> Table:
 
 def columns(path: str | Path) -> dict[str, tuple[float, ...]]:
     """The columns of such a file by their names, not yet checked as a whole."""
-    _, rows = read_rows(path, COLUMNS)
+    _, rows = read_rows(path, COLUMNS, MOST_ROWS)
     return dict(zip(COLUMNS, zip(*rows, strict=True) if rows else ((), (), ()), strict=True))
 
 
-def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[tuple[float, ...]]]:
+def read_rows(path: str | Path, names: Sequence[str], most: int) -> tuple[list[str], list[tuple[float, ...]]]:
     """The cells of the heading, if there is one, and the rows of such a file, a number > 0 for each name.
 
-    Raises ValueError naming file and line.
+    most : rows that are read. Raises ValueError naming file and line, also of more of them.
     """
     text = files.text(path, MOST)
     heading: list[str] = []
@@ -86,6 +86,8 @@ def read_rows(path: str | Path, names: Sequence[str]) -> tuple[list[str], list[t
         if not rows and not any(_is_number(cell) for cell in (cells[0], *named)):
             heading = named
         else:
+            if len(rows) == most:
+                raise ValueError(f"{brief(str(path))}: at least {most + 1:,} rows: at most {most:,} are read")
             rows.append(_row(cells, names, f"{brief(str(path))}, line {number}"))
     return heading, rows
 

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
+from .files import once
 from .modes import Relaxation
 from .quantities import CLOSED, Finite, Pressure
 from .table import COLUMNS, Table, columns
@@ -26,7 +27,7 @@ _LEAST_REST = 1e-2
 
 
 def _read_if_path(value):
-    return columns(value) if isinstance(value, str | Path) else value
+    return once(columns, value) if isinstance(value, str | Path) else value
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)

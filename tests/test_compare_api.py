@@ -1,6 +1,7 @@
 """`crosscheck X` is `compare.X`: the same names, arguments and numbers; nothing is printed."""
 
 import inspect
+import itertools
 import json
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -189,6 +190,10 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
         ({"speed": [0.1], "load": [1.0], "depth": [1e-5]}, "load, depth: both"),
         ({"speed": [0.1], "draws": 0}, "draws = 0"),
         ({"speed": [float("nan")]}, "speed = nan"),
+        ({"speed": [True]}, "speed = True"),
+        ({"speed": [10**400]}, "speed = 1000"),
+        ({"speed": None}, "speed = None"),
+        ({"speed": itertools.count(1)}, "speed: more than 1,000 values"),
     ],
 )
 def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked, message):

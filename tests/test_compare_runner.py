@@ -1,6 +1,7 @@
 """Tasks are solved once, in parallel, and one that fails takes no other with it."""
 
 import io
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -260,6 +261,13 @@ def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypat
     with pytest.raises(ChildProcessError, match="worker processes ended as they started, 3 times"):
         sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
     assert len(died) == STILLBORN
+
+
+def test_a_worker_that_runs_the_script_which_asked_for_it_ends_before_it_waits(tmp_path, monkeypatch):
+    monkeypatch.setattr(multiprocessing.current_process(), "_inheriting", True, raising=False)
+    with pytest.raises(SystemExit):
+        sweep(loads(1.0), Store(tmp_path / "solved"), workers=1)
+    assert not (tmp_path / "solved").exists()
 
 
 def test_a_fresh_process_solves_each_task_where_that_is_asked_for(tmp_path):

@@ -421,6 +421,18 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tm
     assert [path.name for path in tmp_path.iterdir()] == [FILE]
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="of POSIX")
+def test_what_is_no_regular_file_is_not_written_over(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to("pipe")
+    for name in ("pipe", "link"):
+        with pytest.raises(OSError, match="is no regular file") as caught:
+            write(tmp_path / name, lambda file: file.write(b""))
+        assert caught.value.filename == str(tmp_path / name)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["link", "pipe"]
+    assert (tmp_path / "pipe").is_fifo()
+
+
 def test_a_folder_that_takes_no_file_is_an_error_that_names_the_file(tmp_path):
     (tmp_path / "solved").touch()
     with pytest.raises(OSError, match="solved"):

@@ -216,6 +216,7 @@ def lines_of(tmp_path, text):
         ('"kelvin"', '"Kelvin"', "elastomer.type = 'Kelvin': one of 'elastic', 'kelvin', "),
         ('type = "slide"', 'typ = "slide"', "motion.typ = 'slide': unknown here; did you mean type?"),
         ("[indenter]", "speed = 0.1\n[indenter]", "speed = 0.1: unknown here"),
+        ("[indenter]", "tolerance = 0.1\n[indenter]", "tolerance = 0.1: unknown here; known are indenter"),
         ("seed = 1", "hurts = 1", "roughness.hurts = 1: unknown here; did you mean hurst?"),
         ("seed = 1", "fudge = 1", "roughness.fudge = 1: unknown here; known are type, hurst, "),
     ],

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from difflib import get_close_matches
 
+from scene.printable import brief
+
 MILLIMETRE, POINT = 1 / 25.4, 1 / 72
 
 
@@ -94,5 +96,5 @@ def journal(name: str) -> Journal:
     if name in JOURNALS:
         return JOURNALS[name]
     meant = get_close_matches(name, JOURNALS, 1)
-    hint = f"; did you mean {meant[0]}?" if meant else ""
-    raise ValueError(f"no journal {name!r}{hint} Known are {', '.join(JOURNALS)}.")
+    hint = f"; did you mean {meant[0]}?" if meant else "."
+    raise ValueError(f"no journal {brief(repr(name))}{hint} Known are {', '.join(JOURNALS)}.")

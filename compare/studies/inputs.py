@@ -9,7 +9,20 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, Slide, SolveError, Sphere, Stage
+from scene import (
+    Cone,
+    Indent,
+    PowerLaw,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    files,
+)
 from scene.mistakes import CHOICE, Mistake, examined
 from scene.printable import brief
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
@@ -242,6 +255,7 @@ class _Stated:
             yield f"{next(iter(moved))}: an elastic solid loses nothing, whatever the speed, leave them out"
 
 
+@files.reading_once()
 def study_of(text: str, name: str) -> ReadyStudy:
     """A study by the text of its file. Raises InvalidInput naming every mistake.
 

@@ -39,6 +39,7 @@ PLAIN = ("1", "-")  # written for none
 _NAMED = re.compile(r"(?P<name>[^\[(/]*?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*\(?(?P<c>[^()]+)\)?)?")
 LEAST_LOADS = 2
 MOST_SPEEDS, MOST_POINTS = 100, 5_000
+MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 MEASURED = "measured"
 VARIABLES = dict(zip(COLUMNS, ("friction_coefficient", "normal_force", "speed"), strict=True))
 
@@ -180,7 +181,7 @@ def read_measured(path: str | Path) -> xarray.Dataset:
     Columns stand in this order, or as a heading names them, and are in [N] and [m/s], or in the units that the
     heading gives: "v [mm/s], F_N [mN], mu". Raises ValueError naming file and line.
     """
-    heading, rows = read_rows(path, COLUMNS)
+    heading, rows = read_rows(path, COLUMNS, MOST_ROWS)
     order, units = _order_and_units(heading)
     columns = (np.array(rows, float).reshape(-1, len(COLUMNS)) * units)[:, order].T
     variables = {

@@ -1,7 +1,9 @@
 """A rectangle of a scene of one's own in both dimensionalities: `compare.sweep`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -11,10 +13,11 @@ from pandas import DataFrame
 
 from scene import Indent, Scene, Slide
 from scene.motion import UNITS
+from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..cases import Case
-from ..cost import MOST_DRAWS
+from ..cost import MOST_DRAWS, MOST_VALUES
 from ..declaration import Study
 from ..finding import Claim, Finding
 from ..inputs import Asked, case_of
@@ -159,12 +162,24 @@ def figure_of(dataset: xarray.Dataset) -> Figure:
 
 def _numbers(name, values, least=None):
     """Distinct finite numbers as a tuple. Raises InvalidInput."""
-    given = [values] if isinstance(values, int | float) else list(values)
+    single = isinstance(values, str) or not isinstance(values, Iterable)
+    given = [values] if single else list(islice(values, MOST_VALUES + 1))
+    if len(given) > MOST_VALUES:
+        raise InvalidInput(f"{name}: more than {MOST_VALUES:,} values: at most so many are solved at")
     allowed = "finite numbers of zero or more" if least == 0 else "finite numbers above zero"
     for value in given:
-        fits = isinstance(value, int | float | np.number) and np.isfinite(value)
-        if not fits or value < 0 or (least is None and value == 0):
-            raise InvalidInput(f"{name} = {value!r}: {allowed}")
+        if not _is_finite(value) or value < 0 or (least is None and value == 0):
+            raise InvalidInput(f"{name} = {brief(repr(value))}: {allowed}")
     if not given or len(set(given)) < len(given):
-        raise InvalidInput(f"{name} = {given}: at least one, and each once")
+        raise InvalidInput(f"{name} = {brief(repr(given))}: at least one, and each once")
     return tuple(float(value) for value in sorted(given))
+
+
+def _is_finite(value):
+    """Whether a value is a finite real number, and no truth value."""
+    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
+        return False
+    try:
+        return isfinite(value)
+    except OverflowError:  # of a whole number beyond those of floating point
+        return False
