@@ -36,6 +36,7 @@ extensions = [
     "equations",
     "kinds",
     "thumbnails",
+    "variables",
 ]
 exclude_patterns = ["*/solved/*"]
 
