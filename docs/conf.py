@@ -1,4 +1,4 @@
-"""How the pages are built, by `sphinx-build -W --keep-going -b html docs build/docs`: offline, and executed."""
+"""How the pages are built, by `sphinx-build -W --keep-going -b html docs build/docs`: offline, executed once."""
 
 import os
 import sys
@@ -43,7 +43,8 @@ exclude_patterns = ["*/solved/*"]
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 
-nb_execution_mode = "force"
+# Once a page is executed its outputs are kept beside the built pages, until its cells change; a fresh copy has none.
+nb_execution_mode = "cache"
 nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True

@@ -8,7 +8,6 @@ from scene.vocabulary import FIELDS, MEASURES
 
 COORDINATES = ("grid", "points", "speed", "load", "depth", "draw")
 OF_EVERY_CONTACT = ("status", "reason", *NUMBERS)
-# Without an argument the page would have no order: what is asked for is one of these.
 KINDS = {
     "coordinates": {name: LABELS[name] for name in COORDINATES},
     "contacts": {name: entry(name) for name in OF_EVERY_CONTACT},
