@@ -105,7 +105,7 @@ def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[st
 
 
 def _remedy(layer, poisson_ratio, grid, radius):
-    """What would do in the place of a grid."""
+    """Settings that would do in place of a grid."""
     good = Layered.of(layer, poisson_ratio).falsified(grid.extent / ALLOWED, radius) <= FALSIFIED
     if good.any():
         enough = ALLOWED[good.argmax()]

@@ -50,7 +50,7 @@ CASES = case = Group("mistakes")
 
 
 def in_every_field(value, said, but=()):
-    """Every field of every part that holds a real number, but for some, with this value instead."""
+    """Every field of every part that holds a real number, except some, with this value instead."""
     places = [(part, field.name) for part in PARTS for field in fields(part)]
     real = [(part, name) for part, name in places if isinstance(getattr(part, name), float) and name not in but]
     return lambda size: [

@@ -98,7 +98,7 @@ class _Shared:
     """What a study states for all of its series, and each of them for itself.
 
     scene : name of a ready scene, from which every table is taken that is not stated
-    indenter, elastomer, roughness, temperature : as of a scene; what a series states takes the place of what is
+    indenter, elastomer, roughness, temperature : as in a scene; what a series states takes the place of what is
         stated for all, name by name, unless it states another type. Bodies are spheres, cones and power laws, and
         roughness is self-affine
     speeds : of sliding [m/s], two at least; with rates absent too, the bodies are at rest
