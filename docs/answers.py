@@ -43,7 +43,7 @@ OF_PAPER = {
     "paper.eq14.plateau": "plateau over √2 times the rms slope, Eq. 14; claimed 1",
 }
 OF_STUDY = {
-    "Eq. 23: shifts along the load bring friction at all speeds onto one curve": "misfit, shifted at best (Eq. 23)",
+    "Eq. 23: shifts along the load bring friction at all speeds onto one curve": "misfit, shifted at best",
     "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve": (
         "misfit, shifted as Eq. 22 predicts"
     ),
@@ -79,7 +79,9 @@ def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
     for (claim, dimension), words in OF_RUN.items():
         yield words, *(_cell(_row(found, claim, scene, dimension)) for scene in SCENES)
     for depth, place in (("shallow", 0), ("deep", -1)):
-        forces = [found[found["claim"].eq("run.force-depth.rough") & found["where"].str.startswith(s)] for s in SCENES]
+        forces = [
+            found[found["claim"].eq("run.force-depth.rough") & found["where"].str.startswith(s)] for s in SCENES
+        ]
         cells = (_cell(each.iloc[place], percent=True) for each in forces)
         yield f"force 1D / 3D of the rough body at the same depth, less one, {depth}", *cells
 
@@ -125,11 +127,11 @@ def _answer(run: DataFrame, score: trust.Score) -> str:
     return "\n".join(
         [
             f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",
-            f"- **Friction: do not trust it as it stands.** 1D has {_number(slow_body)} times the friction of a slow, "
-            f"smooth sphere, and {_number(rough)} times that of the rough sphere of the paper.",
-            f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {score.used.usable.size} rough "
-            f"contacts that it never saw is within {half:.1f} % of 3D in half of them, and within "
-            f"{most:.1f} % in nine of ten.",
+            f"- **Friction: do not trust it as it stands.** 1D has {_number(slow_body)} times the friction of a "
+            f"slow, smooth sphere, and {_number(rough)} times that of the rough sphere of the paper.",
+            f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of "
+            f"{score.used.usable.size} rough contacts that it never saw is within {half:.1f} % of 3D in half of them, "
+            f"and within {most:.1f} % in nine of ten.",
         ]
     )
 

@@ -43,7 +43,7 @@ exclude_patterns = ["*/solved/*"]
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 
-# Once a page is executed its outputs are kept beside the built pages, until its cells change; a fresh copy has none.
+# Outputs of executed pages are kept beside the built ones until a cell changes; a fresh copy has none.
 nb_execution_mode = "cache"
 nb_execution_timeout = 120
 nb_execution_raise_on_error = True

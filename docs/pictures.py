@@ -2,7 +2,8 @@
 
 python docs/pictures.py
 
-Those of accuracy and benchmark show the tables that these pages hold; that of the theory shows two solves of a second.
+Those of accuracy and benchmark show the tables that these pages hold; that of the theory shows two solves, of a
+second.
 """
 
 import re
@@ -23,7 +24,11 @@ from scene import Kelvin, Scene, Slide, Sphere
 DOCS = Path(__file__).parent
 SLIDING = Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0))
 SHOWN, SPRINGS = (-1.95e-3, 3.0e-3), 41  # of the section of the theory [m], and how many springs stand in it
-CODES = {"this": ("this solver", "BEM"), "tamaas": ("tamaas", None), "ContactMechanics": ("ContactMechanics", None)}
+CODES = {
+    "this": ("this solver", "BEM"),
+    "tamaas": ("tamaas", None),
+    "ContactMechanics": ("ContactMechanics", None),
+}
 
 
 def section(page: str, title: str) -> DataFrame:
@@ -113,7 +118,9 @@ def _surface(panel, seen: View, name: str):
     low, high = -1.9e6 * seen.radius**2 / 10e-3, 1.1e6 * seen.radius**2 / 10e-3
     if name == "BEM":
         panel.fill_between(x, surface, low, color=style.grey(0.9), lw=0)
-        panel.text(1e3 * seen.span[0] / 2, 0.8 * low, "half-space: every point feels every other", fontsize=style.small())
+        panel.text(
+            1e3 * seen.span[0] / 2, 0.8 * low, "half-space: every point feels every other", fontsize=style.small()
+        )
     panel.fill_between(x, indenter, high, where=indenter < high, color=style.grey(0.7), lw=0)
     panel.plot(x, surface, color=style.current().palette[name], lw=style.width(1.3))
     panel.text(0, high * 0.55, "rigid indenter", ha="center", fontsize=style.small())

@@ -15,7 +15,8 @@ BANNED = {
     r"\bin the place of\b": "in place of",
     r"\bbut for\b": "except",
     r"^\s*The same\.": "the thing itself",
-    r"\b(obviously|of course|needless to say|in order to|utili[sz]e|basically|thereof|whereby)\b": "nothing, or to",
+    r"\b(obviously|of course|needless to say|basically)\b": "nothing",
+    r"\b(in order to|utili[sz]e|thereof|whereby)\b": "to, use, of it, by which",
 }
 # A sentence whose subject is a clause: "What has faded is dropped." A question may begin so.
 WHAT = {r"(?:^|[.;:]\s+|^\s*- )What\b(?![^.?]*\?)": "the noun that is meant"}
@@ -23,8 +24,11 @@ CODE = re.compile(r"^```.*?^```|`[^`\n]*`|^\$\$.*?\$\$|^#.*?$|^\|.*?$", re.DOTAL
 
 
 def pages() -> Iterator[tuple[str, str]]:
-    """Prose of README and pages: without code, formulas, headings and tables."""
-    for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
+    """Prose of README and pages: without code, formulas, headings and tables, reports of commands and history."""
+    written = (
+        path for path in sorted((ROOT / "docs").rglob("*.md")) if path.name not in ("report.md", "changelog.md")
+    )
+    for path in (ROOT / "README.md", *written):
         yield str(path.relative_to(ROOT)), CODE.sub("", path.read_text(encoding="utf-8"))
 
 
@@ -61,6 +65,6 @@ def test_a_banned_phrase_is_found(said):
     assert len(found(iter([("page", said)]), BANNED | WHAT)) == 1
 
 
-@pytest.mark.parametrize("said", ["What does it cost?", "It says what it costs.", "It has of course"[:6]])
+@pytest.mark.parametrize("said", ["What does it cost?", "It says what it costs."])
 def test_a_sentence_that_takes_one_reading_is_not_found(said):
     assert found(iter([("page", said)]), BANNED | WHAT) == []
