@@ -130,8 +130,8 @@ def _answer(run: DataFrame, score: trust.Score) -> str:
             f"- **Friction: do not trust it as it stands.** 1D has {_number(slow_body)} times the friction of a "
             f"slow, smooth sphere, and {_number(rough)} times that of the rough sphere of the paper.",
             f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of "
-            f"{score.used.usable.size} rough contacts that it never saw is within {half:.1f} % of 3D in half of them, "
-            f"and within {most:.1f} % in nine of ten.",
+            f"{score.used.usable.size} rough contacts that it never saw is within {half:.1f} % of 3D in half of "
+            f"them, and within {most:.1f} % in nine of ten.",
         ]
     )
 
