@@ -8,8 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
-# Figures of executed pages are drawings, sharp at any size, and all of one size and style. Kernels talk within this
-# machine, unwarned. Threads are one each, as in the tests.
+# Figures of executed pages are drawings, sharp at any size, and all of one size and style. Kernels talk within
+# this machine, unwarned. Threads are one each, as in the tests.
 _profile = Path(tempfile.mkdtemp(prefix="ipython-")) / "profile_default"
 _profile.mkdir()
 (_profile / "ipython_kernel_config.py").write_text(
@@ -38,6 +38,7 @@ extensions = [
     "docstrings",
     "equations",
     "kinds",
+    "terms",
     "thumbnails",
     "variables",
 ]
