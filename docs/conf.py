@@ -49,7 +49,7 @@ myst_heading_anchors = 3
 
 # Outputs of executed pages are kept beside the built ones until a cell changes; a fresh copy has none.
 nb_execution_mode = "cache"
-nb_execution_timeout = 120
+nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 
