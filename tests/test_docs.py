@@ -204,6 +204,11 @@ def test_the_page_on_the_command_has_every_command_and_function():
     assert {function for _, function in table} == functions - {"solve", "friction_plot"}
 
 
+def test_the_readme_lists_every_command():
+    table = re.search(r"^\| Command .*?\n\n", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    assert {each.title for each in COMMANDS} <= set(re.findall(r"`(\w+)[^`]*`", table[0]))
+
+
 def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.mplstyle").write_text("lines.linewidth: 3.5", encoding="utf-8")
