@@ -205,7 +205,8 @@ def test_the_page_on_the_command_has_every_command_and_function():
 
 
 def test_the_readme_lists_every_command():
-    table = re.search(r"^\| Command .*?\n\n", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    table = re.search(r"^\| Command .*?\n\n", page, re.DOTALL | re.MULTILINE)
     assert {each.title for each in COMMANDS} <= set(re.findall(r"`(\w+)[^`]*`", table[0]))
 
 
