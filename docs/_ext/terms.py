@@ -7,21 +7,9 @@ from equations import is_prose
 from sphinx.transforms.post_transforms import SphinxPostTransform
 
 PAGE = "glossary"
-# Terms that are also words of every sentence.
-COMMON = {
-    "draw",
-    "holds",
-    "fails",
-    "reported",
-    "use",
-    "multiply",
-    "solve",
-    "path",
-    "scene",
-    "node",
-    "claim",
-    "window",
-}
+# Terms that are also words of any sentence, or have another meaning in some.
+WORDS = "claim draw fails holds multiply node path program reference reported scene solve stage tolerance use window"
+COMMON = set(WORDS.split())
 
 
 class Linked(SphinxPostTransform):
