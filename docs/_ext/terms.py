@@ -8,7 +8,7 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 
 PAGE = "glossary"
 # Terms that are also words of any sentence, or have another meaning in some.
-WORDS = "claim draw fails holds multiply node path program reference reported scene solve stage tolerance use window"
+WORDS = "claim draw fails holds multiply path program reference reported scene solve stage tolerance use window"
 COMMON = set(WORDS.split())
 
 
