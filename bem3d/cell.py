@@ -36,7 +36,7 @@ class Cell:
         return PeriodicFilter(grid.shape, symbol, self.engine)
 
     def preconditioner(self, grid: Grid) -> PeriodicFilter:
-        """Inverse of the operator, but for the foundation; a mean pressure is taken for the lowest wave."""
+        """Inverse of the operator without the foundation; a mean pressure is taken for the lowest wave."""
 
         def elastic(q_y, q_x):
             return self.ground.stiffness(_lengths(q_y, q_x, 2 * np.pi / grid.points), grid.pixel)

@@ -64,7 +64,7 @@ def solve(
     tolerance : largest |gap| in contact and penetration outside, over the depth of the lowest height, d - min(z),
         or what the heights in contact span where that is more (depths under a line may be negative)
     depth, load : exactly one; load is sum(p)
-    precondition : approximate inverse, on the whole grid, of the operator but for its foundation
+    precondition : approximate inverse, on the whole grid, of the operator without its foundation
     foundation : under a flow, what of the operator remembers along x
     symmetric : conjugate gradients, else GMRES, on a single row elimination
     sums : see `kernels`

@@ -89,7 +89,7 @@ class Engine:
         """The product of two planes with a symmetric matrix of symbols: callable, (2, ny, nx) -> (2, ny, nx).
 
         symbols : xx, xy, yy (my//2+1, mx//2+1), real, unnormalized; xx and yy even in q_y, xy odd
-        shape, padded : as for `product`, my > 1
+        shape, padded : as in `product`, my > 1
         """
         if self.on_gpu:
             return WholePair(symbols, shape, padded, self.xp, self.complex)

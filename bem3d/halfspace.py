@@ -62,7 +62,7 @@ class HalfSpace:
         return self.flow.shares * lengths / seen, seen
 
     def preconditioner(self, grid: Grid) -> PeriodicFilter:
-        """Approximate inverse of the operator, but for the foundation."""
+        """Approximate inverse of the operator without the foundation."""
 
         def elastic(q_y, q_x):
             q = np.hypot(q_y, q_x)

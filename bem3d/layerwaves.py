@@ -165,7 +165,7 @@ class Taking:
     def from_line(self) -> Taken:
         """c(x) = -ln(4 + x^2)/2 - int_0^inf [M - 1 + exp(-2t)] cos(x t) dt/t.
 
-        The logarithm is that of an image two thicknesses away, 1 - exp(-2t) in the place of M.
+        The logarithm is that of an image two thicknesses away, 1 - exp(-2t) in place of M.
         """
         t, weights = _waves()
         rest = weights * (self.base.yields(t) + np.expm1(-2 * t)) / t

@@ -36,7 +36,7 @@ class Cluster:
     say : is told, in a line, which workers are refused, and when there is none
 
     Raises Refused, ConnectionError on entry, see sweep. A few more tasks are submitted than the workers have
-    threads. All ends with this process, but for what is being solved just then, whose answer is dropped.
+    threads. All ends with this process, except the contacts being solved just then, whose answers are dropped.
     """
 
     tries = 2  # as the scheduler tries a task with several workers before it says that they died

@@ -87,7 +87,7 @@ class Film:
         return Seen(x, y, pressure, section)
 
     def limits(self, name: str) -> tuple[float, float]:
-        """Least and greatest of a force [N] in both, with zero, but for the most extreme of some hundreds."""
+        """Least and greatest of a force [N] in both, with zero, except the most extreme of some hundreds."""
         values = np.concatenate([fields[name] for fields in self.fields.values()])
         low, high = np.nanpercentile(values, [100 - NOTICED, NOTICED])
         noise = SLIGHTEST * max(fields["normal_force"].max() for fields in self.fields.values())

@@ -75,7 +75,7 @@ def sweep(
 
     workers : processes of this machine, one thread each; absent, as many as there are processors
     fresh : whether each task has a process of its own, one after the other
-    scheduler : address of a dask scheduler, whose workers then solve the tasks in the place of processes
+    scheduler : address of a dask scheduler, whose workers then solve the tasks in place of processes
 
     While another run solves in the same folder, this one waits for it. A task that raises, or that workers die of,
     has failed: its outcome has the reason in every row, its traceback lies beside the store's file, and the next

@@ -20,7 +20,7 @@ class Task(Protocol):
 
     label : short description for people
     work : rough cost, in units that are the same for all tasks; it orders them and tells how far they are
-    question : everything that the answer depends on but for code, as JSON can hold it
+    question : everything that the answer depends on except code, as JSON can hold it
     packages : names of the packages whose code the answer depends on
     keeps_fields : whether the outcome has fields
     """

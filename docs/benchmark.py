@@ -490,6 +490,11 @@ HEAD = """# Benchmark
 
 Measured by `python docs/benchmark.py`, which writes this page. {machine}
 
+![Processor time of this solver and of its peers](benchmark.png)
+
+Processor time of this solver and of its peers until each has the same error: on finer and finer rough cells (a),
+and at other loads (b). Drawn by `python docs/pictures.py` from the tables below.
+
 Every run is alone in a process of one thread. Processor time is that of the solve: ours from the scene to the
 result, with the surface drawn and all coarser grids; of the peers, of the solve alone, once set up. Up to
 {repeated}² the least of {repeats} runs counts. Every code gets the first tolerance of {tolerances} with

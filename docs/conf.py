@@ -1,4 +1,4 @@
-"""How the pages are built, by `sphinx-build -W --keep-going -b html docs build/docs`: offline, and executed."""
+"""How the pages are built, by `sphinx-build -W --keep-going -b html docs build/docs`: offline, executed once."""
 
 import os
 import sys
@@ -8,14 +8,17 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
-# Figures of executed pages are drawings, sharp at any size. Kernels talk within this machine, unwarned.
-# Threads are one each, as in the tests.
+# Figures of executed pages are drawings, sharp at any size, and all of one size and style. Kernels talk within
+# this machine, unwarned. Threads are one each, as in the tests.
 _profile = Path(tempfile.mkdtemp(prefix="ipython-")) / "profile_default"
 _profile.mkdir()
 (_profile / "ipython_kernel_config.py").write_text(
     "settings = get_config()\n"
     'settings.InlineBackend.figure_formats = {"svg"}\n'
     'settings.IPKernelApp.matplotlib = "inline"\n'
+    'settings.InlineBackend.print_figure_kwargs = {"bbox_inches": None}\n'
+    "settings.InlineBackend.rc = {'figure.figsize': (7.0, 3.2), 'figure.dpi': 100, 'font.size': 10.0, "
+    "'axes.spines.top': False, 'axes.spines.right': False, 'legend.frameon': False}\n"
     "settings.IPKernelApp.log_level = 40\n"
 )
 os.environ |= {"IPYTHONDIR": str(_profile.parent), "OMP_NUM_THREADS": "1"}
@@ -35,15 +38,18 @@ extensions = [
     "docstrings",
     "equations",
     "kinds",
+    "terms",
     "thumbnails",
+    "variables",
 ]
 exclude_patterns = ["*/solved/*"]
 
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 
-nb_execution_mode = "force"
-nb_execution_timeout = 120
+# Outputs of executed pages are kept beside the built ones until a cell changes; a fresh copy has none.
+nb_execution_mode = "cache"
+nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 
@@ -54,6 +60,7 @@ autodoc_typehints_format = "short"
 autodoc_class_signature = "mixed"
 autosummary_generate = False
 add_module_names = False
+maximum_signature_line_length = 72  # a longer one has a line for each argument
 toc_object_entries_show_parents = "hide"
 
 copybutton_prompt_text = r">>> |\.\.\. |\$ "

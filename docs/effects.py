@@ -33,9 +33,10 @@ FOLDER = Path(__file__).with_suffix("")
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
 INTRODUCTION = """# Effects
 
-A scene lists what is there, and the solvers simulate that and nothing else. What is absent costs nothing: no
-kernel is built for it, no array allocated, no digit of the answer is another. `crosscheck plan scene.toml` says
-what a scene asks for, what that costs, and what is left out; [extending.md](extending.md) how to add an effect.
+A scene lists what is there, and the solvers simulate that and nothing else. An absent part costs nothing: no
+kernel is built for it, no array allocated, and every digit of the answer is unchanged. `crosscheck plan
+scene.toml` says what a scene asks for, what that costs, and what is left out; [extending.md](extending.md) how to
+add an effect.
 
 Written by `python docs/effects.py`. {machine}
 
@@ -46,7 +47,7 @@ of what it comes on top of, as measured [below](#{costs}). The lines are those o
 
 {effects}
 
-What is refused, and why:
+Refused, and why:
 
 {refused}
 """

@@ -30,8 +30,8 @@ smooth (spheres, cones, a blunt body, lines) and rough (spheres, cones, planes),
 linear solid, each on six or eight grids against 512 points a side, solved to {tight:g}. A difference to a finer
 grid is multiplied by N/(N - n), what is missing of an error that falls with the first power of the points. Of
 each kind of body and speed the ladder keeps the largest error of all that was resolved as finely or more
-finely. What has to be resolved is the shortest wave of the roughness, and the contact as a whole; how finely a
-grid does is found by a coarse solve, which comes first. A tenth of the wanted error is left to the tolerance.
+finely. A grid has to resolve the shortest wave of the roughness, and the contact as a whole; a coarse solve,
+which comes first, finds how finely a grid does so. A tenth of the wanted error is left to the tolerance.
 
 ```python
 choice = BEM.for_accuracy(scene, friction=0.01)

@@ -38,8 +38,6 @@ def main() -> None:
     write_text(PAGE.with_suffix(".csv"), text(found.drop(columns=["regime", "meaning", "plot"])))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))
-    asked = [(claim, body) for claim in ("eq17.load-exponent", "eq17.level") for body in BODIES]
-    answer = ANSWER.format(*(_said(found, claim, "3D", body) for claim, body in asked))
     columns = [(body, dimension) for body in BODIES for dimension in DIMENSIONS]
     rows = (
         (words, *(_said(found, claim, dimension, body) for body, dimension in columns))
@@ -47,7 +45,13 @@ def main() -> None:
     )
     replaced(PAGE, "numbers", table("|".join(["", *(f"{body}, {dim}" for body, dim in columns)]), rows))
     for page in (PAGE, README):
-        replaced(page, "slow", answer)
+        replaced(page, "slow", answer(found))
+
+
+def answer(found: DataFrame) -> str:
+    """The answer in one sentence."""
+    asked = [(claim, body) for claim in ("eq17.load-exponent", "eq17.level") for body in BODIES]
+    return ANSWER.format(*(_said(found, claim, "3D", body) for claim, body in asked))
 
 
 def _said(found: DataFrame, claim: str, dimension: str, body: str) -> str:

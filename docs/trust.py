@@ -52,6 +52,11 @@ def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]
         yield {"": f"{speed}, roughness {roughness}", **{body: found.get(body, "") for body in BODIES}}
 
 
+def friction(rows: list[dict[str, Any]]) -> str:
+    """The table of friction, in short: factors alone."""
+    return told(advice(rows, "friction")).replace("multiply by ", "×")
+
+
 def _cell(row):
     if row["solve"] > 0.5:
         return f"**solve** ({100 * row['solve']:.0f} %)"
@@ -91,7 +96,7 @@ def main(folder: Path | None) -> None:
     parts = [f"**{name}**\n\n{told(advice(rows, name))}" for name in found]
     replaced(PAGE, "advice", "\n\n".join(parts))
     replaced(PAGE, "errors", told(errors(found)))
-    replaced(README, "friction", told(advice(rows, "friction")))
+    replaced(README, "friction", friction(rows))
 
 
 if __name__ == "__main__":

@@ -366,7 +366,7 @@ def sinking(load, guess, approaches, rates, duration, state, solid):
 
     load : over stiffness and spacing of the elements [m]
     guess : to begin with [m]
-    approaches, rates : as for `advance`, for an indenter that does not sink
+    approaches, rates : as in `advance`, for an indenter that does not sink
 
     Returns it, and the misfit of the load [m]. The force increases with the depth: a bracket shrinks by Newton
     steps, or by halves where those are slow. The force of a dashpot begins with a jump where an element lands: a

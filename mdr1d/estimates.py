@@ -36,7 +36,7 @@ def average_heating(friction, modulus, depth, speed, conductivity):
 def flash_heating(friction, glassy_modulus, rms_height, speed, conductivity):
     """Largest temperature rise [K] in a micro-contact, 2 mu G_inf h_0 v / lambda (Methods).
 
-    The glassy modulus [Pa] and the rms height [m] in the place of G_0 and d of `average_heating`.
+    The glassy modulus [Pa] and the rms height [m] in place of G_0 and d of `average_heating`.
     """
     positive(glassy_modulus=glassy_modulus)
     not_negative(rms_height=rms_height)

@@ -42,7 +42,7 @@ def at_depth(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact,
 
 
 def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contact, int]:
-    """Press the profile in with the scene's load; arguments and result as for at_depth.
+    """Press the profile in with the scene's load; arguments and returns as in at_depth.
 
     The force is a convex, increasing function of the approach while contact stays off the ends of the grid, and
     zero at the first touch. The search is Newton's for its logarithm, exact for a power, between the approaches

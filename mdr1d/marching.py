@@ -4,7 +4,7 @@ In a step the depth changes linearly and the indenter stays between the same nod
 height over each element changes linearly, and it is followed exactly. A prescribed depth is linear between the
 turns of its program, unless it oscillates: the history of each element is then without error. An oscillation of
 the depth is followed by chords: what is done and lost in it is of second order in the step, and so is the force,
-but for that of a dashpot, which is half a step late. A prescribed load is met once a step.
+except that of a dashpot, which is half a step late. A prescribed load is met once a step.
 """
 
 from collections.abc import Mapping

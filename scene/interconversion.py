@@ -17,7 +17,7 @@ _STEPS = 400
 def zeros(poles, weights, constant):
     """Zeros (R,) of F(x) = c - sum_j w_j / (x - p_j), ascending, and the steepness x F'(x) > 0 at each.
 
-    Arguments as for `distances`. The steepness, in units of the constant, is that of the rational function with
+    Arguments as in `distances`. The steepness, in units of the constant, is that of the rational function with
     these poles and zeros, a product of distances: where single zeros are known badly because poles lie close or
     terms cancel, together they still are this very function.
     """

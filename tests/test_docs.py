@@ -24,6 +24,7 @@ ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
 CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.DOTALL | re.MULTILINE)
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+TOML = re.compile(r"^```toml\n(.*?)^```", re.DOTALL | re.MULTILINE)
 GALLERY = DOCS / "gallery"
 
 
@@ -126,8 +127,8 @@ def test_every_page_of_the_gallery_is_shown_and_tested():
 
 
 @pytest.mark.slow
-def test_the_examples_of_the_readme_print_what_they_say(capsys, tmp_path, monkeypatch):
-    first, whole, second, third = PYTHON.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatch):
+    whole, second, third, first = PYTHON.findall((DOCS / "python.md").read_text(encoding="utf-8"))
     names = {}
     exec(first, names)
     assert names["answer"].confirmed
@@ -139,7 +140,7 @@ def test_the_examples_of_the_readme_print_what_they_say(capsys, tmp_path, monkey
     exec(second, {})
     (one, *in_one), (three, *in_three) = (line.split() for line in capsys.readouterr().out.splitlines())
     assert (one, three) == ("MDR", "BEM")
-    # one surface each of those whose mean ratio the README states, 0.61; they scatter
+    # one surface each of those whose mean ratio the page of answers states, 0.61; they scatter
     assert 0.3 < float(in_one[1]) / float(in_three[1]) < 0.9
     exec(third, names)
     assert names["answer"].friction_coefficient == pytest.approx(0.00806, rel=0.01)
@@ -150,6 +151,14 @@ def test_the_examples_of_the_readme_print_what_they_say(capsys, tmp_path, monkey
     assert "{'grid': 2, 'speed': 3, 'load': 1, 'draw': 2}" in told
     assert re.search(r"BEM +0\.01", told)
     assert Path("friction.pdf").stat().st_size > 1000
+
+
+def test_the_scene_of_the_readme_is_the_same_as_a_file_and_in_python(capsys, tmp_path):
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    (file,), (example,) = TOML.findall(page), PYTHON.findall(page)
+    exec(example, {})
+    (tmp_path / "scene.toml").write_text(file, encoding="utf-8")
+    assert capsys.readouterr().out.strip() == str(compare.trust(tmp_path / "scene.toml"))
 
 
 def test_the_first_page_has_friction_of_1d_twice_that_of_3d():
@@ -195,6 +204,12 @@ def test_the_page_on_the_command_has_every_command_and_function():
     assert {function for _, function in table} == functions - {"solve", "friction_plot"}
 
 
+def test_the_readme_lists_every_command():
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    table = re.search(r"^\| Command .*?\n\n", page, re.DOTALL | re.MULTILINE)
+    assert {each.title for each in COMMANDS} <= set(re.findall(r"`(\w+)[^`]*`", table[0]))
+
+
 def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.mplstyle").write_text("lines.linewidth: 3.5", encoding="utf-8")
@@ -215,7 +230,7 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
 
 def test_no_example_of_the_pages_is_left_out():
     """Pages whose examples no test above or elsewhere runs have none."""
-    run_here = {"command.md", "figures.md", "index.md", "promises.md", "scenes.md"}
+    run_here = {"command.md", "figures.md", "index.md", "promises.md", "python.md", "scenes.md"}
     elsewhere = {"extending.md", "regression.md"}  # test_effects_example.py, test_compare_regression.py
     assert {page.name for page in DOCS.glob("*.md") if PYTHON.search(page.read_text(encoding="utf-8"))} <= (
         run_here | elsewhere

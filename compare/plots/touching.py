@@ -53,7 +53,8 @@ def section_of(table: DataFrame) -> Section:
 def gridded(table: DataFrame, name: str, pixel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x (N,), y (M,) and values (M, N) of pixels of which a table has some; zero of those it has not.
 
-    Raises ValueError of a map of more than MOST_PIXELS, as of places that are not on a grid of such pixels.
+    Raises ValueError of a map of more than MOST_PIXELS, such as one of
+    places that are not on a grid of such pixels.
     """
     if table.empty:
         ends = np.array([-pixel, pixel]) / 2

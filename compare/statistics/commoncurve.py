@@ -68,7 +68,7 @@ class Fit:
         return self.log_friction - basis @ (basis.T @ self.log_friction)
 
     def jacobian(self, increments: np.ndarray) -> np.ndarray:
-        """Derivatives of the residuals, (N, increments), but for what lies in the span of the polynomials.
+        """Derivatives of the residuals, (N, increments), except the part in the span of the polynomials.
 
         Kaufman, BIT 15, 49 (1975). The gradient of the sum of squares is exact, as residuals do not lie there.
         """

@@ -24,7 +24,7 @@ AT_THE_KNEE = 3.0
 
 
 def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
-    """Findings on a series that slides, but for what shifts of its curves say."""
+    """Findings on a series that slides, except those on the shifts of its curves."""
     found = []
     for solver, dimension in SOLVERS.items():
         words = laws[solver].words

@@ -36,7 +36,7 @@ class Linked(SphinxPostTransform):
         here = self.env.docname == PAGE
         pattern = _HERE if here else _ELSEWHERE
         for text in list(self.document.findall(nodes.Text)):
-            if _is_prose(text) and pattern.search(text):
+            if is_prose(text) and pattern.search(text):
                 text.parent.replace(text, list(self.pieces(str(text), pattern)))
 
     def pieces(self, text, pattern):
@@ -51,7 +51,7 @@ class Linked(SphinxPostTransform):
         yield nodes.Text(text[end:])
 
 
-def _is_prose(text) -> bool:
+def is_prose(text) -> bool:
     node = text.parent
     while node is not None:
         if isinstance(node, (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.reference)):

@@ -39,7 +39,7 @@ ROUGH_MEMORY, ROUGH_OVER_F = 0.2, (0.1, 1.0, 10.0)  # length over the shortest w
 SURFACES = 3
 TEXT = """A sphere of R = {radius:g} mm on rubber of G₀ = {modulus:g} MPa and D = {thickness:g} mm. The paper has a
 force F* = (2/3) G₀ D³/R, here {force:.0f} N, beyond which the layer is felt and the stiffness k = dF/dd goes as
-F^(1/2) in place of F^(1/3). Below, F* has E*/4 in the place of G₀: the half-space of any Poisson ratio then has
+F^(1/2) in place of F^(1/3). Below, F* has E*/4 in place of G₀: the half-space of any Poisson ratio then has
 2a = D at it. Everything is a function of F/F*. With D = 5 mm and R = 25 mm F* is {other:.0f} N, and there k/(E* D)
 is that of the first pair at its own to {same:.0e}.
 

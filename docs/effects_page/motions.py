@@ -45,7 +45,7 @@ motion forwards: backwards one that opposes it is below zero.
 
 {found}
 
-What has a closed form is in the table: the force of a small oscillation of the depth about a contact at rest,
+The table has the closed forms: the force of a small oscillation of the depth about a contact at rest,
 2 a E*(ω); friction of one wave in full contact while speed and direction change, at the worst of all steps; forces
 of a sphere that comes down on a Kelvin foundation at an angle; the steady friction after four reversals. All is
 solved with half the points, too: what that changes is of the size of the error that is left, and no bound on it,

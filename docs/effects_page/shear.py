@@ -52,7 +52,7 @@ The rough sphere sticks longer. Its highest peaks are pressed in deeper than d, 
 u = {full_1d} times 3/2 μ d in 1D and {full_3d} in 3D; nine tenths of μ F_N are reached at {most_1d} and {most_3d}
 instead of {most:.2f}. The rule 3/2 μ d holds as far as roughness is small against the depth; here h₀/d =
 {ratio:.3f}. With each contact's own u_max, the curves of rough contacts are off those of the smooth by up to
-{shape_1d:.2f} of μ F_N in 1D and {shape_3d:.2f} in 3D: they do not fall onto one curve. What does hold is
+{shape_1d:.2f} of μ F_N in 1D and {shape_3d:.2f} in 3D: they do not fall onto one curve. This law holds:
 F_x = μ (F_a − F_c) at u = 3/2 μ (d_a − d_c), with the forces at both depths of the rough body itself: to
 {superposed_1d:.1e} of μ F_N in 1D and {superposed_3d:.1e} in 3D. The two dimensionalities differ by {apart:.3f} of
 μ F_N at most."""

@@ -107,7 +107,7 @@ class Law:
 
 
 def law(shape: str, solved: xarray.Dataset, of_planes: xarray.Dataset) -> Law:
-    """One shape from what was solved, but for speeds without an answer. Raises SolveError where none has one."""
+    """One shape from what was solved, except speeds without an answer. Raises SolveError where none has one."""
     slope, fine = _slope(), solved.sel(grid=FINE).isel(load=0)
     friction = (fine["friction_force"] / fine["normal_force"]).transpose("speed", "draw").values
     known = np.isfinite(friction).any(axis=1)

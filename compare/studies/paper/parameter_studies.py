@@ -162,7 +162,7 @@ class SlowFriction:
 
 
 def slow_friction(studies: ParameterStudies, dataset: xarray.Dataset) -> SlowFriction:
-    """Fig. 3 from what was solved, but for profiles of which no contact is. Raises SolveError where all broke."""
+    """Fig. 3 from what was solved, except profiles without a contact. Raises SolveError where all broke."""
     found = contacts(studies)
     solved = (dataset["status"] == SOLVED).any(DIMS[:3]).values
     if not solved.any():

@@ -127,7 +127,7 @@ class FullContact:
 
 @dataclass(frozen=True)
 class Groups:
-    """Dimensionless groups of a rough scene; logarithms but for shape, prescribed, hurst and shares.
+    """Dimensionless groups of a rough scene; logarithms except for shape, prescribed, hurst and shares.
 
     a, d, p : radius, depth and mean pressure of the smooth contact at rest
     q_s, h0, h' : highest wave number, rms height and rms slope of the roughness
