@@ -37,6 +37,8 @@ SAMPLES = Path(__file__).parent / "plots"
 ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES)).manifest.plots}
 # Figures too large to keep, whose own tests hold them against these laws.
 ELSEWHERE = {"contact_maps", "marching"}
+# Labels of axes beside a panel: bars of colours, and the smooth body beside the map of the trust.
+NO_PANELS = {"<colorbar>", "smooth"}
 NARROW, OTHERS = "iop", [name for name in JOURNALS if name != "iop"]
 # Boxes of texts hold a pixel of nothing on each side [pixel].
 TOUCHING = 1.0
@@ -59,7 +61,7 @@ VISION = {
 APART, LIGHTER = 15.0, 10.0
 
 # Figures held against every law in each run: an image and a legend, curves with bands and bars; else on demand.
-OFTEN = {"contact-figure", "force_depth-figure"}
+OFTEN = {"regime_map-figure", "force_depth-figure"}
 
 every_figure = pytest.mark.parametrize(
     "name", [pytest.param(each, marks=() if each in OFTEN else pytest.mark.slow) for each in ENTRIES]
@@ -166,21 +168,7 @@ def test_a_sample_is_there_for_every_figure_of_the_package():
     assert known <= drawn_by
 
 
-# Figures that are too full for a page as narrow.
-VERDICTS = "study_verdicts-verdicts"
-TOO_FULL = {("study_depth-depth", NARROW), (VERDICTS, "acs"), (VERDICTS, "nature")}
-
-
-@pytest.fixture
-def known(request, name):
-    """A figure that is known to be too full fails, and says so once it does not."""
-    asked = request.getfixturevalue("asked") if "asked" in request.fixturenames else NARROW
-    if (name, asked) in TOO_FULL:
-        request.applymarker(pytest.mark.xfail(strict=True, reason="its texts need a wider page"))
-
-
 @every_figure
-@pytest.mark.usefixtures("known")
 def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(name):
     assert not list(laws_of_layout(name, NARROW))
 
@@ -188,19 +176,18 @@ def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("asked", OTHERS)
 @every_figure
-@pytest.mark.usefixtures("known")
 def test_in_every_journal_texts_are_large_enough_whole_and_apart(name, asked):
     assert not list(laws_of_layout(name, asked))
 
 
 def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
     monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=4.0))
-    found = list(laws_of_layout("contact-figure", "narrow"))
+    found = list(laws_of_layout("regime_map-figure", "narrow"))
     assert any("is cut" in fault or "lies over" in fault for fault in found)
-    drawing, texts, lines = laid_out("contact-figure", NARROW)
+    drawing, texts, lines = laid_out("regime_map-figure", NARROW)
     texts[0].set_fontsize(7.9)
     monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
-    assert any("has 7.9 points" in fault for fault in laws_of_layout("contact-figure", NARROW))
+    assert any("has 7.9 points" in fault for fault in laws_of_layout("regime_map-figure", NARROW))
     texts[0].set_fontsize(8)
 
 
@@ -240,6 +227,14 @@ def test_every_axis_says_its_unit(name):
         shared = getattr(axes, f"get_shared_{direction}_axes")().get_siblings(axes)
         labels = [getattr(each, f"get_{direction}label")() for each in (axes, *shared)]
         assert any("[" in label for label in labels), (direction, axes.get_title(loc="left"), labels)
+
+
+@every_figure
+def test_every_panel_has_its_letter(name):
+    drawn_in = (axes for axes in plain(name).axes if axes.axison and axes.get_label() not in NO_PANELS)
+    titles = [axes.get_title(loc="left") for axes in drawn_in]
+    letters = [f"({lettering.letter(k)})" for k in range(len(titles))]
+    assert len(titles) == 1 or [title.split()[0] for title in titles if title] == letters
 
 
 @every_figure
@@ -342,12 +337,12 @@ def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
 @pytest.fixture(scope="module")
 def files():
     """A figure as files: with an image, curves and a legend."""
-    return picture(sample("contact-figure"), FORMS)
+    return picture(sample("regime_map-figure"), FORMS)
 
 
 def test_the_same_numbers_give_the_same_files(files):
     assert tuple(files.files) == FORMS
-    assert picture(sample("contact-figure"), FORMS) == files
+    assert picture(sample("regime_map-figure"), FORMS) == files
 
 
 def test_every_font_of_a_pdf_is_inside_as_truetype(files):

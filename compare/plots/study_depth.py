@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from ..page import Tables
 from . import shades, style
 from .curves import intervals
-from .lettering import clear
+from .lettering import clear, lettered
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 CLOSED = "closed form"
@@ -65,8 +65,7 @@ def depth(tables: Tables) -> Figure:
     stiff.set(xscale="log", yscale="log", xlabel="normal force [N]", ylabel="stiffness [kN/m]")
     if len(stiffness):
         stiff.legend()
-    for axes, letter in zip(panels.flat, "abcd", strict=True):
-        axes.set_title(f"({letter})")
+    lettered(panels.flat)
     style.decades(*panels.flat)
     clear(drawing, panels.flat)
     return drawing
@@ -104,6 +103,7 @@ def pressed_in(tables: Tables) -> Figure:
         style.span(axes, 1e6 * every["depth"])
     style.decades(*panels)
     one.set_ylabel("normal force [N]")
+    lettered(panels)
     one.legend()
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.05, "pad": 0.02}
     shades.bar(drawing, panels, shades.SPEED, scale, "rate of indentation [m/s]", **place)

@@ -1,7 +1,6 @@
 """Friction of one series: curves shifted onto one, shifts, level against speed; and several series at once."""
 
 from itertools import cycle
-from os.path import commonprefix
 from typing import Any
 
 import numpy as np
@@ -31,7 +30,7 @@ MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("mem
 
 
 def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
-    """Columns: 1D, 3D. Rows: friction against load; shifted along it; off the common curve, where both have one."""
+    """Columns: 1D, 3D. Rows: friction against load; shifted; off the common curve, where both have one."""
     points, curves, fits = tables["collapse"], tables["collapse-curves"], tables["collapse-fits"]
     fitted = set(points.loc[points["shifted_as"] == FITTED, "dimension"])
     rows = (1, 1, 0.7) if len(fitted) == len(SOLVER) else (1, 1)
@@ -228,18 +227,18 @@ def family(tables: Tables) -> Figure:
         band.suptitle(literal(start.rstrip(", ") or shape), x=0.01, ha="left", fontsize=style.size())
         panels += list(own.flat)
         style.decades(*own.flat)
+        shades.bar(band, own, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=30)
     lettered(panels, most)
-    shades.bar(drawing, panels, shades.PRESS, scale, "normal force [N]", location="bottom", aspect=60, shrink=0.7)
     return drawing
 
 
 def _common(names: list[str]) -> str:
-    """Words up to a comma with which all of several names begin."""
-    start = commonprefix(names) if len(names) > 1 else ""
-    return start[: start.rfind(", ") + 2] if ", " in start else ""
+    """Words up to the first comma, where all of several names begin with them."""
+    heads = {name[: name.find(", ") + 2] for name in names}
+    return heads.pop() if len(heads) == 1 and len(names) > 1 and ", " in names[0] else ""
 
 
-def _by_load(axes: Axes, points: DataFrame, solver: str, scale) -> None:
+def _by_load(axes, points, solver, scale):
     """Points of each load, or depth, joined; in the shade of their mean force."""
     look = {"marker": style.MARKER[solver], "markersize": style.mark(0.55), "linewidth": style.width(0.6)}
     prescribed = [name for name in ("load", "depth") if name in points and points[name].notna().any()]

@@ -2,7 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import isfinite
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,9 +20,9 @@ from . import style
 from .lettering import literal
 
 SOLVER = {"1D": "MDR", "3D": "BEM", BOTH: "exact"}
-# Of the width, for the claims; for text of 8 points: heights of a row, of a line of a claim and between claims, width
-# of the column of dimensionalities, and lengths of headings that stand upright, of which the first that lets all
-# of them fit is taken [inch].
+# Of the width, for the claims; for text of 8 points: heights of a row, of a line of a claim and between claims,
+# width of the column of dimensionalities, and lengths of headings that stand upright, of which the first that lets
+# all of them fit is taken [inch].
 CLAIMS, ROW, LINE, GAP, DIMENSION = 0.34, 0.27, 0.125, 0.07, 0.42
 UPRIGHT = 0.8, 1.1, 1.4, 1.8, 2.3
 # A column as wide has room for a heading that lies [inch].
@@ -101,7 +103,7 @@ def verdicts(tables: Tables, titles: Sequence[tuple[str, str]] = ()) -> Figure:
     axes.xaxis.tick_top()
     for spine in axes.spines.values():
         spine.set_visible(False)
-    upright = {} if lying else {"rotation": 90, "va": "bottom", "ha": "center"}
+    upright: dict[str, Any] = {} if lying else {"rotation": 90, "va": "bottom", "ha": "center"}
     axes.set_xticks(range(len(places)), heads, fontsize=style.small(), **upright)
     looks = {name: {"color": style.grey(0.3), **look} for name, look in _marks().items()}
     handles: list = [Line2D([], [], linestyle="none", label=name, **look) for name, look in looks.items()]
@@ -119,12 +121,12 @@ def _ruled(axes: Axes, claims: Sequence[_Claim]) -> None:
     axes.tick_params(length=0)
     axes.set_yticks([each.top + each.height / 2 for each in claims], [each.text for each in claims])
     axes.tick_params(axis="y", labelsize=style.small())
-    for before, each in zip(claims, claims[1:], strict=False):
+    for before, each in pairwise(claims):
         compared = BOTH in each.rows and BOTH not in before.rows
         axes.axhline(each.top, **(style.line(0, 0.55) if compared else style.line(0.8, 0.3)), zorder=0)
 
 
-def _numbers(axes: Axes, columns: Sequence[str], claims: Sequence[_Claim], cell: float) -> None:
+def _numbers(axes, columns, claims, cell):
     """A field for each finding: shade, mark of the verdict, and the number."""
     small = {"ha": "center", "va": "center", "fontsize": style.tiny(), "color": style.ink()}
     for claim in claims:
@@ -175,7 +177,7 @@ def _marks():
 
 
 def effects(tables: Tables) -> Figure:
-    """A row for each claim and dimensionality: distance from the number claimed; at right, measured and verdict."""
+    """A row for each claim and dimensionality: distance from the number claimed; at right, verdict and number."""
     found = tables["effects"]
     claims = _claims(found, CLAIMS * style.across("double"))
     bottom = claims[-1].top + claims[-1].height
@@ -196,7 +198,7 @@ def effects(tables: Tables) -> Figure:
     return drawing
 
 
-def _effect(axes: Axes, y: float, found) -> None:
+def _effect(axes, y, found):
     colour = style.COLOUR[SOLVER[found["dimension"]]]
 
     def tolerances(value):

@@ -121,7 +121,8 @@ def _fitted(judged, solver):
     """What shifts along the load achieve, where it is decided whether the curves fall onto one; else None."""
     found, decided = judged.collapses.get(solver), {HOLDS, FAILS}
     known = found is not None and found.horizontal.curve is not None
-    verdicts = {each.verdict for each in judged.findings if each.claim.id == eq23.COLLAPSE.id and each.dimension == SOLVERS[solver]}
+    own = (each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id)
+    verdicts = {each.verdict for each in own if each.dimension == SOLVERS[solver]}
     return found if known and verdicts & decided else None
 
 
