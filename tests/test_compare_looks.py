@@ -37,8 +37,6 @@ SAMPLES = Path(__file__).parent / "plots"
 ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES)).manifest.plots}
 # Figures too large to keep, whose own tests hold them against these laws.
 ELSEWHERE = {"contact_maps", "marching"}
-# Labels of axes beside a panel: bars of colours, and the smooth body beside the map of the trust.
-NO_PANELS = {"<colorbar>", "smooth"}
 NARROW, OTHERS = "iop", [name for name in JOURNALS if name != "iop"]
 # Boxes of texts hold a pixel of nothing on each side [pixel].
 TOUCHING = 1.0
@@ -231,10 +229,9 @@ def test_every_axis_says_its_unit(name):
 
 @every_figure
 def test_every_panel_has_its_letter(name):
-    drawn_in = (axes for axes in plain(name).axes if axes.axison and axes.get_label() not in NO_PANELS)
-    titles = [axes.get_title(loc="left") for axes in drawn_in]
-    letters = [f"({lettering.letter(k)})" for k in range(len(titles))]
-    assert len(titles) == 1 or [title.split()[0] for title in titles if title] == letters
+    drawn_in = [axes for axes in plain(name).axes if axes.axison and axes.get_label() != "<colorbar>"]
+    letters = [axes.get_title(loc="left").split(" ")[0] for axes in drawn_in]
+    assert len(letters) == 1 or letters == [f"({lettering.letter(k)})" for k in range(len(letters))]
 
 
 @every_figure

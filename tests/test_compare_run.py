@@ -251,7 +251,7 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     run, answers, page = report
     plots = {plot.name for plot in page.every(Plot)}
     friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
-    assert plots == {f"small-sphere/{name}" for name in {"contact", "contact-maps", "force-depth"} | friction}
+    assert plots == {f"small-sphere/{name}" for name in {"contact-maps", "force-depth"} | friction}
     tables = {table.name: table.frame for table in page.every(Table)}
     assert set(tables) == {"summary", "small-sphere/trust", "small-sphere/points", "small-sphere/times"}
     shown = [each for block in page.every(Findings) for each in block.findings]

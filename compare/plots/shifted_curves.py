@@ -91,7 +91,8 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
         _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
         row[0].set_title(literal(fit["curves"]))
-        row[2].set_title(_verdict(fit), loc="right", fontsize=style.small(), fontweight="normal")
+        row[1].set_title(_verdict(fit))
+        row[2].set_title("" if fit["decided"] else "exponent undecided")
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]")
         row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
@@ -100,7 +101,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
             axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
     shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
-    lettered(panels.flat)
+    lettered(panels.flat, 3)
     clear(drawing, panels[:, 2])
     return drawing
 
@@ -193,5 +194,3 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.5 * (high - low))
         axes.legend(loc="upper right", fontsize=style.tiny(), borderaxespad=0.1, handlelength=1.5)
-    if not fit["decided"]:
-        axes.text(0.03, 0.05, "exponent undecided", transform=axes.transAxes, fontsize=style.small())

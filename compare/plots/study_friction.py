@@ -53,7 +53,7 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
         if len(rows) > 2:
             _left_over(column[2], own, fit, solver, scale, tolerance)
         titles = (style.LABEL[solver], "shifted as fitted" if dimension in fitted else "shifted by p(v) of Eq. 22")
-        for axes, title in zip(column, (*titles, _misfit(fit)), strict=False):
+        for axes, title in zip(column, titles, strict=False):
             axes.set_title(title)
     labels = ("friction coefficient [1]", "friction coefficient [1]", "off the curve [%]")
     for axes, label in zip(panels[:, 0], labels, strict=False):
@@ -71,6 +71,7 @@ def _left_over(axes: Axes, own: DataFrame, fit, solver: str, scale, tolerance: f
     axes.set(xlabel="shifted normal force [N]", xscale="log")
     axes.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
     axes.axhline(0, **style.line(0, 0.65))
+    axes.set_title(_misfit(fit))
     kept = own[own["shifted_as"] == FITTED]
     _curves(axes, kept, "shifted_force", "off_curve", solver, scale, 100, linewidth=style.width(0.55))
 
@@ -217,8 +218,8 @@ def family(tables: Tables) -> Figure:
                 axes.plot(laws[here]["xi"], laws[here]["friction_over_plateau"], **style.line(0.5, 0.8), zorder=1)
                 _by_load(axes, series, solver, scale)
                 axes.set(xscale="log", yscale="log")
-                title = name[len(start) :] or name
-                axes.set_title(f"{dimension}, {title[0].lower() if start else title[0]}{title[1:]}")
+                first = row[0] is own[0, 0]
+                axes.set_title(f"{dimension}, {literal(name[len(start) :])}" if first else dimension)
             row[0].set_ylabel(r"$\tilde{\mu}$ [1]")
         for axes in own[-1]:
             axes.set_xlabel(r"$\xi$ [1]")

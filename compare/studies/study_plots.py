@@ -300,10 +300,9 @@ def _depth(contacts: Contacts) -> Plot:
         f"{series.folder}/depth",
         study_depth.depth,
         {"depth": _each_dimension(at_rest), "depth-differences": differences, "depth-stiffness": stiffness},
-        f"(a) {what} at rest, and the closed form of the smooth body (line). (b) Less that closed form. (c) 1D "
-        "against 3D. (d) Stiffness between neighbours. Bars are intervals of 95 %; points are drawn apart "
-        "along the axis. Depth is that of the macroscopic tip, below zero where only the highest asperities "
-        "touch.",
+        f"{what} at rest: (a) less the closed form of the smooth body, (b) 1D against 3D, (c) stiffness between "
+        "neighbours. Bars: 95 %; points are drawn apart along the axis. Depth is that of the macroscopic tip, "
+        "below zero where only the highest asperities touch.",
         f"{what}, one dimension against three",
     )
 
