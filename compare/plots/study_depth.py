@@ -13,8 +13,8 @@ SOLVER = {"1D": "MDR", "3D": "BEM"}
 CLOSED = "closed form"
 # Neighbouring markers are drawn apart by this factor of the load or depth, either way.
 APART = 1.02
-# Labels of what is measured less the smooth closed form, in rms heights or percent, and of 1D less 3D; factor of the
-# first.
+# Labels of what is measured less the smooth closed form, in rms heights or percent, and of 1D less 3D; factor of
+# the first.
 LABELS = {
     "load": ("depth less the smooth one [$h_0$]", "depth 1D - 3D [% of smooth]", 1.0),
     "depth": ("force less the smooth one [%]", "force 1D / 3D - 1 [%]", 100.0),

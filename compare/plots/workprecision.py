@@ -35,28 +35,28 @@ BESIDE = (
 def plots(name: str, tables: Tables) -> Iterator[Plot]:
     """Plots of a diagram, of its table of steps and of its table of orders: one for each question, see `parts`."""
     table = next(iter(tables))
+    told = (
+        "Relative error against processor time of one solve, the least of its repeats; settings at the points "
+        "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
+        "of a ladder of points."
+    )
+    alternative = "Panels of falling curves: relative error over processor time."
     for part, options in parts(name, tables[table]).items():
-        others = " Other estimates are those of the first ladder." if options.get("others", True) else ""
-        yield Plot(
-            part, figure, tables,
-            "Relative error against processor time of one solve, the least of its repeats; settings at the points "
-            "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted "
-            f"power of a ladder of points.{others}",
-            "Panels of falling curves: relative error over processor time.", {"steps": table, **options},
-        )  # fmt: skip
+        yield Plot(part, figure, tables, told, alternative, {"steps": table, **options})
+    if any(len(each.estimates) > 1 for each in panels(tables[table])):
+        told += " Every estimate of the first ladder."
+        yield Plot(f"{name}-estimates", figure, tables, told, alternative, {"steps": table, "estimates": True})
 
 
 def parts(name: str, steps: DataFrame) -> dict[str, dict[str, Any]]:
-    """Names of the plots of a diagram, with their options: one, or where panels are many one for friction, one for
-    what else is measured, and one for the other estimates."""
+    """Names of the plots of answers of a diagram, with their options: one, or of many panels one for friction and
+    one for what else is measured."""
     drawn = panels(steps)
     if len(drawn) <= MOST:
         return {name: {}}
-    several = list(dict.fromkeys(each.first.quantity for each in drawn if len(each.estimates) > 1))
-    quantities = list(dict.fromkeys(each.first.quantity for each in drawn))
+    quantities = dict.fromkeys(each.first.quantity for each in drawn)
     kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
-    found = {f"{name}-{kind}": {"quantities": own, "others": False} for kind, own in kinds.items() if own}
-    return found | ({f"{name}-estimates": {"quantities": several}} if several else {})
+    return {f"{name}-{kind}": {"quantities": own} for kind, own in kinds.items() if quantities.keys() & own}
 
 
 def part_of(name: str, steps: DataFrame, quantity: str) -> str:
@@ -108,18 +108,18 @@ def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float],
     return [((x, y), value) for x, y, value in steps if isfinite(x) and isfinite(y)]
 
 
-def figure(tables: Tables, steps: str, quantities: list[str] | None = None, others: bool = True) -> Figure:
+def figure(tables: Tables, steps: str, quantities: list[str] | None = None, estimates: bool = False) -> Figure:
     """All panels, and one legend below.
 
-    steps : name of the table; quantities : all if absent; others : whether with estimates beside the answer itself
+    steps : name of the table; quantities : that are shown, all if absent
+    estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
     """
     drawn = [each for each in panels(tables[steps]) if quantities is None or each.first.quantity in quantities]
-    if not others:
+    if estimates:
+        several = [each for each in drawn if len(each.estimates) > 1]
+        drawn = [Panel(tuple(own for own in each.curves if own.ladder == each.first.ladder)) for each in several]
+    else:
         drawn = [Panel(tuple(each.answers)) for each in drawn]
-    elif quantities is not None:  # beside other estimates, the answer by its first ladder
-        drawn = [
-            Panel(tuple(curve for curve in each.curves if curve.ladder == each.first.ladder)) for each in drawn
-        ]
     columns = min(COLUMNS, len(drawn)) if len(drawn) != 4 else 2
     rows = ceil(len(drawn) / columns)
     drawing = style.canvas("double", rows * HEIGHT + 0.6)

@@ -22,6 +22,8 @@ from .workprecision_surfaces import means, plan_look
 LINES = {"MDR": "1D", "CorrectedMDR": "corrected 1D"}
 # Panels side by side, their height, and that of what surrounds them all [inch].
 COLUMNS, HEIGHT, AROUND = 3, 1.9, 0.6
+# The same of one panel, whose legend is a column [inch].
+BELOW = 1.5
 # Dashes of what is forecast.
 FORECAST = (0, (4, 2))
 # Errors below are drawn there: the solvers stop before.
@@ -64,7 +66,7 @@ def smooth(tables: Tables, steps: str) -> Figure:
     for each, panel in zip(axes, drawn, strict=True):
         _draw_ladders(each, panel)
     _share(axes, 5.0, 2.5)
-    _legend(drawing, [style.look(solver, markersize=style.mark(0.8)) for solver in (*LINES, "BEM")])
+    _legend(drawing, _solvers())
     for each, panel in zip(axes, drawn, strict=True):
         write(each, _settings(panel), style.tiny())
     return drawing
@@ -77,19 +79,25 @@ def rough(tables: Tables, plans: str) -> Figure:
     for each, mean in zip(axes, drawn, strict=True):
         _draw_mean(each, mean)
     _share(axes, 2.0, 1.5)
-    looks = [style.look(solver, markersize=style.mark(0.8), linestyle="-") for solver in (*LINES, "BEM")]
     forecast = style.line(0.3, 0.8, linestyle=FORECAST, label="forecast")
-    _legend(drawing, [*looks, forecast, _cheapest() | {"label": "cheapest plan in 3D"}], bands=True)
+    _legend(drawing, [*_solvers(), forecast, _cheapest() | {"label": "cheapest plan in 3D"}], bands=True)
     for each, mean in zip(axes, drawn, strict=True):
         write(each, _ends(mean), style.tiny())
     return drawing
+
+
+def _solvers() -> list[dict[str, Any]]:
+    """Looks of all solvers in the legend; dashes are left to what is forecast."""
+    return [style.look(solver, markersize=style.mark(0.8), linestyle="-") for solver in (*LINES, "BEM")]
 
 
 def _panels(told: Sequence[MeasuredLadder | Mean]) -> tuple[Figure, list[Axes]]:
     """Empty panels with titles, all of the same axes."""
     columns = min(COLUMNS, len(told))
     rows = ceil(len(told) / columns)
-    drawing = style.canvas("double" if columns > 1 else "single", rows * HEIGHT + AROUND)
+    drawing = style.canvas(
+        "double" if columns > 1 else "single", rows * HEIGHT + (AROUND if columns > 1 else BELOW)
+    )
     every: list[Axes] = []
     for k, each in enumerate(told):
         first = every[0] if every else None
@@ -114,7 +122,7 @@ def _draw_ladders(axes: Axes, panel: Panel):
     own = panel.first.reference_error
     for curve in panel.curves:
         colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
-        line: dict[str, Any] = {"linestyle": style.LINE[curve.solver], "linewidth": style.width(0.8)}
+        line: dict[str, Any] = {"linestyle": "-", "linewidth": style.width(0.8)}
         axes.plot(curve.processor, errors, color=colour, **line)
         dots(axes, curve.processor, errors, errors <= own, style.MARKER[curve.solver], colour, 0.8)
         if curve.order.order > FALLS:
