@@ -274,7 +274,7 @@ def test_figures_are_functions_of_what_their_files_hold(report):
     for plot in plots:
         assert len(plot.caption.split()) <= 60
         files = {name: StringIO(frame.to_csv(index=False)) for name, frame in plot.tables.items()}
-        read = {name: pandas.read_csv(file) for name, file in files.items()}
+        read = {name: pandas.read_csv(file, float_precision="round_trip") for name, file in files.items()}
         with style.applied():
             numbers = [_drawn(each.figure()) for each in (plot, replace(plot, tables=read))]
         assert numbers[0]

@@ -67,7 +67,7 @@ def _over_smooth(axes: Axes, points: DataFrame) -> None:
     known = next((own for solver in ("exact", "BEM") if len(own := smooth[smooth["solver"] == solver])), smooth)
     if known.empty:
         return
-    drawn, names = [], ["normal_force", "normal_force_low", "normal_force_high"]
+    rows, names = [], ["normal_force", "normal_force_low", "normal_force_high"]
     hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
     for index, solver in enumerate(("MDR", "BEM")):
         for body, look in (("smooth", hollow), ("rough", {})):
@@ -78,8 +78,9 @@ def _over_smooth(axes: Axes, points: DataFrame) -> None:
                 x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - 1)
                 label = f"{style.LABEL[solver]}, {body}"
                 intervals(axes, x, own, "normal_force", **style.look(solver, label=label, **look))
-                drawn.append(own.set_axis(x))
-    _limit(axes, *concat(drawn).reset_index().to_numpy(float).T)
+                rows += [own.set_axis(x)] if body == "rough" else []
+    if rows:
+        _limit(axes, *concat(rows).reset_index().to_numpy(float).T)
 
 
 def _deviations(axes: Axes, found: DataFrame) -> None:
