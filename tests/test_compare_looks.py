@@ -180,12 +180,12 @@ def test_in_every_journal_texts_are_large_enough_whole_and_apart(name, asked):
 
 def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
     monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=4.0))
-    found = list(laws_of_layout("regime_map-figure", "narrow"))
+    found = list(laws_of_layout("study_depth-depth", "narrow"))
     assert any("is cut" in fault or "lies over" in fault for fault in found)
-    drawing, texts, lines = laid_out("regime_map-figure", NARROW)
+    drawing, texts, lines = laid_out("study_depth-depth", NARROW)
     texts[0].set_fontsize(7.9)
     monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
-    assert any("has 7.9 points" in fault for fault in laws_of_layout("regime_map-figure", NARROW))
+    assert any("has 7.9 points" in fault for fault in laws_of_layout("study_depth-depth", NARROW))
     texts[0].set_fontsize(8)
 
 
