@@ -2,17 +2,15 @@
 
 import re
 from dataclasses import replace
-from io import StringIO
 from math import nan
 
 import numpy as np
-import pandas
 import pytest
 from pandas import DataFrame
 
 import compare
 from bem3d import BEM
-from compare import finding
+from compare import csvfiles, finding
 from compare.cases import Case, Study
 from compare.describe import described, slug
 from compare.outcome import Outcome, Row
@@ -267,14 +265,16 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     assert set(answers["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
 
 
-def test_figures_are_functions_of_what_their_files_hold(report):
+def test_figures_are_functions_of_what_their_files_hold(report, tmp_path):
     drawn = {"force-depth", "friction-load"}
     plots = [each for each in report[2].every(Plot) if each.name.removeprefix("small-sphere/") in drawn]
     assert len(plots) == len(drawn)
     for plot in plots:
         assert len(plot.caption.split()) <= 60
-        files = {name: StringIO(frame.to_csv(index=False)) for name, frame in plot.tables.items()}
-        read = {name: pandas.read_csv(file, float_precision="round_trip") for name, file in files.items()}
+        read = {}
+        for name, frame in plot.tables.items():
+            csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
+            read[name] = csvfiles.read(tmp_path / f"{name}.csv")
         with style.applied():
             numbers = [_drawn(each.figure()) for each in (plot, replace(plot, tables=read))]
         assert numbers[0]
