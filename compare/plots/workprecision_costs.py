@@ -144,7 +144,7 @@ def _machines(axes: Axes, memories, largest):
     for k, size in enumerate(memories):
         axes.axhline(size, **style.line(0.6, 0.65, zorder=0))
         said: dict[str, Any] = {"fontsize": style.tiny(), "color": style.grey(0.35), "va": "bottom"}
-        axes.annotate(f"{size} GiB", (0.01 + 0.12 * k, size), xycoords=("axes fraction", "data"), **said)
+        axes.annotate(f"{size:g} GiB", (0.01 + 0.12 * k, size), xycoords=("axes fraction", "data"), **said)
 
 
 def _counts(axes: Axes, ladders):
