@@ -183,8 +183,6 @@ smooth_difference : Force on the smooth body in 1D over that in 3D, less one. [1
 stiffness : Difference of forces over difference of depths, between neighbouring contacts. [N/m]
 rate : Rate of pressing in. [m/s]
 smooth_normal_force : Normal force on the body without its roughness. [N]
-low_speed : Friction of the rough body in the exact limit of low speed, from its contact at rest. [1]
-smooth_low_speed : Friction of the smooth body in the exact limit of low speed. [1]
 friction_1d_over_3d : Coefficient of friction in 1D over that in 3D. [1]
 friction_over_plateau : Friction over that of the plateau. [1] | \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
 contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]

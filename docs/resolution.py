@@ -16,6 +16,7 @@ from tables import table
 from bem3d import BEM
 from compare.csvfiles import text, write_text
 from compare.plots import style
+from compare.plots.lettering import lettered
 from compare.progress import Watched
 from compare.runner import sweep
 from compare.store import Store
@@ -143,12 +144,14 @@ def _figure(frame):
     panels = drawing.subplots(1, len(SPEEDS), sharey=True, sharex=True)
     for axes, (speed, name) in zip(panels, SPEEDS.items(), strict=True):
         own, over = _over_the_finest(frame, speed)
-        for look, (estimate, words) in zip(style.forms(), ESTIMATES.items(), strict=False):
+        colours = "#56B4E9", "#009E73", "#CC79A7", style.COLOUR["BEM"]
+        for look, colour, (estimate, words) in zip(style.forms(), colours, ESTIMATES.items(), strict=False):
             if np.isfinite(over[estimate]).all():
-                axes.plot(own["pixels_a_wave"], over[estimate], label=words, **look)
+                axes.plot(own["pixels_a_wave"], over[estimate], color=colour, label=words, **look)
         axes.axhline(1, **style.line(0.6, 0.65, zorder=0))
         axes.set(xscale="log", xlabel="pixels a wave [1]", title=name, ylim=(0.6, 1.2))
-    panels[0].set_ylabel("over the answer on the finest grid [1]")
+    panels[0].set_ylabel("over the finest grid [1]")
+    lettered(panels)
     style.decades(*panels)
     style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 4)
     return drawing

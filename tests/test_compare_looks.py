@@ -59,7 +59,7 @@ VISION = {
 APART, LIGHTER = 15.0, 10.0
 
 # Figures held against every law in each run: an image and a legend, curves with bands and bars; else on demand.
-OFTEN = {"contact-figure", "force_depth-figure"}
+OFTEN = {"regime_map-figure", "force_depth-figure"}
 
 every_figure = pytest.mark.parametrize(
     "name", [pytest.param(each, marks=() if each in OFTEN else pytest.mark.slow) for each in ENTRIES]
@@ -166,21 +166,7 @@ def test_a_sample_is_there_for_every_figure_of_the_package():
     assert known <= drawn_by
 
 
-# Figures that are too full for a page as narrow.
-VERDICTS = "study_verdicts-verdicts"
-TOO_FULL = {("study_depth-depth", NARROW), (VERDICTS, "acs"), (VERDICTS, "nature")}
-
-
-@pytest.fixture
-def known(request, name):
-    """A figure that is known to be too full fails, and says so once it does not."""
-    asked = request.getfixturevalue("asked") if "asked" in request.fixturenames else NARROW
-    if (name, asked) in TOO_FULL:
-        request.applymarker(pytest.mark.xfail(strict=True, reason="its texts need a wider page"))
-
-
 @every_figure
-@pytest.mark.usefixtures("known")
 def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(name):
     assert not list(laws_of_layout(name, NARROW))
 
@@ -188,19 +174,18 @@ def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("asked", OTHERS)
 @every_figure
-@pytest.mark.usefixtures("known")
 def test_in_every_journal_texts_are_large_enough_whole_and_apart(name, asked):
     assert not list(laws_of_layout(name, asked))
 
 
 def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
     monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=4.0))
-    found = list(laws_of_layout("contact-figure", "narrow"))
+    found = list(laws_of_layout("study_depth-depth", "narrow"))
     assert any("is cut" in fault or "lies over" in fault for fault in found)
-    drawing, texts, lines = laid_out("contact-figure", NARROW)
+    drawing, texts, lines = laid_out("study_depth-depth", NARROW)
     texts[0].set_fontsize(7.9)
     monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
-    assert any("has 7.9 points" in fault for fault in laws_of_layout("contact-figure", NARROW))
+    assert any("has 7.9 points" in fault for fault in laws_of_layout("study_depth-depth", NARROW))
     texts[0].set_fontsize(8)
 
 
@@ -240,6 +225,13 @@ def test_every_axis_says_its_unit(name):
         shared = getattr(axes, f"get_shared_{direction}_axes")().get_siblings(axes)
         labels = [getattr(each, f"get_{direction}label")() for each in (axes, *shared)]
         assert any("[" in label for label in labels), (direction, axes.get_title(loc="left"), labels)
+
+
+@every_figure
+def test_every_panel_has_its_letter(name):
+    drawn_in = [axes for axes in plain(name).axes if axes.axison and axes.get_label() != "<colorbar>"]
+    letters = [axes.get_title(loc="left").split(" ")[0] for axes in drawn_in]
+    assert len(letters) == 1 or letters == [f"({lettering.letter(k)})" for k in range(len(letters))]
 
 
 @every_figure
@@ -342,12 +334,12 @@ def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
 @pytest.fixture(scope="module")
 def files():
     """A figure as files: with an image, curves and a legend."""
-    return picture(sample("contact-figure"), FORMS)
+    return picture(sample("regime_map-figure"), FORMS)
 
 
 def test_the_same_numbers_give_the_same_files(files):
     assert tuple(files.files) == FORMS
-    assert picture(sample("contact-figure"), FORMS) == files
+    assert picture(sample("regime_map-figure"), FORMS) == files
 
 
 def test_every_font_of_a_pdf_is_inside_as_truetype(files):

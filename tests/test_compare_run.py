@@ -2,17 +2,15 @@
 
 import re
 from dataclasses import replace
-from io import StringIO
 from math import nan
 
 import numpy as np
-import pandas
 import pytest
 from pandas import DataFrame
 
 import compare
 from bem3d import BEM
-from compare import finding
+from compare import csvfiles, finding
 from compare.cases import Case, Study
 from compare.describe import described, slug
 from compare.outcome import Outcome, Row
@@ -251,7 +249,7 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     run, answers, page = report
     plots = {plot.name for plot in page.every(Plot)}
     friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
-    assert plots == {f"small-sphere/{name}" for name in {"contact", "contact-maps", "force-depth"} | friction}
+    assert plots == {f"small-sphere/{name}" for name in {"contact-maps", "force-depth"} | friction}
     tables = {table.name: table.frame for table in page.every(Table)}
     assert set(tables) == {"small-sphere/trust", "small-sphere/points", "small-sphere/times"}
     shown = [each for block in page.every(Findings) for each in block.findings]
@@ -268,24 +266,16 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     assert set(answers["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
 
 
-@pytest.mark.parametrize("departures", [(), ("It is small.",)])
-def test_the_setting_stands_last_and_departs_from_the_paper_only_where_the_case_does(departures):
-    run = Run({"one": replace(CASE, departures=departures), "other": CASE})
-    *others, setting = run.page(answers := run.answers(invented_of(run)), run.findings(answers)).blocks
-    assert {type(each) for each in others} == {Section}
-    assert others[-1].title == "Every claim in every case"
-    assert setting.title == "Setting"
-    assert sum("departs from the paper" in each.title for each in setting.blocks) == len(departures)
-
-
-def test_figures_are_functions_of_what_their_files_hold(report):
+def test_figures_are_functions_of_what_their_files_hold(report, tmp_path):
     drawn = {"force-depth", "friction-load"}
     plots = [each for each in report[2].every(Plot) if each.name.removeprefix("small-sphere/") in drawn]
     assert len(plots) == len(drawn)
     for plot in plots:
         assert len(plot.caption.split()) <= 60
-        files = {name: StringIO(frame.to_csv(index=False)) for name, frame in plot.tables.items()}
-        read = {name: pandas.read_csv(file) for name, file in files.items()}
+        read = {}
+        for name, frame in plot.tables.items():
+            csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
+            read[name] = csvfiles.read(tmp_path / f"{name}.csv")
         with style.applied():
             numbers = [_drawn(each.figure()) for each in (plot, replace(plot, tables=read))]
         assert numbers[0]

@@ -192,7 +192,7 @@ def test_where_all_solves_fail_findings_say_why_and_nothing_is_recommended(diagr
     findings = list(diagram.findings(found))
     assert all(isnan(each.value) for each in findings)
     assert any(why in each.reason for each in findings)
-    (plot,) = diagram.plots(found)
+    plot, *_ = diagram.plots(found)
     assert set(plot.tables[plot.name]["reason"]) == {why}
     assert len(plot.caption.split()) <= 60
     with style.applied():
@@ -363,7 +363,7 @@ def test_single_precision_reaches_what_its_tolerance_asks_for_and_no_more():
 
 
 def drawn(*arguments, **how):
-    (plot,) = convergence("made", "Made", "", lambda size: []).plots(made(*arguments, **how))
+    *_, plot = convergence("made", "Made", "", lambda size: []).plots(made(*arguments, **how))
     return plot, plot.figure()
 
 

@@ -4,6 +4,7 @@ import inspect
 import re
 import shutil
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib
@@ -226,6 +227,17 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
     assert [line.get_linewidth() for line in lines] == [3.5, 3.5]
     assert [line.get_color() for line in lines] == ["#117733", "#AA4499"]
     assert Path("friction.pdf").stat().st_size > 1000
+
+
+def test_no_caption_of_the_pages_has_more_than_sixty_words():
+    captions = {}
+    for path in DOCS.rglob("*.md"):
+        blocks = path.read_text(encoding="utf-8").split("\n\n")
+        for figure, caption in pairwise(blocks):
+            if figure.startswith("!["):
+                captions[path.name, figure] = re.sub(r" Data: \[.*", "", caption, flags=re.DOTALL)
+    assert len(captions) > 30
+    assert [name for name, caption in captions.items() if len(caption.split()) > 60] == []
 
 
 def test_no_example_of_the_pages_is_left_out():

@@ -13,6 +13,7 @@ from scene import Cylinder, Plane, Program
 from ..page import Plot, Tables
 from ..views import Section, View
 from . import shades, style, touching
+from .lettering import lettered
 from .prefixes import prefixed
 
 NAME = "contact-maps"
@@ -44,9 +45,11 @@ def plot(view: View | None, folder: str = "") -> Plot | None:
         tables[PRESSURE] = DataFrame({"x": x[pressed], "y": y[pressed], "pressure": pressure[pressed]})
         options |= {"pixel": float(around.x[1] - around.x[0]), "alike": alike}
         options |= {"line_contact": isinstance(view.scene.indenter, Cylinder)}
-        options |= {"deepest": _deepest(view), "highest_gap": _highest_gap(view)}
+        options |= {"deepest": _deepest(view)}
         if not alike:
-            tables[SURFACE] = _surface(view, x, y)
+            tables[SURFACE] = surface = _surface(view, x, y)
+            greatest, relief = surface["gap"].max(), float(np.ptp(around.indenter))
+            options |= {"highest_gap": float(greatest if greatest > CLOSED * relief else relief)}
     if view.line is not None:
         tables[SECTIONS["MDR"]] = _section(view.line, view.span)
     alternative = "Maps of pressure, gap and real contact above; below, sections through indenter and elastomer."
@@ -89,7 +92,10 @@ def figure(
         touching.section(axes, each, solver, (span[0], span[1]), limits, 0.0 if solver == "MDR" else None)
         axes.set_title(TITLES[solver])
         touching.remark(axes, flow)
+    lettered([axes for axes in drawing.axes if axes.get_title(loc="left")])
     style.lay_out(drawing, passes=2)  # places for maps of equal scales are found in a second pass alone
+    for axes in panels[alike:]:
+        touching.exaggeration(axes, (span[0], span[1]), limits)
     return drawing
 
 
@@ -140,7 +146,7 @@ def _maps(
         ("3D: pressure", "3D: gap", "3D: real contact"),
         (f"pressure [{pascal}]", f"gap [{of_gap}]", f"displacement [{of_depth}]"),
         (style.ink(), style.paper(), style.ink()),
-        ("max", "max", "neither"),
+        ("max", "neither", "neither"),
         strict=True,
     ):
         shades.colours(drawing, image, label, ax=axes, location="bottom", extend=extend, shrink=0.9, aspect=28)
@@ -170,15 +176,6 @@ def _deepest(view) -> float:
     return float(np.nanmax(free, initial=0.0)) or 1.0
 
 
-def _highest_gap(view) -> float:
-    """Gap at which colours end [m]: the greatest displacement, of a plane the greatest gap."""
-    gap, relief = view.space.gap, float(np.ptp(view.space.around.indenter))
-    greatest = float(np.nanmax(gap, initial=0.0))
-    if not isinstance(view.scene.indenter, Plane):
-        greatest = min(greatest, float(np.nanmax(view.space.around.displacement, initial=0.0)))
-    return greatest if greatest > CLOSED * relief else relief
-
-
 def _flow(view) -> str:
     motion = view.scene.motion
     return touching.flow(motion.stages[-1].speed if isinstance(motion, Program) else motion.speed)
@@ -187,10 +184,10 @@ def _flow(view) -> str:
 def _caption(view) -> str:
     plane, maps = isinstance(view.scene.indenter, Plane), view.space is not None and len(view.space.around.y) > 1
     told = {
-        "Pressure, colours cut at the 99th percentile; gap; and real contact, the surface darker where "
-        "deeper.": maps,
-        "Left: contact pressure.": view.space is not None and not maps,
-        "Sections: rigid indenter and elastomer, real contact in bold; heights are exaggerated.": True,
+        "(a) Pressure, colours cut at the 99th percentile; (b) gap, colours by its root; (c) real contact, the "
+        "surface darker where deeper.": maps,
+        "(a) Contact pressure.": view.space is not None and not maps,
+        "Sections: rigid indenter and elastomer, real contact in bold, heights exaggerated as stated.": True,
         "Dashed: the smooth relaxed contact.": view.radius is not None,
         "In 1D some of the independent elements are drawn.": view.line is not None,
         "Behind the contact is the wake.": _flow(view) != "at rest" and view.space is not None and not plane,

@@ -1,4 +1,4 @@
-"""Points of curves: intervals of 95 %, bands of one surface, and markers hollow where a condition breaks."""
+"""Points of curves: intervals of 95 %, and markers hollow where a condition breaks."""
 
 from typing import Any
 
@@ -20,24 +20,6 @@ def intervals(
         times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in ("", "_low", "_high")
     )
     axes.errorbar(x, value, yerr=style.bars(value, low, high), **look)
-
-
-def banded(
-    axes: Axes, points: DataFrame, across: str, name: str, solver: str, times: float = 1.0, **other: Any
-) -> None:
-    """One curve with intervals, and a band of the standard deviation of one surface if `name`_deviation is there.
-
-    times : factor on the abscissa
-    """
-    look, x = style.look(solver, **other), times * points[across].to_numpy(float)
-    intervals(axes, x, points, name, **look)
-    value = points[name].to_numpy(float)
-    deviation = np.nan_to_num(points[f"{name}_deviation"]) if f"{name}_deviation" in points else np.zeros(0)
-    if deviation.any():
-        below = value - deviation
-        if axes.get_yscale() == "log":
-            below = np.maximum(below, 1e-2 * value)
-        axes.fill_between(x, below, value + deviation, color=look["color"], alpha=0.13, linewidth=0)
 
 
 def scatter(
@@ -64,12 +46,12 @@ def of_curves(points: DataFrame, chosen: Any) -> DataFrame:
 
 
 def averaged(points: DataFrame) -> str:
-    """Number of surfaces behind means, and what bars and bands are: sentences of a caption."""
+    """Number of surfaces behind means, and what bars are: a sentence of a caption."""
     rough = points[points["body"] == "rough"]
     if rough.empty:
         return "The body is smooth: bars are the change on halving the grid."
     count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
     return (
         f"Means over {count.get('MDR', 0)} profiles (1D) and {count.get('BEM', 0)} surfaces (3D); bars are "
-        "intervals of 95 %, bands the standard deviation of one surface."
+        "intervals of 95 %."
     )

@@ -1,4 +1,4 @@
-"""Normal force against depth at rest, rough and smooth, and the deviation of one dimension from three."""
+"""Normal force at rest at given depths: what roughness adds to it, and one dimension against three."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -6,16 +6,19 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from pandas import DataFrame
+from pandas import DataFrame, concat
 
 from ..finding import Finding
 from ..page import Plot, Tables
 from . import style
-from .curves import averaged, banded, intervals, of_curves
+from .curves import averaged, intervals, of_curves
+from .lettering import lettered
 
 NAME = "force-depth"
 DEVIATIONS = f"{NAME}-deviations"
 MICRONS = 1e6
+# Neighbouring markers are drawn apart by this factor of the depth, either way.
+APART = 1.02
 
 
 def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], folder: str = "") -> Plot | None:
@@ -33,38 +36,51 @@ def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], fo
     ]
     names = ["body", "depth", "deviation", "deviation_low", "deviation_high"]
     caption = (
-        "Force against depth, pressed in at rest. Below: the force in 1D over that in 3D, less one; an arrow "
-        f"marks a bar that goes on. {averaged(own)}"
+        "Force at a depth at rest: (a) over that on the smooth body in closed form, or else in 3D, less one; (b) "
+        f"in 1D over that in 3D, less one. An arrow marks a bar that goes on. {averaged(own)}"
     )
-    alternative = "Force grows with depth; below, deviations of 1D from 3D around zero."
+    alternative = "Deviations of force fall with depth, of rough bodies from the smooth one and of 1D from 3D."
     tables = {NAME: own, DEVIATIONS: DataFrame(rows, columns=names)}
     return Plot(f"{folder}{NAME}", figure, tables, caption, alternative)
 
 
 def figure(tables: Tables) -> Figure:
-    """Above: force. Below: 1D over 3D."""
+    """Above: force less that on the smooth body. Below: 1D over 3D."""
     points = tables[NAME]
     drawing = style.canvas("single", 3.9)
-    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-    above.set(ylabel="normal force [N]", xscale="log", yscale="log")
+    above, below = drawing.subplots(2, 1, sharex=True)
+    above.set(ylabel="force / smooth - 1 [%]", xscale="log")
+    above.axhline(0, **style.line(0.6, 0.55))
     style.span(above, MICRONS * points["depth"])
-    exact = points[points["solver"] == "exact"]
-    if len(exact):
-        known = style.line(0.45, 0.8, label="smooth, closed form")
-        above.plot(MICRONS * exact["depth"], exact["normal_force"], "-", **known)
-    hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
-    for solver in ("MDR", "BEM"):
-        behind = {"markersize": style.mark(1.6), "zorder": 1} if solver == "BEM" else {}
-        for body, look in (("smooth", hollow | behind), ("rough", {})):
-            curve = points[(points["solver"] == solver) & (points["body"] == body)]
-            if len(curve):
-                label = f"{style.LABEL[solver]}, {body}"
-                banded(above, curve, "depth", "normal_force", solver, MICRONS, label=label, **look)
+    _over_smooth(above, points)
     _deviations(below, tables[DEVIATIONS])
-    below.set(xlabel="depth [µm]", ylabel="1D / 3D - 1 [%]")
+    below.set(xlabel="depth [µm]", ylabel="force 1D / 3D - 1 [%]")
+    lettered((above, below))
     style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 2)
     style.decades(above, below)
     return drawing
+
+
+def _over_smooth(axes: Axes, points: DataFrame) -> None:
+    """Force over that on the smooth body at the same depth, less one, in both dimensionalities."""
+    smooth = points[points["body"] == "smooth"].sort_values("depth")
+    known = next((own for solver in ("exact", "BEM") if len(own := smooth[smooth["solver"] == solver])), smooth)
+    if known.empty:
+        return
+    rows, names = [], ["normal_force", "normal_force_low", "normal_force_high"]
+    hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
+    for index, solver in enumerate(("MDR", "BEM")):
+        for body, look in (("smooth", hollow), ("rough", {})):
+            curve = points[(points["solver"] == solver) & (points["body"] == body)]
+            force = np.interp(curve["depth"], known["depth"], known["normal_force"])
+            if len(curve):
+                own = 100 * (curve[names].div(force, axis=0) - 1)
+                x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - 1)
+                label = f"{style.LABEL[solver]}, {body}"
+                intervals(axes, x, own, "normal_force", **style.look(solver, label=label, **look))
+                rows += [own.set_axis(x)] if body == "rough" else []
+    if rows:
+        _limit(axes, *concat(rows).reset_index().to_numpy(float).T)
 
 
 def _deviations(axes: Axes, found: DataFrame) -> None:
@@ -77,15 +93,17 @@ def _deviations(axes: Axes, found: DataFrame) -> None:
         curve = found[found["body"] == body]
         if len(curve):
             intervals(axes, MICRONS * curve["depth"], curve, "deviation", 100, label=body, **look)
-        if body == "rough" and np.isfinite(curve["deviation_high"] - curve["deviation_low"]).any():
-            _limit(axes, MICRONS * curve["depth"].to_numpy(float), 100 * curve.drop(columns="body"))
+        if body == "rough" and len(curve):
+            names = ["depth", "deviation", "deviation_low", "deviation_high"]
+            _limit(axes, *(curve[names].to_numpy(float) * [MICRONS, 100, 100, 100]).T)
     if len(found):
         axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
 
 
-def _limit(axes, depths, percent):
+def _limit(axes, depths, values, low, high):
     """Limits from all values and the shorter half of the bars; an arrow where a bar goes on beyond them."""
-    values, low, high = (percent[f"deviation{end}"].to_numpy(float) for end in ("", "_low", "_high"))
+    if not np.isfinite(high - low).any():
+        return
     short = (high - low) <= np.nanmedian(high - low)
     bottom = min(0, np.nanmin(np.where(short, low, values)))
     top = max(0, np.nanmax(np.where(short, high, values)))

@@ -11,12 +11,14 @@ from pandas import DataFrame
 from ..finding import Finding
 from ..page import Plot, Tables
 from . import style
-from .curves import averaged, banded, intervals, of_curves
-from .lettering import clear
+from .curves import averaged, intervals, of_curves
+from .lettering import clear, lettered
 
 SPEED, LOAD = "friction-speed", "friction-load"
 RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
 EQ_19 = "Eq. 19 with exponent 1.5 and the rms slope of the 1D profiles, without the slope of the smooth shape."
+# Neighbouring markers are drawn apart by this factor of the speed, either way.
+APART = 1.04
 # mu of Eq. 19 at loads [N], speeds [m/s] and an rms slope.
 Law = Callable[[Any, Any, float], Any]
 
@@ -51,8 +53,9 @@ def speed_figure(tables: Tables) -> Figure:
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
     above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     style.span(above, points["speed"])
-    for solver, curve in points.groupby("solver", sort=False):
-        banded(above, curve.sort_values("speed"), "speed", "friction_coefficient", str(solver))
+    for index, (solver, curve) in enumerate(points.sort_values("speed").groupby("solver", sort=False)):
+        look = style.look(str(solver), markersize=style.mark(0.7), capsize=style.mark(0.7))
+        intervals(above, curve["speed"] * APART ** (2 * index - 1), curve, "friction_coefficient", **look)
     lowest = above.get_ylim()[0]
     if len(law):
         look = style.line(0.3, 0.9, label="Eq. 19, roughness alone")
@@ -61,8 +64,10 @@ def speed_figure(tables: Tables) -> Figure:
     above.set_ylim(bottom=max(above.get_ylim()[0], lowest / 3))
     above.legend()
     below.axhline(1, **style.line(0.6, 0.55))
-    intervals(below, ratios["speed"], ratios, "ratio", color=style.ink(), marker="o")
+    look = {"color": style.ink(), "marker": "o", "markersize": style.mark(0.7), "capsize": style.mark(0.7)}
+    intervals(below, ratios["speed"], ratios, "ratio", **look)
     below.set(xlabel="speed [m/s]", ylabel="1D / 3D [1]", ylim=(0, None))
+    lettered((above, below))
     style.decades(above, below)
     clear(drawing, (above,))
     return drawing
@@ -100,13 +105,15 @@ def load_figure(tables: Tables) -> Figure:
         for shade, form, (speed, curve) in zip(
             style.shades(solver, len(curves)), style.forms(), curves, strict=False
         ):
-            look = {"color": shade, **form, "label": f"{speed:.3g} m/s"}
-            banded(axes, curve.sort_values("normal_force"), "normal_force", "friction_coefficient", solver, **look)
+            look = style.look(solver, color=shade, **form, label=f"{speed:.3g} m/s", capsize=style.mark(0.6))
+            own = curve.sort_values("normal_force")
+            intervals(axes, own["normal_force"], own, "friction_coefficient", **look)
     _eq_19(panels[0], points[points["eq_19"].notna()])
     for axes in panels:
         axes.legend()
     style.decades(*panels)
     panels[0].set_ylabel("coefficient of friction [1]")
+    lettered(panels)
     clear(drawing, panels)
     return drawing
 

@@ -1,6 +1,6 @@
 """Letters of panels, short texts beside points of a curve, and legends, where they cover nothing."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from string import ascii_lowercase
@@ -57,6 +57,16 @@ def letter(k: int) -> str:
     """Letter of a panel: a to z, then aa to zz."""
     last = ascii_lowercase[k % 26]
     return last if k < 26 else ascii_lowercase[k // 26 - 1] + last
+
+
+def lettered(panels: Iterable[Axes], count: int = 1) -> None:
+    """A letter before the title of each panel. count : of panels side by side, so that long titles are broken"""
+    for k, axes in enumerate(panels):
+        text = f"({letter(k)}) {axes.get_title(loc='left')}".strip()
+        if count > 1:
+            style.head(axes, text, count)
+        else:
+            axes.set_title(text)
 
 
 def write(axes: Axes, letters: Sequence[Letter], size: float) -> None:

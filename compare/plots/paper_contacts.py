@@ -11,6 +11,7 @@ from pandas import DataFrame
 
 from ..page import Plot, Tables
 from . import style, touching
+from .lettering import lettered
 
 NAME = "paper-contacts"
 # Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].
@@ -34,7 +35,7 @@ def plot(contacts: DataFrame, lines: Mapping[str, DataFrame]) -> Plot | None:
         figure,
         {NAME: contacts, **{f"{NAME}-{shape}": line for shape, line in lines.items()}},
         "Rigid rough profile and surface of the elastomer in steady sliding, heights from the undeformed "
-        "surface (dashed). The elastomer flows to the right; real contact is bold. Both legs of a scale have "
+        "surface (dashed). The indenter slides to the left; real contact is bold. Both legs of a scale have "
         f"the length beside them. Below, {CLOSE * 1e3:g} mm (boxed above) in which the elastomer leaves the "
         "indenter most often: behind each asperity it is free and returns exponentially.",
         " ".join(
@@ -50,10 +51,10 @@ def figure(tables: Tables) -> Figure:
     contacts = tables[NAME]
     drawing = style.canvas("double", 4.4)
     panels = drawing.subplots(2, len(contacts), squeeze=False)
-    for (above, below), letter, row in zip(panels.T, "ab", contacts.itertuples(), strict=False):
+    for (above, below), row in zip(panels.T, contacts.itertuples(), strict=False):
         line = tables[f"{NAME}-{row.shape}"]
         whole = SHOWN * row.smooth_half_width * np.array([-1, 1])
-        _panel(above, line, whole, 0.8, f"({letter}) rough {row.shape}")
+        _panel(above, line, whole, 0.8, f"rough {row.shape}")
         _panel(below, line, _close_up(line["x"].to_numpy(), line["contact"].to_numpy()), 1.3, "close-up")
         above.axhline(0, **style.line(0.3, 0.65, linestyle=(0, (5, 3)), zorder=1))
         (left, right), (bottom, top) = below.get_xlim(), below.get_ylim()
@@ -62,7 +63,8 @@ def figure(tables: Tables) -> Figure:
         )
         above.add_patch(box)
         above.text(0.5, 0.9, "rigid indenter", transform=above.transAxes, ha="center", fontsize=style.small())
-        above.text(0.03, 0.05, "elastomer flows →", transform=above.transAxes, fontsize=style.small())
+        above.text(0.03, 0.05, touching.flow(1.0), transform=above.transAxes, fontsize=style.small())
+    lettered(panels.flat)
     style.legend(drawing, panels[0, 0].get_legend_handles_labels()[0], "outside lower center", 3)
     return drawing
 
@@ -86,6 +88,7 @@ def _panel(axes: Axes, line, limits, width, title) -> None:
     bottom = low - (height - (high - low)) / 3
     axes.set(xlim=limits * 1e3, ylim=(bottom * 1e6, (bottom + height) * 1e6), aspect=times * 1e-3)
     axes.set(xlabel="x [mm]", ylabel="height [µm]", title=title)
+    axes.set_title(f"heights × {times:g}", loc="right", fontsize=style.small(), fontweight="normal")
     axes.xaxis.set_major_locator(MaxNLocator(5))
     axes.plot(x * 1e3, body * 1e6, color=style.ink(), linewidth=style.width(0.45), label="rigid profile")
     # A marker, too, since contact may be at one node.

@@ -11,7 +11,7 @@ from mdr1d.equations import interpolation
 from ..page import Plot, Tables
 from . import style
 from .curves import intervals
-from .lettering import clear
+from .lettering import clear, lettered
 
 NAME = "paper-law"
 ALPHA = f"{NAME}-alpha"
@@ -83,6 +83,7 @@ def figure(tables: Tables) -> Figure:
     labels = below.get_legend_handles_labels()[1]
     columns = style.columns(labels, 0.8 * drawing.get_figwidth(), 2)
     below.legend(ncols=columns, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
+    lettered((above, below))
     style.decades(above, below)
     clear(drawing, (above,))
     return drawing

@@ -10,6 +10,7 @@ from pandas import DataFrame, concat
 from ..page import Plot, Tables
 from . import style
 from .curves import scatter
+from .lettering import lettered
 
 NAME = "paper-losses"
 # Markers of the forms of Eq. 22.
@@ -75,6 +76,7 @@ def figure(tables: Tables) -> Figure:
         Line2D([], [], color=style.grey(0.2), linestyle=line, label=f"{speed:.2g} m/s")  # type: ignore[arg-type]
         for speed, line in zip(shown, LINES, strict=True)
     ]
+    lettered(panels.flat[: len(rubbers)])
     pairs = [handle for pair in zip(forms, lines, strict=True) for handle in pair]
     style.legend(drawing, pairs, "outside lower center", 3)
     return drawing

@@ -70,7 +70,6 @@ def _large_scale(axes):
     axes.plot([0, 4.1], [-1, -1], **thin)
     _arrow(axes, (3.9, 0), (3.9, -1), "<->")
     axes.text(4.05, -0.5, "$d$", va="center", fontsize=style.size())
-    axes.text(-3.2, -2.25, "elastomer flows →", fontsize=style.small())
 
 
 def _elements(axes):

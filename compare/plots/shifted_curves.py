@@ -16,11 +16,13 @@ from ..page import Plot, Tables
 from ..statistics.collapse import Collapse
 from . import shades, style
 from .curves import intervals, scatter
-from .lettering import clear, literal
+from .lettering import clear, lettered, literal
 
 NAME = "shifted-curves"
 SHIFTS, POWERS, FITS = f"{NAME}-shifts", f"{NAME}-powers", f"{NAME}-fits"
 LOG10 = np.log(10)
+# Of more speeds, so many are drawn.
+SPEEDS = 8
 FITTED, EXPECTED = "fitted", "expected"
 # Lines of other powers of the speed, in the order in which they come.
 OTHERS = (("#009E73", ":"), ("#CC79A7", "-."))
@@ -62,9 +64,9 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Pl
             parts[table].append(frame)
     tables = {name + key.removeprefix(NAME): concat(frames, ignore_index=True) for key, frames in parts.items()}
     caption = (
-        "Friction against normal force, a curve for each speed; the curves shifted along the force so as to come "
-        "closest to one (Eq. 23); and the shift. Bars are intervals of 95 %. Shifts of curves that do not "
-        f"collapse are hollow; curves that part are shifted as expected, if at all. {about}"
+        f"Friction against normal force, a curve for each of at most {SPEEDS} speeds; the curves shifted along "
+        "the force so as to come closest to one (Eq. 23); and the shift. Bars are intervals of 95 %. Shifts of "
+        f"curves that do not collapse are hollow; curves that part are shifted as expected, if at all. {about}"
     )
     alternative = "; ".join(f"{each.title}: collapse {each.finding.verdict}" for each in rows)
     return Plot(name, figure, tables, caption.strip(), alternative, {"name": name})
@@ -74,6 +76,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
     """A row for each set of curves: as they are, shifted, and the shifts."""
     names = (each.removeprefix(NAME) for each in (NAME, SHIFTS, POWERS, FITS))
     points, shifts, powers, fits = (tables[name + each] for each in names)
+    points, shifts = (_few(each) for each in (points, shifts))
     count = len(fits)
     drawing = style.canvas("double", 0.55 + 2.1 * count)
     panels = drawing.subplots(count, 3, squeeze=False)
@@ -88,7 +91,8 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
         _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
         row[0].set_title(literal(fit["curves"]))
-        row[2].set_title(_verdict(fit), loc="right", fontsize=style.small(), fontweight="normal")
+        row[1].set_title(_verdict(fit))
+        row[2].set_title("" if fit["decided"] else "exponent undecided")
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]")
         row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
@@ -97,8 +101,19 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
             axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
     shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
+    lettered(panels.flat, 3)
     clear(drawing, panels[:, 2])
     return drawing
+
+
+def _few(table: DataFrame) -> DataFrame:
+    """Rows of as many speeds of each set of curves as are told apart, from the slowest to the fastest."""
+    kept = []
+    for _, own in table.groupby("curves", sort=False):
+        speeds = np.unique(own["speed"])
+        chosen = speeds[np.unique(np.linspace(0, len(speeds) - 1, min(SPEEDS, len(speeds))).round().astype(int))]
+        kept.append(own[own["speed"].isin(chosen)])
+    return concat(kept)
 
 
 def _tables(each):
@@ -179,5 +194,3 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.5 * (high - low))
         axes.legend(loc="upper right", fontsize=style.tiny(), borderaxespad=0.1, handlelength=1.5)
-    if not fit["decided"]:
-        axes.text(0.03, 0.05, "exponent undecided", transform=axes.transAxes, fontsize=style.small())

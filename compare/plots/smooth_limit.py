@@ -8,7 +8,7 @@ from pandas import DataFrame
 
 from ..page import Plot, Tables
 from . import style
-from .lettering import clear
+from .lettering import clear, lettered
 
 NAME = "smooth-limit"
 RATIO = f"{NAME}-ratio"
@@ -64,6 +64,7 @@ def figure(tables: Tables) -> Figure:
     ends = min(0.9, ratios["ratio"].min()) - 0.1, max(2.2, ratios["ratio"].max()) + 0.1
     below.set(xlabel=r"$v\tau / a$ [1]", ylabel="1D / 3D [1]", ylim=ends)
     above.legend()
+    lettered((above, below))
     style.decades(above, below)
     clear(drawing, (above,))
     return drawing

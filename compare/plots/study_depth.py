@@ -7,68 +7,57 @@ from matplotlib.figure import Figure
 from ..page import Tables
 from . import shades, style
 from .curves import intervals
-from .lettering import clear
+from .lettering import clear, lettered
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 CLOSED = "closed form"
 # Neighbouring markers are drawn apart by this factor of the load or depth, either way.
 APART = 1.02
-# Where the load is prescribed the depth is measured, in µm and in rms heights; else the force: labels of what is
-# measured, of it less the smooth closed form and of 1D less 3D, and factors of the first two.
+# Labels of what is measured less the smooth closed form, in rms heights or percent, and of 1D less 3D; factor of
+# the first.
 LABELS = {
-    "load": ("depth [µm]", "depth less the smooth one [$h_0$]", "depth 1D - 3D [% of smooth]", 1e6, 1.0),
-    "depth": ("normal force [N]", "force less the smooth one [%]", "force 1D / 3D - 1 [%]", 1.0, 100.0),
+    "load": ("depth less the smooth one [$h_0$]", "depth 1D - 3D [% of smooth]", 1.0),
+    "depth": ("force less the smooth one [%]", "force 1D / 3D - 1 [%]", 100.0),
 }
 PRESCRIBED = {"load": ("normal force [N]", 1.0), "depth": ("depth [µm]", 1e6)}
 
 
 def depth(tables: Tables) -> Figure:
-    """All, less the smooth closed form, 1D less 3D, and stiffness."""
+    """Less the smooth closed form, 1D less 3D, and stiffness."""
     points, differences, stiffness = tables["depth"], tables["depth-differences"], tables["depth-stiffness"]
     prescribed = "load" if "load" in points else "depth"
-    label, less, apart, factor, unit = LABELS[prescribed]
+    less, apart, unit = LABELS[prescribed]
     across, scale = PRESCRIBED[prescribed]
-    drawing = style.canvas("double", 4.9)
-    panels = drawing.subplots(2, 2)
-    whole, deviation, difference, stiff = panels.flat
-    closed = points.drop_duplicates(prescribed)
+    drawing = style.canvas("double", 3.1)
+    deviation, difference, stiff = panels = drawing.subplots(1, 3)
     grey = style.line(0.45, 0.8, zorder=1)
-    whole.plot(scale * closed[prescribed], factor * closed["closed_form"], label="smooth, closed form", **grey)
-    for axes in (deviation, difference):
+    for axes, name in ((deviation, less), (difference, apart)):
         axes.axhline(0, **grey)
+        axes.set(xscale="log", xlabel=across, ylabel=name)
+        style.span(axes, scale * points[prescribed])
     hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
     for index, (dimension, own) in enumerate(points.groupby("dimension")):
         solver, x = SOLVER[dimension], scale * own[prescribed] * APART ** (2 * index - 1)
-        rough, smooth = _look(solver, label=f"{dimension}, rough"), _look(solver, label=f"{dimension}, smooth")
-        intervals(whole, x, own, "rough", factor, **rough)
-        intervals(deviation, x, own, "smooth_deviation", unit, **smooth | hollow)
-        intervals(deviation, x, own, "rough_deviation", unit, **rough)
+        smooth = _look(solver, label=f"{dimension}, smooth") | hollow
+        intervals(deviation, x, own, "smooth_deviation", unit, **smooth)
+        intervals(deviation, x, own, "rough_deviation", unit, **_look(solver, label=f"{dimension}, rough"))
     looks: dict[str, dict[str, Any]] = {
         "smooth": {"color": style.grey(0.5), "marker": "D", "linestyle": ":", "markerfacecolor": style.paper()},
         "rough": {"color": style.ink(), "marker": "o"},
     }
     for body, own in differences.groupby("body"):
-        look = _look("exact", **looks[body], label=body)
+        look = _look("exact", **looks[body], label=f"1D against 3D, {body}")
         intervals(difference, scale * own[prescribed], own, "difference", 100.0, **look)
     for dimension, own in stiffness.groupby("dimension"):
         if dimension == CLOSED:
             stiff.plot(own["normal_force"], 1e-3 * own["stiffness"], label="smooth, closed form", **grey)
         else:
-            look = _look(SOLVER[dimension], label=f"{dimension}, rough")
-            intervals(stiff, own["normal_force"], own, "stiffness", 1e-3, **look)
-    for axes, name in ((whole, label), (deviation, less), (difference, apart)):
-        axes.set(xscale="log", xlabel=across, ylabel=name)
-        style.span(axes, scale * points[prescribed])
-        axes.legend(ncols=2 if axes is deviation else 1)
-    if prescribed == "depth":
-        whole.set_yscale("log")
+            intervals(stiff, own["normal_force"], own, "stiffness", 1e-3, **_look(SOLVER[dimension], label=None))
     stiff.set(xscale="log", yscale="log", xlabel="normal force [N]", ylabel="stiffness [kN/m]")
-    if len(stiffness):
-        stiff.legend()
-    for axes, letter in zip(panels.flat, "abcd", strict=True):
-        axes.set_title(f"({letter})")
-    style.decades(*panels.flat)
-    clear(drawing, panels.flat)
+    lettered(panels)
+    handles = [handle for axes in panels for handle in axes.get_legend_handles_labels()[0]]
+    style.legend(drawing, handles, "outside lower center", 4)
+    style.decades(*panels)
     return drawing
 
 
@@ -104,6 +93,7 @@ def pressed_in(tables: Tables) -> Figure:
         style.span(axes, 1e6 * every["depth"])
     style.decades(*panels)
     one.set_ylabel("normal force [N]")
+    lettered(panels)
     one.legend()
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.05, "pad": 0.02}
     shades.bar(drawing, panels, shades.SPEED, scale, "rate of indentation [m/s]", **place)

@@ -12,7 +12,7 @@ from pandas import DataFrame
 from ..page import Tables
 from . import shades, style
 from .curves import intervals
-from .lettering import clear, literal
+from .lettering import clear, lettered, literal
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 FITTED, PREDICTED, ALONE = "fitted", "predicted", "not shifted"
@@ -24,20 +24,23 @@ UNITS = {"load": "N", "depth": "m"}
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
 # What makes slow friction depend on the load, each over its number under the least load.
 BEHIND = {"contact": "real contact [1]", "drag": "friction over contact [1]", "slope": "slope in contact [1]"}
+# Of a family so many panels side by side are as high as wide; more are lower.
+FEW = 4
 MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
 
 
 def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
-    """Columns: 1D, 3D. Rows: friction against load, shifted along it, and what is left off the common curve."""
+    """Columns: 1D, 3D. Rows: friction against load; shifted; off the common curve, where both have one."""
     points, curves, fits = tables["collapse"], tables["collapse-curves"], tables["collapse-fits"]
     fitted = set(points.loc[points["shifted_as"] == FITTED, "dimension"])
-    rows = (1, 1, 0.7) if fitted else (1, 1)
-    drawing = style.canvas("double", 1.1 + 2.15 * sum(rows))
-    panels = drawing.subplots(len(rows), 2, sharey="row", height_ratios=rows)
+    rows = (1, 1, 0.7) if len(fitted) == len(SOLVER) else (1, 1)
+    drawing = style.canvas("double", 1.1 + 1.9 * sum(rows))
+    panels = drawing.subplots(len(rows), 2, sharex="row", sharey="row", height_ratios=rows)
     scale = shades.between(points["speed"])
     for column, (dimension, solver) in zip(panels.T, SOLVER.items(), strict=True):
         own = points[points["dimension"] == dimension]
-        column[0].set(title=style.LABEL[solver], xlabel="normal force [N]", xscale="log", yscale="log")
+        (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
+        column[0].set(xlabel="normal force [N]", xscale="log", yscale="log")
         column[1].set(xlabel="shifted normal force [N]", xscale="log", yscale="log")
         _curves(column[0], own, "normal_force", "friction_coefficient", solver, scale)
         marks: Any = {"linestyle": "none"} if dimension in fitted else {}
@@ -46,31 +49,31 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
             line, look = ("-", style.line(0, 0.8)) if name == COMMON else ("--", style.line(0.5))
             mu = curve["friction_coefficient"]
             column[1].plot(curve["shifted_force"], mu, line, zorder=1, label=literal(name), **look)
-        (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
-        if dimension in fitted:
-            column[1].legend(loc="lower left")
-            left = column[2]
-            left.set(xlabel="shifted normal force [N]", xscale="log")
-            left.sharex(column[1])
-            left.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
-            left.axhline(0, **style.line(0, 0.65))
-            kept = own[own["shifted_as"] == FITTED]
-            _curves(left, kept, "shifted_force", "off_curve", solver, scale, 100, linewidth=style.width(0.55))
-            left.set_title(_misfit(fit), loc="right", fontsize=style.small(), fontweight="normal")
-        else:
-            said = f"Shifted by p(v), as no shifts are fitted: {fit['reason']}."
-            said = style.fill(said, 0.38 * style.across("double"), style.small())
-            column[1].legend(loc="lower left", title=said, title_fontsize=style.small(), alignment="left")
-            for axes in column[2:]:
-                axes.set_axis_off()
+        column[1].legend(loc="lower left")
+        if len(rows) > 2:
+            _left_over(column[2], own, fit, solver, scale, tolerance)
+        titles = (style.LABEL[solver], "shifted as fitted" if dimension in fitted else "shifted by p(v) of Eq. 22")
+        for axes, title in zip(column, titles, strict=False):
+            axes.set_title(title)
     labels = ("friction coefficient [1]", "friction coefficient [1]", "off the curve [%]")
     for axes, label in zip(panels[:, 0], labels, strict=False):
         axes.set_ylabel(label)
+    lettered(panels.flat)
     style.decades(*panels.flat)
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.02}
     shades.bar(drawing, panels, shades.SPEED, scale, "speed [m/s]", **place)
     clear(drawing, panels[1])
     return drawing
+
+
+def _left_over(axes: Axes, own: DataFrame, fit, solver: str, scale, tolerance: float) -> None:
+    """What the common curve is missed by, with the tolerance."""
+    axes.set(xlabel="shifted normal force [N]", xscale="log")
+    axes.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
+    axes.axhline(0, **style.line(0, 0.65))
+    axes.set_title(_misfit(fit))
+    kept = own[own["shifted_as"] == FITTED]
+    _curves(axes, kept, "shifted_force", "off_curve", solver, scale, 100, linewidth=style.width(0.55))
 
 
 def _curves(axes: Axes, points: DataFrame, across: str, name: str, solver: str, scale, times=1.0, **other) -> None:
@@ -105,8 +108,8 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
         ):
             intervals(axes, own["speed"] * apart, own, name, less=less, **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
-        power = f"$v^{{{fit['exponent']:.2f}}}$" if np.isfinite(fit["exponent"]) else "undecided"
-        left.plot([], [], **look | {"label": f"{dimension}, {power}"})
+        power = f", $v^{{{fit['exponent']:.2f}}}$" if np.isfinite(fit["exponent"]) else ""
+        left.plot([], [], **look | {"label": f"{dimension}{power}"})
     grey = style.line(0.45, 0.8, zorder=1)
     left.plot(own["speed"], own["theory"], "-", label="theory, ln p(v)", **grey)
     for axes in (middle, right):
@@ -138,13 +141,10 @@ def levels(tables: Tables) -> Figure:
         for index, (dimension, curve) in enumerate(every[every[prescribed] == value].groupby("dimension")):
             _level(axes, curve, dimension, index)
         axes.set(xlabel="speed [m/s]", title=EngFormatter(UNITS[prescribed])(float(f"{value:.3g}")))
-    # The limit of low speed leaves the panel where it no longer holds.
-    drawn = every.loc[every[prescribed].isin(chosen), ["friction_coefficient", "smooth", "plateau"]].to_numpy()
-    if (positive := drawn[drawn > 0]).size:
-        panels[0].set_ylim(positive.min() / 1.5, positive.max() * 1.5)
-    style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 5)
+    style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 6)
     lower = below.subplots(1, 2, sharey=True)
     _ratios(below, lower, ratios, prescribed)
+    lettered([*panels, *lower])
     style.decades(*panels, *lower)
     return drawing
 
@@ -156,14 +156,10 @@ def _level(axes, curve, dimension, index):
     # Dashes of one lie in the gaps of the other: the laws of both may coincide.
     law = {"color": colour, "alpha": 0.5, "linewidth": style.width(1.1)}
     axes.plot(speeds, curve["eq_19"], linestyle=(6 * index, (6, 6)), zorder=1, label=f"{dimension}, Eq. 19", **law)
-    plateau = curve["plateau"].iloc[0]
-    axes.axhline(plateau, linestyle=(2 * index, (2, 2)), zorder=0, label=f"{dimension}, Eq. 14", **law)
     look = style.look(solver, label=f"{dimension}, rough", markersize=style.mark(0.9))
     intervals(axes, speeds, curve, "friction_coefficient", **look)
     thin = {"linestyle": style.LINE[solver], "linewidth": style.width(0.55), "alpha": 0.8}
     axes.plot(speeds, curve["smooth"], color=colour, label=f"{dimension}, smooth", **thin)
-    dots = {"linestyle": (0, (1, 1.6 + 1.6 * index)), "linewidth": style.width(1.1)}
-    axes.plot(speeds, curve["low_speed"], color=colour, label=f"{dimension}, low speed", **dots)
 
 
 def behind(tables: Tables) -> Figure:
@@ -203,39 +199,50 @@ def _ratios(drawing, panels, ratios, prescribed):
 
 
 def family(tables: Tables) -> Figure:
-    """Friction over its plateau against xi. Rows: shapes. Columns: 1D, 3D. A marker for each series."""
+    """Friction over its plateau against xi: a panel for each series and dimensionality, a shade for each load."""
     every, laws = tables["family"], tables["family-law"]
-    shapes = list(dict.fromkeys(every["shape"]))
-    most = max(every.groupby("shape")["series"].nunique())
-    drawing = style.canvas("double", 0.3 + len(shapes) * (2.6 + 0.16 * -(-most // 2)))
+    shapes = {str(shape): own for shape, own in every.groupby("shape", sort=False)}
+    most = max(own["series"].nunique() for own in shapes.values())
+    times = 1.0 if most <= FEW else 0.8
+    drawing = style.canvas("double", 0.6 + len(shapes) * (3.2 * times + 0.2))
     bands = drawing.subfigures(len(shapes), 1, squeeze=False)[:, 0]
-    for band, shape in zip(bands, shapes, strict=True):
-        panels = band.subplots(1, 2, sharex=True, sharey=True)
-        for axes, (dimension, solver) in zip(panels, SOLVER.items(), strict=True):
-            own, line = (
-                frame[(frame["shape"] == shape) & (frame["dimension"] == dimension)] for frame in (every, laws)
-            )
-            _markers(axes, own)
-            law = style.line(0, 0.8, zorder=1, label="Eq. 19")
-            axes.plot(line["xi"], line["friction_over_plateau"], **law)
-            axes.set(xscale="log", yscale="log", xlabel=r"$\xi$ [1]", title=f"{style.LABEL[solver]}, {shape}")
-            style.decades(axes)
-        panels[0].set_ylabel("friction over its plateau [1]")
-        style.legend(band, panels[0].get_legend_handles_labels()[0], "outside lower center", 2)
+    scale, panels = shades.between(every["normal_force"].dropna()), []
+    for band, (shape, points) in zip(bands, shapes.items(), strict=True):
+        names = list(dict.fromkeys(points["series"]))
+        start = _common(names)
+        own = band.subplots(len(SOLVER), len(names), sharex=True, sharey=True, squeeze=False)
+        for row, (dimension, solver) in zip(own, SOLVER.items(), strict=True):
+            here = (laws["shape"] == shape) & (laws["dimension"] == dimension)
+            for axes, name in zip(row, names, strict=True):
+                series = points[(points["dimension"] == dimension) & (points["series"] == name)]
+                axes.plot(laws[here]["xi"], laws[here]["friction_over_plateau"], **style.line(0.5, 0.8), zorder=1)
+                _by_load(axes, series, solver, scale)
+                axes.set(xscale="log", yscale="log")
+                first = row[0] is own[0, 0]
+                axes.set_title(f"{dimension}, {literal(name[len(start) :])}" if first else dimension)
+            row[0].set_ylabel(r"$\tilde{\mu}$ [1]")
+        for axes in own[-1]:
+            axes.set_xlabel(r"$\xi$ [1]")
+        positive = points["friction_over_plateau"][points["friction_over_plateau"] > 0]
+        own[0, 0].set_ylim(positive.min() / 2, positive.max() * 2)
+        band.suptitle(literal(start.rstrip(", ") or shape), x=0.01, ha="left", fontsize=style.size())
+        panels += list(own.flat)
+        style.decades(*own.flat)
+        shades.bar(band, own, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=30)
+    lettered(panels, most)
     return drawing
 
 
-def _markers(axes, points):
-    names, known = list(dict.fromkeys(points["series"])), len(style.SERIES_MARKERS)
-    for index, name in enumerate(names):
-        own, colour = points[points["series"] == name], shades.PRESS(index / max(1, len(names) - 1))
-        look = {
-            "color": colour,
-            "marker": style.SERIES_MARKERS[index % known],
-            "markersize": style.mark(0.75),
-            "markerfacecolor": "none" if index >= known else None,
-            "linestyle": "none",
-            "elinewidth": style.width(0.55),
-            "capsize": 0,
-        }
-        intervals(axes, own["xi"], own, "friction_over_plateau", label=literal(name), **look)
+def _common(names: list[str]) -> str:
+    """Words up to the first comma, where all of several names begin with them."""
+    heads = {name[: name.find(", ") + 2] for name in names}
+    return heads.pop() if len(heads) == 1 and len(names) > 1 and ", " in names[0] else ""
+
+
+def _by_load(axes, points, solver, scale):
+    """Points of each load, or depth, joined; in the shade of their mean force."""
+    look = {"marker": style.MARKER[solver], "markersize": style.mark(0.55), "linewidth": style.width(0.6)}
+    prescribed = [name for name in ("load", "depth") if name in points and points[name].notna().any()]
+    for _, own in points.groupby(prescribed):
+        colour = shades.PRESS(scale(own["normal_force"].mean()))
+        intervals(axes, own["xi"], own, "friction_over_plateau", color=colour, capsize=0, **look)

@@ -298,7 +298,7 @@ def fill(text: str, inches: float, points: float, weight: str = "normal") -> str
 
 def head(axes: Axes, text: str, count: int) -> None:
     """A title of a panel, one of so many side by side, in lines that leave the next its numbers and label."""
-    inches = (1 / count - BESIDE) * axes.figure.get_figwidth()
+    inches = (1 / count - BESIDE) * axes.figure.figure.get_figwidth()
     weight = rcParams["axes.titleweight"]
     axes.set_title(fill(text, inches, small(), weight), fontsize=small())
 

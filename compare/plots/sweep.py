@@ -42,4 +42,5 @@ def figure(tables: Tables) -> Figure:
     axes.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     axes.set_xlabel(f"{WORDS[across]} [{UNITS[across]}]")
     axes.legend()
+    style.decades(axes)
     return drawing

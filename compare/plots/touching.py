@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap, ListedColormap, to_rgb
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap, PowerNorm, to_rgb
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.typing import ColorType
@@ -138,8 +138,15 @@ def level(axes: Axes) -> None:
 
 
 def flow(speed: float) -> str:
-    """Words on the direction in which the elastomer passes, seen from the indenter."""
-    return "at rest" if speed == 0 else "elastomer flows →" if speed > 0 else "← elastomer flows"
+    """Which way the indenter slides, against the flow of the elastomer along x."""
+    return "at rest" if speed == 0 else "← indenter slides" if speed > 0 else "indenter slides →"
+
+
+def exaggeration(axes: Axes, span: tuple[float, float], limits: tuple[float, float]) -> None:
+    """Times by which heights are drawn larger than lengths, above a section that has its place in the figure."""
+    box = axes.get_window_extent()
+    times = box.height / (limits[1] - limits[0]) / (box.width / (span[1] - span[0]))
+    axes.set_title(f"heights × {times:.2g}", loc="right", fontsize=style.small(), fontweight="normal")
 
 
 def pressure_map(axes: Axes, x, y, pressure, highest: float) -> AxesImage:
@@ -149,8 +156,8 @@ def pressure_map(axes: Axes, x, y, pressure, highest: float) -> AxesImage:
 
 
 def gap_map(axes: Axes, x, y, gap, highest: float) -> AxesImage:
-    """Gap, dark where it is small."""
-    return _image(axes, x, y, gap, cmap="cividis", vmin=0, vmax=highest)
+    """Gap up to the highest, dark where it is small; shades go with its root, which tells small gaps apart."""
+    return _image(axes, x, y, gap, cmap="cividis", norm=PowerNorm(0.5, 0, highest))
 
 
 def contact_map(axes: Axes, x, y, touching, displacement, deepest: float, colour) -> AxesImage:

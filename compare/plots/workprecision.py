@@ -18,8 +18,8 @@ from ..statistics.convergence import MeasuredLadder, ladders
 from . import style
 from .lettering import Letter, letter, write
 
-# Columns of panels, and their size [inch].
-COLUMNS, HEIGHT = 3, 2.2
+# Columns of panels, their size [inch], and how many of them a figure of several quantities has at most.
+COLUMNS, HEIGHT, MOST = 3, 2.2, 9
 # Errors below are those of rounding, and drawn there.
 LEAST = 1e-16
 # Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
@@ -32,15 +32,37 @@ BESIDE = (
 )
 
 
-def plot(name: str, tables: Tables) -> Plot:
-    """Plot of a diagram, of its table of steps and of its table of orders."""
-    return Plot(
-        name, figure, tables,
+def plots(name: str, tables: Tables) -> Iterator[Plot]:
+    """Plots of a diagram, of its table of steps and of its table of orders: one for each question, see `parts`."""
+    table = next(iter(tables))
+    told = (
         "Relative error against processor time of one solve, the least of its repeats; settings at the points "
         "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
-        "of a ladder of points. Other estimates are those of the first ladder.",
-        "Panels of falling curves: relative error over processor time.", {"steps": next(iter(tables))},
-    )  # fmt: skip
+        "of a ladder of points."
+    )
+    alternative = "Panels of falling curves: relative error over processor time."
+    for part, options in parts(name, tables[table]).items():
+        yield Plot(part, figure, tables, told, alternative, {"steps": table, **options})
+    if any(len(each.estimates) > 1 for each in panels(tables[table])):
+        told += " Every estimate of the first ladder."
+        yield Plot(f"{name}-estimates", figure, tables, told, alternative, {"steps": table, "estimates": True})
+
+
+def parts(name: str, steps: DataFrame) -> dict[str, dict[str, Any]]:
+    """Names of the plots of answers of a diagram, with their options: one, or of many panels one for friction and
+    one for what else is measured."""
+    drawn = panels(steps)
+    if len(drawn) <= MOST:
+        return {name: {}}
+    quantities = dict.fromkeys(each.first.quantity for each in drawn)
+    kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
+    return {f"{name}-{kind}": {"quantities": own} for kind, own in kinds.items() if quantities.keys() & own}
+
+
+def part_of(name: str, steps: DataFrame, quantity: str) -> str:
+    """Name of the plot that shows a quantity of a diagram."""
+    found = parts(name, steps).items()
+    return next(part for part, options in found if quantity in options.get("quantities", [quantity]))
 
 
 @dataclass(frozen=True)
@@ -86,9 +108,18 @@ def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float],
     return [((x, y), value) for x, y, value in steps if isfinite(x) and isfinite(y)]
 
 
-def figure(tables: Tables, steps: str) -> Figure:
-    """All panels, and one legend below. steps : name of the table"""
-    drawn = panels(tables[steps])
+def figure(tables: Tables, steps: str, quantities: list[str] | None = None, estimates: bool = False) -> Figure:
+    """All panels, and one legend below.
+
+    steps : name of the table; quantities : that are shown, all if absent
+    estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
+    """
+    drawn = [each for each in panels(tables[steps]) if quantities is None or each.first.quantity in quantities]
+    if estimates:
+        several = [each for each in drawn if len(each.estimates) > 1]
+        drawn = [Panel(tuple(own for own in each.curves if own.ladder == each.first.ladder)) for each in several]
+    else:
+        drawn = [Panel(tuple(each.answers)) for each in drawn]
     columns = min(COLUMNS, len(drawn)) if len(drawn) != 4 else 2
     rows = ceil(len(drawn) / columns)
     drawing = style.canvas("double", rows * HEIGHT + 0.6)

@@ -14,25 +14,25 @@ from . import style
 GIBIBYTE = 2.0**30
 # Forecasts of neighbours are drawn apart by this factor; an interval wider than the other says nothing.
 APART, USELESS = 1.06, 100.0
-# Of ladders by name: marker and line. What is rough is drawn filled.
-LOOKS = {
-    "plane": ("s", "-"),
-    "rest": ("^", "--"),
-    "rest-rough": ("^", "--"),
-    "slide": ("o", "-."),
-    "slide-rough": ("o", "-."),
-    "mdr": ("D", ":"),
-    "mdr-rough": ("D", ":"),
-    "modes-march": ("s", "-"),
-    "modes-slide": ("^", "--"),
-    "modes-mdr-march": ("s", "-"),
-    "modes-mdr-slide": ("^", "--"),
-    "steps-march": ("o", "-."),
-    "steps-mdr": ("o", "-."),
-    "speed": ("s", "-"),
-    "speed-rough": ("s", "-"),
-    "speed-mdr": ("D", ":"),
-    "contact": ("s", "-"),
+# Markers of ladders by name. What is rough is drawn filled.
+MARKERS = {
+    "plane": "s",
+    "rest": "^",
+    "rest-rough": "^",
+    "slide": "o",
+    "slide-rough": "o",
+    "mdr": "D",
+    "mdr-rough": "D",
+    "modes-march": "s",
+    "modes-slide": "^",
+    "modes-mdr-march": "D",
+    "modes-mdr-slide": "v",
+    "steps-march": "o",
+    "steps-mdr": "P",
+    "speed": "s",
+    "speed-rough": "s",
+    "speed-mdr": "D",
+    "contact": "s",
 }
 FILLED = {"plane", "rest-rough", "slide-rough", "mdr-rough", "speed-rough", "speed-mdr", "contact"}
 
@@ -41,8 +41,8 @@ def plot(name: str, tables: Tables, axes: Mapping[str, str], options: Mapping[st
     """Plot of its tables of steps, laws and forecasts. axes : label of each setting; options : see figure"""
     return Plot(
         name, figure, tables,
-        "Cost of a solve; 3D vermilion, 1D blue, rough bodies filled; lines, fitted powers over the range where "
-        f"they hold; small, forecasts for {options['largest']}² points with intervals of 95 %. (a) Processor "
+        "Cost of a solve; 3D vermilion, 1D blue, rough bodies filled; lines, fitted powers where they hold; "
+        f"dashed, forecasts for {options['largest']}² points with intervals of 95 %. (a) Processor "
         "time. (b) Operator applications. (c) Memory, and what machines have. (d) Time against modes or steps, "
         "(e) speed, (f) real contact.",
         "Six panels of costs that rise with points, modes and steps, and vary with speed and contact.",
@@ -95,10 +95,9 @@ def _along(steps: DataFrame, setting: str) -> dict[str, DataFrame]:
 
 
 def _look(name, rows):
-    marker, line = LOOKS[name]
     colour = style.COLOUR[rows["solver"].iloc[0]]
-    face, own = colour if name in FILLED else style.paper(), {"linestyle": line, "linewidth": style.width(0.8)}
-    return own | {"color": colour, "marker": marker, "markerfacecolor": face, "markersize": style.mark()}
+    face, own = colour if name in FILLED else style.paper(), {"linestyle": "-", "linewidth": style.width(0.8)}
+    return own | {"color": colour, "marker": MARKERS[name], "markerfacecolor": face, "markersize": style.mark()}
 
 
 def _law(laws: DataFrame, ladder: str, cost: str):
@@ -133,8 +132,8 @@ def _forecasts(axes: Axes, ladders, laws, forecasts, what, cost, largest, times=
         place = largest * APART ** (2 * k - len(known) + 1)
         x = np.geomspace(law["highest"], largest, 40)
         look: dict[str, Any] = {"color": style.COLOUR[rows["solver"].iloc[0]], "linewidth": style.width(0.65)}
-        axes.plot(x, times * _at(law, x), **look | {"linewidth": style.width(0.45), "alpha": 0.6}, zorder=1)
-        look |= {"marker": LOOKS[each["ladder"]][0], "markersize": style.mark(0.65), "linestyle": "none"}
+        axes.plot(x, times * _at(law, x), **look | {"linestyle": "--"}, zorder=1)
+        look |= {"marker": MARKERS[each["ladder"]], "markersize": style.mark(0.65), "linestyle": "none"}
         axes.errorbar(
             [place], [each["value"]], style.bars(*[[each[end]] for end in ("value", "low", "high")]), **look
         )
@@ -145,7 +144,7 @@ def _machines(axes: Axes, memories, largest):
     for k, size in enumerate(memories):
         axes.axhline(size, **style.line(0.6, 0.65, zorder=0))
         said: dict[str, Any] = {"fontsize": style.tiny(), "color": style.grey(0.35), "va": "bottom"}
-        axes.annotate(f"{size} GiB", (0.01 + 0.12 * k, size), xycoords=("axes fraction", "data"), **said)
+        axes.annotate(f"{size:g} GiB", (0.01 + 0.12 * k, size), xycoords=("axes fraction", "data"), **said)
 
 
 def _counts(axes: Axes, ladders):

@@ -1,6 +1,6 @@
 """Error against the true answer of three dimensions over time: the models in one picture, in several regimes."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import ceil, isfinite
 from typing import Any
 
@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..page import Plot, Tables
+from ..statistics.convergence import MeasuredLadder
 from ..statistics.sampling import Mean, SamplingPlan, envelope
 from . import style
 from .lettering import Letter, letter, write
@@ -19,8 +20,12 @@ from .workprecision_surfaces import means, plan_look
 
 # Models of one dimension, as a legend calls them.
 LINES = {"MDR": "1D", "CorrectedMDR": "corrected 1D"}
-# Size of a panel [inch], and of what surrounds them all.
-HEIGHT, AROUND = 1.75, 0.55
+# Panels side by side, their height, and that of what surrounds them all [inch].
+COLUMNS, HEIGHT, AROUND = 3, 1.9, 0.6
+# The same of one panel, whose legend is a column [inch].
+BELOW = 1.5
+# Dashes of what is forecast.
+FORECAST = (0, (4, 2))
 # Errors below are drawn there: the solvers stop before.
 LEAST = 1e-7
 # Times that curves of a mean are drawn to, over that of one surface.
@@ -33,63 +38,77 @@ CLOSE = 3.0
 FALLS = 0.3
 
 
-def plot(name: str, tables: Tables) -> Plot:
-    """Plot of all regimes, from its tables of steps, plans and answers."""
+def plots(name: str, tables: Tables) -> Iterator[Plot]:
+    """Plots of all regimes, of smooth contacts and of rough ones, from the tables of steps, plans and answers."""
     kinds = {name.split("-")[2]: name for name in tables}
-    return Plot(
-        name, figure, tables,
-        "Error against the true answer of three dimensions, over processor time. Smooth: points of the grid; "
-        "grey, error of the reference. Rough: expected error of a mean of 1, 10, 100, ... surfaces on so many "
-        "points; thick, cheapest plan in 3D. Bands, intervals of 95 % of errors that 1D keeps, as it is and "
-        "corrected.",
-        "Panels of error over time: 1D is quick and level, 1D corrected lower, 3D slower and falling.",
-        {kind: kinds.get(kind, "") for kind in ("steps", "plans")},
-    )  # fmt: skip
+    if "steps" in kinds:
+        yield Plot(
+            f"{name}-smooth", smooth, tables,
+            "Smooth contacts: error against the true answer of three dimensions, over processor time. Numbers: "
+            "points of the grid; dotted, fitted power. Grey, error of the reference; hollow, within it.",
+            "Panels of error over time: 1D is quick and level, 3D slower and falling.", {"steps": kinds["steps"]},
+        )  # fmt: skip
+    if "plans" in kinds:
+        yield Plot(
+            f"{name}-rough", rough, tables,
+            "Rough contacts: expected error of a mean of 1, 10, 100, ... surfaces against the true answer of 3D, "
+            "over processor time; dashed, forecast beyond the surfaces solved. Numbers: points of the grid; "
+            "thick, cheapest plan in 3D. Bands, intervals of 95 % of errors that 1D keeps.",
+            "Panels of error over time: 1D is quick and level, 1D corrected lower, 3D slower and falling.",
+            {"plans": kinds["plans"]},
+        )  # fmt: skip
 
 
-def figure(tables: Tables, steps: str, plans: str) -> Figure:
-    """All regimes, smooth ones above rough ones, and one legend below.
-
-    steps, plans : names of the tables, empty where there is none
-    """
-    found: list[Panel | Mean] = [
-        *(panels(tables[steps]) if steps else []),
-        *(means(tables[plans]) if plans else []),
-    ]
-    drawn = sorted(found, key=lambda panel: (_rough(panel), _first(panel).quantity != "friction"))
-    rows, columns, places = _places(drawn)
-    drawing = style.canvas("double" if columns > 1 else "single", rows * HEIGHT + AROUND)
-    first: dict[bool, Axes] = {}
-    for k, (panel, place) in enumerate(zip(drawn, places, strict=True)):
-        beside = first.get(_rough(panel))
-        axes = drawing.add_subplot(rows, columns, place + 1, sharex=beside, sharey=beside)
-        first.setdefault(_rough(panel), axes)
-        style.head(axes, f"({letter(k)}) {_headed(_first(panel))}", columns)
-        axes.set(xscale="log", yscale="log")
-        if isinstance(panel, Mean):
-            _draw_mean(axes, panel)
-        else:
-            _draw_ladders(axes, panel)
-        if place % columns == 0 or beside is None:
-            axes.set_ylabel("relative error [1]")
-        if place + columns not in places or (not _rough(panel) and _rough(drawn[places.index(place + columns)])):
-            axes.set_xlabel("processor time [s]")
-    for rough in (False, True):
-        _share([axes for axes, panel in zip(drawing.axes, drawn, strict=True) if _rough(panel) == rough], rough)
-    _legend(drawing, drawn)
-    style.lay_out(drawing)
-    for axes, panel in zip(drawing.axes, drawn, strict=True):
-        write(axes, _ends(panel) if isinstance(panel, Mean) else _settings(panel), style.tiny())
+def smooth(tables: Tables, steps: str) -> Figure:
+    """Smooth contacts, a panel a regime and quantity. steps : name of the table"""
+    drawn = sorted(panels(tables[steps]), key=lambda panel: panel.first.quantity != "friction")
+    drawing, axes = _panels([panel.first for panel in drawn])
+    for each, panel in zip(axes, drawn, strict=True):
+        _draw_ladders(each, panel)
+    _share(axes, 5.0, 2.5)
+    _legend(drawing, _solvers())
+    for each, panel in zip(axes, drawn, strict=True):
+        write(each, _settings(panel), style.tiny())
     return drawing
 
 
-def _rough(panel):
-    return isinstance(panel, Mean)
+def rough(tables: Tables, plans: str) -> Figure:
+    """Means over rough surfaces, a panel a regime and quantity. plans : name of the table"""
+    drawn = sorted(means(tables[plans]), key=lambda mean: mean.quantity != "friction")
+    drawing, axes = _panels(drawn)
+    for each, mean in zip(axes, drawn, strict=True):
+        _draw_mean(each, mean)
+    _share(axes, 2.0, 1.5)
+    forecast = style.line(0.3, 0.8, linestyle=FORECAST, label="forecast")
+    _legend(drawing, [*_solvers(), forecast, _cheapest() | {"label": "cheapest plan in 3D"}], bands=True)
+    for each, mean in zip(axes, drawn, strict=True):
+        write(each, _ends(mean), style.tiny())
+    return drawing
 
 
-def _first(panel):
-    """Row that names contact and quantity."""
-    return panel if isinstance(panel, Mean) else panel.first
+def _solvers() -> list[dict[str, Any]]:
+    """Looks of all solvers in the legend; dashes are left to what is forecast."""
+    return [style.look(solver, markersize=style.mark(0.8), linestyle="-") for solver in (*LINES, "BEM")]
+
+
+def _panels(told: Sequence[MeasuredLadder | Mean]) -> tuple[Figure, list[Axes]]:
+    """Empty panels with titles, all of the same axes."""
+    columns = min(COLUMNS, len(told))
+    rows = ceil(len(told) / columns)
+    drawing = style.canvas(
+        "double" if columns > 1 else "single", rows * HEIGHT + (AROUND if columns > 1 else BELOW)
+    )
+    every: list[Axes] = []
+    for k, each in enumerate(told):
+        first = every[0] if every else None
+        axes = drawing.add_subplot(rows, columns, k + 1, sharex=first, sharey=first, xscale="log", yscale="log")
+        style.head(axes, f"({letter(k)}) {_headed(each)}", columns)
+        if k % columns == 0:
+            axes.set_ylabel("relative error [1]")
+        if k + columns >= len(told):
+            axes.set_xlabel("processor time [s]")
+        every.append(axes)
+    return drawing, every
 
 
 def _headed(told) -> str:
@@ -103,7 +122,7 @@ def _draw_ladders(axes: Axes, panel: Panel):
     own = panel.first.reference_error
     for curve in panel.curves:
         colour, errors = style.COLOUR[curve.solver], np.maximum(curve.errors, LEAST)
-        line: dict[str, Any] = {"linestyle": style.LINE[curve.solver], "linewidth": style.width(0.8)}
+        line: dict[str, Any] = {"linestyle": "-", "linewidth": style.width(0.8)}
         axes.plot(curve.processor, errors, color=colour, **line)
         dots(axes, curve.processor, errors, errors <= own, style.MARKER[curve.solver], colour, 0.8)
         if curve.order.order > FALLS:
@@ -165,8 +184,11 @@ def _mean_curve(axes, plan: SamplingPlan, look):
     (level,) = plan.levels
     if not (isfinite(level.seconds) and isfinite(plan.bias.size) and isfinite(level.scatter.value)):
         return
-    counts = np.geomspace(1, LONGEST, 120)
-    axes.plot(plan.setup + counts * level.seconds, plan.error_of(counts), **look, zorder=3)
+    solved = level.scatter.freedom + 1
+    for first, last, line in ((1, solved, "-"), (solved, LONGEST, FORECAST)):
+        counts = np.geomspace(first, last, 120)
+        drawn = look | {"linestyle": line, "zorder": 3}
+        axes.plot(plan.setup + counts * level.seconds, plan.error_of(counts), **drawn)
     marks = {"marker": style.MARKER[plan.solver], "markersize": style.mark(0.65), "color": look["color"]}
     axes.plot(plan.setup + MARKED * level.seconds, plan.error_of(MARKED), linestyle="none", zorder=4, **marks)
 
@@ -175,8 +197,8 @@ def _cheapest():
     return {"color": style.grey(0.1), "linewidth": style.width(2), "alpha": 0.35, "linestyle": "-"}
 
 
-def _share(group: Sequence[Axes], rough):
-    """Limits that all panels of a kind share: errors and times are compared across regimes."""
+def _share(group: Sequence[Axes], high: float, wide: float) -> None:
+    """Limits that all panels share, with room by these factors: errors and times are compared across regimes."""
     lines = [line for axes in group for line in axes.lines]
     if not lines:
         return
@@ -185,36 +207,17 @@ def _share(group: Sequence[Axes], rough):
     if not known.any():
         return
     for axes in group:
-        axes.set_xlim(x[known].min() / 2.5, x[known].max() * (1.5 if rough else 2.5))
-        axes.set_ylim(max(y[known].min() / (2 if rough else 5), LEAST / 5), y[known].max() * (2 if rough else 4))
+        axes.set_xlim(x[known].min() / 2.5, x[known].max() * wide)
+        axes.set_ylim(max(y[known].min() / high, LEAST / 5), y[known].max() * high)
         style.decades(axes)
 
 
-def _legend(drawing, drawn):
-    looks = (style.look(solver, markersize=style.mark(0.8)) for solver in (*LINES, "BEM"))
+def _legend(drawing: Figure, looks: Sequence[dict[str, Any]], bands: bool = False) -> None:
+    """Below all panels; then the panels have their places."""
     entries: list = [Line2D([], [], **look) for look in looks]
-    if any(map(_rough, drawn)):
-        entries.append(Line2D([], [], **_cheapest(), label="cheapest plan in 3D"))
-        for solver, name in LINES.items():
-            band = {"color": style.COLOUR[solver], "alpha": 0.2, "linewidth": 0}
-            entries.append(Patch(**band, label=f"error that {name} keeps, 95 %"))
+    for solver, name in LINES.items() if bands else ():
+        band: dict[str, Any] = {"color": style.COLOUR[solver], "alpha": 0.2, "linewidth": 0}
+        entries.append(Patch(**band, label=f"error that {name} keeps, 95 %"))
     entries.append(Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"))
     style.legend(drawing, entries, "outside lower center", len(entries))
-
-
-def _places(drawn):
-    """Rows, columns, and the place of each panel: kinds begin a row of their own, unless all fit into one."""
-    counts = [count for rough in (False, True) if (count := sum(_rough(panel) == rough for panel in drawn))]
-    if len(drawn) <= 4:
-        return 1, len(drawn), list(range(len(drawn)))
-
-    def size(columns):
-        rows = sum(ceil(count / columns) for count in counts)
-        return rows, rows * columns
-
-    columns = min((3, 4), key=size)
-    places, start = [], 0
-    for count in counts:
-        places += range(start, start + count)
-        start += ceil(count / columns) * columns
-    return start // columns, columns, places
+    style.lay_out(drawing)

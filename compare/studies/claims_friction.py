@@ -1,12 +1,13 @@
 """Claims on friction of one series: laws in each dimensionality, one against three, shifts onto one curve."""
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from math import nan
 
 import numpy as np
 
-from ..finding import Claim, Finding
+from ..finding import UNDECIDED, Claim, Finding
 from ..rectangle import COARSE, FINE
 from ..statistics import eq23
 from ..statistics.collapse import Collapse, collapse
@@ -184,6 +185,9 @@ def shift_findings(
     plots = f"{series.folder}/collapse", f"{series.folder}/shifts"
     if both is not None:
         shifts = dict(zip(series.speeds, laws.shifts.tolist(), strict=True))
-        yield from eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots)
+        found = list(eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots))
+        # Shifts onto a curve that may be none are not drawn.
+        undecided = found[0].verdict == UNDECIDED
+        yield from (replace(each, plot=plots[0]) if undecided else each for each in found)
     elif eq23.shiftable(len(series.speeds), len(series.values)):
         yield eq23.too_few(dimension, series.name, draws, words, plots[0])

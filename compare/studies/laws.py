@@ -12,7 +12,7 @@ from mdr1d import equations
 from .. import exact
 from ..statistics.jackknife import mean_ratio
 from .regime import SYMBOLS, ratios, words
-from .series import ROUGH, SMOOTH, Contacts, Series, resting, sliding
+from .series import Contacts, Series, sliding
 
 # Relative spread of exponents up to which they are one.
 SAME = 0.02
@@ -33,8 +33,6 @@ class Laws:
     slowest_loss : loss tangent there at the slowest speed
     loss_exponent : d ln G'' / d ln omega there, (speeds - 1,), from one speed to the next
     plateau : mu of Eq. 14 [1]
-    slow : mu of the exact limit of low speed, from the contact at rest, rough
-    smooth : mu of the exact limit of low speed of the smooth body, from its contact at rest
     shifts : ln p(v) that Eq. 23 predicts, (speeds,), up to a constant
     exponent : d ln p / d ln v of it; NaN where it is no power of the speed
     """
@@ -48,8 +46,6 @@ class Laws:
     slowest_loss: float
     loss_exponent: np.ndarray
     plateau: float
-    slow: np.ndarray
-    smooth: np.ndarray
     shifts: np.ndarray
     exponent: float
 
@@ -112,8 +108,6 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
         slowest_loss=float(loss(highest * speeds[0]) / solid.complex_modulus(highest * speeds[0]).real),
         loss_exponent=np.diff(np.log(loss(highest * speeds))) / np.diff(np.log(speeds)),
         plateau=float(equations.plateau(slope)),
-        slow=_slow_friction(contacts, solver, ROUGH),
-        smooth=_slow_friction(contacts, solver, SMOOTH),
         shifts=np.log(shift),
         exponent=_power(rates),
     )
@@ -145,16 +139,6 @@ def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:
         return exact.slow_friction_by_curvature(1.0, lag, load, curvature)
     slope, length = (_draws(rest, name) for name in ("rms_slope_contact", "contact_length"))
     return exact.slow_friction_by_slope(1.0, lag, elastomer.indentation_modulus, slope, length)
-
-
-def slow_friction(series: Series, solver: str, rest: xarray.Dataset) -> np.ndarray:
-    """mu at low speed, (speeds, values), from the contact at rest."""
-    drag = slow_drag(series.scene.solid, solver, rest)
-    return np.array(series.speeds)[:, None] * mean_ratio(drag, _draws(rest, "normal_force")).value
-
-
-def _slow_friction(contacts, solver, body):
-    return slow_friction(contacts.series, solver, resting(contacts(solver, body)))
 
 
 def _draws(answers, name):

@@ -13,7 +13,6 @@ from pydantic import ValidationError
 
 from scene import Refused, Scene, SolveError
 from scene.reading import InvalidInput
-from scene.scales import elastic_contact
 from scene.vocabulary import FIELDS as DEFINED
 
 from .. import finding, rectangle
@@ -25,7 +24,7 @@ from ..inputs import Asked, named_cases
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
 from ..path import by_contact
-from ..plots import contact, contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
+from ..plots import contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
 from ..rectangle import Rectangle
 from ..statistics.means import with_spread
 from ..task import SceneTask, Task
@@ -240,15 +239,12 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     }
     load, depth = f"load of {motion.greatest:g} N", f"depth of {motion.greatest * 1e6:g} µm"
     pressed = load if motion.load is not None else depth
-    moved = f"at a {pressed}, sliding at {motion.speed:g} m/s" if motion.speed else f"at a {pressed}, at rest"
-    flow, radius = ("elastomer flows →" if case.slides else "elastomer"), elastic_contact(case.scene).radius
     forces = [
         (body, depth, each)
         for claim, body in ((ROUGH_FORCE, "rough"), (SMOOTH_FORCE, "smooth"))
         for depth, each in found.forces(claim).items()
     ]
     plots = [
-        contact.plot(fields, radius, flow, moved, folder),
         contact_maps.plot(view(case.scene, case.bem, fields), folder),
         force_depth.plot(points, forces, folder),
         friction_curves.against_speed(points, list(found.at_speeds.items()), law, pressed, folder),

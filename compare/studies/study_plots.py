@@ -9,7 +9,7 @@ from pandas import DataFrame, concat
 
 from mdr1d.equations import interpolation
 
-from ..finding import Finding, claimed, table
+from ..finding import FAILS, HOLDS, Finding, claimed, table
 from ..page import Plot
 from ..plots import study_depth, study_friction, study_verdicts
 from ..plots.study_friction import ALONE, COMMON, FITTED, LAW, PREDICTED
@@ -30,20 +30,17 @@ def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], 
 
     together : whether findings on several series are among them
     """
-    if judged := claimed(findings):
-        titles = [(each.series.name, each.series.title) for each in series]
-        titles += [
-            (place, place) for place in dict.fromkeys(each.where for each in judged) if place not in dict(titles)
-        ]
-        named = "; ".join(f"{k}: {title}" for k, (_, title) in enumerate(titles, 1))
-        told = f" Columns: {named}." if study_verdicts.FEW < len(titles) <= 2 * study_verdicts.FEW else ""
+    judged = claimed(findings)
+    if len({each.where for each in judged}) > 1:
+        known = {each.series.name: each.series.title for each in series}
+        titles = [(place, known.get(place, place)) for place in dict.fromkeys(each.where for each in judged)]
         yield Plot(
             "verdicts",
             study_verdicts.verdicts,
             {"verdicts": table(judged)},
-            "Verdicts: rows are claims, columns are series, with one dimension left (blue) and three right "
-            "(vermillion); below, claims that compare both (black). Filled: holds; cross: fails; hollow: "
-            f"undecided.{told}",
+            "Claims (rows) in each series (columns): verdict, and the number measured, with its interval of 95 % "
+            "where there is room. The darker a field, the farther the number lies from the one claimed, in "
+            "tolerances. Claims that compare both dimensionalities stand last.",
             _counted(judged),
             {"titles": titles},
         )
@@ -60,15 +57,16 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
             f"{series.folder}/effects",
             study_verdicts.effects,
             {"effects": table(claims)},
-            "What was measured less what is claimed, over the tolerance, whose band is grey; beyond one the "
-            "axis is logarithmic. Thick: 95 % from the scatter of surfaces; thin: wider by the change on "
-            "halving the grid. Hollow: undecided. An arrow stands for what lies beyond 100 tolerances.",
+            "Distance of what was measured from what is claimed, in tolerances; grey, within; logarithmic beyond "
+            "one, arrows beyond 100. Lines, intervals of 95 %: thick from the scatter of surfaces, thin with the "
+            "error of the grid. Dot: holds; cross: fails; circle: undecided. Right: the number measured with its "
+            "interval.",
             _counted(claims),
         )
     if judged.laws:
         yield _collapse(judged)
-        if judged.collapses:
-            yield _shifts(judged)
+        if fitted := {solver: found for solver in SOLVERS if (found := _fitted(judged, solver))}:
+            yield _shifts(judged, fitted)
         yield _levels(judged)
         if any(each.claim.id.startswith("why17.") for each in judged.findings):
             yield _behind(judged)
@@ -111,18 +109,21 @@ def _collapse(judged) -> Plot:
         f"{judged.series.folder}/collapse",
         study_friction.collapse,
         {name: _each_dimension(partial(table, judged)) for name, table in parts.items()},
-        "Friction against normal force, a curve for each speed, with intervals of 95 %; then shifted along the "
-        "force (Eq. 23) so as to come closest to one curve (black), or as p(v) of Eq. 22 if no shifts can be "
-        "fitted; then what the curve is missed by, with the tolerance in grey. δ: rms without scatter.",
+        "Friction against normal force, a curve for each speed; below, shifted along the force (Eq. 23) onto "
+        "their common curve, or by p(v) of Eq. 22 where it is undecided whether there is one. Last, where both "
+        "have one: distance from that curve, tolerance in grey; δ, its rms without scatter. Bars: 95 %.",
         "; ".join(f"{each.dimension}: {each.verdict}" for each in verdicts),
         {"tolerance": eq23.TOLERANCE},
     )
 
 
 def _fitted(judged, solver):
-    """Fit of shifts along the load, where a common curve was found; else None."""
-    found = judged.collapses.get(solver)
-    return None if found is None or found.horizontal.curve is None else found
+    """What shifts along the load achieve, where it is decided whether the curves fall onto one; else None."""
+    found, decided = judged.collapses.get(solver), {HOLDS, FAILS}
+    known = found is not None and found.horizontal.curve is not None
+    own = (each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id)
+    verdicts = {each.verdict for each in own if each.dimension == SOLVERS[solver]}
+    return found if known and verdicts & decided else None
 
 
 def _shifted(judged, solver) -> DataFrame:
@@ -188,17 +189,14 @@ def _fit(judged, solver) -> DataFrame:
     return DataFrame([row])
 
 
-def _shifts(judged) -> Plot:
-    shifts, fits, said = {}, {}, []
-    for solver, found in judged.collapses.items():
+def _shifts(judged, fitted) -> Plot:
+    shifts, fits = {}, {}
+    for solver, found in fitted.items():
         dimension, exponent = SOLVERS[solver], found.horizontal.exponent
         theory = judged.laws[solver].shifts[[judged.series.speeds.index(speed) for speed in found.speeds.tolist()]]
         shifts[dimension,] = found.shifts.assign(theory=theory - theory[len(theory) // 2])
-        reason = found.horizontal.reason or found.inseparable
         low, high = exponent.interval()
-        row = {"exponent": exponent.value, "exponent_low": low, "exponent_high": high, "reason": reason}
-        fits[dimension,] = DataFrame([row])
-        said += [f"{dimension}: {reason}"] if reason else []
+        fits[dimension,] = DataFrame([{"exponent": exponent.value, "exponent_low": low, "exponent_high": high}])
     return Plot(
         f"{judged.series.folder}/shifts",
         study_friction.shifts,
@@ -206,7 +204,7 @@ def _shifts(judged) -> Plot:
         "Shifts that bring the curves onto one, zero at the middle speed, with intervals of 95 % over surfaces. "
         "(a) Along ln F_N alone, and ln p(v) of Eq. 22 (line). (b) Their difference. (c) Along ln μ, both "
         "fitted; grey, the tolerance.",
-        "; ".join(said),
+        f"Shifts against speed in {' and '.join(SOLVERS[solver] for solver in fitted)}",
         {"tolerance": eq23.TOLERANCE},
     )
 
@@ -222,8 +220,7 @@ def _levels(judged) -> Plot:
         laws, columns = judged.laws[solver], memories(solver)
         columns |= _columns("friction_coefficient", friction_at(contacts, solver))
         columns["smooth"] = friction_at(contacts, solver, SMOOTH).value.ravel()
-        columns |= {"low_speed": laws.slow.ravel(), "smooth_low_speed": laws.smooth.ravel()}
-        return DataFrame(columns | {"plateau": laws.plateau, "eq_19": laws.law.ravel()})
+        return DataFrame(columns | {"eq_19": laws.law.ravel()})
 
     def ratio(sample):
         one, three = (friction(sample[solver])[1:] for solver in SOLVERS)
@@ -236,10 +233,9 @@ def _levels(judged) -> Plot:
         f"{series.folder}/levels",
         study_friction.levels,
         {"levels": _each_dimension(friction_of), "levels-ratios": ratios},
-        f"Friction against speed at the least, a middle and the greatest {series.prescribed}, with intervals of "
-        "95 %: rough (markers), smooth (thin), exact limit of low speed (dotted), Eqs. 19 and 14 (pale). "
-        "Below: 1D over 3D, rough and smooth, with lines at 1 and at 2, the limit of smooth bodies at low "
-        "speed.",
+        f"Friction against speed at the least, a middle and the greatest {series.prescribed}: rough (markers), "
+        "smooth (thin), Eq. 19 (pale dashes). Below: 1D over 3D, rough and smooth; lines at 1 and at 2, the limit "
+        "of smooth bodies at low speed. Bars: 95 %.",
         f"Friction of {series.title} in both dimensionalities",
     )
 
@@ -304,10 +300,9 @@ def _depth(contacts: Contacts) -> Plot:
         f"{series.folder}/depth",
         study_depth.depth,
         {"depth": _each_dimension(at_rest), "depth-differences": differences, "depth-stiffness": stiffness},
-        f"(a) {what} at rest, and the closed form of the smooth body (line). (b) Less that closed form. (c) 1D "
-        "against 3D. (d) Stiffness between neighbours. Bars are intervals of 95 %; points are drawn apart "
-        "along the axis. Depth is that of the macroscopic tip, below zero where only the highest asperities "
-        "touch.",
+        f"{what} at rest: (a) less the closed form of the smooth body, (b) 1D against 3D, (c) stiffness between "
+        "neighbours. Bars: 95 %; points are drawn apart along the axis. Depth is that of the macroscopic tip, "
+        "below zero where only the highest asperities touch.",
         f"{what}, one dimension against three",
     )
 
@@ -364,9 +359,9 @@ def _family(found) -> Plot:
         "family",
         study_friction.family,
         {"family": stacked(points, "shape", "dimension"), "family-law": stacked(laws, "shape", "dimension")},
-        "Friction over its plateau, Eq. 14, against ξ of Eq. 18, with the loss at the shortest wave and the rms "
-        "slope as each dimensionality has it; bars are intervals of 95 %, a marker for each series. Line: Eq. "
-        "19. If roughness and solid count through ξ alone, all markers lie on one curve.",
+        "Friction over its plateau (Eq. 14) against ξ (Eq. 18), a panel for each roughness or solid; points of "
+        "one load are joined, in its colour. Grey: Eq. 19. If roughness, solid, speed and load count through ξ "
+        "alone, all panels show one curve. Bars: 95 %.",
         f"{len(points)} panels of friction against ξ",
     )
 
@@ -381,6 +376,8 @@ def _reduced(members, solver) -> DataFrame:
         grid = np.abs(mu.value - other.value)
         columns = _columns("friction_over_plateau", Interval(mu.value, low - grid, high + grid))
         xi = 1 / mean_ratio(fine.load[k]).value
-        frame = DataFrame({"series": each.series.title, "xi": xi, **columns})
-        frames.append(frame[: each.laws[solver].xi.size])
+        pressed = _places(each.series) | {"normal_force": force_at(each.contacts, solver).value.ravel()}
+        count = len(pressed["speed"])
+        frame = DataFrame({"series": each.series.title, "xi": xi, **columns})[:count].assign(**pressed)
+        frames.append(frame)
     return concat(frames, ignore_index=True)

@@ -83,15 +83,16 @@ def convergence(
 
     def findings(node):
         found = ladders(_steps(node))
-        own, plot = answers(found), f"workprecision-{name}"
+        own, steps, file = answers(found), _steps(node), f"workprecision-{name}"
+        plots = {each.quantity: workprecision.part_of(file, steps, each.quantity) for each in own}
         orders = {contact: child["expected_order"] for contact, child in node.children.items()}
         by_points = [each for each in own if each.setting == "points"]
         for each in own:
             if each.setting in ("points", "steps"):
                 expected = orders[each.contact].sel(quantity=each.quantity).item()
-                yield order_finding(name, each, expected, plot)
-        yield from (time_finding(name, each, plot) for each in by_points)
-        yield from (enough_finding(name, each, plot) for each in own if each.setting != "points")
+                yield order_finding(name, each, expected, plots[each.quantity])
+        yield from (time_finding(name, each, plots[each.quantity]) for each in by_points)
+        yield from (enough_finding(name, each, plots[each.quantity]) for each in own if each.setting != "points")
         whole: dict[str, list[MeasuredLadder]] = {}
         for each in found:
             whole.setdefault(each.contact, []).append(each)
@@ -100,9 +101,8 @@ def convergence(
     def plots(node):
         steps, file = _steps(node), f"workprecision-{name}"
         if len(steps):
-            yield workprecision.plot(
-                file, {file: steps, f"workprecision-orders-{name}": orders_table(ladders(steps))}
-            )
+            orders = orders_table(ladders(steps))
+            yield from workprecision.plots(file, {file: steps, f"workprecision-orders-{name}": orders})
 
     def tables(node):
         sources = {contact: child.attrs["reference"] for contact, child in node.children.items()}

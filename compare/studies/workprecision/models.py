@@ -38,7 +38,7 @@ def _model_plots(node: xarray.DataTree) -> Iterator[Plot]:
         name = f"workprecision-models-{what.split()[0]}"
         tables = {name.replace("models", f"models-{kind}"): each for kind, each in rows.items() if len(each)}
         if own:
-            yield workprecision_models.plot(name, tables)
+            yield from workprecision_models.plots(name, tables)
 
 
 def _model_tables(node: xarray.DataTree) -> Iterator[Table]:
