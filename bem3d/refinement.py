@@ -117,7 +117,7 @@ def _near(problem, coarse: Grid, fine: Grid, result: Result, solver) -> _Points:
 
 
 def _kernel(problem, grid):
-    """Displacement by a loaded pixel (ny, 2 nx), as of the operator of the grid."""
+    """Displacement by a loaded pixel (ny, 2 nx), that of the operator of the grid."""
     medium, flow = problem.medium, problem.flow
     if flow.at_rest:
         return medium.ground.elastic(grid)

@@ -313,7 +313,7 @@ def figures(
 
 
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write results into files: tables as CSV or LaTeX, surfaces for ParaView.
+    """Write tables as CSV or LaTeX, surfaces for ParaView.
 
     folder : folder that a command has written, or its results.nc
     to : csv (every digit, units in the heading), latex (rounded, for booktabs), or vtk (surfaces for ParaView,
@@ -328,7 +328,9 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
 def draw(
     scene: Asked, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
 ) -> Report:
-    """Draw the deformed surface in 3D under its pressure, the row of springs in 1D, and the forces of both.
+    """Draw the contact in 3D and the row of springs in 1D.
+
+    The surface of the elastomer is coloured by pressure, with its wake; beside it stand the forces of both models.
 
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive

@@ -41,7 +41,7 @@ VALUES: dict[str, Sequence[str] | Callable[[], Sequence[str]]] = {
     "repeat": ("mirror", "periodic"),
     "peaks": ("up", "down"),
     "kind": ("scene", "study"),
-    "to": ("csv", "latex"),
+    "to": ("csv", "latex", "vtk"),
     "journal": tuple(JOURNALS),
 }
 # By the name of a command: of its argument `name`.

@@ -90,7 +90,7 @@ def by_contact(outcomes: Mapping[Task, Outcome]) -> dict[Task, Outcome]:
 
 
 def _shared(contact):
-    """Key that all contacts of a path share: all but the speed, and the grid but for its kind."""
+    """Key that all contacts of a path share: all but the speed, and the grid except its kind."""
     (scene, *others), solver = contact.scenes, contact.solver
     motion = scene.motion
     if others or contact.keeps_fields or not isinstance(solver, BEM) or isinstance(motion, Program):

@@ -4,11 +4,9 @@ What has been solved once is in docs/spectrum/solved; from nothing it takes an h
 """
 
 from dataclasses import dataclass, replace
-from math import log2, nan, pi
+from math import nan, pi
 from pathlib import Path
 
-import numpy as np
-from matplotlib.patches import Circle
 from pandas import DataFrame
 from rich.console import Console
 from tables import replaced, table

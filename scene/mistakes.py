@@ -189,7 +189,7 @@ def _brief(value):
 
 
 def _with_what_is_missing(error, content, adapter):
-    """Mistakes with a wrong value in the place of each missing one, so that its message says what is allowed."""
+    """Mistakes with a wrong value in place of each missing one, so that its message says what is allowed."""
     filled = deepcopy(content)
     for mistake in error.errors(include_url=False):
         where, stands = place(mistake["loc"], content), MISSING

@@ -240,7 +240,7 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     (tmp_path / "quiet.toml").touch()
     for command in ("run", "plan", "trust", "animate"):
         assert complete(command, "qui") == ["quick-start", "quiet.toml"]
-    assert complete("study", "steep-") == ["steep-and-fast", "steep-and-slow"]
+    assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
     assert complete("new", "quick") == ["quick-start"]
     assert complete("workprecision", "ex") == ["extent"]
     assert complete("figures", "folder", "--journal", "el") == ["elsevier"]

@@ -314,7 +314,12 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
 
 @pytest.mark.parametrize(
     ("damage", "said"),
-    [(b"", "cannot be drawn"), (b"\xff", "no table"), (b"a,b\n1\n1,2,3\n", "no table"), (b"a\n1\n", "'speed'")],
+    [
+        (b"", "cannot be drawn"),
+        (b"\xff", "not a table"),
+        (b"a,b\n1\n1,2,3\n", "not a table"),
+        (b"a\n1\n", "'speed'"),
+    ],
 )
 def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())

@@ -14,7 +14,7 @@ from compare import csvfiles, finding
 from compare.cases import Case, Study
 from compare.describe import described, slug
 from compare.outcome import Outcome, Row
-from compare.page import Findings, Plot, Section, Table
+from compare.page import Findings, Plot, Table
 from compare.path import Path
 from compare.plots import force_depth, style
 from compare.rectangle import COARSE, FINE, tasks_of

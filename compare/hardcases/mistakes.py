@@ -50,7 +50,7 @@ CASES = case = Group("mistakes")
 
 
 def in_every_field(value, said, but=()):
-    """Parts with this value in the place of each real number, one field at a time, but for some."""
+    """Parts with this value in place of each real number, one field at a time, except some."""
     places = [(part, field.name) for part in PARTS for field in fields(part)]
     real = [(part, name) for part, name in places if isinstance(getattr(part, name), float) and name not in but]
     return lambda size: [

@@ -30,7 +30,7 @@ def html(markdown: str) -> str:
 
 
 def converted(markdown: str, marks: Marks, escaped: Callable[[str], str] = str) -> str:
-    """Text with other marks in the place of those of Markdown; a mark that is not given is left out.
+    """Text with other marks in place of those of Markdown; a mark that is not given is left out.
 
     A formula is in plain letters, unless it has marks, "math": it then stays as it is.
     """

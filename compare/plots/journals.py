@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from scene.printable import brief
-
 MILLIMETRE, POINT = 1 / 25.4, 1 / 72
 
 
@@ -95,6 +93,8 @@ def journal(name: str) -> Journal:
     """Journal by its name in the table; ValueError lists the names for any other."""
     if name in JOURNALS:
         return JOURNALS[name]
+    from scene.printable import brief  # whoever lists journals needs no scene
+
     meant = get_close_matches(name, JOURNALS, 1)
     hint = f"; did you mean {meant[0]}?" if meant else "."
     raise ValueError(f"no journal {brief(repr(name))}{hint} Known are {', '.join(JOURNALS)}.")
