@@ -118,7 +118,7 @@ class Listing(dict[str, Any]):
     @property
     def details(self) -> str:
         """The table with what each is about: what the command prints under -v."""
-        return self._table(lambda name, width: wrap(self[name].about, WIDTH - width))
+        return self._table(lambda name, width: wrap(self[name].about, WIDTH - width, break_on_hyphens=False))
 
     def _table(self, below: Callable[[str, int], list[str]]) -> str:
         width = max((len(name) for name in self), default=0) + 2
