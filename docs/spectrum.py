@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from math import nan, pi
 from pathlib import Path
 
+import numpy as np
+from matplotlib.patches import Circle
 from pandas import DataFrame
 from rich.console import Console
 from tables import replaced, table
@@ -27,6 +29,7 @@ PAGE = Path(__file__).with_suffix(".md")
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
 GRIDS, TIMES = (2048, 4096), (2, 4)  # solved on all pixels; pixels of the last of them refined so many times
 SHAPES = "sphere", "cone"
+SIDES = 3.6e-3, 0.3e-3, 0.03e-3  # of the panels of the figure [m]
 HEADER = (
     "|points|pixels a wave|friction|by traction|by loss|depth [µm]|real over nominal contact|points in contact|"
     "processor time [s]"
@@ -120,3 +123,53 @@ def _line(row):
         f"{row.seconds:.0f}",
     )
     return row.dimension, *numbers
+
+
+def _sentence(shape, own):
+    """Friction between what both estimates come to, and what one dimension has."""
+    three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
+    last, limits = three.iloc[-1], [_limit(three[name].to_numpy()) for name in ("by_traction", "by_loss")]
+    low, high = sorted((last["by_loss"], last["by_traction"], *(each for each in limits if np.isfinite(each))))[
+        ::3
+    ]
+    return (
+        f"Friction of the {shape} in three dimensions is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) on this "
+        f"surface, at a rms slope of {last['rms_slope']:.1f} that is far beyond any linear theory; one dimension has "
+        f"{one.friction:.2f}."
+    )
+
+
+def _limit(values):
+    """Limit of numbers on grids of half the pixel each, at the order of the last three; NaN where none is seen."""
+    first, second = np.diff(values[-3:])
+    return values[-1] + second / (first / second - 1) if 0 < second / first < 1 else nan
+
+
+def _figure(scene, outcome):
+    """Real contact on the finest pixels at three magnifications."""
+    x, y, pressure = (outcome.fields[name] for name in ("x", "y", "pressure"))
+    pixel, radius = outcome.rows[0].measures["pixel"], elastic_contact(scene).radius
+    middle = int(np.argmax(pressure * (np.hypot(x, y) < radius / 2)))
+    drawing = style.canvas("double", 2.6)
+    for axes, letter, side in zip(drawing.subplots(1, 3), "abc", SIDES, strict=True):
+        centre = (0.0, 0.0) if side == SIDES[0] else (x[middle], y[middle])
+        unit, scale = ("mm", 1e3) if side == SIDES[0] else ("µm", 1e6)
+        off = np.stack([x - centre[0], y - centre[1]])
+        here = (np.abs(off) < side / 2).all(axis=0)
+        # A pixel is drawn as large as it is, and no smaller than can be seen.
+        area = max((pixel / side * 130) ** 2, 0.3)
+        drawn = axes.scatter(
+            *(scale * off[:, here]), s=area, c=pressure[here] / 1e6, marker="s", linewidths=0, cmap="viridis_r",
+            vmin=0, vmax=np.percentile(pressure, 95) / 1e6,
+        )  # fmt: skip
+        if side == SIDES[0]:
+            axes.add_patch(Circle((0, 0), scale * radius, fill=False, **style.line(0.4, 0.6)))
+        half = scale * side / 2
+        axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal")
+        axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title=f"({letter}) {1e3 * side:g} mm wide")
+    drawing.colorbar(drawn, ax=drawing.axes, label="pressure [MPa]", extend="max")
+    return drawing
+
+
+if __name__ == "__main__":
+    main()
