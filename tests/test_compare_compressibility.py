@@ -167,7 +167,7 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
         return laws(Contacts(series, rectangle.tree(series.rectangles, outcomes)), "MDR")
 
     wanted, found = ruled(0.5), ruled(0.0)
-    for name in ("xi", "shifts", "slow", "smooth", "loss_exponent", "plateau"):
+    for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):
         np.testing.assert_allclose(getattr(found, name), getattr(wanted, name), rtol=1e-9, err_msg=name)
 
 

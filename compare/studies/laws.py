@@ -98,6 +98,7 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
     xi = np.where(np.isfinite(load), one / equations.plateau(slope), nan)
     shift = equations.force_shift(speeds, modulus, loss, highest, slope, c, n)
     rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
+    slowest = solid.complex_modulus(highest * speeds[0])
     return Laws(
         speeds=speeds,
         ratios=groups,
@@ -105,7 +106,7 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
         exponent_of_load=-n / (n + 1),
         xi=xi,
         wave_number=highest,
-        slowest_loss=float(loss(highest * speeds[0]) / solid.complex_modulus(highest * speeds[0]).real),
+        slowest_loss=float(slowest.imag / slowest.real),
         loss_exponent=np.diff(np.log(loss(highest * speeds))) / np.diff(np.log(speeds)),
         plateau=float(equations.plateau(slope)),
         shifts=np.log(shift),
