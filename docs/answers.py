@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+import fast
 import numpy as np
 import pandas
 import slow
@@ -50,28 +51,37 @@ OF_STUDY = {
     "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))": (
         "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)"
     ),
+    "Eq. 14: at high speed friction is sqrt(2) times the rms slope": "plateau over that of Eq. 14; claimed 1",
 }
 IN_REGIME = {
     "eq17.load-exponent": "the same exponent in the regime of the paper",
     "eq17.level": "friction at low speed there over that of Eq. 17; claimed 1",
+}
+AT_SPEED = {
+    "eq14.plateau": "plateau there over that of Eq. 14; claimed 1",
+    "eq23.collapse": "misfit there, shifted at best",
+    "eq23.predicted": "misfit there, shifted as Eq. 22 predicts",
 }
 MISFITS = ("eq23", "Eq. 23", "Eqs. 22")
 
 
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
-    run, slow_found = pandas.read_csv(RUN), pandas.read_csv(slow.PAGE.with_suffix(".csv"))
+    run = pandas.read_csv(RUN)
+    slow_found, fast_found = (pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast))
     scores = trust.scores()
     return {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
-        (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found)),
+        (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
         (PAGE, "costs"): table("to know friction in 3D|within 10 %|within 1 %|error that 1D keeps", _costs()),
         (README, "answer"): _answer(run, scores["friction"][0]),
         (README, "friction"): trust.friction(list(advice_rows(scores))),
         (README, "slow"): slow.answer(slow_found),
+        (README, "fast"): fast.answer(fast_found),
         (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",
         (slow.PAGE, "slow"): slow.answer(slow_found),
+        (fast.PAGE, "fast"): fast.answer(fast_found),
     }
 
 
@@ -95,13 +105,14 @@ def _of_paper(found: DataFrame) -> Iterator[tuple[str, ...]]:
             yield words, *(_cell(_row(found, claim, body, "1D")) for body in BODIES)
 
 
-def _of_study(slow_found: DataFrame) -> Iterator[tuple[str, ...]]:
+def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[str, ...]]:
     found = pandas.read_csv(DOCS / "study" / "standard" / "collapse.csv").rename(columns={"series": "where"})
     places = [(body, dimension) for dimension in ("1D", "3D") for body in BODIES]
     for sentence, words in OF_STUDY.items():
         yield words, *(_cell(_row(found, sentence, body, dimension)) for body, dimension in places)
-    for claim, words in IN_REGIME.items():
-        yield words, *(_cell(_row(slow_found, claim, body, dimension)) for body, dimension in places)
+    for claims, of_regime in ((IN_REGIME, slow_found), (AT_SPEED, fast_found)):
+        for claim, words in claims.items():
+            yield words, *(_cell(_row(of_regime, claim, body, dimension)) for body, dimension in places)
 
 
 def _costs() -> Iterator[tuple[str, ...]]:

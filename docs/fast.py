@@ -14,6 +14,7 @@ from tables import replaced, table
 
 import compare
 from compare.csvfiles import text, write_text
+from compare.finding import verdict
 from compare.plots import style
 from compare.plots.shades import SPEED, bar, between
 from compare.statistics.jackknife import student
@@ -22,6 +23,7 @@ PAGE = Path(__file__).with_suffix(".md")
 README = PAGE.parent.parent / "README.md"
 STUDIES = "steep-all-speeds", "steep-on-fine-grids"
 EXPONENT = {"sphere": 1.5, "cone": 2.0}  # (n + 1)/n: p(v) of a Kelvin solid is v to the power of minus that
+COLUMNS = "claim", "where", "dimension", "value", "low", "high", "draws", "verdict"
 COLLAPSE = {
     "eq23.collapse": "shifted along the load at best, curves miss one another by",
     "eq23.predicted": "shifted by p(v) of the theory, by",
@@ -35,9 +37,8 @@ CORRECTED = {
     "eq14.load-exponent": ("friction goes with the load to the power, less that of the law", 1),
 }
 ANSWER = (
-    "Inside the regime of the paper, from low speed to the plateau, curves of friction shifted as Eq. 23 predicts "
-    "miss one another by {} % (sphere) and {} % (cone) in one dimension, and by {} % and {} % in three; there the "
-    "plateau is {} and {} times that of Eq. 14."
+    "From there to the plateau, curves shifted as Eq. 23 predicts miss one another by {} % (sphere) and {} % "
+    "(cone) in 1D, by {} % and {} % in 3D; the plateau is {} and {} times that of Eq. 14."
 )
 
 
@@ -74,20 +75,24 @@ def main() -> None:
             ),
         ),
     )
-    shifted = [_said(told, "eq23.predicted", dim, body, True) for dim in ("1D", "3D") for body in EXPONENT]
-    levels = [_said(told, "eq14.plateau", "3D", body, False) for body in EXPONENT]
-    answer = ANSWER.format(*(each.replace(" %", "") for each in shifted), *levels)
     for page in (PAGE, README):
-        replaced(page, "fast", answer)
+        replaced(page, "fast", answer(told))
     with style.applied():
         _figure(trees[0]).savefig(PAGE.with_suffix(".png"), dpi=200)
+
+
+def answer(told: DataFrame) -> str:
+    """The answer in one sentence."""
+    in_1d = [_said(told, "eq23.predicted", "1D", body, True).split(" ")[0] for body in EXPONENT]
+    in_3d = [_said(told, "eq23.predicted", "3D", body, True).replace(" %", "") for body in EXPONENT]
+    return ANSWER.format(*in_1d, *in_3d, *(_said(told, "eq14.plateau", "3D", body, False) for body in EXPONENT))
 
 
 def _plain(found, claim, dimension, body):
     """A finding as it stands."""
     chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
     (row,) = found[chosen].itertuples()
-    return {name: getattr(row, name) for name in ("claim", "where", "dimension", "value", "low", "high", "draws")}
+    return {name: getattr(row, name) for name in COLUMNS}
 
 
 def _corrected(found, fine, trees, claim, place, body):
@@ -120,6 +125,7 @@ def _corrected(found, fine, trees, claim, place, body):
         "low": value - half,
         "high": value + half,
         "draws": many["draws"],
+        "verdict": verdict(many["expected"], many["tolerance"], value - half, value + half),
     }
 
 

@@ -25,9 +25,8 @@ CLAIMS = {
     "limit.slow": "friction over its exact limit",
 }
 ANSWER = (
-    "At low speed, inside the regime of the paper, friction in three dimensions goes with the load to the power "
-    "{} for the steep sphere and {} for the steep cone, where Eq. 17 has −0.667 and −0.5; it is {} and {} times "
-    "as high."
+    "Inside the regime of the paper, slow friction in 3D goes with the load to the power {} for the sphere and {} "
+    "for the cone, where Eq. 17 has −0.667 and −0.5, and is {} and {} times as high."
 )
 
 
