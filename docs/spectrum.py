@@ -29,7 +29,7 @@ PAGE = Path(__file__).with_suffix(".md")
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
 GRIDS, TIMES = (2048, 4096), (2, 4)  # solved on all pixels; pixels of the last of them refined so many times
 SHAPES = "sphere", "cone"
-SIDES = 3.6e-3, 0.3e-3, 0.03e-3  # of the panels of the figure [m]
+SIDES = 3.6e-3, 0.3e-3, 0.012e-3  # of the panels of the figure [m]
 HEADER = (
     "|points|pixels a wave|friction|by traction|by loss|depth [µm]|real over nominal contact|points in contact|"
     "processor time [s]"
@@ -148,7 +148,9 @@ def _figure(scene, outcome):
     """Real contact on the finest pixels at three magnifications."""
     x, y, pressure = (outcome.fields[name] for name in ("x", "y", "pressure"))
     pixel, radius = outcome.rows[0].measures["pixel"], elastic_contact(scene).radius
-    middle = int(np.argmax(pressure * (np.hypot(x, y) < radius / 2)))
+    # The point with most others within a spot, away from the rim.
+    near = np.hypot(x[:, None] - x, y[:, None] - y) < SIDES[2] / 2
+    middle = int(np.argmax(near.sum(axis=0) * (np.hypot(x, y) < radius / 2)))
     drawing = style.canvas("double", 2.6)
     for axes, letter, side in zip(drawing.subplots(1, 3), "abc", SIDES, strict=True):
         centre = (0.0, 0.0) if side == SIDES[0] else (x[middle], y[middle])
@@ -165,7 +167,7 @@ def _figure(scene, outcome):
             axes.add_patch(Circle((0, 0), scale * radius, fill=False, **style.line(0.4, 0.6)))
         half = scale * side / 2
         axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal")
-        axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title=f"({letter}) {1e3 * side:g} mm wide")
+        axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title=f"({letter}) {scale * side:g} {unit} wide")
     drawing.colorbar(drawn, ax=drawing.axes, label="pressure [MPa]", extend="max")
     return drawing
 
