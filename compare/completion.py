@@ -1,4 +1,4 @@
-"""What a shell completes on the command line: names of scenes, studies and diagrams, and values of options."""
+"""Completion in a shell: names of scenes, studies and diagrams, and values of options."""
 
 from collections.abc import Callable, Sequence
 from glob import glob

@@ -51,7 +51,7 @@ class Preparing:
 
 
 def watch(preparing: Preparing) -> "Watch":
-    """What tells a terminal how far a run is: bars, or a line for each solve and each figure.
+    """Tells a terminal how far a run is: bars, or a line for each solve and each figure.
 
     preparing : what is shown until then, on the same terminal
     """

@@ -100,7 +100,7 @@ CATALOGUE = {
 
 
 class Listing(dict[str, Any]):
-    """What can be named, each with a title and what it is about; printed, a table of names and titles.
+    """All that can be named, each with its title and subject; printed, a table of names and titles.
 
     offered : by name; groups : headings with the names below each, all names under none if absent
     end : last line

@@ -30,7 +30,7 @@ class Moving(bars.Progress):
         super().__init__(*columns, **options)
 
     def get_renderables(self) -> Iterable[RenderableType]:
-        """What is drawn, of now."""
+        """Lines to draw now."""
         self.before()
         yield from super().get_renderables()
 

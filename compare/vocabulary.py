@@ -30,7 +30,7 @@ status : Whether a contact was solved, has no contact, failed, or was not asked 
 reason : Why a solve failed; empty where it did not.
 
 Of hard cases and of stored quantities.
-check : What is measured of a hard case and must not exceed its bound.
+check : Number measured of a hard case, which must not exceed its bound.
 found : Number of a check; of a refusal, how many of the words it must say are missing. [1]
 allowed : Bound of a check, from the law of the case. [1]
 message : Error that came of what must be refused; in brackets what came instead of one.
@@ -41,7 +41,7 @@ stored : Ratio as the baseline has it. [1]
 
 Of findings.
 claim : Name of the claim, which never changes.
-sentence : What is claimed.
+sentence : The claim in words.
 meaning : How the number is measured, and what a deviation from it says.
 where : Case, series or diagram in which it was measured.
 dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
@@ -65,7 +65,7 @@ regime : Range of the dimensionless groups in which a number was measured.
 plot : Figure that shows it.
 
 Of the trust map: ratios of 1D over 3D, foretold and measured.
-advice : What to do with the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D.
+advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D.
 surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D. [1]
 surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D. [1]
 group : Name of a dimensionless group of a rough scene.
@@ -84,8 +84,8 @@ friction : Coefficient of friction: mean friction force over mean normal force. 
 friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
 
 Of what accuracy costs: laws of cost, forecasts, surfaces on several grids, and what an error asks for.
-kind : What is forecast: a held-out cost, or the largest grid that fits.
-what : What is forecast, in words.
+kind : Kind of forecast: a held-out cost, or the largest grid that fits.
+what : Thing forecast, in words.
 held : Whether a forecast held: the cost found lies in its interval.
 cost : Cost that a law describes: time, memory or operator applications.
 variable : Column of the table of steps that holds the cost.
@@ -279,7 +279,7 @@ standard_error : Standard error of the order. [1]
 estimate : Error that the solver itself expects. [1]
 precision : Floating-point numbers of the solve: single or double.
 extent : Side of the grid over the width of the contact. [1]
-reference : What errors are measured against.
+reference : Solution that errors are measured against.
 """
 
 

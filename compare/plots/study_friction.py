@@ -67,7 +67,7 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
 
 
 def _left_over(axes: Axes, own: DataFrame, fit, solver: str, scale, tolerance: float) -> None:
-    """What the common curve is missed by, with the tolerance."""
+    """Misfit from the common curve, with the tolerance."""
     axes.set(xlabel="shifted normal force [N]", xscale="log")
     axes.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
     axes.axhline(0, **style.line(0, 0.65))

@@ -14,7 +14,7 @@ from . import style
 GIBIBYTE = 2.0**30
 # Forecasts of neighbours are drawn apart by this factor; an interval wider than the other says nothing.
 APART, USELESS = 1.06, 100.0
-# Markers of ladders by name. What is rough is drawn filled.
+# Markers of ladders by name. Rough contacts are drawn filled.
 MARKERS = {
     "plane": "s",
     "rest": "^",

@@ -142,7 +142,7 @@ def _parts(answers):
 
 
 def datasets(seen: View, line: Mapping[str, np.ndarray]) -> tuple[xarray.Dataset, xarray.Dataset | None]:
-    """What is worth seeing of a contact: the surface around it, and the row of springs where there is one.
+    """The part of a contact worth seeing: the surface around it, and the row of springs where there is one.
 
     line : fields of the answer of MDR
     """
@@ -150,7 +150,7 @@ def datasets(seen: View, line: Mapping[str, np.ndarray]) -> tuple[xarray.Dataset
 
 
 def _surface(seen: View) -> xarray.Dataset:
-    """What is worth seeing of the surface (y, x), x where indenter and surface are seen."""
+    """The part of the surface worth seeing (y, x), x where indenter and surface are seen."""
     around = seen.space.around
     fields = {"displacement": around.displacement, "gap": seen.space.gap, "pressure": seen.space.pressure}
     whole = xarray.Dataset(

@@ -118,7 +118,7 @@ def _collapse(judged) -> Plot:
 
 
 def _fitted(judged, solver):
-    """What shifts along the load achieve, where it is decided whether the curves fall onto one; else None."""
+    """Curves shifted along the load, where it is decided whether the curves fall onto one; else None."""
     found, decided = judged.collapses.get(solver), {HOLDS, FAILS}
     known = found is not None and found.horizontal.curve is not None
     own = (each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id)
