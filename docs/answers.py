@@ -12,6 +12,7 @@ import fast
 import numpy as np
 import pandas
 import slow
+import spectrum
 import trust
 from pandas import DataFrame
 from tables import replaced, table
@@ -75,6 +76,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
         (PAGE, "costs"): table("to know friction in 3D|within 10 %|within 1 %|error that 1D keeps", _costs()),
+        (PAGE, "spectrum"): _of_spectrum(),
         (README, "answer"): _answer(run, scores["friction"][0]),
         (README, "friction"): trust.friction(list(advice_rows(scores))),
         (README, "slow"): slow.answer(slow_found),
@@ -113,6 +115,12 @@ def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[st
     for claims, of_regime in ((IN_REGIME, slow_found), (AT_SPEED, fast_found)):
         for claim, words in claims.items():
             yield words, *(_cell(_row(of_regime, claim, body, dimension)) for body, dimension in places)
+
+
+def _of_spectrum() -> str:
+    """A sentence for each body."""
+    found = pandas.read_csv(spectrum.PAGE.with_suffix(".csv"))
+    return " ".join(spectrum.sentence(shape, found[found["shape"] == shape]) for shape in BODIES)
 
 
 def _costs() -> Iterator[tuple[str, ...]]:

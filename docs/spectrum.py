@@ -67,7 +67,7 @@ def main() -> None:
     write_text(PAGE.with_suffix(".csv"), text(frame))
     for shape in SHAPES:
         own = frame[frame["shape"] == shape]
-        replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + _sentence(shape, own))
+        replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + sentence(shape, own))
     finest = tasks["sphere"][-2]
     with style.applied():
         drawing = _figure(finest.scenes[0], swept.outcomes[finest])
@@ -125,7 +125,7 @@ def _line(row):
     return row.dimension, *numbers
 
 
-def _sentence(shape, own):
+def sentence(shape: str, own: DataFrame) -> str:
     """Friction between what both estimates come to, and what one dimension has."""
     three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
     last, limits = three.iloc[-1], [_limit(three[name].to_numpy()) for name in ("by_traction", "by_loss")]
