@@ -58,6 +58,7 @@ class MarchFigure:
             row = passed if solver == "MDR" else None
             touching.section(axes, seen, solver, film.span, self._heights, row)
             axes.set_title(title if self._map is not None else f"{title}, {when}")
+            touching.exaggeration(axes, film.span, self._heights)
             if axes is not self._sections[-1]:
                 axes.set_xlabel("")
             if not seen.touching.any():
