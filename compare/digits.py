@@ -7,6 +7,7 @@ from typing import Any
 # Numbers from the one to below the other are written without a power of ten.
 LEAST_PLAIN, MOST_PLAIN = 1e-3, 1e5
 DIGITS = 4
+MOST_DIGITS = 5  # of a number with its interval, whatever the interval
 # An error this small over its value is one of rounding.
 ROUNDING = 1e-9
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -39,14 +40,20 @@ def number(value: float, digits: int = DIGITS) -> str:
 
 
 def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str:
-    """A number with the ends of its interval, to two digits of half of it; the number alone without one."""
+    """A number with the ends of its interval, to two digits of half of it, five in all.
+
+    The number alone where there is no interval, or where it is too narrow for these digits.
+    """
     half = (high - low) / 2
     if not (isfinite(value) and ROUNDING * abs(value) < half < inf):
         return number(value, digits)
-    power = _power(max(map(abs, (value, low, high))))
-    decimals = _decimals(half / 10.0**power)
+    largest = max(map(abs, (value, low, high)))
+    power = _power(largest)
+    decimals = min(_decimals(half / 10.0**power), MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
+    if decimals < 0:
+        return number(value, MOST_DIGITS)
     middle, below, above = (_signed(f"{each / 10.0**power:.{decimals}f}") for each in (value, low, high))
-    return f"{middle} ({below} to {above}){_times(power)}"
+    return number(value, MOST_DIGITS) if below == above else f"{middle} ({below} to {above}){_times(power)}"
 
 
 def with_unit(text: str, unit: str) -> str:

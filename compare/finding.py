@@ -229,7 +229,12 @@ def _said(verdict, findings, of):
         return f"{verb} " + _listed([number(each) + place for each, place in zip(findings, places, strict=True)])
     if not any(each.where for each in findings):
         return f"{verb} at " + _listed([number(each) for each in findings])
-    return f"{verb} for " + _listed([f"{each.where} at {number(each)}" for each in findings])
+    return f"{verb} for " + _listed([_placed(each) for each in findings])
+
+
+def _placed(found: Finding) -> str:
+    """Place and number; in brackets that there is none."""
+    return f"{found.where} at {number(found)}" if isfinite(found.value) else f"{found.where} ({number(found)})"
 
 
 def _listed(parts):

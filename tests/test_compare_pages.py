@@ -76,6 +76,8 @@ def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, 
 def test_ends_of_an_interval_are_shown_to_two_digits_of_its_half_and_not_at_all_where_unknown():
     assert digits.interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
     assert digits.interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
+    assert digits.interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
+    assert digits.interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
     assert digits.interval(2.0, nan, nan) == digits.interval(2.0, 2.0, 2.0) == "2"
 
 
