@@ -5,6 +5,7 @@ import json
 import os
 import re
 import shutil
+from dataclasses import replace
 from html import escape
 from html.parser import HTMLParser
 from io import BytesIO
@@ -199,6 +200,15 @@ def test_every_form_has_answer_findings_tables_and_figures_escaped(form, tmp_pat
     assert "sphere/friction.png" in text
     assert "<speed>" not in text
     assert "0.9009009" not in shown  # a long table is a file alone
+
+
+@pytest.mark.parametrize(("form", "end"), [("html", "</div>"), ("markdown", " |")])
+def test_a_regime_stands_in_the_first_row_of_its_place_alone(form, end, tmp_path):
+    slow, fast = (replace(FINDINGS[0], where="sphere", regime=regime) for regime in ("slowly", "fast"))
+    other = replace(slow, where="cone")
+    block = Page("Found", (), (Findings((slow, fast, slow, other, fast)),))
+    text = pages.write(block, [slow, fast, other], tmp_path, form).read_text()
+    assert (text.count(f"slowly{end}"), text.count(f"fast{end}")) == (2, 1)
 
 
 def test_the_terminal_shows_a_claim_once_and_its_findings_below():

@@ -1,7 +1,7 @@
 """Columns of a table as people read them: in words with units, a number together with its interval."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Real
 from typing import Any
 
@@ -49,13 +49,23 @@ def columns(frame: DataFrame, figures: int = digits.DIGITS, merged: bool = True)
     return [_column(frame, name, joined[name], figures) for name in names if name not in hidden]
 
 
+def regimes_once(findings: Sequence[Finding]) -> list[Finding]:
+    """The same findings, each regime of a place in the first row alone that has it."""
+    seen, found = set(), []
+    for each in findings:
+        key = each.where, each.dimension, each.regime
+        found.append(replace(each, regime="") if key in seen else each)
+        seen.add(key)
+    return found
+
+
 def claims(findings: Sequence[Finding]) -> dict[str, list[str]]:
     """Findings as columns of text, by their heads; those in which nothing stands are left out."""
     cells = {
         "Verdict": [each.verdict for each in findings],
         "Claim": [each.claim.sentence for each in findings],
         "Model": [each.dimension for each in findings],
-        "Where": [each.place for each in findings],
+        "Where": [each.place for each in regimes_once(findings)],
         "Found (95 %)": [each.found() for each in findings],
         "Claimed": [each.claimed for each in findings],
         "Basis": ["; ".join(filter(None, (each.basis, each.why))) for each in findings],

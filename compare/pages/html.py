@@ -15,7 +15,7 @@ from ..page import Page, Plot, Section, Table
 from ..plots.rendering import Picture
 from ..vocabulary import Term, entry, stem
 from . import mathematics, prose
-from .columns import columns
+from .columns import columns, regimes_once
 
 # A longer table is no reading, and a larger file is not put into the page.
 MOST_ROWS, MOST_BYTES = 400, 300_000
@@ -66,6 +66,7 @@ def _content(used, pictures, tables, figures) -> dict[str, Any]:
         "figures": figures,
         "prose": lambda markdown: Markup(prose.html(markdown)),
         "typeset": lambda words: Markup(_typeset(words)),
+        "regimes_once": regimes_once,
         "mathml": lambda latex: Markup(mathematics.mathml(latex)),
         "rows": lambda table: _rows(table.frame, used, people=True),
         "head": lambda label, name: Markup(_head(label, name, used)),
