@@ -1,7 +1,7 @@
 """The knee and the plateau in the paper's own regime: the numbers and the figure of docs/fast.md, and its answers.
 
 They are those of `crosscheck study steep-all-speeds` and `steep-on-fine-grids`, both with `--size standard`, in
-whose folder they are solved. From nothing it takes an hour and a half on two cores.
+whose folder they are solved. From nothing it takes two hours on two cores.
 """
 
 from math import hypot

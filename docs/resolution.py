@@ -39,7 +39,7 @@ The steep sphere of the studies (rms slope 0.28, shortest wave 32 µm, h₀ = 3 
 of 2.9 to 23 pixels to the shortest wave. Numbers are over those on the finest grid: friction by each estimate
 ([theory](theory.md), Eqs. 5c to 5e) over the answer there; at rest the curvature that the pressure weighs, which
 is friction over vτ at low speed. A spot is as wide as a disc with the area over rim of the real contact.
-Written by `python docs/resolution.py`.
+Which estimate is worth its time shows [a contest](contest.md). Written by `python docs/resolution.py`.
 
 ![Friction of the steep sphere over that on the finest grid](resolution.png)
 
