@@ -66,7 +66,7 @@ class Case:
                 found[slow, points, 1] = SceneTask(BEM(points=points), (scene,), work=points**2)
             # Elsewhere too much touches for a matrix of its points.
             for points in self.grids[:-2] if self.finer and slow == max(self.speeds) else ():
-                for times in self.finer:
+                for times in (each for each in self.finer if each * points < self.grids[-1]):
                     solver = Refined(BEM(points=points), times)
                     found[slow, points, times] = SceneTask(solver, (scene,), work=points**2)
         return found
