@@ -300,6 +300,11 @@ def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(re
     assert -20 < low < -10 < 5 < high < 20
     marks = {line.get_marker(): line.get_xdata().tolist() for line in below.lines if line.get_marker() in "v^"}
     assert marks == {"v": [pytest.approx(100)], "^": [pytest.approx(100)]}
+    deviations["deviation_low"], deviations["deviation_high"] = -0.2, 0.1
+    with style.applied():
+        below = force_depth.figure({**plot.tables, force_depth.DEVIATIONS: deviations}).axes[1]
+    # A mark without points would count in the layout, at the corner of the figure.
+    assert all(len(line.get_xdata()) for line in below.lines)
 
 
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])

@@ -112,4 +112,5 @@ def _limit(axes, depths, values, low, high):
     axes.set_ylim(bottom, top)
     for edge, marker, beyond in ((bottom, "v", low < bottom), (top, "^", high > top)):
         look = {"color": style.ink(), "markersize": style.mark(), "clip_on": False, "linestyle": "none"}
-        axes.plot(depths[beyond], np.full(beyond.sum(), edge), marker=marker, **look)
+        if beyond.any():  # a line without points counts in the layout, at the corner of the figure
+            axes.plot(depths[beyond], np.full(beyond.sum(), edge), marker=marker, **look)
