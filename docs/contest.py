@@ -5,14 +5,14 @@ been solved once is in docs/contest/solved; from nothing it takes an hour and 4 
 """
 
 from dataclasses import dataclass, replace
-from math import nan, pi
+from math import pi
 from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame
 from rich.console import Console
 from spectrum import Refined
-from tables import replaced, table
+from tables import limit, replaced, table
 
 from bem3d import BEM
 from compare.csvfiles import text, write_text
@@ -73,7 +73,7 @@ class Case:
 
 
 def cases() -> list[Case]:
-    """What is solved."""
+    """The four contacts."""
     solid, pressed = Kelvin(1e6, TIME), Slide(speed=0.0, pressure=PRESSURE)
     body = Scene(Sphere(1e-2), solid, Slide(speed=0.0, load=1.0))
     radius = elastic_contact(body).radius
@@ -147,18 +147,13 @@ def _rungs(case, speed, solved):
         for name in ("traction", "loss", "curvature") if speed < 1 else ("traction", "loss"):
             yield rung(name, points, row.measures[f"friction_by_{name}"] / row.normal_force, row.seconds)
     for three in zip(grids, grids[1:-1], grids[2:-1], strict=False):
-        value = _limit([at[points].friction_coefficient for points in three])
+        values = [at[points].friction_coefficient for points in three]
+        value = limit(values, LEAST_ORDER)
+        value = value if np.isfinite(value) else values[-1]
         yield rung("extrapolated", three[-1], value, sum(at[points].seconds for points in three))
     for (points, times), row in solved.items():
         if times > 1:
             yield rung("refined", points * times, row.friction_coefficient, at[points].seconds + row.seconds)
-
-
-def _limit(values):
-    """Limit of the numbers on three grids, each twice as fine; the last where they show no order."""
-    first, second = np.diff(values)
-    ratio = first / second if second else nan
-    return values[-1] + second / (ratio - 1) if ratio >= 2**LEAST_ORDER else values[-1]
 
 
 def _costs(frame):

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.patches import Circle
 from pandas import DataFrame
 from rich.console import Console
-from tables import replaced, table
+from tables import limit, replaced, table
 
 from bem3d import BEM, refined
 from compare.csvfiles import text, write_text
@@ -128,7 +128,7 @@ def _line(row):
 def sentence(shape: str, own: DataFrame) -> str:
     """Friction between what both estimates come to, and what one dimension has."""
     three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-    last, limits = three.iloc[-1], [_limit(three[name].to_numpy()) for name in ("by_traction", "by_loss")]
+    last, limits = three.iloc[-1], [limit(three[name].to_numpy()) for name in ("by_traction", "by_loss")]
     known = [last["by_loss"], last["by_traction"], *(each for each in limits if np.isfinite(each))]
     low, high, slope = min(known), max(known), three["rms_slope"].iloc[0]
     return (
@@ -136,12 +136,6 @@ def sentence(shape: str, own: DataFrame) -> str:
         f"surface, at a rms slope of {slope:.1f} that is far beyond any linear theory; one dimension has "
         f"{one.friction:.2f}."
     )
-
-
-def _limit(values):
-    """Limit of numbers on grids of half the pixel each, at the order of the last three; NaN where none is seen."""
-    first, second = np.diff(values[-3:])
-    return values[-1] + second / (first / second - 1) if 0 < second / first < 1 else nan
 
 
 def _figure(scene, outcome):

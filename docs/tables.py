@@ -20,6 +20,16 @@ def order(points, errors) -> float:
     return -np.polyfit(np.log(points), np.log(errors), 1)[0]
 
 
+def limit(values, least: float = 0.0) -> float:
+    """Limit of numbers on grids of half the pixel each, at the order of the last three.
+
+    NaN where they show none, or one below the least.
+    """
+    first, second = np.diff(values[-3:])
+    ratio = first / second if second else np.nan
+    return values[-1] + second / (ratio - 1) if ratio > 2**least else np.nan
+
+
 def replaced(path: Path, name: str, text: str) -> None:
     """Replace what stands between two comments of a page."""
     page = path.read_text(encoding="utf-8")
