@@ -135,7 +135,7 @@ def _costs() -> Iterator[tuple[str, ...]]:
 
 def _reached(row) -> str:
     known = isinstance(row["settings"], str)
-    return f"{row['settings']}: {number(row['seconds'], 2)} s" if known else "not reached"
+    return f"{row['model']}, {row['settings']}: {number(row['seconds'], 2)} s" if known else "not reached"
 
 
 def _answer(run: DataFrame, score: trust.Score) -> str:
