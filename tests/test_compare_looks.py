@@ -427,6 +427,8 @@ def test_a_text_is_broken_where_it_would_be_too_wide():
     assert len(lines) > 1
     assert all(style.text_width(line, 8) <= 1.0 for line in lines)
     assert style.fill("a\nb", 1.0, 8) == "a\nb"
+    told = style.fill("sphere, standard linear, v τ = 10 a", 1.5, 8)
+    assert "v\u00a0τ\u00a0=\u00a010\u00a0a" in told.split("\n")
 
 
 @pytest.mark.parametrize(("inches", "expected"), [(0.1, 1), (3.0, 2), (30.0, 4)])

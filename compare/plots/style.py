@@ -5,6 +5,7 @@ changes all of them.
 """
 
 import logging
+import re
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -46,6 +47,8 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
 # Of the page, what numbers and label of a vertical axis take.
 BESIDE = 0.06
+# A blank at which no line ends, and where a title has it.
+GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
 TEXTS = {
     "axes.labelsize": 1.0,
     "axes.titlesize": 1.0,
@@ -282,11 +285,11 @@ def text_width(text: str, points: float, weight: str = "normal") -> float:
 
 
 def fill(text: str, inches: float, points: float, weight: str = "normal") -> str:
-    """The text in lines that are no longer, broken between words; lines of its own stay."""
+    """The text in lines that are no longer, broken between words, not in a speed; lines of its own stay."""
     lines: list[str] = []
     for given in text.split("\n"):
         line = ""
-        for word in given.split():
+        for word in FORMULA.sub(lambda found: found[0].replace(" ", GLUE), given).split(" "):
             longer = f"{line} {word}".strip()
             if line and text_width(longer, points, weight) > inches:
                 lines.append(line)
