@@ -51,7 +51,7 @@ class Preparing:
 
 
 def watch(preparing: Preparing) -> "Watch":
-    """Tells a terminal how far a run is: bars, or a line for each solve and each figure.
+    """A watch that tells a terminal how far a run is: bars, or a line for each solve and each figure.
 
     preparing : what is shown until then, on the same terminal
     """

@@ -50,8 +50,6 @@ def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str
     largest = max(map(abs, (value, low, high)))
     power = _power(largest)
     decimals = min(_decimals(half / 10.0**power), MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
-    if decimals < 0:
-        return number(value, MOST_DIGITS)
     middle, below, above = (_signed(f"{each / 10.0**power:.{decimals}f}") for each in (value, low, high))
     return number(value, MOST_DIGITS) if below == above else f"{middle} ({below} to {above}){_times(power)}"
 

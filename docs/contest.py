@@ -1,7 +1,7 @@
 """Which estimate of friction is worth its time: writes docs/contest.md, .csv and .png.
 
 One asperity, crossed waves, a rough cell and the steep sphere at three speeds, each on a ladder of grids. What has
-been solved once is in docs/contest/solved; from nothing it takes an hour and 4 GB of memory.
+been solved once is in docs/contest/solved; from nothing it takes half an hour and 5 GB of memory.
 """
 
 from dataclasses import dataclass, replace

@@ -50,7 +50,7 @@ def columns(frame: DataFrame, figures: int = digits.DIGITS, merged: bool = True)
 
 
 def regimes_once(findings: Sequence[Finding]) -> list[Finding]:
-    """The same findings, each regime of a place in the first row alone that has it."""
+    """Findings to show, with a regime in the first row of its place alone."""
     seen, found = set(), []
     for each in findings:
         key = each.where, each.dimension, each.regime
