@@ -1,12 +1,16 @@
 """Friction of a steady contact: estimates from one pressure, and the answer that joins their strengths."""
 
 from dataclasses import dataclass
+from math import inf
 from typing import Self
 
 import numpy as np
 
+from scene.indenter import Axisymmetric
+
 from .grid import Grid
 from .problem import Problem
+from .surface import RoughSurface
 
 
 @dataclass(frozen=True)
@@ -27,11 +31,11 @@ class Friction:
     slowness: float
 
     @classmethod
-    def of(cls, problem: Problem, grid: Grid, pressure: np.ndarray) -> Self:
-        """Friction from the pressure [Pa] (rows, points)."""
-        slopes = problem.slopes(grid, problem.surface(grid))
+    def of(cls, problem: Problem, grid: Grid, pressure: np.ndarray, surface: RoughSurface | None) -> Self:
+        """Friction from the pressure [Pa] (rows, points) on this roughness."""
+        slopes = problem.slopes(grid, surface)
         loss, work = problem.lost(grid, pressure)
-        curvature = curvature_by_pressure(problem, grid, pressure)
+        curvature = curvature_by_pressure(problem.scene.indenter, grid, pressure, surface)
         return cls(
             by_traction=float(-np.sum(pressure * slopes) * grid.patch),
             by_loss=loss,
@@ -46,8 +50,20 @@ class Friction:
     @property
     def force(self) -> float:
         """The answer [N]."""
-        fast = self.lag * self.by_traction + (1 - self.lag) * self.by_loss
-        return self.slowness * self.by_curvature + (1 - self.slowness) * fast
+        return self.joined(self)
+
+    def joined(self, other: Self) -> float:
+        """Estimates of another joined as those of this are [N]."""
+        fast = self.lag * other.by_traction + (1 - self.lag) * other.by_loss
+        return self.slowness * other.by_curvature + (1 - self.slowness) * fast
+
+    @property
+    def contradiction(self) -> float:
+        """The most that traction or curvature differ from the loss, as far as they count, over the answer."""
+        most = max(
+            self.lag * abs(self.by_traction - self.by_loss), self.slowness * abs(self.by_curvature - self.by_loss)
+        )
+        return most / abs(self.force) if self.force else 0.0 if most == 0 else inf
 
     @property
     def disagreement(self) -> float:
@@ -70,18 +86,24 @@ class Friction:
         }
 
 
-def curvature_by_pressure(problem: Problem, grid: Grid, pressure: np.ndarray) -> float:
+def curvature_by_pressure(indenter, grid: Grid, pressure: np.ndarray, surface: RoughSurface | None) -> float:
     """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
 
     pressure : not zero everywhere [Pa] (rows, points)
-
-    That of the roughness is exact at the pixels' centres, that of the indenter a difference of slopes in fourth
-    order. What is left is the error of the pressure, of second order in the pixel, and of first order around the
-    tip of a cone, where pressure and d2z/dx2 are infinite.
     """
-    slopes = np.pad(problem.slopes(grid, None), ((0, 0), (2, 2)), "reflect", reflect_type="odd")
-    next_to, next_but_one = slopes[:, 3:-1] - slopes[:, 1:-3], slopes[:, 4:] - slopes[:, :-4]
-    gained = np.sum(pressure * (8 * next_to - next_but_one)) / (12 * grid.pixel)
-    if (surface := problem.surface(grid)) is not None:
-        gained += np.sum(pressure * surface.curvatures(grid.x, grid.y))
-    return float(gained / pressure.sum())
+    curvatures = indenter_curvature(indenter, grid.x[None, :], grid.y[:, None], grid.pixel)
+    if surface is not None:
+        curvatures = curvatures + surface.curvatures(grid.x, grid.y)
+    return float(np.sum(pressure * curvatures) / pressure.sum())
+
+
+def indenter_curvature(indenter, x, y, pixel: float) -> np.ndarray:
+    """d2z/dx2 [1/m] of an indenter on pixels around x, y [m], of any broadcastable shapes.
+
+    At their centres where it is known and finite: the pressure of a blunt body ends within a pixel, and a mean
+    over that pixel counts what grows beyond the end. Else its mean along x over the pixel, from the slopes at
+    both sides, as at the tip of a cone, where it is infinite.
+    """
+    if isinstance(indenter, Axisymmetric) and indenter.exponent >= 2:
+        return indenter.curvature(x, y)
+    return (indenter.slope(x + pixel / 2, y) - indenter.slope(x - pixel / 2, y)) / pixel

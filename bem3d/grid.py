@@ -76,6 +76,12 @@ class Grid:
             values = _interpolated(values, position, axis)
         return values
 
+    def averaged(self, values: np.ndarray, given: "Grid") -> np.ndarray:
+        """Means over the pixels of this grid of values that are constant on those of another of the same piece."""
+        along = _overlap(self.points, given.points)
+        across = along if self.width is None else np.ones((1, 1))
+        return across @ values @ along.T
+
     def resampled_contact(self, pressure: np.ndarray, given: "Grid") -> np.ndarray:
         """A pressure of another grid, zero where it is zero at the nearest point, or has none.
 
@@ -122,6 +128,13 @@ class Piece(Grid):
     def rows(self) -> int:
         """Pixels along y."""
         return self.lines
+
+
+def _overlap(points, given):
+    """Shares of each of so many pixels that those of a row of others, as long, cover (points, given)."""
+    edges, others = (np.arange(count + 1) / count for count in (points, given))
+    covered = np.minimum(edges[1:, None], others[1:]) - np.maximum(edges[:-1, None], others[:-1])
+    return np.maximum(covered, 0.0) * points
 
 
 def _interpolated(values, position, axis):

@@ -1,4 +1,4 @@
-"""Plan of this solver for a scene: grids and kernels as `Problem` builds them, costs by the ladder."""
+"""Plan of this solver for a scene: grids and kernels as `Problem` builds them, costs as measured."""
 
 from dataclasses import replace
 from math import ceil, log10
@@ -13,8 +13,8 @@ from scene.terms import terms_of
 from scene.viscoelastic import Linear
 
 from . import window
-from .accuracy import typical
 from .arrays import as_drawn, engine_of, in_contact, laying_out, of_roughness, padded, product
+from .costs import typical
 from .grid import Grid
 from .marching import places
 from .problem import COARSEST, row_width
@@ -23,9 +23,9 @@ from .timeline import timeline
 from .upstream import left_behind, wider_grids
 
 EFFECTS = Path(__file__).with_name("effects.csv")
-# What the ladder is made of. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
-IN_THE_LADDER = (Axisymmetric, Linear, Indent, Slide, SelfAffine)
-LADDER = "medians of solves to 1e-7 on the machine where the ladder was measured"
+# What was measured. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
+PRICED = (Axisymmetric, Linear, Indent, Slide, SelfAffine)
+HOW = "medians of solves to 1e-7 on the machine where they were measured"
 TIGHT = 1e-7
 LEFT_OUT = {
     "roughness": "no spectrum, and nothing is drawn on top of the indenter",
@@ -186,20 +186,20 @@ def _held(solver, scene, flow, shape, march):
 
 
 def _expected(solver, scene, shape, march):
-    """Costs of a steady contact by the ladder, times the measured factors of parts that the ladder has not."""
+    """Costs of a steady contact as measured, times the measured factors of parts that were not in it."""
     if shape[0] == 1:
-        return not_known("the ladder has squares, no rows")
+        return not_known("squares were measured, no rows")
     if isinstance(scene.indenter, Plane):
-        return not_known("in the ladder planes are few among spheres, which take several times as long")
+        return not_known("few planes were measured among spheres, which take several times as long")
     rough = scene.roughness
     if rough is not None and not rough.flat and getattr(rough, "shortest", None) is None:
-        return not_known("the ladder has no roughness without a shortest wave")
-    others = [part for part in scene.parts.values() if not isinstance(part, IN_THE_LADDER)]
+        return not_known("no roughness without a shortest wave was measured")
+    others = [part for part in scene.parts.values() if not isinstance(part, PRICED)]
     steady, times = (replace(scene, motion=scene.motion.held), march.steps) if march else (scene, 1)
 
-    def by_the_ladder():
+    def as_measured():
         counted = at_tolerance(typical(steady, shape[1]), log10(solver.tolerance / TIGHT))
         return {name: times * value for name, value in counted.items()}
 
-    why = LADDER if solver.tolerance == TIGHT else f"{LADDER}, brought to {solver.tolerance:g} by what a few took"
-    return expected(by_the_ladder, why, others, EFFECTS)
+    why = HOW if solver.tolerance == TIGHT else f"{HOW}, brought to {solver.tolerance:g} by what a few took"
+    return expected(as_measured, why, others, EFFECTS)

@@ -14,7 +14,7 @@ import numpy as np
 from scene import Plane, Program, Result, SolveError
 
 from . import wake
-from .friction import Friction
+from .friction import Friction, indenter_curvature
 from .grid import Grid, Piece
 from .problem import Problem
 
@@ -194,12 +194,8 @@ def _friction(problem, grid, touching, pressure) -> Friction:
     scene, flow, surface, force = problem.scene, problem.flow, problem.surface(grid), float(pressure.sum())
     x, y = grid.x[touching.column], grid.y[touching.row]
 
-    def slope(pixels):
-        return scene.indenter.slope(x + pixels * grid.pixel, y)
-
-    slopes = slope(0)
-    # As `curvature_by_pressure`: a difference in fourth order of the indenter, exact of the roughness.
-    curvatures = (8 * (slope(1) - slope(-1)) - (slope(2) - slope(-2))) / (12 * grid.pixel)
+    slopes = scene.indenter.slope(x, y)
+    curvatures = indenter_curvature(scene.indenter, x, y, grid.pixel)
     if surface is not None:
         slopes = slopes + _at(touching, grid, surface.slopes)
         curvatures = curvatures + _at(touching, grid, surface.curvatures)

@@ -34,6 +34,13 @@ class Axisymmetric:
         c, n = self.coefficient, self.exponent
         return np.where(r > 0, c * n * x * np.where(r > 0, r, 1.0) ** (n - 2), 0.0)
 
+    def curvature(self, x, y):
+        """d2z/dx2 [1/m]; at the tip infinite for exponents below 2, there NaN."""
+        r = np.hypot(x, y)
+        c, n = self.coefficient, self.exponent
+        away = np.where(r > 0, r, 1.0 if n >= 2 else np.nan)
+        return c * n * np.where(r > 0, r, 0.0 if n > 2 else 1.0) ** (n - 2) * (1 + (n - 2) * np.square(x / away))
+
     def radius_at(self, height):
         """Radius [m] at which the shape reaches a height [m] >= 0."""
         return (height / self.coefficient) ** (1 / self.exponent)

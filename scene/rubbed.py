@@ -24,9 +24,8 @@ class Rubbed(Term):
         if not isinstance(result.scene.motion, Slide):
             return result
         friction = self.part.coefficient * result.normal_force
+        total = result.friction_force + friction
         parts = {"friction_in_elastomer": result.friction_force, "friction_in_interface": friction}
-        return replace(
-            result,
-            friction_force=result.friction_force + friction,
-            measures={**result.measures, **parts},
-        )
+        if "friction_error" in result.measures:  # that of the interface has none
+            parts["friction_error"] = result.measures["friction_error"] * result.friction_force / total
+        return replace(result, friction_force=total, measures={**result.measures, **parts})

@@ -78,6 +78,11 @@ MEASURES: Mapping[str, Entry] = {
     "friction_disagreement": Entry(
         "1", "Difference of estimates of friction over the normal force: an indicator of its error, no bound."
     ),
+    "friction_error": Entry(
+        "1",
+        "Bound of 95 % on the relative error of friction by the grid: against the same model and surface on ever "
+        "finer grids. Absent without friction.",
+    ),
     "friction_in_elastomer": _force("Part of the friction that the elastomer dissipates."),
     "friction_in_interface": _force("Part of the tangential force that shear of the interface carries."),
     "heating_solves": Entry("1", "Contacts that were solved to find the temperature at which heat is balanced."),

@@ -1,0 +1,59 @@
+"""Costs of steady contacts by points, as measured: what plans and settings for an accuracy are priced by."""
+
+import csv
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from scene import Scene
+from scene.scales import elastic_contact
+
+from .sliding import Flow
+
+MEASURED = Path(__file__).with_name("costs.csv")
+BANDS = ("rest", "slow", "middle", "fast")
+SLOW, FAST = 0.1, 10.0  # memory over the shortest length of the contact, between which it slides at middle speed
+COSTS = "seconds", "applications"  # of a solve, medians by points a side
+
+
+def band(scene: Scene) -> str:
+    """Class of speed of a scene, by the length of its memory over the shortest length of its contact."""
+    flow, rough = Flow.of(scene.solid, scene.motion.speed), scene.roughness
+    if flow.at_rest:
+        return "rest"
+    smooth = rough is None or rough.flat
+    shortest: Any = elastic_contact(scene).radius if smooth else rough.shortest
+    memory = flow.memory / shortest
+    return "slow" if memory < SLOW else "middle" if memory < FAST else "fast"
+
+
+def body(scene: Scene) -> str:
+    """Kind of body by which costs are told apart."""
+    return "smooth" if scene.roughness is None or scene.roughness.flat else "rough"
+
+
+def typical(scene: Scene, points: int) -> dict[str, float]:
+    """Costs of such a body at such a speed on a square of so many points a side, by the names of `COSTS`."""
+    return {name: _between(measured()[body(scene), band(scene), name], points) for name in COSTS}
+
+
+@cache
+def measured() -> Mapping[tuple[str, str, str], np.ndarray]:
+    """Points a side and medians of a cost (2, grids), by body, band and name of the cost."""
+    grids: dict[tuple[str, str, str], list[tuple[float, float]]] = {}
+    with MEASURED.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            kind = row["body"], row["band"], row["cost"]
+            grids.setdefault(kind, []).append((float(row["points"]), float(row["value"])))
+    return {kind: np.array(sorted(pairs)).T for kind, pairs in grids.items()}
+
+
+def _between(grids, points):
+    """Cost between two grids, by a power of the points."""
+    x, y = np.log(grids)
+    k = int(np.clip(np.searchsorted(x, np.log(points)), 1, len(x) - 1))
+    slope = (y[k] - y[k - 1]) / (x[k] - x[k - 1])
+    return float(np.exp(y[k] + slope * (np.log(points) - x[k])))

@@ -1,0 +1,135 @@
+"""Error of friction that the grid leaves: a bound of 95 %, from one pressure and without another solve.
+
+What is known of one pressure: estimates of friction that fail in different ways, and the same estimates on pixels
+twice as wide. `friction_error.csv` has what the error is in proportion to, fitted to random contacts that were
+solved on finer grids: the 95 % quantile of its logarithm, linear in `signs` (Koenker and Bassett, Econometrica 46,
+33, 1978).
+"""
+
+import csv
+from collections.abc import Mapping
+from functools import cache
+from math import ceil, exp, isnan, log, sqrt
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from scene import Plane, SolveError
+
+from .friction import Friction
+from .grid import Grid
+from .problem import Problem
+
+FITTED = Path(__file__).with_name("friction_error.csv")
+# A change that vanishes by chance says little: none counts as less than this share of all together.
+LEAST_SHARE = 0.03
+LEAST_LAG = 3e-3  # below which what friction has beyond the first order in the speed does not show
+LEAST = 1e-7  # change over friction: less is rounding, or the tolerance
+MOST = 10.0  # change over friction: more is no more
+OF_TOLERANCE = 3.0  # error of friction over the residual, at most
+CONTRADICTED = 0.5  # of the answer, by which estimates differ that tell nothing
+SPARE, FARTHEST = 1.5, 8.0  # points over what the estimates ask for, and over those there are, at most
+
+
+def on_grid(
+    problem: Problem, grid: Grid, pressure: np.ndarray, residual: float
+) -> tuple[Friction, dict[str, float]]:
+    """Friction from a pressure [Pa] (rows, points) solved to a residual, and its measures by name.
+
+    Raises SolveError as `bound` does.
+    """
+    surface, wider = problem.surface(grid), grid.coarser()
+    friction = Friction.of(problem, grid, pressure, surface)
+    measures = friction.measures(float(pressure.sum() * grid.patch))
+    if friction.force:
+        coarser = Friction.of(problem, wider, wider.averaged(pressure, grid), surface)
+        touched = pressure > 0
+        spot, count = grid.spot_radius(touched), int(np.count_nonzero(touched))
+        measures["friction_error"] = bound(
+            signs(problem, grid, friction, coarser, spot, count), friction, grid.points, residual
+        )
+    return friction, measures
+
+
+def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> float:
+    """Bound on the relative error of friction against the same surface on ever finer grids; it holds in 95 %.
+
+    seen : signs of the error of this friction; points : along each side of its grid; residual : of the solve
+
+    Raises SolveError where friction is not known to its sign, or its estimates contradict one another.
+    """
+    weights = _fitted()[seen.kind]
+    found = exp(sum(weights[name] * value for name, value in seen.numbers.items())) + OF_TOLERANCE * residual
+    apart = friction.contradiction
+    if apart > CONTRADICTED or found >= 1:
+        times = min(max(found, apart / (1 - min(apart, 0.9))) * SPARE, FARTHEST)
+        raise SolveError(
+            f"friction is not told by {points} points a side: its estimates differ by {apart:.0%} of it, and its "
+            f"error may be {min(found, 99):.0%}; take about {ceil(times * points / 2) * 2} points, or a smaller "
+            "extent"
+        )
+    return found
+
+
+class Signs(NamedTuple):
+    """Signs of an error: the kind of contact, by which they weigh, and numbers by name."""
+
+    kind: str
+    numbers: Mapping[str, float]
+
+
+def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, spot: float, touched: int) -> Signs:
+    """Signs of the error of friction.
+
+    friction, coarser : of one pressure, on the pixels of the grid and on those twice as wide
+    spot : radius of a spot of contact [m]; touched : pixels in contact
+
+    Logarithms of what friction changes by, as far as that counts, from one estimate to another and from the pixels
+    to those twice as wide; and of how many pixels there are on what has to be resolved.
+    """
+    lag, slow, force = friction.lag, friction.slowness, friction.force
+    fast = 1 - slow
+
+    def change(weight, one, other):
+        return min(weight * abs((one - other) / force), MOST) + LEAST
+
+    changes = {
+        "joined, on wider pixels": change(1.0, friction.joined(coarser), force),
+        "traction, on wider pixels": change(fast * lag, coarser.by_traction, friction.by_traction),
+        "loss, on wider pixels": change(fast * (1 - lag), coarser.by_loss, friction.by_loss),
+        "curvature, on wider pixels": change(slow, coarser.by_curvature, friction.by_curvature),
+        "traction to loss": change(lag, friction.by_traction, friction.by_loss),
+        "work to loss": change(fast * (1 - lag), friction.by_work, friction.by_loss),
+        "curvature to loss": change(slow, friction.by_curvature, friction.by_loss),
+    }
+    least = LEAST_SHARE * sqrt(sum(each**2 for each in changes.values()))
+    changes["curvature to answer"] = change(1.0, friction.by_curvature, force)  # of a fast flow it tells the speed
+    scene, waves = problem.scene, problem.points_per_wave(grid)
+    across, smooth = log(spot / grid.pixel), isnan(waves)
+    kind = f"{'smooth' if smooth else 'rough'}, {'slow' if slow > 1 / 2 else 'fast'}"
+    return Signs(
+        kind,
+        {
+            "one": 1.0,
+            **{name: log(max(each, least)) for name, each in changes.items()},
+            "points": log(touched),
+            "spot": across,
+            "spot, squared": across**2,
+            "edge": across - log(getattr(scene.indenter, "exponent", 2.0)),
+            "wave": 0.0 if smooth else log(waves),
+            "trail": log(max(lag, LEAST_LAG)),
+            "breadth": log(problem.flow.memory / problem.flow.trail),
+            "lag": lag,
+            "slowness": slow,
+            "plane": float(isinstance(scene.indenter, Plane)),
+        },
+    )
+
+
+@cache
+def _fitted() -> Mapping[str, Mapping[str, float]]:
+    """Weights of the signs by name, for each kind of contact."""
+    with FITTED.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {kind: {row["sign"]: float(row[kind]) for row in rows} for kind in rows[0] if kind != "sign"}

@@ -1,0 +1,190 @@
+"""Error of friction that an answer states, against finer grids: what the bound is fitted to, and whether it holds."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isnan, nan
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linprog
+from scipy.sparse import csr_matrix, hstack, identity
+from scipy.stats import beta
+
+from bem3d import BEM, frictionerror
+from bem3d.costs import band
+from compare.outcome import Outcome, Row
+from compare.task import SceneTask, Task
+from mdr1d import MDR
+from scene import Scene
+
+from . import scenes
+
+EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # a scene of a kind for so many seeds
+POINTS = (20, 120)  # of the grids that are judged, beside REFERENCE[0]
+REFERENCE = 128, 256, 512  # points, the last of which tell the truth
+FINER = 1024  # points of smooth bodies where REFERENCE has not converged
+CONVERGED = 3e-4
+ORDERS = 0.7, 2.0  # between which the order is taken at which the last error falls
+WAVES = 2.2, 40.0  # nodes on the shortest wave of judged lines
+EXTENT = 8 * scenes.RADIUS  # of lines [m]
+FINER_LINES = 8, 16  # times the nodes of a judged line
+KNOWN = 1 / 3, 3e-5  # of the error, or at all: what the truth is known to where it judges
+FEWEST = 40  # answers of a region
+PIXELS = 0.0, 3.0, 5.0, 8.0, 16.0, np.inf  # a wave
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A scene on a grid to be judged, and the same on finer grids."""
+
+    kind: str
+    task: SceneTask
+    finer: tuple[SceneTask, ...]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self.task.scenes[0]
+
+    @property
+    def tasks(self) -> tuple[Task, ...]:
+        """What is solved."""
+        return (self.task, *self.finer)
+
+
+def judged(seeds: range) -> Iterator[Judged]:
+    """Contacts in three dimensions of some seeds: on a random grid, and on the coarsest of the reference."""
+    for kind in scenes.KINDS:
+        for seed in seeds[:: EVERY[kind]]:
+            scene = scenes.drawn(kind, seed)
+            finer = tuple(_task(BEM(points=points), scene) for points in REFERENCE)
+            points = 2 * int(np.random.default_rng([seed, 7]).integers(*POINTS) // 2)
+            for task in (_task(BEM(points=points), scene), finer[0]):
+                yield Judged(kind, task, finer)
+
+
+def judged_lines(seeds: range) -> Iterator[Judged]:
+    """Contacts in one dimension: a third smooth, and a fifth of the rough ones cut off by their grid."""
+    for seed in seeds:
+        kind, draw = ("smooth", "rough", "rough")[seed % 3], np.random.default_rng([seed, 8])
+        scene = scenes.drawn(kind, seed)
+        points, extent = int(10 ** draw.uniform(1.5, 4)), EXTENT
+        if scene.roughness is not None:
+            waves = 10 ** draw.uniform(*np.log10(WAVES))
+            points = int(waves * extent / scene.roughness.shortest)
+        same = scene
+        if scene.roughness is not None and draw.random() < 0.2:
+            points = int(10 ** draw.uniform(1.5, 3.5))
+            scene = replace(scene, roughness=replace(scene.roughness, shortest=None))
+            period = int(np.ceil(scene.roughness.longest * points / extent * (1 - 1e-12)))
+            same = replace(
+                scene, roughness=replace(scene.roughness, shortest=2 * scene.roughness.longest / period)
+            )
+        finer = tuple(_task(MDR(points=times * points, extent=extent), same) for times in FINER_LINES)
+        yield Judged(kind, _task(MDR(points=points, extent=extent), scene), finer)
+
+
+def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict[str, Any]]:
+    """A row for each contact that slides with friction, is answered, and whose truth is known well enough."""
+    found = []
+    for each in every:
+        answer, *finer = (outcomes[task].rows[0] for task in each.tasks)
+        if answer.reason is not None or not answer.friction_force:
+            continue
+        error, unsure = _error(answer, [row for row in finer if row.reason is None])
+        share, least = KNOWN
+        if not unsure <= max(share * error, least):
+            continue
+        waves = answer.measures.get("points_per_shortest_wave", nan)
+        found.append(
+            {
+                "model": each.task.solver.name,
+                "body": each.kind,
+                "solid": type(each.scene.elastomer).__name__,
+                "speed": band(each.scene) if each.kind != "line" else "middle",
+                "waves": waves,
+                "points": each.task.solver.points,
+                "error": error,
+                "bound": answer.measures["friction_error"],
+            }
+        )
+    return found
+
+
+def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
+    """Coverage by model and region: of all, by solid, speed, body and pixels a wave, and by pairs of these."""
+    for model in dict.fromkeys(each["model"] for each in found):
+        own = [each for each in found if each["model"] == model]
+        yield _coverage(model, "all", own)
+        for names in (("solid",), ("speed",), ("body",), ("pixels",), ("solid", "speed"), ("speed", "pixels")):
+            groups: dict[str, list] = {}
+            for each in own:
+                label = {**each, "pixels": _pixels(each["waves"])}
+                groups.setdefault(", ".join(label[name] for name in names), []).append(each)
+            for label, group in sorted(groups.items()):
+                if len(group) >= FEWEST:
+                    yield _coverage(model, label, group)
+
+
+def fitted(signs: Sequence[frictionerror.Signs], errors: np.ndarray, share: float) -> dict[str, dict[str, float]]:
+    """Weights of signs by kind: the quantile `share` of the logarithm of the errors (n,), linear in the signs."""
+    weights = {}
+    for kind in sorted({each.kind for each in signs}):
+        own = np.array([each.kind == kind for each in signs])
+        names = list(signs[0].numbers)
+        table = np.array([[each.numbers[name] for name in names] for each in signs if each.kind == kind])
+        weights[kind] = dict(zip(names, _quantile(table, np.log(errors[own]), share), strict=True))
+    return weights
+
+
+def _quantile(table, values, share):
+    """Quantile regression as a linear program, with a slight preference for small weights."""
+    count, names = table.shape
+    small = np.full(2 * names, 1e-4 * count)
+    prices = np.concatenate([small, np.full(count, share), np.full(count, 1 - share)])
+    slack = identity(count)
+    system = hstack([csr_matrix(table), csr_matrix(-table), slack, -slack]).tocsc()
+    solution = linprog(prices, A_eq=system, b_eq=values, method="highs").x
+    return solution[:names] - solution[names : 2 * names]
+
+
+def _task(solver, scene: Scene) -> SceneTask:
+    points = solver.points
+    return SceneTask(solver, (scene,), work=points**2.2 * 50.0 if isinstance(solver, BEM) else 100.0 * points)
+
+
+def _error(answer: Row, finer: Sequence[Row]) -> tuple[float, float]:
+    """Error of friction and how well it is known, relative, by the order at which the finer answers change."""
+    frictions = [row.friction_coefficient for row in finer]
+    if len(frictions) < 2:
+        return nan, np.inf
+    change = frictions[-1] - frictions[-2]
+    order = np.mean(ORDERS)
+    if len(frictions) > 2 and change and (before := frictions[-2] - frictions[-3]) / change > 0:
+        order = np.clip(np.log2(before / change), *ORDERS)
+    left = change / (2**order - 1)
+    truth = frictions[-1] + left
+    return abs(answer.friction_coefficient / truth - 1), abs(left / truth)
+
+
+def _pixels(waves):
+    if isnan(waves):
+        return "smooth"
+    upper = int(np.searchsorted(PIXELS, waves, side="right"))
+    low, high = PIXELS[upper - 1 : upper + 1]
+    return f"{low:g} pixels a wave and more" if np.isinf(high) else f"{low:g} to {high:g} pixels a wave"
+
+
+def _coverage(model, region, group):
+    held, count = sum(each["error"] <= each["bound"] for each in group), len(group)
+    errors, bounds = (np.array([each[name] for each in group]) for name in ("error", "bound"))
+    return {
+        "model": model,
+        "region": region,
+        "answers": count,
+        "held": held,
+        "lower": float(beta.ppf(0.025, held, count - held + 1)) if held else 0.0,
+        "upper": float(beta.ppf(0.975, held + 1, count - held)) if held < count else 1.0,
+        "median_error": float(np.median(errors)),
+        "median_bound": float(np.median(bounds)),
+    }
