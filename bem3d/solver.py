@@ -12,7 +12,7 @@ from scene import Cylinder, Plane, Program, Result, Scene, SolveError
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
-from scene.quantities import CLOSED, Length, Positive, Whole
+from scene.quantities import BARE, CLOSED, Length, Positive, Whole, takes
 from scene.terms import Table, surrounded, terms_of
 
 from . import accuracy, window
@@ -116,6 +116,7 @@ class BEM:
         return self
 
     @classmethod
+    @takes(friction=BARE, depth=BARE, load=BARE)
     def for_accuracy(
         cls,
         scene: Scene,

@@ -7,6 +7,8 @@ from typing import Any
 
 import pandas
 
+from scene.quantities import BARE, argument
+
 from . import digits
 
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
@@ -56,6 +58,10 @@ class Claim:
     curves: tuple[str, ...] = ()
     measure: Callable[[Mapping[str, Any]], Any] | None = None
 
+    def __post_init__(self):
+        for name in ("expected", "tolerance"):
+            object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -90,6 +96,9 @@ class Finding:
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
+        for name in ("value", "grid"):
+            object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
+        object.__setattr__(self, "scatter", tuple(argument("scatter", each, BARE.value) for each in self.scatter))
 
     @property
     def interval(self) -> tuple[float, float]:

@@ -15,8 +15,10 @@ import numpy as np
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topography
-from scene.motion import Motion
+from scene.motion import PRESSES, Motion
+from scene.plain import one_by_one
 from scene.protocol import refuse
+from scene.quantities import SPEED, argument
 
 from .cost import Cost
 from .outcome import Outcome, Row
@@ -60,6 +62,11 @@ class Rectangle:
     grids: Mapping[str, Mapping[str, Solver]]
     draws: Mapping[str, int]
     keeps_fields: bool = False
+
+    def __post_init__(self):
+        for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
+            row = argument(name, getattr(self, name), one_by_one)
+            object.__setattr__(self, name, tuple(argument(name, each, unit.value) for each in row))
 
     @property
     def prescribed(self) -> str:
