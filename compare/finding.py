@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas
 
-from scene.quantities import BARE, argument
+from scene.quantities import BARE, WHOLE, argument
 
 from . import digits
 
@@ -96,9 +96,9 @@ class Finding:
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
-        for name in ("value", "grid"):
-            object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
-        object.__setattr__(self, "scatter", tuple(argument("scatter", each, BARE.value) for each in self.scatter))
+        for name, unit in (("value", BARE), ("grid", BARE), ("draws", WHOLE)):
+            object.__setattr__(self, name, argument(name, getattr(self, name), unit.value))
+        object.__setattr__(self, "scatter", argument("scatter", self.scatter, BARE.row))
 
     @property
     def interval(self) -> tuple[float, float]:

@@ -16,9 +16,8 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topography
 from scene.motion import PRESSES, Motion
-from scene.plain import one_by_one
 from scene.protocol import refuse
-from scene.quantities import SPEED, argument
+from scene.quantities import SPEED, WHOLE, argument
 
 from .cost import Cost
 from .outcome import Outcome, Row
@@ -65,8 +64,9 @@ class Rectangle:
 
     def __post_init__(self):
         for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
-            row = argument(name, getattr(self, name), one_by_one)
-            object.__setattr__(self, name, tuple(argument(name, each, unit.value) for each in row))
+            object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
+        draws = {solver: argument("draws", count, WHOLE.value) for solver, count in self.draws.items()}
+        object.__setattr__(self, "draws", draws)
 
     @property
     def prescribed(self) -> str:

@@ -107,7 +107,7 @@ def _alike(pixel):
 
 Heights = Annotated[
     InstanceOf[HeightMap],
-    BeforeValidator(_as_map, json_schema_input_type=list[list[float]]),
+    BeforeValidator(_as_map, json_schema_input_type=list[list[Annotated[float, METRE]]]),
     PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest}),
 ]
 Pixel = Annotated[

@@ -67,7 +67,7 @@ def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
 
     Lists may hold whatever `number` takes. Raises NotPlain, or Unreadable of a unit.
     """
-    if type(given) is float or (type(given) is np.ndarray and given.dtype.kind in _REAL):
+    if type(given) is float or (type(given) is np.ndarray and given.ndim and given.dtype.kind in _REAL):
         return given
     if is_number(given) or isinstance(given, str):
         return number(given, unit, difference)
@@ -87,6 +87,8 @@ def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
         kind = held.dtype.kind
     if kind not in _REAL:
         raise NotPlain(f"an array of type {brief(str(held.dtype))}: real numbers are needed")
+    if type(held) is np.ndarray and held.ndim == 0:
+        held = held[()]
     _check_unit(own, unit)
     return _in_si(held, own, unit, difference) if own else held
 
@@ -109,7 +111,7 @@ def relabelled(given: Any, found: Any) -> Any:
 
     found : what `numbers` made of it
     """
-    if hasattr(given, "dims") and hasattr(given, "coords"):
+    if np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords"):
         labelled = given.copy(data=found)
         labelled.attrs = {}
         return labelled

@@ -4,7 +4,7 @@ A quantity is given as a number in SI or, in Python and in a file alike, as a st
 In Python it may also be what other libraries hold, see `plain`. What is held is always the number in SI.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import wraps
 from inspect import signature
@@ -23,6 +23,9 @@ T = TypeVar("T")
 CLOSED = ConfigDict(extra="forbid")
 
 
+_REFUSED = (bool, str, list, tuple, dict)  # by the strict check
+
+
 def _as_float(value):
     """Take any real number (numpy scalars too), leave the rest for the strict check to name."""
     if type(value) is float:
@@ -32,17 +35,20 @@ def _as_float(value):
     except OverflowError:
         raise ValueError("Input should be within the range of floating-point numbers") from None
     except NotPlain as error:
-        if str(error):
-            raise ValueError(f"Input should be a number; {error}") from None
-        return value
+        if value is None or isinstance(value, _REFUSED):
+            return value
+        # What has a float to give, as a truth of numpy and an imaginary number have, passes the strict check.
+        raise ValueError(f"Input should be a valid number{f'; {error}' if str(error) else ''}") from None
 
 
 def _as_int(value):
     """Take any whole number, leave the rest for the strict check to name."""
     try:
         found = number(value, None)
-    except NotPlain:
-        return value
+    except NotPlain as error:
+        if value is None or isinstance(value, _REFUSED):
+            return value
+        raise ValueError(f"Input should be a valid integer{f'; {error}' if str(error) else ''}") from None
     return int(found) if isinstance(found, Integral) else found
 
 
@@ -74,6 +80,13 @@ class _Numbers:
     def values(self, given: Any) -> Any:
         """One number or an array of any shape, in the same way."""
         return self._taken(numbers, given)
+
+    def row(self, given: Any) -> tuple[Any, ...]:
+        """A list of numbers, or an array of one dimension, in the same way."""
+        found = one_by_one(given)
+        if isinstance(found, str) or getattr(found, "ndim", 1) == 0 or not isinstance(found, Iterable):
+            raise ValueError("Input should be a list of numbers")
+        return tuple(map(self.value, found))
 
     def _taken(self, take, given):
         try:
@@ -140,7 +153,7 @@ class _Count(_Numbers):
     allowed = "a whole number"
 
     def _taken(self, take, given):
-        found = super()._taken(take, given)
+        found = super()._taken(number, given)
         if not isinstance(found, Integral):
             raise ValueError(f"Input should be {self.allowed}")
         return int(found)
