@@ -133,14 +133,16 @@ class UnitOfOthers(_Numbers):
 
     symbol : in words or with their names, as "m^(1-exponent)"; empty without a unit
     examples : quantities that the dataclass itself makes numbers in SI before; none where it takes numbers alone
+    kind : what is allowed
     """
 
     symbol: str
     examples: tuple[str, ...] = ()
+    kind: str = "a number"
 
     @property
     def allowed(self) -> str:
-        return f"a number (in {self.symbol})" if self.symbol else "a number without a unit"
+        return f"{self.kind} (in {self.symbol})" if self.symbol else self.kind
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         said = {"description": f"in {self.symbol}"}
@@ -211,7 +213,7 @@ RADIAN = Unit("rad", "an angle", "30 deg", 0.523599)
 HERTZ = Unit("Hz", "a frequency", "2 kHz", 2e3)
 RADIAN_PER_SECOND = Unit("rad/s", "an angular frequency (1 Hz is 2 pi rad/s)", "100 rad/s", 100.0)
 KELVIN = Unit("K", "an absolute temperature", "25 degC", 298.15, difference=False)
-BARE, WHOLE = UnitOfOthers(""), _Count()
+BARE, WHOLE = UnitOfOthers("", kind="a number without a unit"), _Count()
 RADIAN_PER_METRE = Unit("rad/m", "a wave number (1/m are cycles)", "10 rad/mm", 1e4)
 KELVIN_APART = Unit("K", "a difference of temperatures", "0.06 K", 0.06)
 CONDUCTIVITY = Unit("W/(m K)", "a thermal conductivity", "20 W/(m K)", 20.0)
