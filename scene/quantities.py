@@ -17,8 +17,8 @@ from pydantic_core import ArgsKwargs, CoreSchema, core_schema
 from .plain import NotPlain, number, numbers, one_by_one, relabelled
 from .printable import brief
 
-P = ParamSpec("P")
-T = TypeVar("T")
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
 # Unknown names are mistakes.
 CLOSED = ConfigDict(extra="forbid")
 
@@ -161,7 +161,7 @@ class _Count(_Numbers):
         return int(found)
 
 
-def argument(name: str, given: Any, take: Callable[[Any], T]) -> T:
+def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
     """What a function of a number makes of an argument. Raises its ValueError, with the name and the value."""
     try:
         return take(given)
@@ -170,13 +170,13 @@ def argument(name: str, given: Any, take: Callable[[Any], T]) -> T:
         raise ValueError(f"{name} = {brief(repr(given))}: {allowed}") from None
 
 
-def takes(**units: _Numbers) -> Callable[[Callable[P, T]], Callable[P, T]]:
+def takes(**units: _Numbers) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     """Decorator of functions: arguments of these names become plain numbers or arrays in SI, as fields do.
 
     None stays, and so do the labels of an array that has them. Raises ValueError, which names the argument.
     """
 
-    def decorated(function: Callable[P, T]) -> Callable[P, T]:
+    def decorated(function: Callable[_P, _T]) -> Callable[_P, _T]:
         names = tuple(signature(function).parameters)
 
         def taken(name, given):
@@ -185,7 +185,7 @@ def takes(**units: _Numbers) -> Callable[[Callable[P, T]], Callable[P, T]]:
             return relabelled(given, argument(name, given, units[name].values))
 
         @wraps(function)
-        def checked(*args: P.args, **kwargs: P.kwargs) -> T:
+        def checked(*args: _P.args, **kwargs: _P.kwargs) -> _T:
             given: Any = (*map(taken, names, args), *args[len(names) :])
             stated: Any = {name: taken(name, each) for name, each in kwargs.items()}
             return function(*given, **stated)
