@@ -12,6 +12,7 @@ from time import process_time
 import numpy as np
 
 from scene import Plane, Program, Result, SolveError
+from scene.quantities import WHOLE, takes
 
 from . import wake
 from .friction import Friction, indenter_curvature
@@ -49,6 +50,7 @@ def _steps(times: int) -> list[int]:
     return [2**k for k in range(1, times.bit_length())] or [1]
 
 
+@takes(times=WHOLE)
 def refined(solver, result: Result, times: int = 2) -> Result:
     """A steady contact on pixels `times` as fine, in the window in which it was solved.
 

@@ -12,7 +12,7 @@ from scene import Cylinder, Plane, Program, Result, Scene, SolveError
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
-from scene.quantities import CLOSED, Length, Positive, Whole
+from scene.quantities import CLOSED, Length, Positive, UnitOfOthers, Whole, takes
 from scene.terms import Table, surrounded, terms_of
 
 from . import accuracy, frictionerror, window
@@ -25,6 +25,7 @@ from .problem import Problem
 from .terms import TERMS
 from .trail import Trail
 
+RELATIVE = UnitOfOthers("", kind="a relative error between 0 and 1")
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
 
@@ -116,6 +117,7 @@ class BEM:
         return self
 
     @classmethod
+    @takes(friction=RELATIVE, depth=RELATIVE, load=RELATIVE)
     def for_accuracy(
         cls,
         scene: Scene,

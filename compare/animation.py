@@ -14,6 +14,7 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError, Solver
 from scene.protocol import refuse
+from scene.quantities import SECOND, WHOLE, takes
 
 from .film import Film, started
 from .inputs import Asked, case_of
@@ -31,6 +32,7 @@ FASTEST = 50  # frames a second: players show a GIF of more with delays of their
 MP4 = ["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
 
 
+@takes(frames=WHOLE, seconds=SECOND)
 def animate(
     scene: Asked,
     output: str | Path | None = None,

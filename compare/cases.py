@@ -17,7 +17,7 @@ from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
 from scene.protocol import refuse
-from scene.quantities import CLOSED, Positive, Speed, Whole
+from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
 from scene.reading import read
 from scene.rheology import Elastomer
 from scene.roughness import Roughness
@@ -28,8 +28,8 @@ from scene.temperature import Temperature
 from .cost import MOST_DRAWS, MOST_VALUES
 
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
-Factors = Annotated[tuple[Positive, ...], Field(min_length=1, max_length=MOST_VALUES)]
-Speeds = Annotated[tuple[Speed, ...], Field(min_length=1, max_length=MOST_VALUES)]
+Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
+Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 
 
 def _distinct(study):

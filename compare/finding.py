@@ -7,6 +7,8 @@ from typing import Any
 
 import pandas
 
+from scene.quantities import BARE, WHOLE, argument
+
 from . import digits
 
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
@@ -56,6 +58,10 @@ class Claim:
     curves: tuple[str, ...] = ()
     measure: Callable[[Mapping[str, Any]], Any] | None = None
 
+    def __post_init__(self):
+        for name in ("expected", "tolerance"):
+            object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -90,6 +96,9 @@ class Finding:
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
+        for name, unit in (("value", BARE), ("grid", BARE), ("draws", WHOLE)):
+            object.__setattr__(self, name, argument(name, getattr(self, name), unit.value))
+        object.__setattr__(self, "scatter", argument("scatter", self.scatter, BARE.row))
 
     @property
     def interval(self) -> tuple[float, float]:

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
 
+from scene.quantities import BARE, argument
+
 from .outcome import Outcome
 from .task import Task
 
@@ -43,6 +45,9 @@ class Quantity:
     def __post_init__(self):
         if not self.id or not self.id.isprintable():
             raise ValueError(f"id = {self.id!r}: one printable line")
+        stated = ("tolerance",) if hasattr(self.denominator, "question") else ("tolerance", "denominator")
+        for name in stated:
+            object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
         if not LEAST <= self.tolerance <= 1:
             raise ValueError(f"{self.id}: tolerance = {self.tolerance:g} must lie between {LEAST:g} and 1")
 

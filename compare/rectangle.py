@@ -15,8 +15,9 @@ import numpy as np
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topography
-from scene.motion import Motion
+from scene.motion import PRESSES, Motion
 from scene.protocol import refuse
+from scene.quantities import SPEED, WHOLE, argument
 
 from .cost import Cost
 from .outcome import Outcome, Row
@@ -60,6 +61,12 @@ class Rectangle:
     grids: Mapping[str, Mapping[str, Solver]]
     draws: Mapping[str, int]
     keeps_fields: bool = False
+
+    def __post_init__(self):
+        for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
+            object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
+        draws = {solver: argument("draws", count, WHOLE.value) for solver, count in self.draws.items()}
+        object.__setattr__(self, "draws", draws)
 
     @property
     def prescribed(self) -> str:

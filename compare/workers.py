@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import wait
 from typing import Protocol, Self
 
-from scene.reading import InvalidInput
+from scene.reading import whole
 
 from .outcome import Outcome
 
@@ -31,9 +31,7 @@ def counted(workers: int | None) -> int:
     """Number of processes: as stated, else as many as processors. Raises InvalidInput."""
     if workers is None:
         return os.cpu_count() or 1
-    if isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= MOST:
-        raise InvalidInput(f"workers = {workers!r}: a whole number from 1 to {MOST}")
-    return workers
+    return whole("workers", workers, MOST)
 
 
 def starting() -> bool:

@@ -1,8 +1,48 @@
-"""Checks of the arguments of a formula: each function raises ValueError naming the argument and its value."""
+"""Arguments of a formula: their units, by their names, and checks, which name the argument and its value."""
 
 from numbers import Integral
 
 import numpy as np
+
+from scene.quantities import (
+    BARE,
+    CONDUCTIVITY,
+    METRE,
+    NEWTON,
+    PASCAL,
+    RADIAN_PER_METRE,
+    RADIAN_PER_SECOND,
+    SECOND,
+    SPEED,
+    UnitOfOthers,
+    takes,
+)
+
+_LENGTHS = (
+    "depth",
+    "lengths",
+    "contact_length",
+    "amplitudes",
+    "radius",
+    "rms_height",
+    "displacement",
+    "thickness",
+)
+_BARE = ("rms_slope", "slopes", "n", "xi", "alpha", "beta", "friction", "shifted_load", "poisson_ratio")
+
+# Decorator of a formula: its arguments become plain numbers in SI, or are refused.
+in_si = takes(
+    load=NEWTON,
+    relaxation_time=SECOND,
+    speed=SPEED,
+    conductivity=CONDUCTIVITY,
+    c=UnitOfOthers("m^(1-n)"),
+    **dict.fromkeys(("modulus", "glassy_modulus", "loss"), PASCAL),
+    **dict.fromkeys(_LENGTHS, METRE),
+    **dict.fromkeys(("wave_number", "wave_numbers", "band"), RADIAN_PER_METRE),
+    **dict.fromkeys(("omega", "reference_frequency"), RADIAN_PER_SECOND),
+    **dict.fromkeys(_BARE, BARE),
+)
 
 
 def positive(**arguments):

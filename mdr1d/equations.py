@@ -1,6 +1,7 @@
 """Eqs. 10 to 25 of Popov et al., Sci. Rep. 4, 3750 (2014), recalculated.
 
-Of a rough profile g = c |x|^n + h(x) on an incompressible solid, E* = 4 G_0. Numbers, or arrays that broadcast:
+Of a rough profile g = c |x|^n + h(x) on an incompressible solid, E* = 4 G_0. Numbers in SI, quantities with
+units, or arrays of either that broadcast:
 
 load : F_N [N]; modulus : G_0, the static shear modulus [Pa]; relaxation_time : tau of a Kelvin solid [s]
 speed : v [m/s]; rms_slope : s, of the roughness h; c : [m^(1-n)], n : 1 to 100, as mapped: 1/R and 2 for a sphere
@@ -16,7 +17,7 @@ from typing import Literal, get_args
 import numpy as np
 from scipy.integrate import quad_vec
 
-from .domain import between, not_negative, one_of, positive
+from .domain import between, in_si, not_negative, one_of, positive
 
 Form = Literal["corrected", "as_printed"]
 # Of Eq. 19, the paper's best fit.
@@ -24,6 +25,7 @@ ALPHA = 1.5
 _QUADRATURE = 1e-12
 
 
+@in_si
 def contact_radius(load, modulus, c, n):
     """a [m] of the smooth relaxed contact, a^(n+1) = F_N (n+1) / (8 G_0 c n), Eq. 16.
 
@@ -37,16 +39,19 @@ def contact_radius(load, modulus, c, n):
     return (load * (n + 1) / (8 * modulus * c * n)) ** (1 / (n + 1))
 
 
+@in_si
 def indentation_depth(load, modulus, c, n):
     """d [m] of the smooth relaxed contact, d = c a^n, Eq. 16."""
     return c * contact_radius(load, modulus, c, n) ** n
 
 
+@in_si
 def macroscopic_slope(load, modulus, c, n):
     """rms of c n |x|^(n-1) over the smooth relaxed contact, c n a^(n-1) / (2n-1)^(1/2)."""
     return c * n * contact_radius(load, modulus, c, n) ** (n - 1) / np.sqrt(2 * n - 1)
 
 
+@in_si
 def low_speed_friction(load, modulus, relaxation_time, speed, rms_slope, c, n):
     """mu = 4 G_0 L v tau s^2 / F_N in full contact of the length L = 2a, Eq. 12.
 
@@ -58,6 +63,7 @@ def low_speed_friction(load, modulus, relaxation_time, speed, rms_slope, c, n):
     return 4 * modulus * length * speed * relaxation_time * np.square(rms_slope) / load
 
 
+@in_si
 def one_sided_speed(depth, relaxation_time, rms_slope):
     """v [m/s] at which contact becomes one-sided, d / (tau s), Eq. 13; depth d [m].
 
@@ -67,12 +73,14 @@ def one_sided_speed(depth, relaxation_time, rms_slope):
     return depth / (relaxation_time * rms_slope)
 
 
+@in_si
 def plateau(rms_slope):
     """mu = sqrt(2) s at high speed, Eq. 14."""
     not_negative(rms_slope=rms_slope)
     return np.sqrt(2) * rms_slope
 
 
+@in_si
 def plateau_of_slopes(slopes, lengths=1.0, form: Form = "corrected"):
     """mu = <z'^2> / <|z'|> at high speed over the real contact, Eq. 15: sum of its pieces along the last axis.
 
@@ -90,12 +98,14 @@ def plateau_of_slopes(slopes, lengths=1.0, form: Form = "corrected"):
     return mean if form == "corrected" else mean / np.sqrt(np.sum(lengths, axis=-1))
 
 
+@in_si
 def normalised_friction(friction, rms_slope, form: Form = "corrected"):
     """mu over sqrt(2) s, Eq. 18. As printed the root covers s too."""
     positive(rms_slope=rms_slope)
     return friction / _unit(rms_slope, form)
 
 
+@in_si
 def similarity_variable(load, modulus, relaxation_time, speed, rms_slope, c, n):
     """xi = (v tau s / sqrt 2) (8 G_0 / F_N)^(n/(n+1)) ((n+1) / (c n))^(1/(n+1)), Eq. 18.
 
@@ -108,6 +118,7 @@ def similarity_variable(load, modulus, relaxation_time, speed, rms_slope, c, n):
     return speed * relaxation_time * rms_slope / np.sqrt(2) * (8 * modulus / load) ** (n / (n + 1)) * shape
 
 
+@in_si
 def interpolation(xi, alpha=ALPHA):
     """mu over the plateau, (1 + xi^-alpha)^(-1/alpha) for xi from zero to infinity, Eq. 19."""
     between(0, np.inf, xi=xi)
@@ -116,6 +127,7 @@ def interpolation(xi, alpha=ALPHA):
     return least * (1 + (least / np.maximum(xi, 1.0)) ** alpha) ** (-1 / alpha)
 
 
+@in_si
 def high_frequency_force(loss_modulus: Callable, wave_number, speed, rms_slope, contact_length):
     """F_x [N] = 4 G''(q v) s^2 L / q, Eq. 20: every wave of the roughness taken for the shortest; L [m]."""
     positive(wave_number=wave_number)
@@ -123,6 +135,7 @@ def high_frequency_force(loss_modulus: Callable, wave_number, speed, rms_slope, 
     return 4 * loss_modulus(wave_number * speed) * np.square(rms_slope) * contact_length / wave_number
 
 
+@in_si
 def spectral_force(loss_modulus: Callable, spectrum: Callable, band, speed, contact_length):
     """F_x [N] = 8 L int q C_1D(q) G''(q v) dq, what Eq. 20 stands for: each wave in full contact by itself.
 
@@ -142,6 +155,7 @@ def spectral_force(loss_modulus: Callable, spectrum: Callable, band, speed, cont
     return 8 * contact_length * integral
 
 
+@in_si
 def wave_force(loss_modulus: Callable, wave_numbers, amplitudes, speed, contact_length):
     """F_x [N] = 2 L sum_k q_k A_k^2 G''(q_k v), the same of waves A_k cos(q_k x + phase).
 
@@ -155,6 +169,7 @@ def wave_force(loss_modulus: Callable, wave_numbers, amplitudes, speed, contact_
     return 2 * contact_length * np.sum(wave_numbers * np.square(amplitudes) * loss, axis=-1)
 
 
+@in_si
 def one_frequency_friction(
     load, modulus, loss_modulus: Callable, wave_number, speed, rms_slope, c, n, form: Form = "corrected"
 ):
@@ -165,6 +180,7 @@ def one_frequency_friction(
     return high_frequency_force(loss_modulus, wave_number, speed, rms_slope, length) / load
 
 
+@in_si
 def general_friction(
     load,
     modulus,
@@ -186,6 +202,7 @@ def general_friction(
     return _unit(rms_slope, form) * interpolation(slow / plateau(rms_slope), alpha)
 
 
+@in_si
 def force_shift(speed, modulus, loss_modulus: Callable, wave_number, rms_slope, c, n):
     """p(v) [1/N] of Eq. 23, mu = Q(F_N p(v)), from Eq. 22; the paper does not give it. Speeds > 0.
 
@@ -197,6 +214,7 @@ def force_shift(speed, modulus, loss_modulus: Callable, wave_number, rms_slope, 
     return roughness ** ((n + 1) / n) * (8 * modulus * c * n / (n + 1)) ** (1 / n)
 
 
+@in_si
 def master_curve(shifted_load, rms_slope, n, alpha=ALPHA):
     """Q(s) = sqrt(2) rms_slope (1 + s^(alpha n/(n+1)))^(-1/alpha), s = F_N p(v) from zero to infinity, Eq. 23."""
     between(0, np.inf, shifted_load=shifted_load)
@@ -207,6 +225,7 @@ def master_curve(shifted_load, rms_slope, n, alpha=ALPHA):
     return plateau(rms_slope) * interpolation(xi, alpha)
 
 
+@in_si
 def force_shift_exponent(beta, n):
     """d ln p / d ln v = -beta (n+1)/n of G'' ~ omega^beta, -1 to 1; the paper's -3 beta/2 is that of a sphere."""
     between(-1, 1, beta=beta)
@@ -214,6 +233,7 @@ def force_shift_exponent(beta, n):
     return -beta * (n + 1) / n
 
 
+@in_si
 def power_law_loss(omega, loss, reference_frequency, beta):
     """G''(omega) [Pa] = loss (omega / reference_frequency)^beta, Eq. 24; loss [Pa], frequencies [rad/s]."""
     not_negative(omega=omega)
@@ -222,6 +242,7 @@ def power_law_loss(omega, loss, reference_frequency, beta):
     return loss * (omega / reference_frequency) ** beta
 
 
+@in_si
 def power_law_friction(
     load,
     modulus,

@@ -1,7 +1,8 @@
 """Side remarks of Popov et al., Sci. Rep. 4, 3750 (2014): heating, the depth that governs a contact, the layer.
 
-Arguments are numbers or arrays that broadcast. Indenters are g = c |x|^n as mapped, c [m^(1-n)] and n from 1 to
-100: 1/R and 2 for a sphere. A number out of its range raises ValueError, which names it.
+Arguments are numbers in SI, quantities with units, or arrays of either that broadcast. Indenters are g = c |x|^n
+as mapped, c [m^(1-n)] and n from 1 to 100: 1/R and 2 for a sphere. A number out of its range raises ValueError,
+which names it.
 """
 
 from typing import Literal
@@ -10,13 +11,14 @@ import numpy as np
 
 from scene.heating import temperature_rise
 
-from .domain import between, not_negative, one_of, positive
+from .domain import between, in_si, not_negative, one_of, positive
 
 Base = Literal["half-space", "compressible layer", "incompressible layer"]
 # Exponent of the stiffness in the contact radius, k ~ a^m.
 STIFFENING = {"half-space": 1, "compressible layer": 2, "incompressible layer": 4}
 
 
+@in_si
 def average_heating(friction, modulus, depth, speed, conductivity):
     """Mean temperature rise [K] of the contact, 2 mu G_0 d v / lambda (Methods).
 
@@ -33,6 +35,7 @@ def average_heating(friction, modulus, depth, speed, conductivity):
     return temperature_rise(friction, modulus, depth, speed, conductivity)
 
 
+@in_si
 def flash_heating(friction, glassy_modulus, rms_height, speed, conductivity):
     """Largest temperature rise [K] in a micro-contact, 2 mu G_inf h_0 v / lambda (Methods).
 
@@ -43,6 +46,7 @@ def flash_heating(friction, glassy_modulus, rms_height, speed, conductivity):
     return average_heating(friction, glassy_modulus, rms_height, speed, conductivity)
 
 
+@in_si
 def radius_at_depth(depth, c, n):
     """a [m] of any linear solid at a depth [m], d = c a^n, as long as no contact radius was ever larger.
 
@@ -55,6 +59,7 @@ def radius_at_depth(depth, c, n):
     return (depth / c) ** (1 / n)
 
 
+@in_si
 def largest_displacement(friction, depth, poisson_ratio=0.5):
     """Tangential displacement [m] at which all of a contact slips, mu d (2-nu) / (2(1-nu)); 1.5 mu d at nu = 1/2.
 
@@ -65,6 +70,7 @@ def largest_displacement(friction, depth, poisson_ratio=0.5):
     return friction * depth * (2 - poisson_ratio) / (2 * (1 - poisson_ratio))
 
 
+@in_si
 def partial_slip_force(displacement, friction, load, depth, n, poisson_ratio=0.5):
     """Tangential force [N] at a displacement u [m] under a held load [N], mu (F_a - F_c), c the stick disc.
 
@@ -78,6 +84,7 @@ def partial_slip_force(displacement, friction, load, depth, n, poisson_ratio=0.5
     return friction * load * (1 - stuck ** ((n + 1) / n))
 
 
+@in_si
 def layer_force(modulus, thickness, c, n):
     """F* [N] at which 2a of a half-space is the thickness D [m] of the layer, [8 n/(n+1)] G_0 c (D/2)^(n+1).
 
@@ -89,6 +96,7 @@ def layer_force(modulus, thickness, c, n):
     return 8 * n / (n + 1) * modulus * c * (thickness / 2) ** (n + 1)
 
 
+@in_si
 def stiffness_exponent(n, base: Base):
     """d ln k / d ln F, k = dF/dd, far below F* ("half-space") and far above it (a layer bonded to a rigid base).
 

@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from scene.quantities import METRE, takes
+
 # How every loop of this package is compiled: this module is its only door to numba.
 compiled = njit(cache=True, nogil=True, error_model="numpy")
 # Of short loops that only sum: side by side, in whatever order that takes, at the place of the call.
@@ -321,6 +323,7 @@ def press_many(
     return ratio
 
 
+@takes(heights=METRE, pixel=METRE, memory=METRE, depth=METRE)
 def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     """Solve steady flow along +x past a rigid profile, linear between its nodes.
 
@@ -331,6 +334,7 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
 
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
+    heights = np.asarray(heights)
     displacement = np.empty(heights.size)
     touching = np.zeros(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))

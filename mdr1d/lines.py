@@ -1,12 +1,14 @@
 """The rough line of a scene, by whatever its roughness is."""
 
 from scene import Topography
+from scene.quantities import WHOLE, takes
 from scene.roughness import Roughness, SelfAffine
 
 from . import surface, topography
 from .surface import Spectrum, Surface
 
 
+@takes(nodes=WHOLE)
 def draw(roughness: Roughness, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
     """Draw one period of the rough line on so many nodes, from its seed. Raises TypeError for what has no line."""
     match roughness:

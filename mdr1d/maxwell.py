@@ -24,6 +24,8 @@ from math import exp, expm1, inf, nan
 
 import numpy as np
 
+from scene.quantities import METRE, SPEED, takes
+
 from .foundation import NOWHERE, Contact, compiled, summed
 from .modes import Modes
 
@@ -436,6 +438,7 @@ def _sweep(
     return force, lost, traction, stiffness, length, slope_square, first, last
 
 
+@takes(heights=METRE, pixel=METRE, speed=SPEED, depth=METRE)
 def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float) -> Contact:
     """Solve steady flow along +x past a rigid profile, linear between its nodes.
 
@@ -446,6 +449,7 @@ def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float)
 
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
+    heights = np.asarray(heights)
     displacement = np.empty(heights.size)
     touching = np.zeros(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))

@@ -7,6 +7,7 @@ from math import ceil
 import numpy as np
 
 from scene import PowerLaw, Scene, SolveError
+from scene.quantities import METRE, WHOLE, takes
 from scene.scales import elastic_contact
 
 from .lines import draw
@@ -94,6 +95,7 @@ def contact_extent(scene: Scene, surface: Surface | None) -> float:
     return 2 * _MARGIN * _radius(scene.indenter, greatest_depth(scene, surface) - _extremes(surface)[0])
 
 
+@takes(points=WHOLE, extent=METRE)
 def lay_out(scene: Scene, points: int, extent: float | None, spectrum: Spectrum = "mapped") -> Grid:
     """Lay out `points` spacings over an extent [m], refined until they divide the period of the roughness.
 

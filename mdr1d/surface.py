@@ -10,6 +10,7 @@ import numpy as np
 from scipy.fft import irfft
 
 from scene import Topography
+from scene.quantities import BARE, takes
 from scene.roughness import Roughness, SelfAffine
 
 # Of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
@@ -105,6 +106,7 @@ class Surface:
         return 2 * pi / self.period * sqrt(np.sum(np.square(k * self.amplitudes)) / 2)
 
 
+@takes(bandwidth=BARE)
 def amplitudes(roughness: SelfAffine, bandwidth: float, spectrum: Spectrum = "mapped") -> np.ndarray:
     """Amplitudes of the waves q_k = k q_min (K,) [m], K the whole part of the bandwidth q_max / q_min.
 

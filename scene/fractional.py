@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
 from .modes import Relaxation
-from .quantities import CLOSED, AngularFrequency, Finite, Pressure, Time
+from .quantities import CLOSED, RADIAN_PER_SECOND, AngularFrequency, Finite, Pressure, Time, takes
 from .viscoelastic import PoissonRatio, Solid
 
 _MOST_DECADES = 30
@@ -55,6 +55,7 @@ class Fractional(Solid):
             )
         return self
 
+    @takes(omega=RADIAN_PER_SECOND)
     def law(self, omega):
         """The power law itself, modulus (1 + (i omega tau)^exponent) [Pa], without the limits of the series."""
         return self.modulus * (1 + (1j * np.asarray(omega, float) * self.relaxation_time) ** self.exponent)

@@ -3,7 +3,6 @@
 import hashlib
 from dataclasses import dataclass as plain
 from dataclasses import field
-from numbers import Real
 from sys import float_info
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -12,6 +11,7 @@ from pydantic import AfterValidator, BeforeValidator, ConfigDict, InstanceOf, Pl
 from pydantic.dataclasses import dataclass
 
 from .heightfile import UNITS, check_layout, read_heights
+from .labelled import is_labelled, rows_along_y
 from .quantities import CLOSED, METRE, Length, by_name
 
 SHORTEST, LONGEST = 1e-50, 1e50  # lengths [m] whose fourth powers, as of spectra, are numbers
@@ -43,10 +43,7 @@ class HeightMap:
     def __init__(self, heights):
         if np.ma.is_masked(heights):
             raise ValueError(f"{np.ma.count_masked(heights)} pixels have no height: fill them in, or crop the map")
-        try:
-            values = np.asarray(heights)
-        except ValueError:
-            raise ValueError("rows of unequal lengths: a map has as many heights in each row") from None
+        values = np.asarray(METRE.values(heights))
         check_layout(values.shape, values.dtype)
         with np.errstate(over="ignore"):  # beyond the range of numbers is not finite
             # A copy of our own, with one zero.
@@ -85,18 +82,14 @@ def _as_map(value):
 
 
 def _both_ways(pixel):
-    if isinstance(pixel, np.ndarray):
-        pixel = pixel.tolist()
-    if isinstance(pixel, list | tuple) and len(pixel) == 2:
-        return pixel
-    if isinstance(pixel, str):
-        try:
-            pixel = METRE.value(pixel)
-        except ValueError as error:
-            raise ValueError(f"{error}; or two of them, along x and y") from None
-    if isinstance(pixel, bool) or not isinstance(pixel, Real) or not 0 < pixel <= float_info.max:
+    try:
+        sides = METRE.values(pixel)
+    except ValueError as error:
+        raise ValueError(f"{error}; or two of them, along x and y") from None
+    sides = np.ravel(sides).tolist() if np.ndim(sides) < 2 else []
+    if len(sides) not in (1, 2) or not all(0 < side <= float_info.max for side in sides):
         raise ValueError("Input should be the side of a pixel, greater than 0 [m], or two of them, along x and y")
-    return pixel, pixel
+    return sides[0], sides[-1]
 
 
 def _alike(pixel):
@@ -114,7 +107,7 @@ def _alike(pixel):
 
 Heights = Annotated[
     InstanceOf[HeightMap],
-    BeforeValidator(_as_map, json_schema_input_type=list[list[float]]),
+    BeforeValidator(_as_map, json_schema_input_type=list[list[Annotated[float, METRE]]]),
     PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest}),
 ]
 Pixel = Annotated[
@@ -138,7 +131,7 @@ MAPPED = ConfigDict(**CLOSED, json_schema_extra=_or_file)
 class Scanned:
     """Measured map of heights.
 
-    heights : rows along y of heights along x [m], both ascending
+    heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x
     pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
     peaks : "up", heights grow towards the elastomer, as instruments give them, and the highest point touches
         first; "down", they are those of an indenter above the elastomer, and the lowest touches first
@@ -153,6 +146,14 @@ class Scanned:
     pixel: Pixel
     peaks: Literal["up", "down"] = "up"
     shortest_kept: Length | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _laid_out(cls, given: Any) -> Any:
+        stated = by_name(given)
+        if stated is None or not is_labelled(stated.get("heights")):
+            return given
+        return stated | {"heights": rows_along_y(stated["heights"], stated.get("pixel"))}
 
     @model_validator(mode="before")
     @classmethod

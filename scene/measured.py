@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .heightmap import MAPPED, QUOTIENT, ROUNDING, Scanned, levelled
+from .quantities import METRE, takes
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
@@ -54,14 +55,17 @@ class Measured(Scanned):
             heights = _without_waves(heights, self.sides, self.shortest_kept)
         return heights - heights.min()
 
+    @takes(x=METRE, y=METRE)
     def height(self, x, y):
         """z(x, y) [m] for coordinates [m] of any broadcastable shapes."""
         return self._evaluated(x, y, _spline(self).greatest)
 
+    @takes(x=METRE, y=METRE)
     def slope(self, x, y):
         """dz/dx [1]; zero beyond the map."""
         return self._evaluated(x, y, 0.0, dy=1) / self.pixel[0]
 
+    @takes(x=METRE, y=METRE)
     def on_rim(self, x, y):
         """Whether points [m] lie on the outermost pixels of the map, or beyond it (bool)."""
         column, row = self._lattice(x, y)

@@ -14,6 +14,7 @@ from .quantities import (
     NEWTON,
     NEWTON_PER_METRE,
     PASCAL,
+    SECOND,
     Force,
     ForceOrZero,
     Frequency,
@@ -28,6 +29,7 @@ from .quantities import (
     Time,
     UnitOfOthers,
     Velocity,
+    takes,
 )
 
 PRESSES = {"load": NEWTON, "depth": METRE, "line_load": NEWTON_PER_METRE, "pressure": PASCAL, "gap": METRE}
@@ -124,7 +126,7 @@ class Shear(_Pressed):
     @classmethod
     def _force_in_its_unit(cls, force, info: ValidationInfo):
         across = info.data.get("line_load") is not None
-        return (NEWTON_PER_METRE if across else NEWTON).value(force) if isinstance(force, str) else force
+        return None if force is None else (NEWTON_PER_METRE if across else NEWTON).value(force)
 
     @model_validator(mode="after")
     def _drawn_by_one(self):
@@ -162,7 +164,7 @@ class Stage:
     @classmethod
     def _amplitude_in_its_unit(cls, amplitude, info: ValidationInfo):
         pressing = [unit for name, unit in PRESSES.items() if info.data.get(name) is not None]
-        return pressing[0].value(amplitude) if pressing and isinstance(amplitude, str) else amplitude
+        return pressing[0].value(amplitude) if pressing and amplitude is not None else amplitude
 
     @model_validator(mode="after")
     def _swings_at_a_frequency(self):
@@ -265,6 +267,7 @@ class Program:
         """Whether the indenter ever moves backwards."""
         return any(stage.speed < 0 for stage in self.stages)
 
+    @takes(time=SECOND)
     def prescribed(self, time):
         """Load, depth or pressure at a time [s], any shape, in its unit."""
         times = self._times
@@ -274,6 +277,7 @@ class Program:
                 values = np.maximum(values + stage.oscillation.beyond_chord(np.subtract(time, begin)), 0.0)
         return values
 
+    @takes(time=SECOND)
     def path(self, time):
         """Path of the indenter forwards from its start [m] at a time [s], any shape."""
         return np.interp(time, self._times, self._paths)

@@ -1,45 +1,107 @@
 """Number types of the fields of a scene: what each allows, and its unit, is declared once, here.
 
 A quantity is given as a number in SI or, in Python and in a file alike, as a string with a unit: 0.005 or "5 mm".
-What is held is always the number in SI.
+In Python it may also be what other libraries hold, see `plain`. What is held is always the number in SI.
 """
 
-import numbers
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, get_args, get_type_hints
+from functools import wraps
+from inspect import signature
+from numbers import Integral
+from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_type_hints
 
 from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import ArgsKwargs, CoreSchema, core_schema
 
+from .plain import NotPlain, number, numbers, one_by_one, relabelled
+from .printable import brief
+
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
 # Unknown names are mistakes.
 CLOSED = ConfigDict(extra="forbid")
 
 
+_REFUSED = (bool, str, list, tuple, dict)  # by the strict check
+
+
 def _as_float(value):
     """Take any real number (numpy scalars too), leave the rest for the strict check to name."""
-    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+    if type(value) is float:
         return value
     try:
-        return float(value)
+        return float(number(value, None))
     except OverflowError:
         raise ValueError("Input should be within the range of floating-point numbers") from None
+    except NotPlain as error:
+        if value is None or isinstance(value, _REFUSED):
+            return value
+        # What has a float to give, as a truth of numpy and an imaginary number have, passes the strict check.
+        raise ValueError(f"Input should be a valid number{f'; {error}' if str(error) else ''}") from None
 
 
 def _as_int(value):
-    is_whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
-    return int(value) if is_whole else value
+    """Take any whole number, leave the rest for the strict check to name."""
+    try:
+        found = number(value, None)
+    except NotPlain as error:
+        if value is None or isinstance(value, _REFUSED):
+            return value
+        raise ValueError(f"Input should be a valid integer{f'; {error}' if str(error) else ''}") from None
+    return int(found) if isinstance(found, Integral) else found
 
 
 Finite = Annotated[float, BeforeValidator(_as_float), Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Finite, Field(gt=0)]
 NonNegative = Annotated[Finite, Field(ge=0)]
 Whole = Annotated[int, BeforeValidator(_as_int), Field(strict=True)]
+# Of a tuple of numbers: an array of any library, which keeps its unit.
+ROW = BeforeValidator(one_by_one)
+
+
+class _Numbers:
+    """What a number may be, as a part of its type: numbers, strings and arrays become plain numbers in SI."""
+
+    @property
+    def allowed(self) -> str:
+        """Allowed values in words."""
+        raise NotImplementedError
+
+    @property
+    def _unit(self) -> tuple[str | None, bool]:
+        """Unit in SI, None where a number has none of its own; and whether a temperature is a difference."""
+        return None, True
+
+    def value(self, given: Any) -> Any:
+        """A string or quantity as a number in SI, a number as it is. Raises ValueError for anything else."""
+        return self._taken(number, given)
+
+    def values(self, given: Any) -> Any:
+        """One number or an array of any shape, in the same way."""
+        return self._taken(numbers, given)
+
+    def row(self, given: Any) -> tuple[Any, ...]:
+        """A list of numbers, or an array of one dimension, in the same way."""
+        found = one_by_one(given)
+        if isinstance(found, str) or getattr(found, "ndim", 1) == 0 or not isinstance(found, Iterable):
+            raise ValueError("Input should be a list of numbers")
+        return tuple(map(self.value, found))
+
+    def _taken(self, take, given):
+        try:
+            return take(given, *self._unit)
+        except ValueError as error:
+            reason = f"; {error}" if str(error) else ""
+            raise ValueError(f"Input should be {self.allowed}{reason}") from None
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.value, handler(source))
 
 
 @dataclass(frozen=True)
-class Unit:
-    """The unit of a number, as a part of its type: it makes strings with units numbers in SI.
+class Unit(_Numbers):
+    """The unit of a number.
 
     symbol : SI unit, as "m" or "W/(m K)"
     kind : what has it, as "a length"
@@ -55,54 +117,82 @@ class Unit:
 
     @property
     def allowed(self) -> str:
-        """Allowed values in words."""
         return f"{self.kind}, as {self.example} or {self.number:g} (in {self.symbol})"
 
-    def value(self, given: Any) -> Any:
-        """A string as a number in SI, a number as it is. Raises ValueError for anything else."""
-        if isinstance(given, numbers.Real) and not isinstance(given, bool):
-            return given
-        reason = ""
-        if isinstance(given, str):
-            # Units take time to load, and only strings need them.
-            from .units import Unreadable, in_si
-
-            try:
-                return in_si(given, self.symbol, self.difference)
-            except Unreadable as error:
-                reason = f"; {error}" if str(error) else ""
-        raise ValueError(f"Input should be {self.allowed}{reason}")
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.value, handler(source))
+    @property
+    def _unit(self) -> tuple[str | None, bool]:
+        return self.symbol, self.difference
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return _or_written(handler(schema), (self.example,)) | {"description": self.allowed}
 
 
 @dataclass(frozen=True)
-class UnitOfOthers:
-    """The unit of a number where it depends on other fields.
+class UnitOfOthers(_Numbers):
+    """The unit of a number where it depends on other fields, or of a number that has none.
 
-    symbol : in words or with their names, as "m^(1-exponent)"
+    symbol : in words or with their names, as "m^(1-exponent)"; empty without a unit
     examples : quantities that the dataclass itself makes numbers in SI before; none where it takes numbers alone
+    kind : what is allowed
     """
 
     symbol: str
     examples: tuple[str, ...] = ()
+    kind: str = "a number"
 
-    def value(self, given: Any) -> Any:
-        """A number as it is. Raises ValueError for a string."""
-        if isinstance(given, str):
-            raise ValueError(f"Input should be a number (in {self.symbol})")
-        return given
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_before_validator_function(self.value, handler(source))
+    @property
+    def allowed(self) -> str:
+        return f"{self.kind} (in {self.symbol})" if self.symbol else self.kind
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         said = {"description": f"in {self.symbol}"}
         return _or_written(handler(schema), self.examples) | said if self.examples else handler(schema) | said
+
+
+class _Count(_Numbers):
+    """A whole number."""
+
+    allowed = "a whole number"
+
+    def _taken(self, take, given):
+        found = super()._taken(number, given)
+        if not isinstance(found, Integral):
+            raise ValueError(f"Input should be {self.allowed}")
+        return int(found)
+
+
+def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
+    """What a function of a number makes of an argument. Raises its ValueError, with the name and the value."""
+    try:
+        return take(given)
+    except ValueError as error:
+        allowed = str(error).removeprefix("Input should be ")
+        raise ValueError(f"{name} = {brief(repr(given))}: {allowed}") from None
+
+
+def takes(**units: _Numbers) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
+    """Decorator of functions: arguments of these names become plain numbers or arrays in SI, as fields do.
+
+    None stays, and so do the labels of an array that has them. Raises ValueError, which names the argument.
+    """
+
+    def decorated(function: Callable[_P, _T]) -> Callable[_P, _T]:
+        names = tuple(signature(function).parameters)
+
+        def taken(name, given):
+            if given is None or name not in units:
+                return given
+            return relabelled(given, argument(name, given, units[name].values))
+
+        @wraps(function)
+        def checked(*args: _P.args, **kwargs: _P.kwargs) -> _T:
+            given: Any = (*map(taken, names, args), *args[len(names) :])
+            stated: Any = {name: taken(name, each) for name, each in kwargs.items()}
+            return function(*given, **stated)
+
+        return checked
+
+    return decorated
 
 
 def _or_written(number, examples):
@@ -123,6 +213,8 @@ RADIAN = Unit("rad", "an angle", "30 deg", 0.523599)
 HERTZ = Unit("Hz", "a frequency", "2 kHz", 2e3)
 RADIAN_PER_SECOND = Unit("rad/s", "an angular frequency (1 Hz is 2 pi rad/s)", "100 rad/s", 100.0)
 KELVIN = Unit("K", "an absolute temperature", "25 degC", 298.15, difference=False)
+BARE, WHOLE = UnitOfOthers("", kind="a number without a unit"), _Count()
+RADIAN_PER_METRE = Unit("rad/m", "a wave number (1/m are cycles)", "10 rad/mm", 1e4)
 KELVIN_APART = Unit("K", "a difference of temperatures", "0.06 K", 0.06)
 CONDUCTIVITY = Unit("W/(m K)", "a thermal conductivity", "20 W/(m K)", 20.0)
 JOULE_PER_MOLE = Unit("J/mol", "an energy per amount", "50 kJ/mol", 5e4)

@@ -12,8 +12,20 @@ from pydantic import TypeAdapter, ValidationError
 from . import files
 from .mistakes import SAID, mistakes
 from .printable import brief, printable
+from .quantities import WHOLE
 
-__all__ = ["InvalidInput", "invalid", "made", "mistakes", "parsed", "read", "tables", "text_of", "validator"]
+__all__ = [
+    "InvalidInput",
+    "invalid",
+    "made",
+    "mistakes",
+    "parsed",
+    "read",
+    "tables",
+    "text_of",
+    "validator",
+    "whole",
+]
 
 MOST = 1_000_000  # bytes of a file
 DEEPEST = 20  # levels of tables and lists in one another
@@ -91,6 +103,17 @@ def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
     more = [f"and {len(lines) - SAID:,} more mistakes"] if len(lines) > SAID else []
     name, said = brief(str(path)), [*lines[:SAID], *more]
     return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in said))
+
+
+def whole(name: str, given: Any, most: int) -> int:
+    """A whole number from 1 on, as an argument of a function. Raises InvalidInput, which names it."""
+    try:
+        found = WHOLE.value(given)
+    except ValueError:
+        found = 0
+    if not 1 <= found <= most:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: a whole number from 1 to {most}")
+    return found
 
 
 def _levels(content):

@@ -7,15 +7,15 @@ from pydantic.dataclasses import dataclass
 
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
-from .quantities import CLOSED, Compliance, ComplianceOrZero, Pressure, Time
+from .quantities import CLOSED, ROW, Compliance, ComplianceOrZero, Pressure, Time
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
 
 MOST_MODES = 200  # of a solid: no measurement tells more apart
 _SOME = Field(min_length=1, max_length=MOST_MODES)
-Pressures = Annotated[tuple[Pressure, ...], _SOME]
-Compliances = Annotated[tuple[Compliance, ...], _SOME]
-Times = Annotated[tuple[Time, ...], _SOME]
+Pressures = Annotated[tuple[Pressure, ...], ROW, _SOME]
+Compliances = Annotated[tuple[Compliance, ...], ROW, _SOME]
+Times = Annotated[tuple[Time, ...], ROW, _SOME]
 
 
 @dataclass(frozen=True, config=CLOSED)

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, Finite, Length, LengthOrZero, Whole
+from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Finite, Length, LengthOrZero, Whole, takes
 from .topography import Topography
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -32,6 +32,9 @@ def power_integral(exponent, lower, upper):
     p = exponent + 1
     ratio = np.log(upper / lower)
     return lower**p * (np.expm1(p * ratio) / p if p else ratio)
+
+
+_of_waves = takes(**dict.fromkeys(("q", "q_max", "lower", "upper"), RADIAN_PER_METRE))
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -87,6 +90,7 @@ class SelfAffine:
         """Lowest wave number 2 pi / longest [rad/m]."""
         return 2 * pi / self.longest
 
+    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number [rad/m]: that of the shortest wavelength, else pi / pixel."""
         return 2 * pi / self.shortest if self.shortest is not None else pi / pixel
@@ -96,10 +100,12 @@ class SelfAffine:
         """Wave number [rad/m] below which the spectrum is flat: q_min without a roll-off."""
         return self.q_min if self.rolloff is None else 2 * pi / self.rolloff
 
+    @_of_waves
     def density_1d(self, q, q_max):
         """C_1D(q) [m^3] by the rule pi q C_2D, zero outside q_min <= q <= q_max [rad/m]."""
         return pi * q * self.density_2d(q, q_max)
 
+    @_of_waves
     def density_line_scan(self, q, q_max):
         """C_1D(q) [m^3] of a line scan, 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds, for q > 0 [rad/m]; zero above q_max.
 
@@ -108,6 +114,7 @@ class SelfAffine:
         """
         return self._over_directions(lambda seen: seen / q * self.density_1d(seen, q_max), q, q_max)
 
+    @_of_waves
     def density_2d(self, q, q_max):
         """C_2D(q) [m^4], zero outside q_min <= q <= q_max [rad/m]."""
         inside = (q >= self.q_min) & (q <= q_max)
@@ -115,10 +122,12 @@ class SelfAffine:
         plateau = (self.rms_height / self.q_rolloff) ** 2 / (2 * pi * self._moment(1, self.q_min, q_max))
         return np.where(inside, plateau * falling, 0.0)
 
+    @_of_waves
     def share(self, lower, upper, q_max):
         """Share of <h^2> that lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
         return self._moment(1, lower, upper) / self._moment(1, self.q_min, q_max)
 
+    @_of_waves
     def share_line_scan(self, lower, upper, q_max):
         """Share of <h^2> that a line scan has in 0 < lower <= q <= upper <= q_max [rad/m], arrays allowed."""
 
@@ -128,6 +137,7 @@ class SelfAffine:
         seen_above_lower, seen_above_upper = (self._over_directions(above, q, q_max) for q in (lower, upper))
         return seen_above_lower - seen_above_upper
 
+    @_of_waves
     def rms_slope(self, q_max) -> float:
         """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m].
 
@@ -183,6 +193,7 @@ class Wave:
         """[m]"""
         return self.amplitude / sqrt(2)
 
+    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number along a side [rad/m]; the pixel does not matter."""
         return 2 * pi / self.wavelength

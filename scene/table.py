@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from . import files
 from .printable import brief
-from .quantities import CLOSED, Positive, Pressure, UnitOfOthers
+from .quantities import CLOSED, ROW, Positive, Pressure, UnitOfOthers
 
 COLUMNS = ("frequency", "storage", "loss")
 MOST_ROWS = 5_000
@@ -21,8 +21,8 @@ _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
 # Of a heading: a unit in brackets, as in "F_N [mN]", stays with its name, and only commas and the like part words.
 _MARKS, _BLANKS = re.compile(r"\s*[,;\t]\s*"), re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")
 _NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
-Frequencies = tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...]
-Moduli = tuple[Pressure, ...]
+Frequencies = Annotated[tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...], ROW]
+Moduli = Annotated[tuple[Pressure, ...], ROW]
 
 
 @dataclass(frozen=True, config=CLOSED, repr=False)

@@ -1,7 +1,7 @@
 """A solid measured as G', G'' against frequency: the passive solid with few modes that follows the table best."""
 
 from functools import lru_cache
-from math import pi
+from math import inf, pi, sqrt
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -22,8 +22,8 @@ _TIMES_A_DECADE = (1, 1.5, 2, 3, 5, 10, 30)
 _NEGLIGIBLE = 1e-3
 # Largest relative contribution of a mode that is left out.
 _INVISIBLE = 1e-7
-# Of the lowest storage modulus; what is left below it at rest cannot be told from nothing.
-_LEAST_REST = 1e-2
+# Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.
+_TOLD = 3
 
 
 def _read_if_path(value):
@@ -44,7 +44,7 @@ class Tabulated(Solid):
 
     `error` and `rms_error` say how well the series follows the table. Raises ValueError if no passive solid does
     to within the tolerance (in one, G' never falls with the frequency and G'' belongs to it), or if the table
-    leaves the modulus at rest open.
+    leaves the modulus at rest open: fitted, it has to be three times its standard error, `equilibrium_error`.
     """
 
     table: Annotated[Table, BeforeValidator(_read_if_path, json_schema_input_type=str | Table)]
@@ -69,13 +69,24 @@ class Tabulated(Solid):
                 f"square), more than tolerance = {self.tolerance:g}: check units and columns, and that G' does "
                 "not fall with the frequency; if this is the scatter, raise tolerance"
             )
-        _, measured = self.measured()
-        if self.modes().equilibrium < _LEAST_REST * measured.real.min() and self.equilibrium_modulus is None:
+        if self.modes().equilibrium < _TOLD * self.equilibrium_error:
             raise ValueError(
-                f"{self.table!r} leaves the modulus at rest open: state equilibrium_modulus, or measure at lower "
-                "frequencies"
+                f"{self.table!r} leaves the modulus at rest open: {self._seen_at_rest()}; state "
+                "equilibrium_modulus, or measure at lower frequencies"
             )
         return self
+
+    def _seen_at_rest(self):
+        """What the table shows of the modulus at rest, in words."""
+        rest, lowest = self.modes().equilibrium, self.measured()[0][0]
+        low, next_octave = self.modes().complex_modulus(lowest * np.array([1.0, 2.0]))
+        liquid = "it shows a liquid, " if low.imag > low.real else ""
+        fitted = f"is {rest:.2g} Pa with a standard error of {self.equilibrium_error:.2g} Pa"
+        return (
+            f"{liquid}as at its lowest frequency, {min(self.table.frequency):g} {self.frequency_unit}, G'' is "
+            f"{low.imag / low.real:.2g} G' and G' grows as frequency^{np.log2(next_octave.real / low.real):.2g}, "
+            f"and what is fitted {fitted if 0 < self.equilibrium_error < inf else 'is none'}"
+        )
 
     def measured(self):
         """Angular frequencies (N,) [rad/s] ascending, and complex shear moduli (N,) [Pa]."""
@@ -95,19 +106,24 @@ class Tabulated(Solid):
         """Root mean square of the relative misfits of G' and G'' at the rows of the table."""
         return _rms(_misfit(self.modes(), *self.measured()))
 
+    @property
+    def equilibrium_error(self) -> float:
+        """Standard error of a fitted modulus at rest [Pa]; zero of a known one, infinite where none is seen."""
+        return _fit(self)[1]
+
     def modes(self) -> Relaxation:
-        return _fit(self)
+        return _fit(self)[0]
 
 
 @lru_cache(maxsize=64)
-def _fit(solid: Tabulated) -> Relaxation:
-    """Fit with as few times a decade as follow the table about as well as many do."""
+def _fit(solid: Tabulated) -> tuple[Relaxation, float]:
+    """Fit with as few times a decade as follow the table about as well as many do, and the error at rest [Pa]."""
     omega, measured = solid.measured()
 
-    def at(density):
+    def at(density, rest=solid.equilibrium_modulus):
         fast, slow = 1 / (omega[-1] * _MARGIN), _MARGIN / omega[0]
         times = np.geomspace(fast, slow, int(np.ceil(np.log10(slow / fast) * density)) + 1)
-        return _nonnegative(omega, measured, times, solid.equilibrium_modulus)
+        return _nonnegative(omega, measured, times, rest)
 
     def misfit(series):
         return _rms(_misfit(series, omega, measured))
@@ -115,7 +131,23 @@ def _fit(solid: Tabulated) -> Relaxation:
     *coarser, finest = _TIMES_A_DECADE
     best = at(finest)
     enough = max(1.1 * misfit(best), _NEGLIGIBLE)
-    return next((series for series in map(at, coarser) if misfit(series) <= enough), best)
+    series = next((series for series in map(at, coarser) if misfit(series) <= enough), best)
+    if solid.equilibrium_modulus is not None:
+        return series, 0.0
+    # With the most times, as slow modes else leave room for a modulus at rest.
+    told = _standard_errors(2 * len(omega), len(best.times) + 1, misfit(best), misfit(at(finest, rest=0.0)))
+    return series, series.equilibrium / told if told and series.equilibrium else inf
+
+
+def _standard_errors(rows, fitted, misfit, without):
+    """Standard errors by which a fitted amount differs from zero.
+
+    rows, fitted : numbers of misfits, and of amounts that were fitted
+    misfit, without : root mean square of the misfits with that amount, and without it
+    """
+    noise = max(rows * misfit**2 / max(rows - fitted, 1), _NEGLIGIBLE**2)
+    # The sum of squares is least at the fitted amount, and grows as the square of the distance from it.
+    return sqrt(max(rows * (without**2 - misfit**2), 0.0) / noise)
 
 
 def _nonnegative(omega, measured, times, equilibrium):

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .heightmap import MAPPED, QUOTIENT, Scanned, levelled
-from .quantities import Whole, by_name
+from .quantities import METRE, Whole, by_name, takes
 from .waves import MOST_WAVES, Waves
 
 # Maps whose waves are kept for the next solve.
@@ -84,6 +84,7 @@ class Topography(Scanned):
         """Shortest wavelength along a side [m]."""
         return min(side / top for side, top in zip(self.sides, self.tops, strict=True))
 
+    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number along a side [rad/m]; the pixel of a grid does not matter."""
         return 2 * pi / self.shortest

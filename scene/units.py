@@ -64,21 +64,40 @@ def in_si(text: str, unit: str, difference: bool = True) -> float:
 
     Raises Unreadable for any other dimension, for what is no number with a unit, and beyond the range of floats.
     """
-    if len(text) > LONGEST:
-        raise Unreadable(f"more than {LONGEST} letters")
-    for letter, plain in _PLAIN:
-        text = text.replace(letter, plain)
-    written = _NUMBER.fullmatch(_SUPERSCRIPT.sub(lambda found: "^" + found[0].translate(_RAISED), text))
+    text = _typed(text)
+    written = _NUMBER.fullmatch(text)
     if written is None:
         raise Unreadable("there is no number before the unit" if any(map(str.isalnum, text)) else "")
-    number, factors = _exact(written[1]), _factors(written[2])
+    factor, zero = scale(written[2], unit, difference)
+    return _nearest(_exact(written[1]) * factor + zero)
+
+
+@lru_cache(maxsize=256)
+def scale(given: str, unit: str, difference: bool = True) -> tuple[Fraction, Fraction]:
+    """One of a unit, and its zero, in an SI unit: a number of it times the first plus the second is in SI.
+
+    Raises Unreadable as `in_si`.
+    """
+    factors = _factors(_typed(given))
     if not factors:
         raise Unreadable("there is no unit")
     asked, wanted = _product(factors), _product(_factors(unit))
     if asked.dimensionality != wanted.dimensionality:
         raise Unreadable("")
     _check_temperature(asked, factors, difference)
-    return _nearest(asked.__class__(number, asked.units).to_base_units().magnitude)
+    zero, one = (
+        Fraction(asked.__class__(each, asked.units).to_base_units().magnitude) for each in map(Fraction, "01")
+    )
+    return one - zero, zero
+
+
+def _typed(text):
+    """A text in the letters of a keyboard."""
+    if len(text) > LONGEST:
+        raise Unreadable(f"more than {LONGEST} letters")
+    for letter, plain in _PLAIN:
+        text = text.replace(letter, plain)
+    return _SUPERSCRIPT.sub(lambda found: "^" + found[0].translate(_RAISED), text)
 
 
 def _exact(digits):

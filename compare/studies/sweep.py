@@ -6,15 +6,16 @@ from itertools import islice
 from math import isfinite
 from typing import Any
 
-import numpy as np
 import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from scene import Indent, Scene, Slide
-from scene.motion import UNITS
+from scene.motion import PRESSES, UNITS
+from scene.plain import one_by_one
 from scene.printable import brief
-from scene.reading import InvalidInput
+from scene.quantities import SPEED
+from scene.reading import InvalidInput, whole
 
 from ..cases import Case
 from ..cost import MOST_DRAWS, MOST_VALUES
@@ -71,8 +72,7 @@ class Sweep(Study):
             name, values = case.motion.pressed_by, [case.motion.greatest]
         speeds = _numbers("speed", speed, least=0.0)
         prescribed = _numbers(name, values)
-        if isinstance(draws, bool) or not isinstance(draws, int) or not 1 <= draws <= MOST_DRAWS:
-            raise InvalidInput(f"draws = {draws!r}: a whole number from 1 to {MOST_DRAWS}")
+        draws = whole("draws", draws, MOST_DRAWS)
         pressed: dict[str, Any] = {name: prescribed[0]}
         moving = max(speeds)
         motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)
@@ -161,25 +161,31 @@ def figure_of(dataset: xarray.Dataset) -> Figure:
 
 
 def _numbers(name, values, least=None):
-    """Distinct finite numbers as a tuple. Raises InvalidInput."""
-    single = isinstance(values, str) or not isinstance(values, Iterable)
-    given = [values] if single else list(islice(values, MOST_VALUES + 1))
+    """Distinct finite numbers in SI as a tuple. Raises InvalidInput."""
+    unit = SPEED if name == "speed" else PRESSES[name]
+    single = isinstance(values, str) or getattr(values, "ndim", None) == 0 or not isinstance(values, Iterable)
+    try:
+        given = [values] if single else list(islice(one_by_one(values), MOST_VALUES + 1))
+    except ValueError as error:
+        raise InvalidInput(f"{name}: {error}") from None
     if len(given) > MOST_VALUES:
         raise InvalidInput(f"{name}: more than {MOST_VALUES:,} values: at most so many are solved at")
-    allowed = "finite numbers of zero or more" if least == 0 else "finite numbers above zero"
-    for value in given:
-        if not _is_finite(value) or value < 0 or (least is None and value == 0):
-            raise InvalidInput(f"{name} = {brief(repr(value))}: {allowed}")
-    if not given or len(set(given)) < len(given):
+    found = [_number(name, value, unit, least) for value in given]
+    if not found or len(set(found)) < len(found):
         raise InvalidInput(f"{name} = {brief(repr(given))}: at least one, and each once")
-    return tuple(float(value) for value in sorted(given))
+    return tuple(sorted(found))
 
 
-def _is_finite(value):
-    """Whether a value is a finite real number, and no truth value."""
-    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
-        return False
+def _number(name, given, unit, least):
+    """One of them. Raises InvalidInput."""
+    allowed = "finite numbers of zero or more" if least == 0 else "finite numbers above zero"
     try:
-        return isfinite(value)
+        value = float(unit.value(given))
+        wrong = "" if isfinite(value) and (value > 0 or value == least) else allowed
     except OverflowError:  # of a whole number beyond those of floating point
-        return False
+        wrong = allowed
+    except ValueError as error:
+        wrong = f"{allowed}, {str(error).removeprefix('Input should be ')}"
+    if wrong:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: {wrong}")
+    return value

@@ -7,11 +7,13 @@ from math import nan
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import numpy as np
 import xarray
 from pydantic import TypeAdapter, ValidationError
 
 from scene import Topography
 from scene.heightfile import read_heights
+from scene.quantities import METRE, argument
 from scene.reading import InvalidInput, mistakes
 
 from ..declaration import Study
@@ -27,6 +29,15 @@ Side: TypeAlias = str | float
 WAVES = "Rms of the derivatives of its waves."
 DIFFERENCES = "Rms of the differences between neighbours over a pixel."
 EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
+
+
+def _in_metres(pixel):
+    """Side of a pixel as one number [m] or two. Raises InvalidInput."""
+    try:
+        found = argument("pixel", pixel, METRE.values)
+    except ValueError as error:
+        raise InvalidInput(str(error)) from None
+    return tuple(found.tolist()) if np.ndim(found) else float(found)
 
 
 def _law(name: str) -> Callable[[Description], float]:
@@ -75,7 +86,9 @@ class Map(Study):
         pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
             default
         """
-        sides = pixel if pixel is None or isinstance(pixel, Side) else tuple(pixel)
+        sides = tuple(pixel) if isinstance(pixel, list | tuple) else pixel
+        if not isinstance(sides, str | tuple | None):
+            sides = _in_metres(sides)
         if isinstance(sides, tuple) and len(sides) < 2:
             sides = sides[0] if sides else None
         stated |= {"pixel": sides}

@@ -1,0 +1,204 @@
+"""Plain numbers of what other libraries hold, quantities, arrays with labels or masks, tables: their one door.
+
+What has a unit or labels is known by its attributes: no library is imported to be asked.
+"""
+
+from collections.abc import Set
+from dataclasses import dataclass
+from numbers import Real
+from typing import Any
+
+import numpy as np
+
+from .printable import brief
+
+_OWN = (float, int, str, bool, list, tuple, np.ndarray, type(None))
+_SIMPLE = {float, int, np.float64}
+_REAL = "fiu"  # kinds of numpy's types
+
+
+class NotPlain(ValueError):
+    """There are no plain numbers in something; the message says why, unless that is obvious."""
+
+
+@dataclass(frozen=True)
+class Carried:
+    """One number out of an array with a unit, which goes with it."""
+
+    magnitude: Any
+    units: str
+
+    def __repr__(self):
+        return f"{self.magnitude} {self.units}"
+
+
+def is_number(given: Any) -> bool:
+    """Whether something is a real number: no truth, and no duration, which numpy counts among them."""
+    return isinstance(given, Real) and not isinstance(given, bool | np.timedelta64)
+
+
+def number(given: Any, unit: str | None, difference: bool = True) -> Any:
+    """One number in a unit of SI, as `units.in_si` has it; a number without a unit as it is.
+
+    unit : None where a number has none, and takes no string
+
+    Raises NotPlain, or Unreadable of a unit.
+    """
+    if is_number(given):
+        return given
+    held, own = _scalar(given)
+    if isinstance(held, str) and unit is not None and own is None:
+        # Units take time to load, and only what has them needs them.
+        from .units import in_si
+
+        return in_si(held, unit, difference)
+    if not is_number(held):
+        raise NotPlain(f"an array of shape {held.shape}" if isinstance(held, np.ndarray) else "")
+    _check_unit(own, unit)
+    if not own or unit is None:
+        return held
+    from .units import in_si
+
+    return _known(in_si, f"{float(held)!r} {own}", unit, difference, own)
+
+
+def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
+    """Real numbers in a unit of SI: one of them, or an array of any shape. Those without a unit stay as they are.
+
+    Lists may hold whatever `number` takes. Raises NotPlain, or Unreadable of a unit.
+    """
+    if type(given) is float or (type(given) is np.ndarray and given.ndim and given.dtype.kind in _REAL):
+        return given
+    if is_number(given) or isinstance(given, str):
+        return number(given, unit, difference)
+    held, own = bare(given)
+    if isinstance(held, np.ndarray) and held.dtype.kind in "OU":
+        held = held.tolist()
+        if not isinstance(held, list):
+            return number(given, unit, difference)
+    if isinstance(held, list | tuple) and not _SIMPLE.issuperset(map(type, held)):
+        held = [numbers(each, unit, difference) for each in held]
+    kind = getattr(getattr(held, "dtype", None), "kind", None)
+    if kind is None:
+        try:
+            held = np.asarray(held)
+        except ValueError:
+            raise NotPlain("rows of unequal lengths") from None
+        kind = held.dtype.kind
+    if kind not in _REAL:
+        raise NotPlain(f"an array of type {brief(str(held.dtype))}: real numbers are needed")
+    if type(held) is np.ndarray and held.ndim == 0:
+        held = held[()]
+    _check_unit(own, unit)
+    return _in_si(held, own, unit, difference) if own else held
+
+
+def one_by_one(given: Any) -> Any:
+    """The numbers of a row, each with the unit that all of them carry; what is no array as it is."""
+    if isinstance(given, Set):
+        raise NotPlain("a set has no order: give a list")
+    held, own = bare(given)
+    if not isinstance(held, np.ndarray):
+        return given
+    if held.ndim != 1:
+        raise NotPlain(f"an array of shape {held.shape}: one row is needed")
+    values = held.tolist() if held.dtype.kind in _REAL else list(held)
+    return values if own is None else [Carried(value, own) for value in values]
+
+
+def relabelled(given: Any, found: Any) -> Any:
+    """Numbers with the labels of what they came from, by which arrays of xarray and pandas are joined.
+
+    found : what `numbers` made of it
+    """
+    if np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords"):
+        labelled = given.copy(data=found)
+        labelled.attrs = {}
+        return labelled
+    same = hasattr(given, "to_numpy") and hasattr(given, "index") and bare(given)[1] is None
+    return given if same else found
+
+
+def bare(given: Any) -> tuple[Any, str | None]:
+    """What something holds, without labels and masks, and the unit that it carries; None where it has none.
+
+    A unit is empty where something says that it has no dimension.
+    """
+    unit = None
+    while type(given) not in _OWN:
+        inner, own = _peeled(given)
+        if own is not None and unit is not None:
+            raise NotPlain(f"it has two units, {brief(own)!r} and {brief(unit)!r}")
+        unit = unit if own is None else own
+        if inner is given:
+            break
+        given = inner
+    return given, unit
+
+
+def _peeled(given):
+    """What is inside the outermost coat, and the unit on it."""
+    if isinstance(given, np.ma.MaskedArray):
+        if count := np.ma.count_masked(given):
+            raise NotPlain(f"{count} of {given.size} numbers are masked: fill them in, or leave them out")
+        return given.data, None
+    if isinstance(given, np.generic):
+        return given, None
+    if hasattr(given, "dims") and hasattr(given, "attrs"):  # of xarray
+        if not hasattr(given, "data"):
+            raise NotPlain(f"a {type(given).__name__}: give one of its variables")
+        return given.data, _stated(given.attrs)
+    if hasattr(given, "to_numpy"):  # of pandas, polars
+        return given.to_numpy(), _stated(getattr(given, "attrs", {}))
+    if hasattr(given, "magnitude") and hasattr(given, "units"):  # of pint
+        units = given.units
+        return given.magnitude, _named(units if isinstance(units, str) else format(units, "~C"))
+    own = getattr(given, "units", getattr(given, "unit", None))
+    if own is not None and hasattr(given, "value"):  # of unyt, astropy
+        return np.asarray(given.value), _named(str(own))
+    if isinstance(given, np.ndarray):
+        return given.view(np.ndarray), None
+    return given, None
+
+
+def _stated(attributes):
+    unit = attributes.get("units", attributes.get("unit"))
+    return None if unit is None else _named(str(unit))
+
+
+def _named(unit):
+    return "" if unit.strip() in ("1", "dimensionless") else unit.strip()
+
+
+def _scalar(given):
+    """What something holds that may be one number, and its unit."""
+    held, own = bare(given)
+    if isinstance(held, np.ndarray) and held.ndim == 0:
+        held, inner = _scalar(held[()])
+        own = inner if own is None else own
+    return held, own
+
+
+def _check_unit(own, unit):
+    """Raise NotPlain for a unit where there is none, and for no dimension where there is one."""
+    if own and unit is None:
+        raise NotPlain(f"this one has the unit {brief(own)}")
+    if own == "" and unit is not None:
+        raise NotPlain("this one has no dimension")
+
+
+def _known(read, text, unit, difference, own):
+    """What a reader of units makes of a text. Raises NotPlain, with the unit, where it says no word."""
+    try:
+        return read(text, unit, difference)
+    except ValueError as error:
+        raise NotPlain(str(error) or f"this one has the unit {brief(own)}") from None
+
+
+def _in_si(held, own, unit, difference):
+    from .units import scale
+
+    factor, zero = _known(scale, own, unit, difference, own)
+    # By a whole number, such as 1000 of millimetres: that rounds once.
+    found = held / float(factor.denominator) if factor.numerator == 1 else held * float(factor)
+    return found + float(zero) if zero else found
