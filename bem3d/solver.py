@@ -78,9 +78,9 @@ class BEM:
     Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
-    depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
-    leaves nothing in contact, as is its gap. Path, speed and the friction that opposes them are below zero
-    backwards. Its measures are of the last step; of friction by_traction and by_work alone, the second NaN at
+    depth are those of the last, by traction. x moves with the material, and is where the gap is measured at the
+    end, as is surface_displacement [m], into the elastomer (M, N). Depth and gap are NaN where a load of zero
+    leaves nothing in contact. Path, speed and the friction that opposes them are below zero backwards. Its measures are of the last step; of friction by_traction and by_work alone, the second NaN at
     rest; rounds of all steps; and time_steps; no curvature_by_pressure. With `frames` also, at the steps nearest
     to these instants, the last of them at the end: frame_time [s], frame_depth [m], NaN where nothing presses,
     frame_shift [m], by which the points are then downstream of x, (F,); frame_pressure [Pa] and frame_displacement
