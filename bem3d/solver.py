@@ -80,11 +80,12 @@ class BEM:
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
     depth are those of the last, by traction. x moves with the material, and is where the gap is measured at the
     end, as is surface_displacement [m], into the elastomer (M, N). Depth and gap are NaN where a load of zero
-    leaves nothing in contact. Path, speed and the friction that opposes them are below zero backwards. Its measures are of the last step; of friction by_traction and by_work alone, the second NaN at
-    rest; rounds of all steps; and time_steps; no curvature_by_pressure. With `frames` also, at the steps nearest
-    to these instants, the last of them at the end: frame_time [s], frame_depth [m], NaN where nothing presses,
-    frame_shift [m], by which the points are then downstream of x, (F,); frame_pressure [Pa] and frame_displacement
-    [m] of the surface into the elastomer (F, M, N). Time, depth and shift are those at which the gap is measured.
+    leaves nothing in contact. Path, speed and the friction that opposes them are below zero backwards. Its
+    measures are of the last step; of friction by_traction and by_work alone, the second NaN at rest; rounds of all
+    steps; and time_steps; no curvature_by_pressure. With `frames` also, at the steps nearest to these instants,
+    the last of them at the end: frame_time [s], frame_depth [m], NaN where nothing presses, frame_shift [m], by
+    which the points are then downstream of x, (F,); frame_pressure [Pa] and frame_displacement [m] of the surface
+    into the elastomer (F, M, N). Time, depth and shift are those at which the gap is measured.
 
     With Coulomb friction in the interface, in sliding: measures friction_in_elastomer, friction_in_interface [N],
     which together are the friction. Under a Shear: friction_force is the tangential force; measures
@@ -216,8 +217,7 @@ class BEM:
         extent = problem.scene.roughness.period if repeats else self.extent
         grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid, start, beside)
-        window.check_on_map(problem.scene, grid, answer.pressure > 0)
-        window.check(problem.scene, grid, answer, repeats)
+        window.check(problem.scene, grid, answer.pressure > 0, repeats)
         if repeats:
             _check_gap(problem.scene.motion.gap, grid, answer)
         return grid, answer
