@@ -154,6 +154,10 @@ def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
     np.testing.assert_allclose(around.gap, result.fields["gap"], rtol=0, atol=1e-9 * result.depth)
     np.testing.assert_array_equal(around.displacement, result.fields["frame_displacement"][-1])
     assert result.fields["frame_shift"][-1] == 0
+    x, y, touched = result.fields["x"], result.fields["y"], result.fields["pressure"] > 0
+    surface = Problem(replace(scene, motion=program.held), solver.engine).surface(Grid(48, 48 * (x[1] - x[0])))
+    slopes = (scene.indenter.slope(x, y[:, None]) + surface.slopes(x, y))[touched]
+    assert result.measures["rms_slope_contact"] == pytest.approx(np.sqrt(np.mean(slopes**2)), rel=1e-9)
 
 
 @pytest.mark.parametrize(
