@@ -99,16 +99,14 @@ def march(
         heights, remembered = body.heights(at), material.remembered(seen)
         compliance = material.creep.compliance(seen)
         touch = press(heights, remembered, compliance, guess, tolerance, start + seen, middle)
-        pressure, displacement = problem.flow.modulus * touch.pressure, remembered + touch.displacement
         if k in frames:
-            frames.keep(
-                time=start + seen, depth=touch.depth, shift=at, pressure=pressure, displacement=displacement
-            )
+            fields = _fields(problem, remembered, touch)
+            frames.keep(time=start + seen, depth=touch.depth, shift=at, **fields)
         slopes = body.slopes(material.offset(program.path(middle)))
         work = material.crept(step, touch.pressure, touch.displacement / compliance)
         rows.append((start + seen, *touch.sums(slopes), work / step))
     press.count()
-    end = {"pressure": pressure, "gap": touch.gap, "displacement": displacement, "offset": float(at)}
+    end = _fields(problem, remembered, touch) | {"gap": touch.gap, "offset": float(at)}
     return _history(problem, program, grid, times, np.array(rows), frames, end)
 
 
@@ -201,17 +199,16 @@ class _Press:
         program, pixel, heights = self._program, self._grid.pixel, body + remembered
         if program.pressed_by == "depth":
             load, depth = None, float(program.prescribed(seen))
-            overlap, deepest = depth - heights, heights.argmin()
-            known = depth + abs(body.flat[deepest]) + abs(remembered.flat[deepest])
-            if overlap.flat[deepest] <= ROUNDING * known:
-                return _Touch.nothing(-overlap, depth)
+            lowest = heights.argmin()
+            known = depth + abs(body.flat[lowest]) + abs(remembered.flat[lowest])
+            if depth - heights.flat[lowest] <= ROUNDING * known:
+                return _Touch.nothing(heights - depth, depth)
         else:
             load, depth = self._load(middle), None
             if load == 0:
                 return _Touch.nothing(np.full(heights.shape, np.nan))
-            overlap = contact.first_guess(heights, int(heights.size * FIRST) + 1)
         # A half-space that is c times as compliant under p is the relaxed one under c p.
-        start = compliance * guess if guess.any() else np.maximum(overlap / pixel, 0.0)
+        start = compliance * guess if guess.any() else _overlap(heights, depth) / pixel
         found = self._solved(
             heights / pixel, start, tolerance, depth and depth / pixel, load and compliance * load, middle
         )
@@ -262,6 +259,21 @@ class _Press:
                 f"{time:g} s into the program the contact reaches the edge of extent = {grid.extent:g} m; "
                 "take a larger extent"
             )
+
+
+def _overlap(heights, depth):
+    """Pressure to begin with, in proportion to what overlaps; without a depth, on some of the lowest points."""
+    if depth is None:
+        return contact.first_guess(heights, int(heights.size * FIRST) + 1)
+    return np.maximum(depth - heights, 0.0)
+
+
+def _fields(problem, remembered, touch):
+    """Pressure [Pa], and displacement of the surface [m] (ny, nx)."""
+    return {
+        "pressure": problem.flow.modulus * touch.pressure,
+        "displacement": remembered + touch.displacement,
+    }
 
 
 def _history(problem, program, grid, times, rows, frames, end):
