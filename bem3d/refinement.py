@@ -6,6 +6,7 @@ one.
 """
 
 from dataclasses import dataclass, replace
+from numbers import Integral
 from time import process_time
 
 import numpy as np
@@ -46,9 +47,9 @@ class _Points:
 
 def _steps(times: int) -> list[int]:
     """Factors to refine by, one after the other. Raises ValueError for what is no power of two."""
-    if not isinstance(times, int) or times < 1 or times & (times - 1):
+    if not isinstance(times, Integral) or times < 1 or times & (times - 1):
         raise ValueError(f"times = {times!r}: a power of two, as 1, 2, 4")
-    return [2**k for k in range(1, times.bit_length())] or [1]
+    return [2**k for k in range(1, int(times).bit_length())] or [1]
 
 
 def refined(solver, result: Result, times: int = 2) -> Result:
@@ -64,7 +65,7 @@ def refined(solver, result: Result, times: int = 2) -> Result:
     """
     steps = _steps(times)
     if reasons := _refusals(result):
-        raise Refused(f"this answer cannot be refined: {'; '.join(reasons)}; take more points")
+        raise Refused(f"this answer cannot be refined: {'; '.join(reasons)}")
     heating = result.scene.heating
     # As warm as its friction makes it on fine pixels: a contact solved on coarse ones is another one.
     fields = None if heating is not None and heating.feedback is not None else result.fields
@@ -80,13 +81,13 @@ def _refusals(result):
     """Reasons why an answer has no points of contact that could be solved alone."""
     reasons, scene, fields = [], result.scene, result.fields
     if isinstance(scene.motion, Program):
-        reasons.append("motion = Program: a history is no single contact")
+        reasons.append("motion = Program: a history is no single contact, take more points")
     if isinstance(scene.indenter, Plane):
-        reasons.append("indenter = Plane: its contact repeats, and depends on all of the cell")
+        reasons.append("indenter = Plane: its surface repeats, take more points")
     if isinstance(scene.indenter, Cylinder):
-        reasons.append("indenter = Cylinder: a line is one row of pixels already")
+        reasons.append("indenter = Cylinder: a line is one row of pixels already, take more points")
     if not {"x", "y", "pressure", "gap"} <= fields.keys() or np.ndim(fields["gap"]) != 2:
-        reasons.append("result.fields: no pressure and gap on a grid, as those that BEM.solve gives")
+        reasons.append("result.fields: no pressure and gap on a grid, take those of BEM.solve")
     return reasons
 
 
