@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import inf, log2
 from numbers import Real
 from typing import TYPE_CHECKING, Protocol
@@ -81,11 +82,12 @@ def apart(scene: Scene, name: str, one: Answer, other: Answer) -> float:
 def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
     """The first of grids, each twice as fine as the one before, that keeps every wanted error.
 
-    solver : everything else that is set. Warns Unconfirmed where even the last does not. Raises ValueError for what
-    cannot be promised, Refused and SolveError as the solver does where no grid has an answer.
+    solver : everything else that is set. Warns Unconfirmed where even the last does not. Raises ValueError for
+    what cannot be promised, Refused and SolveError as the solver does where no grid has an answer.
     """
     _check(solver, scene, wanted)
-    found, left = [], None
+    found: list[tuple[BEM, Result]] = []
+    left: Refused | SolveError | None = None
     for settings in _doubled(solver, scene, SHARE * min(wanted.values())):
         try:
             found.append((settings, settings.solve(scene)))
@@ -117,16 +119,16 @@ def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
 
 def changes(scene: Scene, name: str, answers: list[Result]) -> tuple[float, float]:
     """Changes of a quantity at the last halving of the pixel and at the one before; infinite without an answer."""
-    steps = [apart(scene, name, *pair) for pair in zip(answers[:-1], answers[1:], strict=True)]
-    last, before = ([inf, inf] + steps)[:-3:-1]
+    steps = [apart(scene, name, *pair) for pair in pairwise(answers)]
+    before, last = [inf, inf, *steps][-2:]
     return last, before
 
 
 def error(last: float, before: float) -> float:
     """Error that is left after two halvings, from what changed at the last and at the one before.
 
-    By the order at which the changes fall; no less than the last of them, as if of first order, nor than a quarter of
-    the one before, as if the last were small by chance.
+    By the order at which the changes fall; no less than the last of them, as if of first order, nor than a quarter
+    of the one before, as if the last were small by chance.
     """
     if before == inf:
         return inf

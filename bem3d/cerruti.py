@@ -19,11 +19,15 @@ from .memory import NEAR
 
 def free(grid: Grid, poisson_ratio: float, engine: Engine) -> FreePair:
     """Tractions along x and y -> displacements, on a free surface."""
-    along, across = kernels(grid.points)
+    return FreePair(paired(grid.points, poisson_ratio), engine)
+
+
+def paired(points: int, poisson_ratio: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Kernels xx, xy, yy of a free surface (points, points), y and x = 0, 1, ... pixels away."""
+    along, across = kernels(points)
     coupling = poisson_ratio / (1 - poisson_ratio)
-    love = along + along.T
-    xx = love + coupling * along
-    return FreePair((xx, coupling * across, xx.T), engine)
+    xx = along + along.T + coupling * along
+    return xx, coupling * across, xx.T
 
 
 def periodic(grid: Grid, poisson_ratio: float, engine: Engine) -> PeriodicPair:

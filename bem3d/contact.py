@@ -30,9 +30,14 @@ FUSED = kernels.Fused()
 
 @dataclass(frozen=True)
 class Contact:
-    """Pressure and gap (ny, nx), depth, lowest height, violation as `tolerance` measures it, sets tried."""
+    """A contact found: planes (ny, nx), and numbers.
+
+    displacement : by the pressure; where heights are many orders greater, the gap has lost it
+    violation : as `tolerance` measures it; rounds : sets tried
+    """
 
     pressure: np.ndarray
+    displacement: np.ndarray
     gap: np.ndarray
     depth: float
     lowest: float
@@ -40,8 +45,9 @@ class Contact:
     rounds: int
 
     def map(self, taken_over: Callable) -> "Contact":
-        """This contact with pressure and gap taken over, to where they are wanted."""
-        return replace(self, pressure=taken_over(self.pressure), gap=taken_over(self.gap))
+        """This contact with its planes taken over, to where they are wanted."""
+        planes = {name: taken_over(getattr(self, name)) for name in ("pressure", "displacement", "gap")}
+        return replace(self, **planes)
 
 
 def solve(
@@ -91,7 +97,8 @@ def solve(
         inside, outside = sums.gaps(displacement, heights, level, contact, gap)
         aim = tolerance * max(level - lowest, highest - lowest, least)
         if inside <= aim and outside <= aim:
-            return Contact(pressure, gap, level, lowest, max(inside, outside) / aim * tolerance, rounds)
+            violation = max(inside, outside) / aim * tolerance
+            return Contact(pressure, displacement, gap, level, lowest, violation, rounds)
         if inside <= max(aim, ADDED * outside):
             contact |= gap < -aim
             if outside > deepest / 2:  # what was added the last time was dropped again: solve closer

@@ -1,5 +1,6 @@
 """Friction of a steady contact: estimates from one pressure, and the answer that joins their strengths."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 from typing import Self
@@ -11,6 +12,9 @@ from scene.indenter import Axisymmetric
 from .grid import Grid
 from .problem import Problem
 from .surface import RoughSurface
+
+# Grid and pressure [Pa] of its shape to the energy lost per length slid [J/m], as `Problem.lost` has it.
+Lost = Callable[[Grid, np.ndarray], tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -31,10 +35,12 @@ class Friction:
     slowness: float
 
     @classmethod
-    def of(cls, problem: Problem, grid: Grid, pressure: np.ndarray, surface: RoughSurface | None) -> Self:
-        """Friction from the pressure [Pa] (rows, points) on this roughness."""
+    def of(
+        cls, problem: Problem, grid: Grid, pressure: np.ndarray, surface: RoughSurface | None, lost: Lost
+    ) -> Self:
+        """Friction from the pressure [Pa] on a grid, of its shape, on this roughness."""
         slopes = problem.slopes(grid, surface)
-        loss, work = problem.lost(grid, pressure)
+        loss, work = lost(grid, pressure)
         curvature = curvature_by_pressure(problem.scene.indenter, grid, pressure, surface)
         return cls(
             by_traction=float(-np.sum(pressure * slopes) * grid.patch),
@@ -44,7 +50,7 @@ class Friction:
             mean_curvature=curvature,
             lag=problem.flow.lag(grid),
             # Without an edge nothing is lost of the loss.
-            slowness=0.0 if pressure.all() else problem.flow.slowness(grid),
+            slowness=0.0 if np.count_nonzero(pressure) == grid.points * grid.rows else problem.flow.slowness(grid),
         )
 
     @property
@@ -89,11 +95,11 @@ class Friction:
 def curvature_by_pressure(indenter, grid: Grid, pressure: np.ndarray, surface: RoughSurface | None) -> float:
     """Mean of d2z/dx2 [1/m], of indenter and roughness, weighted with the pressure.
 
-    pressure : not zero everywhere [Pa] (rows, points)
+    pressure : not zero everywhere [Pa], of the shape of the grid
     """
-    curvatures = indenter_curvature(indenter, grid.x[None, :], grid.y[:, None], grid.pixel)
+    curvatures = indenter_curvature(indenter, *grid.places, grid.pixel)
     if surface is not None:
-        curvatures = curvatures + surface.curvatures(grid.x, grid.y)
+        curvatures = curvatures + grid.sampled(surface.curvatures)
     return float(np.sum(pressure * curvatures) / pressure.sum())
 
 

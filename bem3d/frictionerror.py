@@ -17,7 +17,7 @@ import numpy as np
 
 from scene import Plane, SolveError
 
-from .friction import Friction
+from .friction import Friction, Lost
 from .grid import Grid
 from .problem import Problem
 
@@ -33,22 +33,21 @@ SPARE, FARTHEST = 1.5, 8.0  # points over what the estimates ask for, and over t
 
 
 def on_grid(
-    problem: Problem, grid: Grid, pressure: np.ndarray, residual: float
+    problem: Problem, grid: Grid, pressure: np.ndarray, residual: float, lost: Lost
 ) -> tuple[Friction, dict[str, float]]:
-    """Friction from a pressure [Pa] (rows, points) solved to a residual, and its measures by name.
+    """Friction from a pressure [Pa] of the shape of the grid, solved to a residual, and its measures by name.
 
     Raises SolveError as `bound` does.
     """
     surface, wider = problem.surface(grid), grid.coarser()
-    friction = Friction.of(problem, grid, pressure, surface)
+    friction = Friction.of(problem, grid, pressure, surface, lost)
     measures = friction.measures(float(pressure.sum() * grid.patch))
     if friction.force:
-        coarser = Friction.of(problem, wider, wider.averaged(pressure, grid), surface)
+        coarser = Friction.of(problem, wider, wider.averaged(pressure, grid), surface, lost)
         touched = pressure > 0
         spot, count = grid.spot_radius(touched), int(np.count_nonzero(touched))
-        measures["friction_error"] = bound(
-            signs(problem, grid, friction, coarser, spot, count), friction, grid.points, residual
-        )
+        seen = signs(problem, grid, friction, coarser, spot, count)
+        measures["friction_error"] = bound(seen, friction, grid.points, residual)
     return friction, measures
 
 

@@ -1,5 +1,6 @@
 """The piece of surface on which a contact is sought."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite
 
@@ -66,9 +67,25 @@ class Grid:
     def _offsets(self, count):
         return (np.arange(count) - (count - 1) / 2) * self.pixel
 
+    @property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """(x, y) of the pixels [m], to be broadcast to the shape of the grid."""
+        return self.x[None, :], self.y[:, None]
+
+    def sampled(self, evaluate: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> np.ndarray:
+        """Values on the grid of what is evaluated on coordinates x (points,) and y (rows,)."""
+        return evaluate(self.x, self.y)
+
     def coarser(self) -> "Grid":
         """A grid on this piece with half the points."""
         return replace(self, points=(self.points + 1) // 2)
+
+    def ladder(self, least: int) -> list["Grid"]:
+        """This grid, and coarser ones on its piece as long as they have `least` points along each side."""
+        grids = [self]
+        while grids[-1].points >= 2 * least:
+            grids.append(grids[-1].coarser())
+        return grids
 
     def resample(self, values: np.ndarray, given: "Grid") -> np.ndarray:
         """Values of another grid by bilinear interpolation; beyond its outermost points, those of the nearest."""
@@ -107,11 +124,16 @@ class Grid:
 
     def spot_radius(self, chosen: np.ndarray) -> float:
         """Radius [m] of a disc with the area over rim of the chosen pixels; of a row half the width of a strip."""
-        area, rim = np.count_nonzero(chosen), np.count_nonzero(np.diff(np.pad(chosen, ((0, 0), (1, 1))), axis=1))
+        area, rim = np.count_nonzero(chosen), self.rim(chosen)
+        # Pixels make the rim of a disc 4/pi times as long.
+        return self.pixel * area / rim if self.rows == 1 else self.pixel * 8 / np.pi * area / rim
+
+    def rim(self, chosen: np.ndarray) -> int:
+        """Sides of the chosen pixels beyond which there is none of them; of a row only those at its ends."""
+        along = np.count_nonzero(np.diff(np.pad(chosen, ((0, 0), (1, 1))), axis=1))
         if self.rows == 1:
-            return self.pixel * area / rim
-        rim += np.count_nonzero(np.diff(np.pad(chosen, ((1, 1), (0, 0))), axis=0))
-        return self.pixel * 8 / np.pi * area / rim  # pixels make the rim of a disc 4/pi times as long
+            return int(along)
+        return int(along + np.count_nonzero(np.diff(np.pad(chosen, ((1, 1), (0, 0))), axis=0)))
 
     def on_rim(self, chosen: np.ndarray) -> bool:
         """Whether any chosen pixel lies on the rim; a single row ends at its first and last pixel only."""

@@ -21,7 +21,8 @@ def marched(solver, scene, started) -> Result:
     window.check_layer(scene, grid)
     history = march(problem, program, grid, solver.tolerance, solver.steps, solver.frames)
     _check(grid, history)
-    points = grid.points * grid.rows
+    points, (x, y) = grid.points * grid.rows, grid.centre
+    seen = replace(grid, centre=(x + history.offset, y))
     return Result(
         scene=scene,
         solver=solver.name,
@@ -33,7 +34,7 @@ def marched(solver, scene, started) -> Result:
         applications=problem.work / points,
         seconds=time.process_time() - started,
         measures={
-            **measured(problem, grid, history.pressure, history.gap),
+            **measured(problem, seen, history.pressure, history.gap),
             "friction_by_traction": float(history.friction_by_traction[-1]),
             "friction_by_work": float(history.friction_by_work[-1]),
             "rounds": float(history.rounds.sum()),
@@ -49,10 +50,11 @@ def marched(solver, scene, started) -> Result:
             "friction_force": history.friction_by_traction,
             "friction_by_work": history.friction_by_work,
             "contact_area": history.contact_area,
-            "x": grid.x + history.offset,
-            "y": grid.y,
+            "x": seen.x,
+            "y": seen.y,
             "pressure": history.pressure,
             "gap": history.gap,
+            "surface_displacement": history.displacement,
             **_frames(history),
         },
     )

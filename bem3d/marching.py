@@ -26,7 +26,7 @@ from .timeline import in_a_pixel, timeline
 from .upstream import Endless, Repeating, Returning, Sheet
 from .window import check_on_map
 
-ROUNDING = 1e-12  # of the heights: an overlap of less is none
+ROUNDING = 1e-12  # of depth, height and memory where they overlap most: an overlap of less is none
 FIRST = 1 / 64  # of the window that a load is guessed to touch first
 YIELDING = 0.6  # of a step: a solid collocated later than that has little stiffness at once
 KEPT = 2**23  # values of heights and slopes at places within a pixel, at most
@@ -43,8 +43,8 @@ class History:
     power : of the pressure on the delayed part of the displacement; in steady sliding friction times speed,
         otherwise what is stored and the motion in depth count as well
     residual, rounds : of each contact, see `contact`
-    pressure, gap : in the last step (ny, nx)
-    offset : by which the pixels' centres then are downstream of those of the grid
+    pressure, gap, displacement : in the last step (ny, nx), the last of the surface
+    offset : by which the pixels' centres are downstream of those of the grid where they are seen
     frames : fields at instants asked for, (F,) and (F, ny, nx); empty where none are
     """
 
@@ -60,6 +60,7 @@ class History:
     rounds: np.ndarray
     pressure: np.ndarray
     gap: np.ndarray
+    displacement: np.ndarray
     offset: float
     frames: Mapping[str, np.ndarray]
 
@@ -86,7 +87,7 @@ def march(
     frames = Frames((times[1:] + times[:-1]) / 2, program.duration, instants)
     body = _Body(problem, grid, places(program, grid, steps))
     material, press = _material(problem, program, grid), _Press(problem, program, grid)
-    touch, rows = _Touch(np.zeros(grid.shape)), []
+    touch, rows = _Touch.nothing(np.zeros(grid.shape)), []
     turns = program.turns
     for k, (start, end) in enumerate(pairwise(times)):
         middle, step = (start + end) / 2, end - start
@@ -95,20 +96,18 @@ def march(
             seen = step  # the pressure jumps: seen earlier, the surface would be thrown off the indenter by then
         guess = np.roll(touch.pressure, material.follow(program.path(middle), start), axis=1)
         at = material.offset(program.path(start + seen))
-        heights = body.heights(at) + material.remembered(seen)
+        heights, remembered = body.heights(at), material.remembered(seen)
         compliance = material.creep.compliance(seen)
-        touch = press(heights, compliance, guess, tolerance, start + seen, middle)
+        touch = press(heights, remembered, compliance, guess, tolerance, start + seen, middle)
         if k in frames:
-            displacement = heights - body.heights(at) + touch.displaced(heights)
-            pressure = problem.flow.modulus * touch.pressure
-            frames.keep(
-                time=start + seen, depth=touch.depth, shift=at, pressure=pressure, displacement=displacement
-            )
+            fields = _fields(problem, remembered, touch)
+            frames.keep(time=start + seen, depth=touch.depth, shift=at, **fields)
         slopes = body.slopes(material.offset(program.path(middle)))
-        work = material.crept(step, touch.pressure, touch.displaced(heights) / compliance)
+        work = material.crept(step, touch.pressure, touch.displacement / compliance)
         rows.append((start + seen, *touch.sums(slopes), work / step))
     press.count()
-    return _history(problem, program, grid, times, np.array(rows), touch, material, frames)
+    end = _fields(problem, remembered, touch) | {"gap": touch.gap, "offset": float(at)}
+    return _history(problem, program, grid, times, np.array(rows), frames, end)
 
 
 def _material(problem, program, grid):
@@ -162,17 +161,19 @@ class _Body:
 
 @dataclass(frozen=True)
 class _Touch:
-    """A contact: pressure over E* and gap [m] (ny, nx), depth [m], and what it took."""
+    """A contact: pressure over E*, displacement by it and gap [m] (ny, nx), depth [m], and what it took."""
 
     pressure: np.ndarray
-    gap: np.ndarray | None = None
+    displacement: np.ndarray
+    gap: np.ndarray
     depth: float = np.nan
     violation: float = 0.0
     rounds: int = 0
 
-    def displaced(self, heights):
-        """Displacement by the pressure [m] where the rest of the gap is heights - depth."""
-        return self.gap + self.depth - heights if self.pressure.any() else np.zeros(heights.shape)
+    @classmethod
+    def nothing(cls, gap, depth=np.nan) -> "_Touch":
+        """The indenter, clear of the surface."""
+        return cls(np.zeros(gap.shape), np.zeros(gap.shape), gap, depth)
 
     def sums(self, slopes):
         """Numbers of the contact that a history keeps."""
@@ -189,29 +190,35 @@ class _Press:
         self._operator = problem.medium.operator(grid)
         self._preconditioner = problem.medium.preconditioner(grid)
 
-    def __call__(self, heights, compliance, guess, tolerance, seen, middle):
+    def __call__(self, body, remembered, compliance, guess, tolerance, seen, middle):
         """The contact at the depth of the time `seen`, or under the load in the `middle` of the step [s].
 
-        heights [m], and guess, a pressure to begin with (ny, nx); compliance over the relaxed one.
+        body, remembered : heights of the indenter, and what is left of the surface's displacement [m] (ny, nx)
+        compliance : over the relaxed one; guess : a pressure to begin with (ny, nx)
         """
-        program, pixel = self._program, self._grid.pixel
+        program, pixel, heights = self._program, self._grid.pixel, body + remembered
         if program.pressed_by == "depth":
             load, depth = None, float(program.prescribed(seen))
-            overlap = depth - heights
-            if overlap.max() <= ROUNDING * np.abs(heights).max():
-                return _Touch(np.zeros(heights.shape), -overlap, depth)
+            lowest = heights.argmin()
+            known = depth + abs(body.flat[lowest]) + abs(remembered.flat[lowest])
+            if depth - heights.flat[lowest] <= ROUNDING * known:
+                return _Touch.nothing(heights - depth, depth)
         else:
             load, depth = self._load(middle), None
             if load == 0:
-                return _Touch(np.zeros(heights.shape), np.full(heights.shape, np.nan))
-            overlap = contact.first_guess(heights, int(heights.size * FIRST) + 1)
+                return _Touch.nothing(np.full(heights.shape, np.nan))
         # A half-space that is c times as compliant under p is the relaxed one under c p.
-        start = compliance * guess if guess.any() else np.maximum(overlap / pixel, 0.0)
+        start = compliance * guess if guess.any() else _overlap(heights, depth) / pixel
         found = self._solved(
             heights / pixel, start, tolerance, depth and depth / pixel, load and compliance * load, middle
         )
         touch = _Touch(
-            found.pressure / compliance, found.gap * pixel, found.depth * pixel, found.violation, found.rounds
+            found.pressure / compliance,
+            found.displacement * pixel,
+            found.gap * pixel,
+            found.depth * pixel,
+            found.violation,
+            found.rounds,
         )
         self._check_edge(touch.pressure, middle)
         return touch
@@ -254,8 +261,23 @@ class _Press:
             )
 
 
-def _history(problem, program, grid, times, rows, touch, material, frames):
-    """History of the contact in SI units."""
+def _overlap(heights, depth):
+    """Pressure to begin with, in proportion to what overlaps; without a depth, on some of the lowest points."""
+    if depth is None:
+        return contact.first_guess(heights, int(heights.size * FIRST) + 1)
+    return np.maximum(depth - heights, 0.0)
+
+
+def _fields(problem, remembered, touch):
+    """Pressure [Pa], and displacement of the surface [m] (ny, nx)."""
+    return {
+        "pressure": problem.flow.modulus * touch.pressure,
+        "displacement": remembered + touch.displacement,
+    }
+
+
+def _history(problem, program, grid, times, rows, frames, end):
+    """History of the contact in SI units, with its fields at the end."""
     seen, depth, pressure, traction, count, violation, rounds, power = rows.T
     middle, force = (times[1:] + times[:-1]) / 2, problem.flow.modulus * grid.patch
     depth_given = program.pressed_by == "depth"
@@ -270,10 +292,8 @@ def _history(problem, program, grid, times, rows, touch, material, frames):
         contact_area=grid.patch * count,
         residual=violation,
         rounds=rounds.astype(int),
-        pressure=problem.flow.modulus * touch.pressure,
-        gap=touch.gap,
-        offset=float(material.offset(program.path(middle[-1]))),
         frames=frames.handed_over(),
+        **end,
     )
 
 

@@ -100,6 +100,7 @@ class _March:
     def arrays(self, engine):
         """Arrays of a program beside the contact of a step."""
         yield Array("modes in the window", (self.modes, *self.grid.shape))
+        yield Array("what is remembered, and displacements before and after", (3, *self.grid.shape))
         yield Array("heights and slopes at places within a pixel", (self.places, *self.grid.shape))
         if self.frames:
             yield Array("pressure and displacement at instants", (3, self.frames, *self.grid.shape))

@@ -141,8 +141,8 @@ class Problem:
 
     def slopes(self, grid: Grid, surface: RoughSurface | None) -> np.ndarray:
         """dz/dx [1] at the pixels' centres."""
-        macroscopic = self.scene.indenter.slope(grid.x[None, :], grid.y[:, None])
-        return macroscopic if surface is None else macroscopic + surface.slopes(grid.x, grid.y)
+        macroscopic = self.scene.indenter.slope(*grid.places)
+        return macroscopic if surface is None else macroscopic + grid.sampled(surface.slopes)
 
     def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
         """Energy lost per length slid under a pressure [Pa], without looking at the indenter [J/m].
@@ -164,9 +164,7 @@ class Problem:
         start : whose points are then doubled until they are those of the finest
         beside : of a neighbouring scene, from which the finest grid starts where it is the nearer one
         """
-        grids, coarsest = [finest], COARSEST if start is None else 2 * start.grid.points
-        while grids[-1].points >= 2 * coarsest:
-            grids.append(grids[-1].coarser())
+        grids = finest.ladder(COARSEST if start is None else 2 * start.grid.points)
         surface = self.surface(finest)
         for grid in reversed(grids[1:]):
             try:

@@ -5,23 +5,25 @@ taken from the kernel of a grid; where else they might touch is seen on the coar
 one.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from numbers import Integral
 from time import process_time
 
 import numpy as np
 
-from scene import Plane, Program, Result, SolveError
-from scene.quantities import WHOLE, takes
+from scene import Cylinder, Plane, Program, Refused, Result, SolveError
+from scene.protocol import trusted
+from scene.terms import surrounded, terms_of
 
-from . import wake
-from .friction import Friction, indenter_curvature
+from . import frictionerror, wake, window
 from .grid import Grid, Piece
+from .measures import measured
 from .problem import Problem
+from .spots import ROWS, Spots
 
 NEAR = 0.05  # of the depth below the lowest point: gaps on the coarse grid that the fine one may close
 MOST = 16384  # points in contact, of which the matrix takes 2 GiB
-ROWS = 512  # of the fine grid at a time, and points of a block of a matrix
 ROUNDS = 100
 
 
@@ -45,38 +47,64 @@ class _Points:
 
 def _steps(times: int) -> list[int]:
     """Factors to refine by, one after the other. Raises ValueError for what is no power of two."""
-    if times < 1 or times & (times - 1):
+    if not isinstance(times, Integral) or times < 1 or times & (times - 1):
         raise ValueError(f"times = {times!r}: a power of two, as 1, 2, 4")
-    return [2**k for k in range(1, times.bit_length())] or [1]
+    return [2**k for k in range(1, int(times).bit_length())] or [1]
 
 
-@takes(times=WHOLE)
 def refined(solver, result: Result, times: int = 2) -> Result:
     """A steady contact on pixels `times` as fine, in the window in which it was solved.
 
     solver, result : the `BEM` that answered, and its answer with its fields
     times : a power of two
 
-    The answer is that of `solver` on as many points, to its tolerance. Its fields are those of the points in
-    contact: x, y [m] and pressure [Pa], (m,). Raises SolveError for programs, planes and lines, and where too much
-    touches or comes close on the fine grid.
+    The answer is that of `solver` on as many points, to its tolerance, with all that the parts of the scene add to
+    it. Its fields are those of the points in contact: x, y [m] and pressure [Pa], (m,), and tractions and slip
+    under a Shear. Raises Refused for programs, planes and lines, and SolveError where too much touches or comes
+    close on the fine grid.
     """
-    scene, started = result.scene, process_time()
-    problem = Problem(scene, solver.engine, solver.terms)
-    if isinstance(scene.motion, Program) or isinstance(scene.indenter, Plane) or problem.width is not None:
-        raise SolveError("only steady contacts on a free surface are refined: take more points")
-    x, y = result.fields["x"], result.fields["y"]
-    pixel = float(x[-1] - x[0]) / (len(x) - 1)
-    coarse = Grid(len(x), pixel * len(x), (float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2))
+    steps = _steps(times)
+    if reasons := _refusals(result):
+        raise Refused(f"this answer cannot be refined: {'; '.join(reasons)}")
+    heating = result.scene.heating
+    # As warm as its friction makes it on fine pixels: a contact solved on coarse ones is another one.
+    fields = None if heating is not None and heating.feedback is not None else result.fields
+
+    def answered(scene):
+        return _refined(solver, scene, _grid_of(result.fields), fields, steps)
+
+    with trusted():
+        return surrounded(answered, terms_of(solver.terms, result.scene))(result.scene)
+
+
+def _refusals(result):
+    """Reasons why an answer has no points of contact that could be solved alone."""
+    reasons, scene, fields = [], result.scene, result.fields
+    if isinstance(scene.motion, Program):
+        reasons.append("motion = Program: a history is no single contact, take more points")
+    if isinstance(scene.indenter, Plane):
+        reasons.append("indenter = Plane: its surface repeats, take more points")
+    if isinstance(scene.indenter, Cylinder):
+        reasons.append("indenter = Cylinder: a line is one row of pixels already, take more points")
+    if not {"x", "y", "pressure", "gap"} <= fields.keys() or np.ndim(fields["gap"]) != 2:
+        reasons.append("result.fields: no pressure and gap on a grid, take those of BEM.solve")
+    return reasons
+
+
+def _refined(solver, scene, coarse, fields, steps):
+    """The answer, from fields on the coarse grid; without any they are solved first."""
+    started, problem = process_time(), Problem(scene, solver.engine, solver.terms)
+    around = wake.surroundings(solver, scene, fields or _fields(problem, coarse, solver.tolerance))
     fine, touching = coarse, None
-    for factor in _steps(times):
+    for factor in steps:
         fine = replace(coarse, points=factor * coarse.points)
-        near = _near(problem, coarse, fine, result, solver)
+        near = _near(problem, coarse, fine, around)
         begun = near.gap <= 0 if touching is None else near.within(touching)
         touching, pressure, depth, violation, rounds = _solved(problem, fine, near, begun, solver.tolerance)
-    friction = _friction(problem, fine, touching, pressure)
-    force = float(pressure.sum() * fine.patch)
-    return Result(
+    spots, force = Spots.of(fine, touching.row, touching.column), float(pressure.sum() * fine.patch)
+    window.check(scene, spots, pressure > 0)
+    friction, estimates = frictionerror.on_grid(problem, spots, pressure, violation, partial(_lost, problem))
+    found = Result(
         scene=scene,
         solver=solver.name,
         settings=solver.settings(problem, coarse) | {"points": fine.points},
@@ -87,32 +115,41 @@ def refined(solver, result: Result, times: int = 2) -> Result:
         applications=float(rounds),
         seconds=process_time() - started,
         measures={
-            "pixel": fine.pixel,
-            "contact_area": len(pressure) * fine.patch,
-            "contact_points": float(len(pressure)),
-            "points_per_shortest_wave": problem.points_per_wave(fine),
-            **friction.measures(force),
+            **measured(problem, spots, pressure, np.zeros(spots.shape)),
+            **estimates,
             "rounds": float(rounds),
+            "transform_pairs": float(rounds),
         },
-        fields={"x": fine.x[touching.column], "y": fine.y[touching.row], "pressure": pressure},
+        fields={"x": spots.x, "y": spots.y, "pressure": pressure},
     )
+    return problem.completed(found, spots)
 
 
-def _near(problem, coarse: Grid, fine: Grid, result: Result, solver) -> _Points:
+def _grid_of(fields):
+    x, y = fields["x"], fields["y"]
+    pixel = float(x[-1] - x[0]) / (len(x) - 1)
+    return Grid(len(x), pixel * len(x), (float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2))
+
+
+def _fields(problem, grid, tolerance):
+    """Fields of the contact on a grid."""
+    answer = problem.solve(grid, tolerance)
+    pressure, gap = answer.pressure * problem.flow.modulus, answer.gap * grid.pixel
+    return {"x": grid.x, "y": grid.y, "pressure": pressure, "gap": gap}
+
+
+def _near(problem, coarse: Grid, fine: Grid, around: wake.Surroundings) -> _Points:
     """Pixels of the fine grid where the surface, as the coarse one has it, comes close to the indenter."""
-    lag, coarse_lag = (problem.flow.collocation(grid) for grid in (fine, coarse))
-    gap = result.fields["gap"]
-    indenter = wake.heights(solver, result.scene, coarse.x + coarse_lag, coarse.y)
-    displacement = gap - indenter + result.depth
-    seen = replace(coarse, centre=(coarse.centre[0] + coarse_lag, coarse.centre[1]))
-    reach = NEAR * (result.depth - float(indenter.min()))
+    lag, depth = problem.flow.collocation(fine), around.depth
+    seen = replace(coarse, centre=(coarse.centre[0] + around.lag, coarse.centre[1]))
+    reach = NEAR * (depth - float(around.indenter.min()))
     surface, parts = problem.surface(fine), []
     for first in range(0, fine.points, ROWS):
         y = fine.y[first : first + ROWS]
         centre = fine.centre[0] + lag, float(y.mean())
         block = Piece(fine.points, fine.extent, centre, lines=len(y))
         height = problem.heights(block, surface)
-        left = block.resample(displacement, seen) + height - result.depth
+        left = block.resample(around.displacement, seen) + height - depth
         row, column = np.nonzero(left < reach)
         parts.append((row + first, column, height[row, column], left[row, column]))
     return _Points(*map(np.concatenate, zip(*parts, strict=True)))
@@ -127,14 +164,14 @@ def _kernel(problem, grid):
     return medium.ground.flowing(grid, flow.instantaneous, flow.shares, flow.in_pixels(grid), shift)
 
 
-def _between(kernel, at: _Points, loaded: _Points) -> np.ndarray:
-    """Kernel from each of the loaded points to each other point (m, n)."""
+def _between(kernel, at: _Points | Spots, loaded: _Points | Spots, ahead: int = 0) -> np.ndarray:
+    """Kernel from each of the loaded points to each other point (m, n), or so many pixels downstream of it."""
     found = np.empty((len(at.row), len(loaded.row)))
     middle = kernel.shape[1] // 2
     for first in range(0, len(at.row), ROWS):
         part = slice(first, first + ROWS)
         aside = np.abs(at.row[part, None] - loaded.row)
-        found[part] = kernel[aside, middle + at.column[part, None] - loaded.column]
+        found[part] = kernel[aside, middle + ahead + at.column[part, None] - loaded.column]
     return found
 
 
@@ -191,46 +228,19 @@ def _check_reach(expected, gap):
         )
 
 
-def _friction(problem, grid, touching, pressure) -> Friction:
-    """Friction as `Friction` has it, work taken for loss, from the pressure [Pa] (m,) at the points in contact."""
-    scene, flow, surface, force = problem.scene, problem.flow, problem.surface(grid), float(pressure.sum())
-    x, y = grid.x[touching.column], grid.y[touching.row]
-
-    slopes = scene.indenter.slope(x, y)
-    curvatures = indenter_curvature(scene.indenter, x, y, grid.pixel)
-    if surface is not None:
-        slopes = slopes + _at(touching, grid, surface.slopes)
-        curvatures = curvatures + _at(touching, grid, surface.curvatures)
-    mean_curvature = float(pressure @ curvatures) / force
-    loss = _lost(problem, grid, touching, pressure / flow.modulus) * flow.modulus * grid.patch
-    return Friction(
-        by_traction=float(-pressure @ slopes) * grid.patch,
-        by_loss=loss,
-        by_work=loss,
-        by_curvature=flow.trail * mean_curvature * force * grid.patch,
-        mean_curvature=mean_curvature,
-        lag=flow.lag(grid),
-        slowness=flow.slowness(grid),
-    )
-
-
-def _at(points: _Points, grid: Grid, evaluate: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> np.ndarray:
-    """Values (m,) at some pixels of what is evaluated on rows and columns."""
-    rows, row = np.unique(points.row, return_inverse=True)
-    columns, column = np.unique(points.column, return_inverse=True)
-    found = np.empty(len(row))
-    for first in range(0, len(rows), ROWS):
-        values = evaluate(grid.x[columns], grid.y[rows[first : first + ROWS]])
-        here = (row >= first) & (row < first + ROWS)
-        found[here] = values[row[here] - first, column[here]]
-    return found
-
-
-def _lost(problem, grid, touching, pressure):
-    """sum p dw/dx, as `HalfSpace.lost` by the slope of the displacement."""
+def _lost(problem, spots: Spots, pressure):
+    """Energy lost per length slid under a pressure [Pa] (m,), see `Problem.lost`."""
     if problem.flow.at_rest:
-        return 0.0
-    shares, lengths = problem.medium._seen(grid)
-    rates = shares / lengths
-    kernel = problem.medium.ground.flowing(grid, rates.sum(), -rates, lengths, 0.0)
-    return float(pressure @ (_between(kernel, touching, touching) @ pressure))
+        return 0.0, 0.0
+    shares, lengths = problem.medium._seen(spots)
+    rates, reach = shares / lengths, spots.reach + 1
+    wide, flowing = Piece(reach, reach * spots.pixel, lines=reach), problem.medium.ground.flowing
+    pushed = pressure / problem.flow.modulus
+
+    def moved(kernel, ahead=0):
+        return _between(kernel, spots, spots, ahead) @ pushed
+
+    loss = pressure @ moved(flowing(wide, rates.sum(), -rates, lengths, 0.0))
+    kernel = flowing(wide, 0.0, shares, lengths, 0.0)
+    work = pressure @ (moved(kernel, 1) - moved(kernel, -1)) / 2
+    return float(loss * spots.patch), float(work * spots.patch)

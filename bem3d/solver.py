@@ -67,10 +67,11 @@ class BEM:
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, spot_radius [m] (of a
     disc with the area over rim of the contact), rounds, transform_pairs;
     friction_error, a bound of 95 % on the relative error of friction by the grid, against the same surface on ever
-    finer grids, absent without friction; curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and roughness weighted with the pressure: at
-    rest it is mu at low speed over that speed and the mean lag of the elastomer; friction_by_traction,
-    friction_by_loss, friction_by_work, friction_by_curvature [N]: by the indenter's slope, by the slope of the
-    displacement, by the work done on the surface from pixel to pixel, to first order in the speed;
+    finer grids, absent without friction; curvature_by_pressure [1/m], the mean of d2z/dx2 of indenter and
+    roughness weighted with the pressure: at rest it is mu at low speed over that speed and the mean lag of the
+    elastomer; friction_by_traction, friction_by_loss, friction_by_work, friction_by_curvature [N]: by the
+    indenter's slope, by the slope of the displacement, by the work done on the surface from pixel to pixel, to
+    first order in the speed;
     friction_disagreement, what the second differs from the third, or from the first and the last as far as
     these count, over the normal force: an indicator of the error of mu. Of a rough indenter also rms_height
     [m], rms_slope (spectral, of the full gradient), each over a period, rms_slope_contact (along x, of indenter
@@ -79,13 +80,14 @@ class BEM:
     Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
     varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
-    depth are those of the last, by traction, and x moves with the material. Its depth is NaN where a load of zero
-    leaves nothing in contact, as is its gap. Path, speed and the friction that opposes them are below zero
-    backwards. Its measures are of the last step; of friction by_traction and by_work alone, the second NaN at
-    rest; rounds of all steps; and time_steps; no curvature_by_pressure. With `frames` also, at the steps nearest
-    to these instants, the last of them at the end: frame_time [s], frame_depth [m], NaN where nothing presses,
-    frame_shift [m], by which the points are then downstream of x, (F,); frame_pressure [Pa] and frame_displacement
-    [m] of the surface into the elastomer (F, M, N). Time, depth and shift are those at which the gap is measured.
+    depth are those of the last, by traction. x moves with the material, and is where the gap is measured at the
+    end, as is surface_displacement [m], into the elastomer (M, N). Depth and gap are NaN where a load of zero
+    leaves nothing in contact. Path, speed and the friction that opposes them are below zero backwards. Its
+    measures are of the last step; of friction by_traction and by_work alone, the second NaN at rest; rounds of all
+    steps; and time_steps; no curvature_by_pressure. With `frames` also, at the steps nearest to these instants,
+    the last of them at the end: frame_time [s], frame_depth [m], NaN where nothing presses, frame_shift [m], by
+    which the points are then downstream of x, (F,); frame_pressure [Pa] and frame_displacement [m] of the surface
+    into the elastomer (F, M, N). Time, depth and shift are those at which the gap is measured.
 
     With Coulomb friction in the interface, in sliding: measures friction_in_elastomer, friction_in_interface [N],
     which together are the friction. Under a Shear: friction_force is the tangential force; measures
@@ -132,9 +134,9 @@ class BEM:
             smooth contact at rest, or of the load, whichever is not prescribed
         settings : all others but points and tolerance
 
-        Points are doubled until what changed over two halvings of the pixel keeps the errors. Warns Unconfirmed where
-        2048 points do not, or would not. Raises ValueError for what cannot be promised: programs, roughness without
-        a shortest wave; and as `solve` does where no grid has an answer.
+        Points are doubled until what changed over two halvings of the pixel keeps the errors. Warns Unconfirmed
+        where 2048 points do not, or would not. Raises ValueError for what cannot be promised: programs, roughness
+        without a shortest wave; and as `solve` does where no grid has an answer.
         """
         wanted = {"friction": friction, "depth": depth, "load": load}
         for name in {"points", "tolerance"} & settings.keys():
@@ -219,8 +221,7 @@ class BEM:
         extent = problem.scene.roughness.period if repeats else self.extent
         grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid, start, beside)
-        window.check_on_map(problem.scene, grid, answer.pressure > 0)
-        window.check(problem.scene, grid, answer, repeats)
+        window.check(problem.scene, grid, answer.pressure > 0, repeats)
         if repeats:
             _check_gap(problem.scene.motion.gap, grid, answer)
         return grid, answer
@@ -243,7 +244,7 @@ class BEM:
 
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus
-        friction, estimates = frictionerror.on_grid(problem, grid, pressure, answer.violation)
+        friction, estimates = frictionerror.on_grid(problem, grid, pressure, answer.violation, problem.lost)
         return Result(
             scene=problem.scene,
             solver=self.name,

@@ -6,8 +6,10 @@ and Goodman's approximation elsewhere. Tractions then follow from `stickslip`.
 
 import time
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
 
 from scene import Plane, Result, Scene, SolveError
 from scene.plan import Array, Kernel, Plan
@@ -15,7 +17,9 @@ from scene.rubbed import Rubbed
 
 from . import cerruti, stickslip
 from .contact import NotConverged
+from .engine import Engine
 from .grid import Grid
+from .spots import Spots
 from .term import Term
 
 COARSEST = 32  # points a side from which a solve starts, as that of the pressure
@@ -25,6 +29,7 @@ SLIPS = 0.5  # share of the neighbours on a coarse grid that slip, from which on
 NEAR, FAR = 1e-30, 1e20  # displacements below and above which tractions are, to rounding, those at the bound
 LARGE = 1e100  # limit over the tractions that are needed, which is none any more; its square is a number
 LEAST = 5e-324  # above zero
+MOST = 8192  # points in contact between which there are matrices: four of them take 2 GiB
 
 
 class Interface(Rubbed, Term):
@@ -69,7 +74,9 @@ class Drawn(Term):
 
     def completed(self, result: Result, problem, grid: Grid) -> Result:
         started = time.process_time()
-        tangential = Tangential(problem, grid, result)
+        tangential = (
+            Between(problem, grid, result) if isinstance(grid, Spots) else Tangential(problem, grid, result)
+        )
         found = tangential.solved(self.part)
         return replace(
             result,
@@ -96,6 +103,7 @@ class Tangential:
     def __init__(self, problem, grid: Grid, result: Result):
         scene = problem.scene
         self._problem, self._grid, self._modulus = problem, grid, problem.flow.modulus
+        self._engine = problem.engine
         self._tolerance, self._touched = result.settings["tolerance"], result.fields["pressure"] > 0
         self._greatest = result.fields["pressure"].max()
         self._shares = result.fields["pressure"] / self._greatest
@@ -195,10 +203,9 @@ class Tangential:
 
         displacement : in pixels of the finest
         """
-        grids, limits = [self._grid], [limit]
-        while grids[-1].points >= 2 * COARSEST:
-            grids.append(grids[-1].coarser())
-            limits.append(grids[-1].resampled_contact(limits[-1], grids[-2]))
+        grids, limits = self._grid.ladder(COARSEST), [limit]
+        for finer, coarser in pairwise(grids):
+            limits.append(coarser.resampled_contact(limits[-1], finer))
         coarse, drawn = None, displacement
         for grid, limit in zip(reversed(grids), reversed(limits), strict=True):
             finest, pixel = grid is self._grid, grid.pixel / self._grid.pixel
@@ -214,7 +221,7 @@ class Tangential:
         return found
 
     def _on(self, grid, limits, coarse, tolerance, displacement, force):
-        engine, here = self._problem.engine, self._problem.engine.asarray
+        engine, here = self._engine, self._engine.asarray
         operator, inverse = self._operators(grid)
         if coarse is None:
             start = np.zeros((self._components, *grid.shape))
@@ -236,7 +243,7 @@ class Tangential:
 
     def _operators(self, grid):
         """Tractions -> displacements, and an approximate inverse."""
-        scene, engine = self._problem.scene, self._problem.engine
+        scene, engine = self._problem.scene, self._engine
         if self._components == 1:
             medium = self._problem.bare
             inverse = medium.preconditioner(grid)
@@ -244,6 +251,29 @@ class Tangential:
         kernel = cerruti.periodic if isinstance(scene.indenter, Plane) else cerruti.free
         nu = scene.solid.poisson_ratio
         return kernel(grid, nu, engine), cerruti.preconditioner(grid, nu, engine)
+
+
+class Between(Tangential):
+    """Tractions between pixels in contact alone, by matrices of the kernels."""
+
+    def __init__(self, problem, grid: Spots, result: Result):
+        super().__init__(problem, grid, result)
+        self._engine = Engine()
+        if len(grid.row) > MOST:
+            raise SolveError(
+                f"motion = Shear: the contact covers {len(grid.row)} pixels, {MOST} fit in the matrices of "
+                "tractions: refine less, or take more points"
+            )
+
+    def _operators(self, grid):
+        """Tractions -> displacements, and an approximate inverse: that of both components' mean."""
+        xx, xy, yy = cerruti.paired(grid.reach, self._problem.scene.solid.poisson_ratio)
+        mean = cho_factor(grid.matrix((xx + yy) / 2), overwrite_a=True)
+        along, inverse = grid.matrix(xx), Counted(lambda planes: cho_solve(mean, planes.T).T)
+        if self._components == 1:
+            return Counted(lambda planes: planes @ along), inverse
+        across, aside = grid.matrix(xy, odd=True), grid.matrix(yy)
+        return Counted(lambda q: np.stack([along @ q[0] + across @ q[1], across @ q[0] + aside @ q[1]])), inverse
 
 
 def _components(scene, rows):
@@ -257,6 +287,17 @@ def _carried_over(other, coarse, grid, limits):
     length = np.sqrt((start * start).sum(axis=0))
     slipping = (grid.resample(coarse.slipping.astype(float), other) > SLIPS) & (length > 0)
     return start * np.divide(limits, length, out=np.ones(grid.shape), where=slipping)
+
+
+class Counted:
+    """A product of vectors (components, m); `applications` counts one for each component."""
+
+    def __init__(self, product):
+        self._product, self.applications = product, 0
+
+    def __call__(self, planes):
+        self.applications += len(planes)
+        return self._product(planes)
 
 
 class Alone:

@@ -91,12 +91,12 @@ def fitted(problem: Problem, points: int) -> Placed:
     return placed
 
 
-def check(scene: Scene, grid: Grid, answer, repeats: bool = False) -> None:
+def check(scene: Scene, grid: Grid, touched: np.ndarray, repeats: bool = False) -> None:
     """Raise SolveError if the grid holds too little of the contact or too little of it, or its layer, is resolved.
 
     A surface that repeats has no edge to reach.
     """
-    touched = answer.pressure > 0
+    check_on_map(scene, grid, touched)
     if not repeats and grid.on_rim(touched):
         raise SolveError(f"the contact reaches the edge of extent = {grid.extent:g} m; take a larger extent")
     check_resolved(grid, touched)
@@ -127,7 +127,7 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
     closer = Grid.around(box.padded(grid.pixel), grid.points, MARGIN, grid.width)
     if np.count_nonzero(touched) < FEWEST and closer.extent < SETTLED * grid.extent:
         return closer
-    check(problem.scene, grid, answer)
+    check(problem.scene, grid, touched)
     return None
 
 
@@ -182,7 +182,7 @@ def _binned(grid, pressure, coarse):
 def check_on_map(scene: Scene, grid: Grid, touched: np.ndarray) -> None:
     """Raise SolveError where a contact reaches the outermost pixels of a measured body, and so the unknown."""
     body = scene.indenter
-    if isinstance(body, Measured) and (touched & body.on_rim(grid.x[None, :], grid.y[:, None])).any():
+    if isinstance(body, Measured) and (touched & body.on_rim(*grid.places)).any():
         size = " x ".join(f"{side:g}" for side in body.size)
         raise SolveError(
             f"the contact reaches the rim of the map, {size} m, beyond which nothing is known of the indenter; "

@@ -6,8 +6,8 @@ from .foundation import Contact
 from .indentation import Sweep
 from .profile import Profile
 
-# Bound over the difference to every second node, an eighth of that from there to every fourth if it is more. Errors
-# of second order are a third of the first; measured on random contacts, see the page "Accuracy" of the docs.
+# Bound over the difference to every second node, or an eighth of that from there to every fourth if it is more.
+# An error of second order is a third of the first; measured on random contacts, see docs/promises.md.
 SHARE = 0.75
 # Nodes on the shortest wave below which it is more, and by which power of them.
 RESOLVED, POWER = 6.0, 0.9

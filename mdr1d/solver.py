@@ -54,8 +54,9 @@ class MDR:
     >>> print(f"{1e3 * answer.depth:.3f} mm, {answer.friction_coefficient:.4f}")
     0.152 mm, 0.0188
 
-    Result.measures: friction_error, a bound of 95 % on the relative error of friction by the grid, against the same
-    line on ever finer grids, absent without friction; pixel, contact_length [m], contact_fraction (of the span from the first to the last contact),
+    Result.measures: friction_error, a bound of 95 % on the relative error of friction by the grid, against the
+    same line on ever finer grids, absent without friction; pixel, contact_length [m], contact_fraction (of the
+    span from the first to the last contact),
     points_across_contact (pixels in that span), rms_slope_contact (of the profile over the real contact),
     stiffness dF_N/d(depth) [N/m], friction_by_traction [N] (-int g' f dx, where Result.friction_force is the
     energy lost per length slid), one_sidedness and load_on_leading_flanks (shares of the real contact and of the

@@ -162,6 +162,9 @@ FIELDS: Mapping[str, Entry] = {
     "slip_y": Entry("m", "Slip of the elastomer past the indenter along +y, zero outside the contact.", PLANE),
     "speed": Entry("m/s", "Speed of the indenter in each step, below zero backwards.", STEPS),
     "stored": _energy("Elastic energy stored at the end of each step.", STEPS),
+    "surface_displacement": Entry(
+        "m", "Displacement of the surface at the end of a program, above zero into the elastomer.", PLANE
+    ),
     "tangential_line_force": Entry("N/m", "Tangential force per length, mean from each node to the next.", LINE),
     "time": Entry("s", "Time at each step, from the beginning of the program.", STEPS),
     "traction_x": Entry("Pa", "Shear traction on the indenter along +x.", PLANE),

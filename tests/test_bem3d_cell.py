@@ -117,7 +117,7 @@ def test_a_rough_plane_in_full_contact_is_the_sum_of_its_waves():
 def test_the_wake_of_a_repeated_surface_lowers_what_touches():
     # slow, every asperity meets a relaxed surface; fast, it runs in the dent of the one before it
     fractions = [
-        BEM(points=64).solve(pressed(ROUGH, Slide(speed=v, pressure=2e4), SOLIDS[0])).measures["contact_fraction"]
+        BEM(points=64).solve(pressed(ROUGH, Slide(speed=v, pressure=4e4), SOLIDS[0])).measures["contact_fraction"]
         for v in (0.0, 1e-2, 1.0)
     ]
     assert np.all(np.diff(fractions) < 0)

@@ -16,6 +16,7 @@ from bem3d.problem import Problem
 from bem3d.timeline import timeline
 from bem3d.upstream import Endless, Sheet
 from compare.exact import indentation
+from mdr1d import MDR
 from scene import (
     Cone,
     CrossedWaves,
@@ -25,6 +26,7 @@ from scene import (
     Indent,
     Kelvin,
     Plane,
+    PowerLaw,
     Program,
     Prony,
     Scene,
@@ -348,3 +350,27 @@ def test_lowest_points_that_are_alike_are_no_trouble_to_start_from(points):
     waves = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
     with pytest.raises(SolveError, match="take more points"):
         BEM(points=points).solve(Scene(Plane(), Elastic(G), Indent(pressure=1.0), waves))
+
+
+@pytest.mark.parametrize("exponent", [40.0, 44.0, 100.0])
+def test_pressed_to_a_depth_a_blunt_body_has_the_force_of_one_dimension_at_every_step(exponent):
+    # the corners of the window are 1e10 to 1e27 times as high as the indenter is pressed in
+    program = Program(stages=(Stage(duration=2 * TAU, depth=5e-5), Stage(duration=2 * TAU, depth=1e-5)))
+    scene = Scene(PowerLaw(1e-4 / A**exponent, exponent), KELVIN, program)
+    found, known = (solver.solve(scene).fields for solver in (BEM(points=32, steps=50), MDR()))
+    force = np.interp(found["time"], known["time"], known["normal_force"])
+    assert force.max() > 0.5
+    # 25 points across the contact, and a step of a fiftieth
+    np.testing.assert_allclose(found["normal_force"], force, rtol=0, atol=0.01 * force.max())
+
+
+@pytest.mark.parametrize("back", [False, True], ids=["forwards", "and back"])
+@pytest.mark.parametrize("pressed", [{"depth": 5e-5}, {"load": 0.3}], ids=["depth", "load"])
+def test_a_blunt_body_slides_alike_in_a_window_of_twice_the_size(pressed, back):
+    # at its corners the indenter is 1e56 depths high in place of 1e26: nothing of the contact depends on that
+    stages = [Stage(duration=2 * TAU, **pressed), Stage(duration=4 * TAU, speed=0.2)]
+    program = Program(stages=(*stages, Stage(duration=2 * TAU, speed=-0.2)) if back else tuple(stages))
+    scene = Scene(PowerLaw(1e-4 / A**100, 100.0), KELVIN, program)
+    near, far = (BEM(points=points, extent=points * 1e-4, steps=20).solve(scene) for points in (32, 64))
+    for name in ("normal_force", "depth", "friction_force"):
+        assert getattr(near, name) == pytest.approx(getattr(far, name), rel=1e-3)

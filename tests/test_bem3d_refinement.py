@@ -6,50 +6,162 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, refined
-from scene import Cone, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
+from bem3d.terms import TERMS
+from scene import (
+    WLF,
+    Arrhenius,
+    Cone,
+    Coulomb,
+    CrossedWaves,
+    Cylinder,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Measured,
+    Plane,
+    PowerLaw,
+    Program,
+    Prony,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Topography,
+)
 
 ROUGH = SelfAffine(hurst=0.5, rms_height=3e-6, longest=10e-3, shortest=40e-6, seed=1)
 SCENE = Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.002), ROUGH)
-COARSE, FINE = (BEM(points=points, extent=0.6e-3, tolerance=1e-8) for points in (64, 128))
+COARSE, FINE = (BEM(points=points, extent=0.6e-3, tolerance=1e-9) for points in (32, 64))
 # Both are solved to the tolerance of the gap, of which forces and depths keep two digits less at most.
 ALIKE = 1e-6
 GLASSY = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-4)
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [
+# One of every part that a scene may have; all on the same window.
+SMOOTH = replace(SCENE, roughness=None, motion=Slide(speed=0.05, load=5e-4))
+COLD = WLF(temperature=300, reference=298, c1=8.86, c2=101.6)
+WARM = replace(SMOOTH, elastomer=GLASSY, roughness=replace(ROUGH, rms_height=1e-7), temperature=COLD)
+SIDE = np.linspace(-1, 1, 64) * 0.6e-3
+BOWL = Measured(heights=np.hypot(SIDE, SIDE[:, None]) ** 2 / 2e-2, pixel=1.2e-3 / 63, peaks="down")
+BUMPS = np.random.default_rng(1).normal(scale=1e-7, size=(8, 8))
+ANSWERED = {
+    "smooth": SMOOTH,
+    "cone": replace(SMOOTH, indenter=Cone(0.05), motion=Slide(speed=0.05, load=0.002)),
+    "blunt, fast": replace(
+        SMOOTH, indenter=PowerLaw(coefficient=1e12, exponent=5), motion=Slide(speed=1, load=0.01)
+    ),
+    "rough": SCENE,
+    "rough, slow": replace(SCENE, motion=Slide(speed=1e-3, load=0.002)),
+    "glassy, at a depth": replace(
+        SCENE, indenter=Sphere(1e-3), elastomer=GLASSY, motion=Slide(speed=0.1, depth=5e-7)
+    ),
+    "rough to the pixel": replace(
+        SCENE, roughness=replace(ROUGH, shortest=None, rms_height=3e-7), motion=Slide(speed=0.1, load=2e-4)
+    ),
+    "waves": replace(SMOOTH, roughness=CrossedWaves(amplitude=2e-7, wavelength=1e-4)),
+    "map": replace(SMOOTH, roughness=Topography(heights=BUMPS, pixel=1e-4, repeat="periodic")),
+    "measured body": replace(SMOOTH, indenter=BOWL),
+    "prony, at a depth": replace(
+        SMOOTH,
+        elastomer=Prony(1e6, (1e6, 3e6), (1e-4, 1e-2), poisson_ratio=0.4),
+        motion=Slide(speed=0.05, depth=2e-6),
+    ),
+    "at rest": replace(SCENE, motion=Indent(load=0.002)),
+    "layer": replace(SMOOTH, layer=Layer(thickness=3e-4)),
+    "layer, frictionless": replace(SCENE, layer=Layer(thickness=1e-4, base="frictionless")),
+    "cold": replace(SCENE, temperature=COLD),
+    "arrhenius": replace(SCENE, temperature=Arrhenius(temperature=310, reference=298, activation_energy=5e4)),
+    "heating": replace(WARM, heating=Heating(conductivity=0.2)),
+    "heating that acts back": replace(WARM, heating=Heating(conductivity=1e-3, feedback="flash")),
+    "coulomb": replace(SCENE, interface=Coulomb(coefficient=0.3)),
+    "shear, by a displacement": replace(
+        SCENE, interface=Coulomb(coefficient=0.3), motion=Shear(load=0.002, displacement=5e-8)
+    ),
+    "shear, by a force": replace(
         SCENE,
-        replace(SCENE, motion=Slide(speed=1e-3, load=0.002)),
-        replace(SCENE, motion=Indent(load=0.002)),
-        replace(SCENE, indenter=Sphere(1e-3), elastomer=GLASSY, motion=Slide(speed=0.1, depth=5e-7)),
-        replace(SCENE, indenter=Cone(0.05), motion=Slide(speed=0.1, load=0.001)),
-    ],
-    ids=["fast", "slow", "at rest", "glassy, at a depth", "cone"],
-)
-def test_a_refined_contact_is_that_of_a_grid_of_as_many_points(scene):
-    coarse, whole = COARSE.solve(scene), FINE.solve(scene)
-    found = refined(COARSE, coarse)
-    for name in ("normal_force", "depth", "friction_force"):
-        assert getattr(found, name) == pytest.approx(getattr(whole, name), rel=ALIKE, abs=1e-15)
+        elastomer=Kelvin(1e6, 1e-3, poisson_ratio=0.3),
+        interface=Coulomb(coefficient=0.5),
+        motion=Shear(load=0.002, force=5e-4),
+    ),
+    "shear, uncoupled": replace(
+        SMOOTH,
+        elastomer=Kelvin(1e6, 1e-3, poisson_ratio=0.0),
+        interface=Coulomb(coefficient=0.5),
+        motion=Shear(load=5e-4, force=1e-4),
+    ),
+}
+COUNTS = ("applications", "rounds", "transform_pairs", "seconds", "residual")  # the price, not the answer
+
+
+@pytest.mark.parametrize("name", ANSWERED)
+def test_whatever_a_scene_is_made_of_refined_answers_as_a_grid_of_as_many_points(name):
+    scene = ANSWERED[name]
+    given, whole = COARSE.solve(scene), FINE.solve(scene)
+    found = refined(COARSE, given)
+    assert found.scene == whole.scene
+    assert found.settings == whole.settings
+    for one in ("normal_force", "depth", "friction_force"):
+        assert getattr(found, one) == pytest.approx(getattr(whole, one), rel=ALIKE, abs=1e-15), one
     other = "depth" if scene.motion.load else "normal_force"  # that of the coarse grid would not do
-    assert getattr(coarse, other) != pytest.approx(getattr(whole, other), rel=100 * ALIKE)
-    for name in ("friction_by_loss", "friction_by_curvature", "curvature_by_pressure"):
-        assert found.measures[name] == pytest.approx(whole.measures[name], rel=ALIKE, abs=1e-15)
+    assert getattr(given, other) != pytest.approx(getattr(whole, other), rel=10 * ALIKE)
+    assert found.measures.keys() == whole.measures.keys()
+    for one in {each for each in whole.measures if not each.endswith(COUNTS)}:
+        assert found.measures[one] == pytest.approx(whole.measures[one], rel=100 * ALIKE, abs=1e-15), one
+    touched = whole.fields["pressure"] > 0
+    y, x = np.meshgrid(whole.fields["y"], whole.fields["x"], indexing="ij")
+    planes = {"x": x, "y": y} | {each: plane for each, plane in whole.fields.items() if np.ndim(plane) == 2}
+    assert found.fields.keys() == planes.keys() - {"gap"}
+    for one, values in found.fields.items():
+        np.testing.assert_allclose(values, planes[one][touched], rtol=0, atol=1e-4 * np.abs(values).max())
+
+
+def test_pixels_a_quarter_as_wide_are_reached_in_two_steps():
+    found, whole = refined(COARSE, COARSE.solve(SCENE), 4), replace(FINE, points=128).solve(SCENE)
+    for one in ("depth", "friction_force"):
+        assert getattr(found, one) == pytest.approx(getattr(whole, one), rel=ALIKE)
     assert found.measures["contact_points"] == whole.measures["contact_points"]
-    assert found.fields["pressure"].sum() == pytest.approx(whole.fields["pressure"].sum(), rel=ALIKE)
 
 
-def test_what_cannot_be_refined_is_refused():
-    flat = replace(SCENE, indenter=Plane(), motion=Indent(pressure=1e4), roughness=replace(ROUGH, longest=1e-3))
-    answer = BEM(points=64).solve(flat)
-    with pytest.raises(SolveError, match="only steady contacts on a free surface"):
-        refined(BEM(points=64), answer)
+REFUSED = {
+    "plane": replace(SCENE, indenter=Plane(), motion=Indent(pressure=1e4), roughness=replace(ROUGH, longest=1e-3)),
+    "cylinder": replace(SMOOTH, indenter=Cylinder(1e-2), motion=Slide(speed=0.1, line_load=1.0)),
+    "program": replace(SMOOTH, motion=Program(stages=(Stage(duration=1e-3, load=0.01),))),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("plane", "indenter"), ("cylinder", "indenter"), ("program", "motion")]
+)
+def test_what_has_no_spots_of_its_own_is_refused_by_name(name, said):
+    part = type(getattr(REFUSED[name], said)).__name__
+    solver = BEM(points=64, steps=5)
+    with pytest.raises(Refused, match=f"{said} = {part}: .* take more points"):
+        refined(solver, solver.solve(REFUSED[name]))
+
+
+def test_every_part_that_the_solver_has_a_term_for_is_refined_or_refused():
+    parts = {type(part) for scene in [*ANSWERED.values(), *REFUSED.values()] for part in scene.parts.values()}
+    assert [kind for kind in TERMS if not any(issubclass(part, kind) for part in parts)] == []
+
+
+def test_what_cannot_be_refined_is_an_error():
+    answer, solver = COARSE.solve(SCENE), BEM(points=256)
     smooth = replace(SCENE, roughness=None, motion=Slide(speed=0.1, load=0.1))
-    solver = BEM(points=256)
     with pytest.raises(SolveError, match="fit in a matrix"):
         refined(solver, solver.solve(smooth))
-    answer = COARSE.solve(SCENE)
     shallow = dict(answer.fields) | {"gap": answer.fields["gap"] + np.float64(1.0)}
     with pytest.raises(SolveError, match="nothing is left in contact"):
         refined(COARSE, replace(answer, fields=shallow))
+    with pytest.raises(SolveError, match="the answer to another one"):
+        refined(COARSE, replace(answer, scene=replace(SCENE, motion=Slide(speed=0.3, load=0.002))))
+    with pytest.raises(Refused, match=r"result\.fields: no pressure and gap on a grid"):
+        refined(COARSE, refined(COARSE, answer))
+    for times in (0, 3, 2.0):
+        with pytest.raises(ValueError, match="a power of two"):
+            refined(COARSE, answer, times)

@@ -23,6 +23,7 @@ from scene import (
     Kelvin,
     Layer,
     Plane,
+    PowerLaw,
     Program,
     Prony,
     Scene,
@@ -139,6 +140,15 @@ def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
     (circle,) = pressure.lines
     assert np.hypot(*circle.get_data()) == pytest.approx(1e3 * A, rel=1e-9)
     assert "← indenter slides" in [text.get_text() for text in pressure.texts]
+
+
+def test_colours_tell_gaps_near_the_contact_however_high_the_indenter_is_aside():
+    blunt = Scene(PowerLaw(coefficient=1e-4 / A**100, exponent=100), KELVIN, Indent(depth=1e-4))
+    found = view(blunt, SPACE, {"BEM": SPACE.solve(blunt).fields})
+    assert found.space.gap.max() > 1e6 * 1e-4  # in r^100
+    bar = axes_of(drawn(found), "3D: gap").images[0]
+    assert bar.norm.vmax == pytest.approx(1e3 * contact_maps.OPEN * 1e-4, rel=1e-3)  # in mm
+    assert bar.colorbar.extend == "max"
 
 
 def test_what_is_drawn_lies_beside_the_figure():

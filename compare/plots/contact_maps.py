@@ -24,6 +24,9 @@ MOST_PIXELS = 10_000  # of the maps of the surface: of a finer grid every second
 HEIGHT = 1.9  # of the panels below [inch]
 LETTERED, TALLEST = (0.5, 1.15), 1.2  # what is written beside and around a map [inch]; of a map, height over width
 CLOSED = 1e-6  # of the relief of the indenter: a gap of less is none
+OPEN = (
+    30.0  # depths of the lowest point, from which gaps have one colour: beside a blunt body they are without end
+)
 
 
 def plot(view: View | None, folder: str = "") -> Plot | None:
@@ -49,7 +52,8 @@ def plot(view: View | None, folder: str = "") -> Plot | None:
         if not alike:
             tables[SURFACE] = surface = _surface(view, x, y)
             greatest, relief = surface["gap"].max(), float(np.ptp(around.indenter))
-            options |= {"highest_gap": float(greatest if greatest > CLOSED * relief else relief)}
+            shown = min(greatest, OPEN * float(around.depth - around.indenter.min()))
+            options |= {"highest_gap": float(shown if greatest > CLOSED * relief else relief)}
     if view.line is not None:
         tables[SECTIONS["MDR"]] = _section(view.line, view.span)
     alternative = "Maps of pressure, gap and real contact above; below, sections through indenter and elastomer."
@@ -146,7 +150,7 @@ def _maps(
         ("3D: pressure", "3D: gap", "3D: real contact"),
         (f"pressure [{pascal}]", f"gap [{of_gap}]", f"displacement [{of_depth}]"),
         (style.ink(), style.paper(), style.ink()),
-        ("max", "neither", "neither"),
+        ("max", "max" if gap.max(axis=None) > highest_gap else "neither", "neither"),
         strict=True,
     ):
         shades.colours(drawing, image, label, ax=axes, location="bottom", extend=extend, shrink=0.9, aspect=28)

@@ -1,4 +1,4 @@
-"""Error of friction that an answer states, against finer grids: what the bound is fitted to, and whether it holds."""
+"""Error of friction that an answer states, against finer grids: fitted to many, and tested on many others."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,0 +1,123 @@
+"""The pixels in contact alone, as a grid: what is evaluated on them are vectors, and operators are matrices."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+import numpy as np
+
+from .grid import Box, Grid
+
+ROUNDING = 1e-9  # of a pixel
+ROWS = 512  # of a grid, or of a matrix, that are evaluated at a time
+
+
+@dataclass(frozen=True, eq=False)
+class Spots(Grid):
+    """Some pixels of a grid; every array on them is a vector (m,).
+
+    row, column : of the pixels on the grid (m,)
+    """
+
+    row: np.ndarray = field(kw_only=True)
+    column: np.ndarray = field(kw_only=True)
+
+    @classmethod
+    def of(cls, grid: Grid, row: np.ndarray, column: np.ndarray) -> Self:
+        """Pixels of a square grid."""
+        return cls(grid.points, grid.extent, grid.centre, row=row, column=column)
+
+    @property
+    def shape(self):
+        """(m,)"""
+        return self.row.shape
+
+    @property
+    def x(self):
+        """Places of the pixels along the flow [m], (m,)."""
+        return super().x[self.column]
+
+    @property
+    def y(self):
+        """Places of the pixels across the flow [m], (m,)."""
+        return super().y[self.row]
+
+    @property
+    def places(self):
+        """(x, y) of every pixel [m]."""
+        return self.x, self.y
+
+    def sampled(self, evaluate: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> np.ndarray:
+        """Values (m,) of what is evaluated on coordinates of columns and of rows."""
+        rows, row = np.unique(self.row, return_inverse=True)
+        columns, column = np.unique(self.column, return_inverse=True)
+        x, y, found = super().x[columns], super().y[rows], np.empty(self.shape)
+        for first in range(0, len(rows), ROWS):
+            here = (row >= first) & (row < first + ROWS)
+            found[here] = evaluate(x, y[first : first + ROWS])[row[here] - first, column[here]]
+        return found
+
+    def ladder(self, least: int) -> list[Grid]:
+        """The pixels alone: of their matrices there are no coarser ones."""
+        return [self]
+
+    def coarser(self) -> "Spots":
+        """Pixels about twice as wide that these lie in."""
+        wide = (self.points + 1) // 2
+        places = np.concatenate([row * wide + column for row, column, _ in self._spread(wide)])
+        row, column = np.divmod(np.unique(places), wide)
+        return Spots(wide, self.extent, self.centre, row=row, column=column)
+
+    def averaged(self, values: np.ndarray, given: Any) -> np.ndarray:
+        """Means over these pixels of values on others, of which they are the coarser ones; zero between those."""
+        place, found = self.row * self.points + self.column, np.zeros(self.shape)
+        for row, column, share in given._spread(self.points):
+            np.add.at(found, np.searchsorted(place, row * self.points + column), share * values)
+        return found
+
+    def _spread(self, points):
+        """Rows and columns of the pixels, so many a side, that these lie in, and the shares that they cover."""
+        ratio = points / self.points
+        for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            shares, places = [], []
+            for first, second in ((self.row, down), (self.column, right)):
+                place = (first * points) // self.points + second
+                covered = np.minimum((first + 1) * ratio, place + 1) - np.maximum(first * ratio, place)
+                inside = covered > ROUNDING
+                shares.append(np.where(inside, covered, 0.0))
+                places.append(np.where(inside, place, place - second))
+            yield (*places, shares[0] * shares[1])
+
+    def box(self, chosen: np.ndarray) -> Box:
+        """The smallest box around the chosen pixels."""
+        x, y, half = self.x[chosen], self.y[chosen], self.pixel / 2
+        return Box(x.min() - half, x.max() + half, y.min() - half, y.max() + half)
+
+    def rim(self, chosen: np.ndarray) -> int:
+        """Sides of the chosen pixels beyond which there is none of them."""
+        wide = self.points + 2  # a pixel at the end of a row is no neighbour of the first of the next
+        place = self.row[chosen] * wide + self.column[chosen]
+        return sum(len(place) - np.isin(place + step, place).sum() for step in (1, -1, wide, -wide))
+
+    def on_rim(self, chosen: np.ndarray) -> bool:
+        """Whether any chosen pixel lies on the rim of the grid."""
+        return any(np.isin(each[chosen], (0, self.points - 1)).any() for each in (self.row, self.column))
+
+    @property
+    def reach(self) -> int:
+        """Pixels that a kernel needs along each axis for all of them to feel each other."""
+        return int(max(np.ptp(self.row), np.ptp(self.column))) + 1
+
+    def matrix(self, kernel: np.ndarray, odd: bool = False) -> np.ndarray:
+        """Kernel from each pixel to each other (m, m).
+
+        kernel : 0, 1, ... pixels aside and downstream; odd : in both, where it is not even in both
+        """
+        found = np.empty(2 * self.shape)
+        for first in range(0, len(found), ROWS):
+            part = slice(first, first + ROWS)
+            aside, along = (each[part, None] - each for each in (self.row, self.column))
+            found[part] = kernel[np.abs(aside), np.abs(along)]
+            if odd:
+                found[part] *= np.sign(aside) * np.sign(along)
+        return found
