@@ -14,7 +14,7 @@ from scene.scales import elastic_contact
 if TYPE_CHECKING:
     from .solver import BEM
 
-FIRST, MOST = 32, 2048  # points a side
+FIRST, MOST = 32, 1024  # points a side
 SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
 NARROW = 1e-7  # tolerance of a prescribed gap, at least: a narrow one is lost in a looser one
 ORDERS = (

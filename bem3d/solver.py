@@ -135,7 +135,7 @@ class BEM:
         settings : all others but points and tolerance
 
         Points are doubled until what changed over two halvings of the pixel keeps the errors. Warns Unconfirmed
-        where 2048 points do not, or would not. Raises ValueError for what cannot be promised: programs, roughness
+        where 1024 points do not, or would not. Raises ValueError for what cannot be promised: programs, roughness
         without a shortest wave; and as `solve` does where no grid has an answer.
         """
         wanted = {"friction": friction, "depth": depth, "load": load}

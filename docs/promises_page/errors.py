@@ -1,8 +1,11 @@
 """Error of friction that an answer states, against finer grids: fitted to many, and tested on many others."""
 
+import csv
+import gzip
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isnan, nan
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +15,7 @@ from scipy.stats import beta
 
 from bem3d import BEM, frictionerror
 from bem3d.costs import band
-from compare.outcome import Outcome, Row
+from compare.outcome import Outcome
 from compare.task import SceneTask, Task
 from mdr1d import MDR
 from scene import Scene
@@ -22,13 +25,15 @@ from . import scenes
 EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # a scene of a kind for so many seeds
 POINTS = (20, 120)  # of the grids that are judged, beside REFERENCE[0]
 REFERENCE = 128, 256, 512  # points, the last of which tell the truth
-FINER = 1024  # points of smooth bodies where REFERENCE has not converged
-CONVERGED = 3e-4
 ORDERS = 0.7, 2.0  # between which the order is taken at which the last error falls
 WAVES = 2.2, 40.0  # nodes on the shortest wave of judged lines
 EXTENT = 8 * scenes.RADIUS  # of lines [m]
 FINER_LINES = 8, 16  # times the nodes of a judged line
 KNOWN = 1 / 3, 3e-5  # of the error, or at all: what the truth is known to where it judges
+SHARE, WIDENED = 0.95, 0.955  # of the answers that a bound is to hold: wanted, and of those it was not fitted to
+FOLDS = 5
+LEAST = 1e-6  # error that is told from none
+KINDS = tuple(f"{body}, {speed}" for body in ("smooth", "rough") for speed in ("slow", "fast"))
 FEWEST = 40  # answers of a region
 PIXELS = 0.0, 3.0, 5.0, 8.0, 16.0, np.inf  # a wave
 
@@ -57,7 +62,7 @@ def judged(seeds: range) -> Iterator[Judged]:
     for kind in scenes.KINDS:
         for seed in seeds[:: EVERY[kind]]:
             scene = scenes.drawn(kind, seed)
-            finer = tuple(_task(BEM(points=points), scene) for points in REFERENCE)
+            finer = reference(scene)
             points = 2 * int(np.random.default_rng([seed, 7]).integers(*POINTS) // 2)
             for task in (_task(BEM(points=points), scene), finer[0]):
                 yield Judged(kind, task, finer)
@@ -91,7 +96,8 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
         answer, *finer = (outcomes[task].rows[0] for task in each.tasks)
         if answer.reason is not None or not answer.friction_force:
             continue
-        error, unsure = _error(answer, [row for row in finer if row.reason is None])
+        truth, unsure = settled([row.friction_coefficient for row in finer if row.reason is None])
+        error = abs(answer.friction_coefficient / truth - 1)
         share, least = KNOWN
         if not unsure <= max(share * error, least):
             continue
@@ -126,19 +132,53 @@ def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
                     yield _coverage(model, label, group)
 
 
-def fitted(signs: Sequence[frictionerror.Signs], errors: np.ndarray, share: float) -> dict[str, dict[str, float]]:
-    """Weights of signs by kind: the quantile `share` of the logarithm of the errors (n,), linear in the signs."""
-    weights = {}
-    for kind in sorted({each.kind for each in signs}):
-        own = np.array([each.kind == kind for each in signs])
-        names = list(signs[0].numbers)
-        table = np.array([[each.numbers[name] for name in names] for each in signs if each.kind == kind])
-        weights[kind] = dict(zip(names, _quantile(table, np.log(errors[own]), share), strict=True))
+def learned(path: Path) -> int:
+    """Number of answers that were learned from."""
+    return len(_table(path))
+
+
+def refitted(path: Path) -> dict[str, dict[str, float]]:
+    """Weights of the signs by kind of contact, from a table of signs and errors.
+
+    The quantile SHARE of what the error is over the residual, widened by what holds WIDENED of the answers to scenes
+    that were left out of a fit, a fold of them at a time.
+    """
+    table, weights = _table(path), {}
+    names = [name for name in table[0] if name not in ("scene", "kind", "error", "residual")]
+    scenes_of = list(dict.fromkeys(row["scene"] for row in table))
+    fold = {scene: k % FOLDS for k, scene in enumerate(scenes_of)}
+    for kind in KINDS:
+        own = [row for row in table if row["kind"] == kind]
+        signs = np.array([[1.0, *(float(row[name]) for name in names)] for row in own])
+        error, residual = (np.array([float(row[name]) for row in own]) for name in ("error", "residual"))
+        left, folds = 3 * residual, np.array([fold[row["scene"]] for row in own])
+        assert frictionerror.OF_TOLERANCE == 3
+        values, short = np.log(np.maximum(error - left, LEAST)), np.empty(len(own))
+        for k in range(FOLDS):
+            bound = np.exp(signs[folds == k] @ _quantile(signs[folds != k], values[folds != k], SHARE))
+            short[folds == k] = np.log(np.maximum(error, LEAST / 10)[folds == k] / (bound + left[folds == k]))
+        found = _quantile(signs, values, SHARE)
+        found[0] += max(0.0, float(np.quantile(short, WIDENED)))
+        weights[kind] = dict(zip(["one", *names], found.tolist(), strict=True))
     return weights
 
 
+def write(weights: Mapping[str, Mapping[str, float]]) -> None:
+    """Write the weights where three dimensions read them."""
+    with frictionerror.FITTED.open("w", encoding="utf-8", newline="") as file:
+        lines = csv.writer(file, lineterminator="\n")
+        lines.writerow(["sign", *weights])
+        for name in next(iter(weights.values())):
+            lines.writerow([name, *(f"{own[name]:.4g}" for own in weights.values())])
+
+
+def _table(path):
+    with gzip.open(path, "rt", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def _quantile(table, values, share):
-    """Quantile regression as a linear program, with a slight preference for small weights."""
+    """Weights of the columns of a table (n, k) by quantile regression, a linear program that prefers small ones."""
     count, names = table.shape
     small = np.full(2 * names, 1e-4 * count)
     prices = np.concatenate([small, np.full(count, share), np.full(count, 1 - share)])
@@ -153,18 +193,25 @@ def _task(solver, scene: Scene) -> SceneTask:
     return SceneTask(solver, (scene,), work=points**2.2 * 50.0 if isinstance(solver, BEM) else 100.0 * points)
 
 
-def _error(answer: Row, finer: Sequence[Row]) -> tuple[float, float]:
-    """Error of friction and how well it is known, relative, by the order at which the finer answers change."""
-    frictions = [row.friction_coefficient for row in finer]
-    if len(frictions) < 2:
+def reference(scene: Scene) -> tuple[SceneTask, ...]:
+    """Tasks from which the truth of a scene in three dimensions is taken."""
+    return tuple(_task(BEM(points=points), scene) for points in REFERENCE)
+
+
+def settled(values: Sequence[float], unit: float | None = None) -> tuple[float, float]:
+    """What values on ever finer grids tend to, by the order at which they change, and how well that is known.
+
+    unit : over which it is known, if not itself
+    """
+    if len(values) < 2:
         return nan, np.inf
-    change = frictions[-1] - frictions[-2]
+    change = values[-1] - values[-2]
     order = np.mean(ORDERS)
-    if len(frictions) > 2 and change and (before := frictions[-2] - frictions[-3]) / change > 0:
+    if len(values) > 2 and change and (before := values[-2] - values[-3]) / change > 0:
         order = np.clip(np.log2(before / change), *ORDERS)
     left = change / (2**order - 1)
-    truth = frictions[-1] + left
-    return abs(answer.friction_coefficient / truth - 1), abs(left / truth)
+    truth = values[-1] + left
+    return truth, abs(left) / (abs(truth) if unit is None else unit)
 
 
 def _pixels(waves):
