@@ -28,7 +28,7 @@ LEAST_LAG = 3e-3  # below which what friction has beyond the first order in the 
 LEAST = 1e-7  # change over friction: less is rounding, or the tolerance
 MOST = 10.0  # change over friction: more is no more
 OF_TOLERANCE = 3.0  # error of friction over the residual, at most
-CONTRADICTED = 0.5  # of the answer, by which estimates differ that tell nothing
+UNTOLD = 0.5  # of friction: where estimates differ by more, or the error may be more, it is no answer
 SPARE, FARTHEST = 1.5, 8.0  # points over what the estimates ask for, and over those there are, at most
 
 
@@ -39,7 +39,8 @@ def on_grid(
 
     Raises SolveError as `bound` does.
     """
-    surface, wider = problem.surface(grid), grid.coarser()
+    surface = problem.surface(grid)
+    wider = grid.coarser() if isinstance(problem.scene.indenter, Plane) else grid.wider()
     friction = Friction.of(problem, grid, pressure, surface, lost)
     measures = friction.measures(float(pressure.sum() * grid.patch))
     if friction.force:
@@ -56,12 +57,13 @@ def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> fl
 
     seen : signs of the error of this friction; points : along each side of its grid; residual : of the solve
 
-    Raises SolveError where friction is not known to its sign, or its estimates contradict one another.
+    Raises SolveError where half of friction is not sure, as its estimates contradict one another, or more may be
+    wrong.
     """
     weights = _fitted()[seen.kind]
     found = exp(sum(weights[name] * value for name, value in seen.numbers.items())) + OF_TOLERANCE * residual
     apart = friction.contradiction
-    if apart > CONTRADICTED or found >= 1:
+    if max(apart, found) > UNTOLD:
         times = min(max(found, apart / (1 - min(apart, 0.9))) * SPARE, FARTHEST)
         raise SolveError(
             f"friction is not told by {points} points a side: its estimates differ by {apart:.0%} of it, and its "
@@ -106,6 +108,7 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, s
     changes["curvature to answer"] = change(1.0, friction.by_curvature, force)  # of a fast flow it tells the speed
     scene, waves = problem.scene, problem.points_per_wave(grid)
     across, smooth = log(spot / grid.pixel), isnan(waves)
+    breadth = log(problem.flow.memory / problem.flow.trail)
     kind = f"{'smooth' if smooth else 'rough'}, {'slow' if slow > 1 / 2 else 'fast'}"
     return Signs(
         kind,
@@ -118,7 +121,8 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, s
             "edge": across - log(getattr(scene.indenter, "exponent", 2.0)),
             "wave": 0.0 if smooth else log(waves),
             "trail": log(max(lag, LEAST_LAG)),
-            "breadth": log(problem.flow.memory / problem.flow.trail),
+            "breadth": breadth,
+            "breadth, squared": breadth**2,
             "lag": lag,
             "slowness": slow,
             "plane": float(isinstance(scene.indenter, Plane)),

@@ -93,10 +93,31 @@ class Grid:
             values = _interpolated(values, position, axis)
         return values
 
+    def wider(self) -> "Grid":
+        """A grid of pixels twice as wide around all of these; a corner on the indenter's axis stays a corner.
+
+        Where the tip lies in its pixel decides the error of a cone.
+        """
+        before = self._before
+        points = (self.points + max(before) + 1) // 2
+        x, y = (
+            at + (points - self.points / 2 - more) * self.pixel
+            for at, more in zip(self.centre, before, strict=True)
+        )
+        return replace(
+            self, points=points, extent=2 * points * self.pixel, centre=(x, y if self.width is None else 0.0)
+        )
+
+    @property
+    def _before(self) -> tuple[int, int]:
+        """Pixels along x and y to add before the first, for pixels twice as wide to have corners on the axis."""
+        x, y = (int(np.floor(self.points / 2 - at / self.pixel + 0.5)) % 2 for at in self.centre)
+        return x, y if self.width is None else 0
+
     def averaged(self, values: np.ndarray, given: "Grid") -> np.ndarray:
-        """Means over the pixels of this grid of values that are constant on those of another of the same piece."""
-        along = _overlap(self.points, given.points)
-        across = along if self.width is None else np.ones((1, 1))
+        """Means over the pixels of this grid of values that are constant on those of another, zero beyond them."""
+        along = _overlap(self, given, 0)
+        across = _overlap(self, given, 1) if self.width is None else np.ones((1, 1))
         return across @ values @ along.T
 
     def resampled_contact(self, pressure: np.ndarray, given: "Grid") -> np.ndarray:
@@ -152,11 +173,13 @@ class Piece(Grid):
         return self.lines
 
 
-def _overlap(points, given):
-    """Shares of each of so many pixels that those of a row of others, as long, cover (points, given)."""
-    edges, others = (np.arange(count + 1) / count for count in (points, given))
+def _overlap(grid, given, axis):
+    """Shares of the pixels of a grid along an axis that those of another cover (points, given points)."""
+    edges, others = (
+        (np.arange(each.points + 1) - each.points / 2) * each.pixel + each.centre[axis] for each in (grid, given)
+    )
     covered = np.minimum(edges[1:, None], others[1:]) - np.maximum(edges[:-1, None], others[:-1])
-    return np.maximum(covered, 0.0) * points
+    return np.maximum(covered, 0.0) / grid.pixel
 
 
 def _interpolated(values, position, axis):

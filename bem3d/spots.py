@@ -8,7 +8,6 @@ import numpy as np
 
 from .grid import Box, Grid
 
-ROUNDING = 1e-9  # of a pixel
 ROWS = 512  # of a grid, or of a matrix, that are evaluated at a time
 
 
@@ -61,32 +60,21 @@ class Spots(Grid):
         """The pixels alone: of their matrices there are no coarser ones."""
         return [self]
 
-    def coarser(self) -> "Spots":
-        """Pixels about twice as wide that these lie in."""
-        wide = (self.points + 1) // 2
-        places = np.concatenate([row * wide + column for row, column, _ in self._spread(wide)])
-        row, column = np.divmod(np.unique(places), wide)
-        return Spots(wide, self.extent, self.centre, row=row, column=column)
+    def wider(self) -> "Spots":
+        """Pixels twice as wide that these lie in."""
+        grid = super().wider()
+        row, column = np.divmod(np.unique(self._twice(grid.points)), grid.points)
+        return Spots(grid.points, grid.extent, grid.centre, row=row, column=column)
 
     def averaged(self, values: np.ndarray, given: Any) -> np.ndarray:
-        """Means over these pixels of values on others, of which they are the coarser ones; zero between those."""
-        place, found = self.row * self.points + self.column, np.zeros(self.shape)
-        for row, column, share in given._spread(self.points):
-            np.add.at(found, np.searchsorted(place, row * self.points + column), share * values)
-        return found
+        """Means over these pixels of values on others, of which they are the wider ones; zero between those."""
+        place = np.searchsorted(self.row * self.points + self.column, given._twice(self.points))
+        return np.bincount(place, values, len(self.row)) / 4
 
-    def _spread(self, points):
-        """Rows and columns of the pixels, so many a side, that these lie in, and the shares that they cover."""
-        ratio = points / self.points
-        for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
-            shares, places = [], []
-            for first, second in ((self.row, down), (self.column, right)):
-                place = (first * points) // self.points + second
-                covered = np.minimum((first + 1) * ratio, place + 1) - np.maximum(first * ratio, place)
-                inside = covered > ROUNDING
-                shares.append(np.where(inside, covered, 0.0))
-                places.append(np.where(inside, place, place - second))
-            yield (*places, shares[0] * shares[1])
+    def _twice(self, points):
+        """Places of the pixels, so many in a row and twice as wide, that these lie in."""
+        right, down = self._before
+        return (self.row + down) // 2 * points + (self.column + right) // 2
 
     def box(self, chosen: np.ndarray) -> Box:
         """The smallest box around the chosen pixels."""

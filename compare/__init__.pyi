@@ -26,6 +26,7 @@ from .finding import Finding as Finding
 from .quantity import Quantity as Quantity
 from .rectangle import Rectangle as Rectangle
 from .report import Report as Report
+from .statistics.griderror import UncertainFriction as UncertainFriction
 from .studies.regress import check as check
 from .studies.regress import update as update
 from .studies.trust.corrected import CorrectedMDR as CorrectedMDR

@@ -11,6 +11,7 @@ from .finding import FAILS, Claim, Finding
 from .outcome import Outcome
 from .page import Block, Findings, Page, Plot, Section, Text
 from .rectangle import Rectangle
+from .statistics import griderror
 from .statistics.jackknife import judge
 from .task import Batch, Task
 
@@ -87,8 +88,8 @@ class Study:
         return [Text(self.about)] if self.about else []
 
     def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
-        """Page with the answer first and the setting last."""
+        """Page with the answer first, what its grids leave uncertain among it, and the setting last."""
         blocks = self.blocks(answers, findings, self.plots(answers, findings))
         setting = self.setting(answers)
         last = [Section(SETTING, setting)] if setting else []
-        return Page(self.title, self.answer(findings), [*blocks, *last])
+        return Page(self.title, griderror.told(answers, self.answer(findings)), [*blocks, *last])

@@ -19,6 +19,7 @@ from ..outcome import Outcome
 from ..page import Block, Plot, Text
 from ..plots import draw as plots
 from ..rectangle import work_of
+from ..statistics import griderror
 from ..task import Batch, SceneTask, Task
 from ..views import View, view
 from ..vocabulary import attributes
@@ -91,6 +92,9 @@ class Drawing(Study):
             for name in NUMBERS:
                 value = getattr(outcome.rows[0], name)
                 dataset[name] = (), value, attributes(name, self.case.scene)
+            if griderror.MEASURE in outcome.rows[0].measures:
+                error = outcome.rows[0].measures[griderror.MEASURE]
+                dataset[griderror.MEASURE] = (), error, attributes(griderror.MEASURE, self.case.scene)
         return xarray.DataTree.from_dict(parts)
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:

@@ -107,7 +107,7 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
                 "model": each.task.solver.name,
                 "body": each.kind,
                 "solid": type(each.scene.elastomer).__name__,
-                "speed": band(each.scene) if each.kind != "line" else "middle",
+                "speed": band(each.finer[0].scenes[0]),
                 "waves": waves,
                 "points": each.task.solver.points,
                 "error": error,

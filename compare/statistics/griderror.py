@@ -1,0 +1,72 @@
+"""Error of friction that grids leave, as the solved contacts state it: a sentence, first where it is much."""
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray
+
+MEASURE = "friction_error"
+MUCH = 0.1  # from which on it is said first
+# Nodes of answers by what people call their model.
+MODELS = {"MDR": "1D", "row": "1D", "BEM": "3D", "surface": "3D"}
+
+
+class UncertainFriction(UserWarning):
+    """Friction may be wrong by more than a tenth, as its grid is coarse."""
+
+
+def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
+    """Bounds of 95 % on the relative error of friction of every contact on its fine grid (n,), by model."""
+    found: dict[str, list[np.ndarray]] = {}
+    for node in answers.subtree:
+        if MEASURE in node.data_vars and node.name in MODELS:
+            bounds = node[MEASURE]
+            bounds = bounds.sel(grid="fine") if "grid" in bounds.dims else bounds
+            found.setdefault(MODELS[node.name], []).append(bounds.values.ravel())
+    joined = {model: np.concatenate(parts) for model, parts in sorted(found.items())}
+    return {model: each[np.isfinite(each)] for model, each in joined.items() if np.isfinite(each).any()}
+
+
+def sentence(bounds: Mapping[str, np.ndarray]) -> str:
+    """What the grids leave uncertain of friction, by model; empty without friction."""
+    if not bounds:
+        return ""
+    told = [f"{_percent(each.max())} in {model}{_many(each)}" for model, each in bounds.items()]
+    if much(bounds):
+        return f"Friction is uncertain by the grid, by up to {', '.join(told)}: take more points (95 %)."
+    return f"The grid leaves at most {', '.join(told)} of friction uncertain (95 %)."
+
+
+def much(bounds: Mapping[str, np.ndarray]) -> bool:
+    """Whether any contact may be wrong by more than a tenth."""
+    return any(each.max() > MUCH for each in bounds.values())
+
+
+def told(answers: "xarray.DataTree", sentences: Sequence[str]) -> list[str]:
+    """Sentences of an answer, and what the grids leave uncertain of friction: first where it is much."""
+    bounds = stated(answers)
+    own = [sentence(bounds)] if bounds else []
+    return [*own, *sentences] if much(bounds) else [*sentences, *own]
+
+
+def warn(answers: "xarray.DataTree", level: int = 2) -> None:
+    """Warn UncertainFriction where it is much."""
+    bounds = stated(answers)
+    if much(bounds):
+        warnings.warn(sentence(bounds), UncertainFriction, stacklevel=level + 1)
+
+
+def _percent(share):
+    return f"{100 * share:.2g} %"
+
+
+def _many(bounds):
+    if len(bounds) == 1:
+        return ""
+    over = int((bounds > MUCH).sum())
+    many = f", {over} of {len(bounds)} contacts by more than {_percent(MUCH)}" if over else ""
+    return f" ({_percent(np.median(bounds))} in the median{many})"

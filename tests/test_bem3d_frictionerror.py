@@ -1,0 +1,210 @@
+"""Error of friction that an answer states: it holds, and friction that a grid does not tell is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM, frictionerror
+from bem3d.friction import Friction, curvature_by_pressure
+from bem3d.frictionerror import UNTOLD, Signs, bound
+from bem3d.grid import Grid
+from bem3d.spots import Spots
+from scene import (
+    Cone,
+    Coulomb,
+    Elastic,
+    Indent,
+    Kelvin,
+    Plane,
+    PowerLaw,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    StandardLinearSolid,
+)
+from scene.scales import elastic_contact
+
+TAU = 1e-3
+KELVIN = Kelvin(modulus=1e6, relaxation_time=TAU)
+GLASSY = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-5)
+ROUGH = SelfAffine(hurst=0.7, rms_height=1e-5, longest=4e-3, shortest=6e-4, seed=3)
+
+
+def blunt(exponent):
+    """Power law 0.1 mm high at 1 mm."""
+    return PowerLaw(coefficient=1e-4 / 1e-3**exponent, exponent=exponent)
+
+
+def slid(indenter, speed, solid=KELVIN, rough=None, load=1.0):
+    return Scene(indenter, solid, Slide(speed=speed, load=load), rough)
+
+
+def told(scene, points):
+    """Answer on so many points; None where they do not tell its friction."""
+    try:
+        return BEM(points=points).solve(scene)
+    except SolveError as reason:
+        return None if named(reason) > points else pytest.fail(str(reason))
+
+
+def named(reason):
+    """Points that a refusal names."""
+    return int(str(reason).split("take about ")[1].split()[0])
+
+
+def slow_law(scene):
+    """Friction of a slow, smooth body of revolution: mu = v tau int g'^2 dx / int (d - g) dx over 2."""
+    n, c, a = scene.indenter.exponent, scene.indenter.mdr_coefficient, elastic_contact(scene).radius
+    return scene.motion.speed * TAU * n * (n + 1) * c * a ** (n - 2) / (2 * (2 * n - 1))
+
+
+@pytest.mark.parametrize("exponent", [1, 2, 3, 10, 30, 50, 100])
+@pytest.mark.parametrize("points", [64, 128])
+def test_friction_of_a_slow_body_is_within_its_error_or_refused(exponent, points):
+    scene = slid(blunt(exponent), 1e-6)
+    law = slow_law(scene)
+    answer = told(scene, points)
+    if answer is None:
+        assert (exponent > 30, points) == (True, 64)
+        with pytest.raises(SolveError, match="friction is not told by 64 points a side") as refused:
+            BEM(points=points).solve(scene)
+        answer = BEM(points=named(refused.value)).solve(scene)
+    error = abs(answer.friction_coefficient / law - 1)
+    assert error <= answer.measures["friction_error"]
+    assert error < 0.1
+
+
+@pytest.mark.parametrize("speed", [1e-6, 3e-3, 0.3, 300.0])
+@pytest.mark.parametrize("points", [16, 24, 32])
+def test_no_body_is_given_half_or_twice_its_friction_in_silence(speed, points):
+    for exponent in (1, 10, 30, 50, 100):
+        scene = slid(blunt(exponent), speed)
+        answer = told(scene, points)
+        if answer is None:
+            continue
+        finer = BEM(points=256).solve(scene).friction_coefficient
+        apart = abs(answer.friction_coefficient / finer - 1)
+        assert apart < 0.5
+        assert apart < 0.35 or apart <= answer.measures["friction_error"]
+
+
+@pytest.mark.parametrize("solid", [KELVIN, GLASSY])
+@pytest.mark.parametrize("speed", [1e-3, 0.1, 10.0])
+@pytest.mark.parametrize("rough", [None, ROUGH])
+def test_the_error_that_is_stated_falls_with_the_pixel(solid, speed, rough):
+    stated = [
+        BEM(points=points).solve(slid(Sphere(radius=1e-2), speed, solid, rough)).measures["friction_error"]
+        for points in (48, 192)
+    ]
+    assert stated[1] < 0.5 * stated[0]
+    assert 0 < stated[0] < 0.3
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        Scene(Sphere(radius=1e-2), KELVIN, Indent(load=1.0)),
+        slid(Sphere(radius=1e-2), 0.1, Elastic(1e6)),
+        Scene(Plane(), KELVIN, Indent(pressure=1e5), ROUGH),
+    ],
+)
+def test_where_nothing_is_lost_no_error_is_stated(scene):
+    assert "friction_error" not in BEM(points=32).solve(scene).measures
+
+
+def test_friction_of_the_interface_has_no_error_of_the_grid():
+    scene = slid(Sphere(radius=1e-2), 0.1)
+    bare, rubbed = (BEM(points=32).solve(replace(scene, interface=each)) for each in (None, Coulomb(0.3)))
+    absolute = [each.measures["friction_error"] * each.friction_force for each in (bare, rubbed)]
+    assert absolute[0] == pytest.approx(absolute[1], rel=1e-12)
+
+
+def test_units_and_loads_of_another_size_change_nothing():
+    scene = slid(Cone(angle=0.1), 0.05)
+    large = Scene(Cone(angle=0.1), KELVIN, Slide(speed=50.0, load=1e6))
+    stated = [BEM(points=48).solve(each).measures["friction_error"] for each in (scene, large)]
+    assert stated[0] == pytest.approx(stated[1], rel=1e-6)
+
+
+def estimates(**changed):
+    whole = {"by_traction": 1.0, "by_loss": 1.0, "by_work": 1.0, "by_curvature": 1.0, "mean_curvature": 1.0}
+    return Friction(**{**whole, "lag": 0.0, "slowness": 0.0, **changed})
+
+
+def nothing_seen():
+    """Signs of no error at all."""
+    numbers = dict.fromkeys(frictionerror._fitted()["smooth, fast"], 0.0)
+    return Signs("smooth, fast", {**numbers, "joined, on wider pixels": -30.0})
+
+
+@pytest.mark.parametrize(
+    ("changed", "contradiction"),
+    [
+        ({"by_curvature": -38.0, "slowness": 0.99}, 38.61 / 37.61),
+        ({"by_curvature": 9.0, "slowness": 0.0}, 0.0),  # of a fast flow it says nothing
+        ({"by_traction": 4.0, "lag": 1.0}, 0.75),
+        ({"by_traction": 4.0, "lag": 0.0}, 0.0),  # of an elastic contact it is noise
+        ({"by_loss": 0.3, "slowness": 1.0}, 0.7),
+    ],
+)
+def test_estimates_that_contradict_one_another_as_far_as_they_count_are_refused(changed, contradiction):
+    friction = estimates(**changed)
+    assert friction.contradiction == pytest.approx(contradiction, abs=1e-3)
+    if contradiction > UNTOLD:
+        with pytest.raises(SolveError, match="friction is not told by 64 points a side: its estimates differ by"):
+            bound(nothing_seen(), friction, 64, 1e-5)
+    else:
+        assert bound(nothing_seen(), friction, 64, 1e-5) < 1
+
+
+def test_a_residual_is_part_of_the_error():
+    seen = nothing_seen()
+    assert bound(seen, estimates(), 64, 1e-2) - bound(seen, estimates(), 64, 0.0) == pytest.approx(0.03)
+
+
+@pytest.mark.parametrize("exponent", [2.0, 3.0, 7.5, 100.0])
+def test_the_curvature_of_a_smooth_body_is_that_of_its_formula(exponent):
+    indenter, grid = PowerLaw(coefficient=2.0, exponent=exponent), Grid(33, 1.6)
+    x, y = np.meshgrid(grid.x, grid.y)
+    step = 1e-7
+    differences = (indenter.slope(x + step, y) - indenter.slope(x - step, y)) / (2 * step)
+    scale = np.abs(differences).max(axis=None)
+    np.testing.assert_allclose(indenter.curvature(x, y), differences, rtol=1e-5, atol=1e-6 * scale)
+
+
+def test_the_curvature_of_a_cone_is_its_mean_around_the_tip():
+    # One pixel on the tip: a uniform pressure on it sees the jump of the slope over the pixel.
+    cone, pixel = Cone(angle=0.1), 0.1
+    grid = Grid(1, pixel)
+    assert curvature_by_pressure(cone, grid, np.ones((1, 1)), None) == pytest.approx(2 * np.tan(0.1) / pixel)
+
+
+@pytest.mark.parametrize("shift", [(0, 0), (1, 0), (0, -3), (5, 2)])
+@pytest.mark.parametrize("points", [16, 17, 22])
+def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
+    pixel = 0.5
+    grid = Grid(points, points * pixel, (shift[0] * pixel, shift[1] * pixel))
+    wider = grid.wider()
+    assert wider.pixel == pytest.approx(2 * pixel)
+    for axis in (wider.x, wider.y) if points % 2 == 0 else ():
+        assert (axis / wider.pixel) % 1 == pytest.approx(0.5)
+    values = np.random.default_rng(1).random(grid.shape)
+    pressed = np.where(values > 0.6, values, 0.0)
+    found = wider.averaged(pressed, grid)
+    assert found.sum() * wider.patch == pytest.approx(pressed.sum() * grid.patch)
+    # The pixels in contact alone give the same.
+    row, column = np.nonzero(pressed)
+    spots = Spots.of(grid, row, column)
+    alone, same = spots.wider(), np.zeros(wider.shape)
+    assert (alone.points, alone.extent, alone.centre) == (wider.points, wider.extent, wider.centre)
+    same[alone.row, alone.column] = alone.averaged(pressed[row, column], spots)
+    np.testing.assert_allclose(same, found, atol=1e-12)
+
+
+@pytest.mark.parametrize("points", [16, 17])
+def test_a_cell_is_averaged_over_half_as_many_pixels(points):
+    cell = Grid(points, 1.0)
+    np.testing.assert_allclose(cell.coarser().averaged(np.ones(cell.shape), cell), 1.0, rtol=1e-12)
