@@ -73,6 +73,7 @@ class Finding:
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
     plot : name of the plot that shows it
     dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
+    size : whether the number is one that is never negative, such as an rms
     """
 
     claim: Claim
@@ -87,15 +88,21 @@ class Finding:
     stated: str = ""
     plot: str = ""
     dimension: str = ""
+    size: bool = False
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Interval of 95 % with the scatter of surfaces and the error of the grid; NaN if either is unknown."""
+        """Interval of 95 % with the scatter of surfaces and the error of the grid; NaN if either is unknown.
+
+        A grid takes from the size of what it errs in at most the size of its error, and where that is larger, the
+        size may be nil.
+        """
         low, high = self.scatter
-        return low - self.grid, high + self.grid
+        less = low - self.grid
+        return max(less, 0.0) if self.size else less, high + self.grid
 
     @property
     def verdict(self) -> str:

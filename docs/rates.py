@@ -21,7 +21,8 @@ from compare.statistics.collapse import Collapse, collapse
 from compare.statistics.commoncurve import Fit, near
 from compare.statistics.eq23 import TOLERANCE
 from compare.statistics.frictioncurves import SimulatedCurves
-from compare.statistics.jackknife import RmsMisfit, resample
+from compare.statistics.intervals import RmsMisfit
+from compare.statistics.jackknife import resample
 from mdr1d.equations import interpolation
 
 PAGE = Path(__file__).with_suffix(".md")

@@ -13,7 +13,7 @@ from compare.statistics import eq23
 from compare.statistics.collapse import PARALLEL, PARTED, UNSCATTERED, collapse
 from compare.statistics.commoncurve import LEAST_OVERLAP, Fit, bounds, near
 from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
-from compare.statistics.jackknife import RmsMisfit
+from compare.statistics.intervals import RmsMisfit
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)

@@ -9,11 +9,11 @@ from math import isfinite, nan
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from pandas import DataFrame, concat
+from pandas import DataFrame
 
 from .commoncurve import Fit, bounds, inside, near, within
 from .frictioncurves import Curve, FrictionCurves
-from .jackknife import Estimated, RmsMisfit, student
+from .intervals import Estimated, RmsMisfit
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
@@ -65,7 +65,7 @@ class Collapse:
 
     data : what was fitted; points_left_out, surfaces_left_out : how many were not
     curves : with standard errors, to first order
-    freedom : degrees of freedom of these errors
+    log_friction : of every point of every curve, with these errors
     degree : of the common polynomial
     straight : misfit of parallel straight lines, one a speed
     unshifted, horizontal, vertical, both : which shifts are fitted
@@ -75,7 +75,7 @@ class Collapse:
     points_left_out: int
     surfaces_left_out: int
     curves: tuple[Curve, ...] = field(repr=False)
-    freedom: float
+    log_friction: Estimated = field(repr=False)
     degree: int
     straight: RmsMisfit
     unshifted: Alignment
@@ -104,22 +104,19 @@ class Collapse:
         shifts : ln p(v) by which the force is shifted (S,); the best horizontal shifts if None
         """
         shifts = self.horizontal.horizontal.value if shifts is None else shifts
-        student_t, parts = student(0.95, self.freedom), []
-        for curve, shift in zip(self.curves, shifts, strict=True):
-            load, friction, factor = np.exp([curve.log_load, curve.log_friction, student_t * curve.error])
-            parts.append(
-                DataFrame(
-                    {
-                        "speed": curve.speed,
-                        "normal_force": load,
-                        "shifted_force": load * np.exp(shift),
-                        "friction_coefficient": friction,
-                        "friction_coefficient_low": friction / factor,
-                        "friction_coefficient_high": friction * factor,
-                    }
-                )
-            )
-        return concat(parts, ignore_index=True)
+        load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
+        counts = [curve.log_load.size for curve in self.curves]
+        low, high = self.log_friction.interval()
+        return DataFrame(
+            {
+                "speed": np.repeat(self.speeds, counts),
+                "normal_force": load,
+                "shifted_force": load * np.exp(np.repeat(shifts, counts)),
+                "friction_coefficient": np.exp(self.log_friction.value),
+                "friction_coefficient_low": np.exp(low),
+                "friction_coefficient_high": np.exp(high),
+            }
+        )
 
     @property
     def shifts(self) -> DataFrame:
@@ -162,12 +159,13 @@ def collapse(data: FrictionCurves) -> Collapse:
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if horizontal.reason and not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
+    friction = _log_friction(complete)
     return Collapse(
         data=complete,
         points_left_out=data.points - count,
         surfaces_left_out=data.surfaces - complete.surfaces,
-        curves=_with_errors(complete, curves),
-        freedom=complete.replicates(unmoved, complete.deviations()[:, : unmoved.size]).freedom,
+        curves=_with_errors(curves, friction.error),
+        log_friction=friction,
         degree=lifted.degree,
         straight=straight,
         unshifted=_still(complete, level),
@@ -190,10 +188,15 @@ def along_load(data: FrictionCurves) -> Alignment:
     return _moved(complete, fit, _best(fit, np.zeros(len(curves) - 1)))
 
 
-def _with_errors(data, curves):
-    """Curves with standard errors, to first order."""
-    ends = np.cumsum([curve.log_load.size for curve in curves])
-    parts = np.split(data.replicates(np.zeros(ends[-1]), data.deviations()).estimated.error, ends[:-1])
+def _log_friction(data):
+    """ln mu of every point, with standard errors to first order."""
+    values = np.concatenate([curve.log_friction for curve in data.curves])
+    return data.replicates(values, data.deviations()).estimated
+
+
+def _with_errors(curves, errors):
+    """Curves with the standard errors of all points (N,)."""
+    parts = np.split(errors, np.cumsum([curve.log_load.size for curve in curves])[:-1])
     return tuple(replace(curve, error=error) for curve, error in zip(curves, parts, strict=True))
 
 

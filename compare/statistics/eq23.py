@@ -11,7 +11,7 @@ import numpy as np
 from ..finding import EXACT, HALVED, UNKNOWN, Claim, Finding
 from .collapse import DEGREE, Collapse
 from .commoncurve import LEAST_OVERLAP
-from .jackknife import Estimated, RmsMisfit
+from .intervals import Estimated, RmsMisfit
 
 # Of ln mu, and relative of an exponent: what still counts as one curve, and as the exponent predicted.
 TOLERANCE = 0.05
@@ -123,6 +123,7 @@ def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: 
         grid=grid,
         grid_method=method,
         reason=reason or ("" if known else _UNKNOWN),
+        size=isinstance(fine, RmsMisfit),
     )
 
 

@@ -372,9 +372,7 @@ def _reduced(members, solver) -> DataFrame:
     frames = []
     for k, each in enumerate(members):
         mu, other = (mean_ratio(data.friction_force[k], data.load[k]) for data in (fine, coarse))
-        low, high = mu.interval()
-        grid = np.abs(mu.value - other.value)
-        columns = _columns("friction_over_plateau", Interval(mu.value, low - grid, high + grid))
+        columns = _columns("friction_over_plateau", Interval.of(mu, np.abs(mu.value - other.value)))
         xi = 1 / mean_ratio(fine.load[k]).value
         pressed = _places(each.series) | {"normal_force": force_at(each.contacts, solver).value.ravel()}
         count = len(pressed["speed"])

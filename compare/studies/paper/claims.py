@@ -14,7 +14,7 @@ import numpy as np
 
 from ...finding import EXACT, FAILS, Claim, Finding
 from ...statistics import eq23
-from ...statistics.jackknife import Estimated
+from ...statistics.intervals import Estimated
 from .conditions import FLAG, between
 from .law import Law, difference
 from .losses import ROUGH, STIFFNESS, WHOLE, Lossy
