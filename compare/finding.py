@@ -149,7 +149,8 @@ class Finding:
         if not isfinite(claim.tolerance):
             return ""
         expected, tolerance = digits.number(claim.expected), digits.number(claim.tolerance)
-        said = f"{expected} ± {tolerance}" if isfinite(claim.expected) else f"at most {tolerance}"
+        exactly = expected if claim.tolerance == 0 else f"{expected} ± {tolerance}"
+        said = exactly if isfinite(claim.expected) else f"at most {tolerance}"
         return digits.with_unit(said, claim.unit)
 
     @property

@@ -10,7 +10,8 @@ import compare
 from compare.finding import EXACT, FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.page import Plot
 from compare.plots import shifted_curves, style
-from compare.studies.mastercurve import NO_SHIFT, NOT_REPEATED, Mastercurve
+from compare.statistics.eq23 import NO_SHIFT
+from compare.studies.mastercurve import NOT_REPEATED, Mastercurve
 from scene.reading import InvalidInput
 
 

@@ -147,3 +147,32 @@ def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.n
 def inside(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> bool:
     """Whether the demand for overlap leaves the increments free."""
     return bool(np.all(np.minimum(increments - lower, upper - increments) > _CLEAR * (upper - lower)))
+
+
+def against_middle(increments: np.ndarray) -> np.ndarray:
+    """Shifts against the middle speed (S,)."""
+    sums = np.concatenate([[0], np.cumsum(increments)])
+    return sums - sums[sums.size // 2]
+
+
+def exponents(fit: Fit, increments: np.ndarray) -> np.ndarray:
+    """Powers of the speed that are closest to the shifts along load and friction (2,)."""
+    logs = np.log([curve.speed for curve in fit.curves])
+    logs -= logs.mean()
+    return np.array([against_middle(each) @ logs for each in (increments, fit.lifts(increments))]) / (logs @ logs)
+
+
+def unfollowed(fit: Fit, guess: np.ndarray) -> np.ndarray:
+    """What both exponents (2,) may be off by, as no polynomial is the law, where the degree of a fit is enough.
+
+    From one degree to the next they change less and less, or do not settle: it is the geometric mean of the change
+    to that degree and of the one from it, or the latter where it is larger.
+    """
+
+    def at(degree):
+        each = Fit(fit.curves, degree, fit.lifted)
+        return exponents(each, near(each, guess))
+
+    here = at(fit.degree)
+    before, after = (np.abs(here - at(fit.degree + by)) for by in (-2, 2))
+    return np.sqrt(after * np.maximum(before, after))

@@ -47,12 +47,14 @@ class Estimated(Generic[Value]):
 
     freedom : degrees of freedom of the error
     skewness : third moment of what the number is off by, over the cube of its error
+    bias : what it may be off by beside its scatter, at most, to either side
     """
 
     value: Value
     error: Value
     freedom: float | np.ndarray
     skewness: float | np.ndarray = 0.0
+    bias: float | np.ndarray = 0.0
 
     @classmethod
     def exact(cls, value: Value) -> Self:
@@ -71,7 +73,8 @@ class Estimated(Generic[Value]):
             """Errors from the number to the end that lies `by` of Student's to its other side."""
             return 3 * np.expm1(np.log1p(skewed * (by - skewed / 6)) / 3) / skewed
 
-        return self.value - self.error * turned(quantile), self.value - self.error * turned(-quantile)
+        below, above = self.error * turned(quantile), -self.error * turned(-quantile)
+        return self.value - below - self.bias, self.value + above + self.bias
 
     def size_interval(self, level: float = 0.95) -> tuple:
         """Ends of a number that is never negative: those of its logarithm, to second order."""

@@ -15,6 +15,7 @@ from ..plots import study_depth, study_friction, study_verdicts
 from ..plots.study_friction import ALONE, COMMON, FITTED, LAW, PREDICTED
 from ..rectangle import COARSE, FINE
 from ..statistics import eq23
+from ..statistics.collapse import ENDS
 from ..statistics.jackknife import friction, mean, mean_ratio
 from ..statistics.means import Interval
 from .claims_depth import closed_forms, loading
@@ -118,12 +119,19 @@ def _collapse(judged) -> Plot:
 
 
 def _fitted(judged, solver):
-    """Curves shifted along the load, where it is decided whether the curves fall onto one; else None."""
-    found, decided = judged.collapses.get(solver), {HOLDS, FAILS}
-    known = found is not None and found.horizontal.curve is not None
+    """Collapse whose shifts are known, where it is decided whether the curves fall onto one; else None."""
+    found = judged.collapses.get(solver)
+    if found is None or (lead := _lead(judged, solver)).curve is None:
+        return None
     own = (each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id)
     verdicts = {each.verdict for each in own if each.dimension == SOLVERS[solver]}
-    return found if known and verdicts & decided else None
+    return found if lead is found.both or verdicts & {HOLDS, FAILS} else None
+
+
+def _lead(judged, solver):
+    """Alignment of the curves of a solver that its findings have as the answer."""
+    own = [each for each in judged.findings if each.dimension == SOLVERS[solver]]
+    return eq23.leading(judged.collapses[solver], own)
 
 
 def _shifted(judged, solver) -> DataFrame:
@@ -135,17 +143,24 @@ def _shifted(judged, solver) -> DataFrame:
         shift = np.broadcast_to(_predicted(judged, solver)[:, None], load.shape)
         how = np.full(load.shape, PREDICTED, object)
     else:
-        shift, how = np.full(load.shape, np.nan), np.full(load.shape, ALONE, object)
-        shifts = found.horizontal.horizontal.value
-        for speed, by, known in zip(found.speeds, shifts, found.data.known, strict=True):
-            row = series.speeds.index(speed)
-            shift[row, known], how[row, known] = by, FITTED
+        shift, lift = np.full((2, *load.shape), np.nan)
+        how, lead = np.full(load.shape, ALONE, object), _lead(judged, solver)
+        for row, known, *by in zip(
+            map(series.speeds.index, found.speeds.tolist()),
+            found.data.known,
+            lead.horizontal.value,
+            lead.vertical.value,
+            strict=True,
+        ):
+            (shift[row, known], lift[row, known]), how[row, known] = by, FITTED
     frame["shifted_force"] = (load * np.exp(shift)).ravel()
     frame["shifted_as"] = how.ravel()
-    curve = np.nan if found is None else found.horizontal.curve(np.log(frame["shifted_force"]))
-    for end in ("", "_low", "_high"):
+    curve = np.nan if found is None else lead.curve(np.log(frame["shifted_force"])) - lift.ravel()
+    for end in ENDS:
         positive = frame[f"friction_coefficient{end}"].where(lambda value: value > 0)
         frame[f"off_curve{end}"] = np.log(positive) - curve
+        if found is not None and lead is found.both:
+            frame[f"shifted_friction{end}"] = frame[f"friction_coefficient{end}"] * np.exp(lift.ravel())
     return frame
 
 
@@ -160,9 +175,10 @@ def _curves(judged, solver) -> DataFrame:
     """The common curve, and Eq. 19 at all points, which is one curve once shifted as theory has it."""
     laws, found, parts = judged.laws[solver], _fitted(judged, solver), []
     if found is not None:
-        first, last = found.horizontal.curve.domain
+        curve = _lead(judged, solver).curve
+        first, last = curve.domain
         x = np.linspace(first, last, 201)
-        columns = {"shifted_force": np.exp(x), "friction_coefficient": np.exp(found.horizontal.curve(x))}
+        columns = {"shifted_force": np.exp(x), "friction_coefficient": np.exp(curve(x))}
         parts.append(DataFrame({"curve": COMMON} | columns))
     load = (np.exp(_predicted(judged, solver))[:, None] * laws.load).ravel()
     law = DataFrame({"curve": LAW, "shifted_force": load, "friction_coefficient": laws.law.ravel()})
@@ -173,18 +189,20 @@ def _fit(judged, solver) -> DataFrame:
     found = judged.collapses.get(solver)
     if found is None:
         return DataFrame([{"misfit": np.nan, "reason": "too few points"}])
-    own = [each for each in judged.findings if each.claim.id == eq23.COLLAPSE.id]
+    lead = _lead(judged, solver)
+    missed = eq23.BOTH if lead is found.both else eq23.COLLAPSE
+    own = [each for each in judged.findings if each.claim.id == missed.id]
     ends = [each.interval for each in own if each.dimension == SOLVERS[solver]]
-    low, high = ends[0] if ends else found.horizontal.misfit.interval()
+    low, high = ends[0] if ends else lead.misfit.interval()
     row = {
-        "misfit": found.horizontal.misfit.value,
+        "misfit": lead.misfit.value,
         "misfit_low": low,
         "misfit_high": high,
-        "rms": found.horizontal.rms,
+        "rms": lead.rms,
         "degree": found.degree,
         "points_left_out": found.points_left_out,
         "surfaces_left_out": found.surfaces_left_out,
-        "reason": found.horizontal.reason,
+        "reason": lead.reason,
     }
     return DataFrame([row])
 
@@ -192,18 +210,18 @@ def _fit(judged, solver) -> DataFrame:
 def _shifts(judged, fitted) -> Plot:
     shifts, fits = {}, {}
     for solver, found in fitted.items():
-        dimension, exponent = SOLVERS[solver], found.horizontal.exponent
+        dimension, lead = SOLVERS[solver], _lead(judged, solver)
         theory = judged.laws[solver].shifts[[judged.series.speeds.index(speed) for speed in found.speeds.tolist()]]
-        shifts[dimension,] = found.shifts.assign(theory=theory - theory[len(theory) // 2])
-        low, high = exponent.interval()
-        fits[dimension,] = DataFrame([{"exponent": exponent.value, "exponent_low": low, "exponent_high": high}])
+        shifts[dimension,] = found.shifts(lead).assign(theory=theory - theory[len(theory) // 2])
+        numbers = (lead.exponent.value, *lead.exponent.interval())
+        fits[dimension,] = DataFrame([{f"exponent{end}": each for end, each in zip(ENDS, numbers, strict=True)}])
     return Plot(
         f"{judged.series.folder}/shifts",
         study_friction.shifts,
         {"shifts": stacked(shifts, "dimension"), "shifts-fits": stacked(fits, "dimension")},
         "Shifts that bring the curves onto one, zero at the middle speed, with intervals of 95 % over surfaces. "
-        "(a) Along ln F_N alone, and ln p(v) of Eq. 22 (line). (b) Their difference. (c) Along ln μ, both "
-        "fitted; grey, the tolerance.",
+        "(a) Along ln F_N, alone unless friction itself is shifted, and ln p(v) of Eq. 22 (line). (b) Their "
+        "difference. (c) Along ln μ, both fitted; grey, the tolerance.",
         f"Shifts against speed in {' and '.join(SOLVERS[solver] for solver in fitted)}",
         {"tolerance": eq23.TOLERANCE},
     )
