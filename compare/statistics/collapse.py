@@ -161,7 +161,8 @@ def collapse(data: FrictionCurves) -> Collapse:
     why = _inseparable(straight)
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if not raised.reason:
-        along, across = unfollowed(lifted, both)
+        known = raised.misfit.value if raised.misfit.interval()[0] > 0 else 0.0
+        along, across = unfollowed(lifted, both, known)
         raised = replace(
             raised,
             exponent=replace(raised.exponent, bias=along),
