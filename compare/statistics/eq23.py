@@ -95,6 +95,7 @@ def findings(
     regime: str = "",
     plots: tuple[str, str] = ("", ""),
     every: bool = False,
+    horizontal: bool = False,
 ) -> Iterator[Finding]:
     """Every finding on the shifts of one set of curves, that on horizontal shifts alone first.
 
@@ -107,8 +108,9 @@ def findings(
     draws : number of random surfaces; that of the fit if None
     plots : names of the plots that show the collapse, and the shifts
     every : whether the exponents of both fits are told where horizontal shifts are the answer, too
+    horizontal : whether these are the only shifts that are asked about, as in the paper
     """
-    both = raised(fine, coarse)
+    both = not horizontal and raised(fine, coarse)
     parted, straight = fine.horizontal.reason, fine.inseparable
     if shifts is not None and not isinstance(shifts, Mapping):
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
@@ -137,19 +139,22 @@ def findings(
     if not fine.both.reason:
         measured.append((BOTH, LEFT, "", plot_of_shifts))
     if both or every:
-        asked = NOT_SHIFTED if both else replace(NOT_SHIFTED, tolerance=nan)
-        none, neither = parted or _apart(MISFIT, fine, coarse), fine.both.reason or _apart(LEFT, fine, coarse)
-        for claim, name, reason in (
-            (ALONE, "horizontal.exponent", none),
-            (BESIDE, "both.exponent", neither),
-            (asked, "both.vertical_exponent", neither),
-        ):
-            number = (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name)
-            measured.append((claim, number, reason, plot_of_shifts))
+        measured += [(*each, plot_of_shifts) for each in _exponents(fine, coarse, both)]
     drawn = fine.data.surfaces if draws is None else draws
     for claim, number, reason, plot in measured:
         found = finding(claim, number(fine), number(coarse) if coarse else None, reason)
         yield replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
+
+
+def _exponents(fine, coarse, both):
+    """Claims on the exponents of horizontal shifts and of both, with what measures them and why they have none."""
+    none, neither = fine.horizontal.reason or _apart(MISFIT, fine, coarse), _neither(fine, coarse)
+    for claim, name, reason in (
+        (ALONE, "horizontal.exponent", none),
+        (BESIDE, "both.exponent", neither),
+        (NOT_SHIFTED if both else replace(NOT_SHIFTED, tolerance=nan), "both.vertical_exponent", neither),
+    ):
+        yield claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason
 
 
 def raised(fine: Collapse, coarse: Collapse | None = None) -> bool:
@@ -159,7 +164,7 @@ def raised(fine: Collapse, coarse: Collapse | None = None) -> bool:
     out nil. Nearly straight lines tell them apart so little that the interval is found from a tangent that does
     not hold; there vertical shifts have to take something from the misfit, too.
     """
-    if fine.both.reason or _apart(LEFT, fine, coarse) or not MENDED(fine).interval()[0] > ROUNDING:
+    if _neither(fine, coarse) or not MENDED(fine).interval()[0] > ROUNDING:
         return False
     grid = coarse.both.vertical_exponent if coarse else None
     low, high = finding(NOT_SHIFTED, fine.both.vertical_exponent, grid).interval
@@ -223,6 +228,11 @@ def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", p
 def shiftable(speeds: int, points: int) -> bool:
     """Whether so many speeds, each with so many points, are enough to find shifts of both kinds."""
     return speeds > 1 and speeds * points > 2 * (speeds - 1) + DEGREE + 1
+
+
+def _neither(fine, coarse):
+    """Reason why the fit of both shifts has no exponents."""
+    return fine.both.reason or _apart(LEFT, fine, coarse)
 
 
 def _apart(misfit, fine, coarse):

@@ -192,6 +192,7 @@ class CaseFindings:
                 where=self.name,
                 draws=0 if self.case.roughness is None else fine.data.surfaces,
                 plots=(f"{self.folder}/collapse", f"{self.folder}/collapse"),
+                horizontal=coarse is None,
             )
             if coarse is None:  # for want of an answer: data without a grid are exact, this is not
                 told = (replace(each, grid=nan, grid_method=UNKNOWN) for each in told)

@@ -160,6 +160,7 @@ def _shifts(losses) -> Iterator[Finding]:
             draws=lossy.profiles,
             regime=f"|G(v/a)|/G₀ {between(lossy.points[STIFFNESS])}",
             plots=(f"shifted-curves{lossy.loss.suffix}",) * 2,
+            horizontal=True,
         ):
             if each.claim.id == eq23.COLLAPSE.id:
                 collapse = each.verdict
