@@ -35,6 +35,21 @@ def student(level: float, freedom: float | np.ndarray) -> float:
     return found[()]
 
 
+def sides(level: float, freedom: float | np.ndarray, skewed: float | np.ndarray) -> tuple:
+    """Number of standard errors to the lower and to the upper end of such an interval of a skewed number."""
+    quantile = student(level, freedom)
+    most = MOST_SKEWED / np.maximum(quantile, 1.0)
+    seen = skewed * (1 + UNSEEN / np.sqrt(np.asarray(freedom) + 1))
+    # Without skewness the limit.
+    skewed = np.where(np.abs(seen) > NO_SKEWNESS, np.clip(seen, -most, most), NO_SKEWNESS)
+
+    def turned(by):
+        """Errors from the number to the end that lies `by` of Student's to its other side."""
+        return 3 * np.expm1(np.log1p(skewed * (by - skewed / 6)) / 3) / skewed
+
+    return turned(quantile), -turned(-quantile)
+
+
 def skewness(deviations: np.ndarray, axis: int = 0) -> np.ndarray:
     """Skewness of a sum of independent deviations; nil where there are none."""
     squares = np.sum(np.square(deviations), axis=axis)
@@ -63,18 +78,8 @@ class Estimated(Generic[Value]):
 
     def interval(self, level: float = 0.95) -> tuple:
         """Ends between which the number is, as often as stated."""
-        quantile = student(level, self.freedom)
-        most = MOST_SKEWED / np.maximum(quantile, 1.0)
-        seen = self.skewness * (1 + UNSEEN / np.sqrt(np.asarray(self.freedom) + 1))
-        # Without skewness the limit.
-        skewed = np.where(np.abs(seen) > NO_SKEWNESS, np.clip(seen, -most, most), NO_SKEWNESS)
-
-        def turned(by):
-            """Errors from the number to the end that lies `by` of Student's to its other side."""
-            return 3 * np.expm1(np.log1p(skewed * (by - skewed / 6)) / 3) / skewed
-
-        below, above = self.error * turned(quantile), -self.error * turned(-quantile)
-        return self.value - below - self.bias, self.value + above + self.bias
+        below, above = sides(level, self.freedom, self.skewness)
+        return self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
 
     def size_interval(self, level: float = 0.95) -> tuple:
         """Ends of a number that is never negative: those of its logarithm, to second order."""
@@ -109,6 +114,7 @@ class RmsMisfit:
     modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
     freedom : degrees of freedom of the noise
     pooled : whether one scatter, common to all numbers, is known with that freedom, and not that of each mode
+    skewness : of what changes the size to first order
     """
 
     square: float
@@ -117,6 +123,7 @@ class RmsMisfit:
     modes: float
     freedom: float
     pooled: bool = False
+    skewness: float = 0.0
 
     @classmethod
     def unknown(cls) -> Self:
@@ -139,20 +146,20 @@ class RmsMisfit:
             return nan, nan
         if self.noise == 0:
             return self.value, self.value
-        reach = self.along * student(level, self.freedom) ** 2
+        down, up = (self.along * side**2 for side in sides(level, self.freedom, self.skewness))
         known = self.freedom * (1.0 if self.pooled else self.modes)
         second = (special.fdtri(self.modes, min(known, KNOWN), level) - 1) * self.noise
-        middle = self.square + 2 * reach
+        middle = self.square + 2 * down
         above = self.square**2 - second**2
         low = above / (middle + sqrt(middle**2 - above)) if self.square > second else 0.0
         second = max(second, self.noise)
 
         def beyond(square):
-            first = square + self.along - max(sqrt(square) - sqrt(reach), 0.0) ** 2
+            first = square + self.along - max(sqrt(square) - sqrt(up), 0.0) ** 2
             return square - hypot(first, second) - self.square
 
         least = max(self.square, 0.0)
-        most = 2 * (least + 4 * reach + self.along + second)
+        most = 2 * (least + 4 * up + self.along + second)
         high = brentq(beyond, least, most, xtol=1e-12 * most)
         return sqrt(low), sqrt(high)
 

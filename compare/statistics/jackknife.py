@@ -90,10 +90,12 @@ class Replicates:
             return RmsMisfit.unknown()
         products = deviations @ deviations.T
         noise, length = float(np.trace(products)), float(np.linalg.norm(value))
-        along = float(np.sum(np.square(deviations @ value))) / length**2 if length else 0.0
+        longer = deviations @ value
+        along = float(np.sum(np.square(longer))) / length**2 if length else 0.0
         modes = noise**2 / float(np.sum(np.square(products))) if noise else 1.0
         count, pooled = value.size, self.pooled is not None
-        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.freedom, pooled)
+        skewed = 0.0 if pooled else float(skewness(longer))
+        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.freedom, pooled, skewed)
 
 
 def groups(count: int) -> list[np.ndarray]:
