@@ -10,6 +10,7 @@ from bem3d import BEM
 from compare import rectangle
 from compare.finding import REPORTED
 from compare.outcome import Outcome, Row
+from compare.plots import style
 from compare.rectangle import COARSE, FAILED, FINE, SOLVED
 from compare.statistics import eq23
 from compare.statistics.jackknife import friction, mean
@@ -225,6 +226,8 @@ def test_a_shift_of_friction_itself_leads_with_the_pair_that_was_planted(power):
     by = np.log(points["shifted_friction"] / points["friction_coefficient"]).groupby(points["speed"]).mean()
     assert np.polyfit(np.log(by.index), by, 1)[0] == pytest.approx(-power, abs=0.15)
     assert fits["misfit"].max() < 0.005
+    with style.applied():
+        assert all(plots[f"sphere/{name}"].figure().axes for name in ("effects", "collapse", "shifts"))
     assert plots["sphere/shifts"].tables["shifts-fits"]["exponent"].to_numpy() == pytest.approx(-1.5, abs=0.2)
 
 

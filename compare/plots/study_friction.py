@@ -93,7 +93,7 @@ def _misfit(fit):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
     if not np.isfinite(fit["misfit_low"]):
         return f"δ = {fit['misfit']:.1%}"
-    return f"δ = {fit['misfit']:.1%} ({max(fit['misfit_low'], 0.0):.1%} to {fit['misfit_high']:.1%})"
+    return f"δ = {fit['misfit']:.1%} ({fit['misfit_low']:.1%} to {fit['misfit_high']:.1%})"
 
 
 def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
