@@ -162,11 +162,9 @@ def collapse(data: FrictionCurves) -> Collapse:
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if not raised.reason:
         known = raised.misfit.value if raised.misfit.interval()[0] > 0 else 0.0
-        along, across = unfollowed(lifted, both, known)
+        left = dict(zip(("exponent", "vertical_exponent"), unfollowed(lifted, both, known), strict=True))
         raised = replace(
-            raised,
-            exponent=replace(raised.exponent, bias=along),
-            vertical_exponent=replace(raised.vertical_exponent, bias=across),
+            raised, **{name: replace(getattr(raised, name), bias=bias) for name, bias in left.items()}
         )
     if horizontal.reason and not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
