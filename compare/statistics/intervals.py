@@ -82,7 +82,7 @@ class Estimated(Generic[Value]):
         return self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
 
     def size_interval(self, level: float = 0.95) -> tuple:
-        """Ends of a number that is never negative: those of its logarithm, to second order."""
+        """Ends of a number that is never negative: those of its logarithm."""
         exact = np.asarray(self.error) == 0
         with np.errstate(invalid="ignore", divide="ignore"):
             share = np.where(exact, 0.0, self.error / np.where(exact, 1.0, self.value))
