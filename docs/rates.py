@@ -457,9 +457,10 @@ RAISED = f"""Wrong powers and wrong shapes are not kept. Shifts of straight line
 scatter that looks like a bend; those predicted can be asked about without a fit. A vertical shift is another
 matter: over these speeds and loads most of the curve is nearly a power law, where a horizontal shift does what a
 vertical one does. Friction times v^0.33, a factor of {(SPEEDS[-1] / SPEEDS[0]) ** 0.33:.1f} from the slowest
-speed to the fastest, leaves a misfit within the tolerance once it is shifted horizontally. "One curve" and "no
-vertical shift" are then kept, and by their own words rightly: little is left to mend. They do not say that
-friction was not raised. The shifts as predicted and the power of v do.
+speed to the fastest, leaves a misfit within the tolerance once it is shifted horizontally. "One curve" is then
+kept, and by its own words rightly: little is left to mend. "No vertical shift" is rejected where the fit of both
+shifts tells one. A shape that changes a little with the speed looks to that fit like a shift of friction, too: both
+shifts bring such curves onto one, and no fit of shifts alone can tell the difference.
 """
 WEAK = """## What is weak
 
