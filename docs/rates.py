@@ -393,8 +393,8 @@ INTRODUCTION = f"""# How often intervals and verdicts are right
 Measured by `python docs/rates.py`, which writes this page; every rate with its counts is in
 [rates.csv](rates.csv). Data are drawn whose answer is known, and the judge is asked about them.
 
-What is drawn is friction of Eq. 19 for a sphere on a Kelvin solid at {len(SPEEDS)} speeds by {len(LOADS)} loads
-in the ranges of the studies: {SPEEDS[0]:g} to {SPEEDS[-1]:g} m/s and {LOADS[0]:g} to {LOADS[-1]:g} N, ξ from
+The drawn numbers are friction of Eq. 19 for a sphere on a Kelvin solid at {len(SPEEDS)} speeds by {len(LOADS)}
+loads in the ranges of the studies: {SPEEDS[0]:g} to {SPEEDS[-1]:g} m/s and {LOADS[0]:g} to {LOADS[-1]:g} N, ξ from
 0.0015 to 8. Each surface multiplies friction by a random function of its own, smooth in speed and load and
 common to all points: four normal numbers a surface, {100 * SCATTER:g} % rms unless said otherwise, and
 {100 * OWN:g} % a point by itself. The factor is lognormal with mean one. Intervals are nominally those of 95 %.
@@ -453,13 +453,13 @@ that number is within {100 * TOLERANCE:g} %: of nil, or of the power that the th
 - shifts as predicted: the rms with the shifts of the theory, `Collapse.misfit_at`
 - power of v: of the shifts along the load, beside those along friction where friction itself is shifted
 """
-RAISED = f"""Wrong powers and wrong shapes are not kept. Shifts of straight lines are undecided but for rare
+RAISED = f"""Wrong powers and wrong shapes are not kept. Shifts of straight lines are undecided, except for rare
 scatter that looks like a bend; those predicted can be asked about without a fit. A vertical shift is another
 matter: over these speeds and loads most of the curve is nearly a power law, where a horizontal shift does what a
 vertical one does. Friction times v^0.33, a factor of {(SPEEDS[-1] / SPEEDS[0]) ** 0.33:.1f} from the slowest
 speed to the fastest, leaves a misfit within the tolerance once it is shifted horizontally. "One curve" is then
 kept, and by its own words rightly: little is left to mend. "No vertical shift" is rejected where the fit of both
-shifts tells one. A shape that changes a little with the speed looks to that fit like a shift of friction, too: both
+shifts tells one. A shape that changes a little with the speed looks to it like a shift of friction, too: both
 shifts bring such curves onto one, and no fit of shifts alone can tell the difference.
 """
 WEAK = """## What is weak
