@@ -79,6 +79,7 @@ class Finding:
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
     plot : name of the plot that shows it
     dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
+    size : whether the number is one that is never negative, such as an rms
     """
 
     claim: Claim
@@ -93,6 +94,7 @@ class Finding:
     stated: str = ""
     plot: str = ""
     dimension: str = ""
+    size: bool = False
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
@@ -102,9 +104,14 @@ class Finding:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Interval of 95 % with the scatter of surfaces and the error of the grid; NaN if either is unknown."""
+        """Interval of 95 % with the scatter of surfaces and the error of the grid; NaN if either is unknown.
+
+        A grid takes from the size of what it errs in at most the size of its error, and where that is larger, the
+        size may be nil.
+        """
         low, high = self.scatter
-        return low - self.grid, high + self.grid
+        less = low - self.grid
+        return max(less, 0.0) if self.size else less, high + self.grid
 
     @property
     def verdict(self) -> str:
@@ -151,7 +158,8 @@ class Finding:
         if not isfinite(claim.tolerance):
             return ""
         expected, tolerance = digits.number(claim.expected), digits.number(claim.tolerance)
-        said = f"{expected} ± {tolerance}" if isfinite(claim.expected) else f"at most {tolerance}"
+        exactly = expected if claim.tolerance == 0 else f"{expected} ± {tolerance}"
+        said = exactly if isfinite(claim.expected) else f"at most {tolerance}"
         return digits.with_unit(said, claim.unit)
 
     @property

@@ -134,6 +134,7 @@ friction_spread : Friction by traction less friction by energy lost, over the fr
 log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1] |  | Popov et al. 2014, Eq. 23
 log_lift : Shift of a curve along ln mu, beside that along ln F_N, onto the common curve. [1]
 shifted_force : Normal force times the shift of its curve. [N]
+shifted_friction : Friction coefficient times the shift of its curve along friction. [1]
 curves : Set of curves that are shifted onto one.
 power : Power of the speed: fitted to the shifts, expected, or that of a law.
 exponent : Exponent of a power of the speed. [1]

@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from math import ceil, sqrt
+from math import ceil
 
 import numpy as np
 
+from compare.statistics.jackknife import mean_ratio
 from mdr1d import MDR, draw
 from mdr1d import equations as eq
 from scene import Cone, Regime, Result, Scene, SelfAffine, Sphere
@@ -43,9 +44,8 @@ def friction(results: list[Result]) -> np.ndarray:
 
 def deviation(expected, found) -> str:
     """Ratio of the means over the profiles, less one, and its standard error; from 10 on the ratio."""
-    expected, found = np.broadcast_arrays(expected, found)
-    ratio = expected.mean() / found.mean()
-    error = np.std(expected - ratio * found, ddof=1) / found.mean() / sqrt(found.size)
+    over = mean_ratio(expected, found)
+    ratio, error = over.value, over.error
     if ratio >= 10:
         return f"× {ratio:.3g} ± {error:.2g}"
     digits = 0 if error >= 0.02 or ratio >= 2 else 1

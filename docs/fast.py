@@ -17,7 +17,7 @@ from compare.csvfiles import text, write_text
 from compare.finding import verdict
 from compare.plots import style
 from compare.plots.shades import SPEED, bar, between
-from compare.statistics.jackknife import student
+from compare.statistics.jackknife import mean_ratio
 
 PAGE = Path(__file__).with_suffix(".md")
 README = PAGE.parent.parent / "README.md"
@@ -107,23 +107,20 @@ def _corrected(found, fine, trees, claim, place, body):
     load, change = finest[1], np.log(finest[2][place] / coarse[2][places[place]][[0, -1], : finest[2].shape[-1]])
     lever = np.log(load) - np.log(load).mean()
     each = lever @ change / (lever @ lever) if claim.endswith("exponent") else change.mean(axis=0)
-    moved, count = each.mean(), len(each)
-    spread = student(0.95, count - 1) * each.std(ddof=1) / count**0.5
-    scatter = (many["scatter_high"] - many["scatter_low"]) / 2
-    if claim.endswith("exponent"):
-        value = many["value"] + moved
-    else:
-        value, spread = many["value"] * np.exp(moved), many["value"] * spread
-    half = hypot(scatter, spread) + few["grid_error"]
+    moved = mean_ratio(each)
+    changed = np.array([moved.value, *moved.interval()])
+    value, *ends = many["value"] + changed if claim.endswith("exponent") else many["value"] * np.exp(changed)
+    scatter = many["scatter_low"] - many["value"], many["scatter_high"] - many["value"]
+    below, above = (hypot(one, end - value) + few["grid_error"] for one, end in zip(scatter, ends, strict=True))
     return {
         "claim": claim,
         "where": body,
         "dimension": "3D",
         "value": value,
-        "low": value - half,
-        "high": value + half,
+        "low": value - below,
+        "high": value + above,
         "draws": many["draws"],
-        "verdict": verdict(many["expected"], many["tolerance"], value - half, value + half),
+        "verdict": verdict(many["expected"], many["tolerance"], value - below, value + above),
     }
 
 

@@ -13,7 +13,8 @@ from compare.statistics import eq23
 from compare.statistics.collapse import PARALLEL, PARTED, UNSCATTERED, collapse
 from compare.statistics.commoncurve import LEAST_OVERLAP, Fit, bounds, near
 from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
-from compare.statistics.jackknife import RmsMisfit
+from compare.statistics.intervals import RmsMisfit
+from compare.statistics.jackknife import Replicates
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)
@@ -87,7 +88,8 @@ def test_a_finding_names_the_plot_that_shows_it():
     named = {each.claim.id.removeprefix("eq23."): each.plot for each in eq23.findings(found, None, "1D", **given)}
     drawn = {
         "curves": {"collapse", "predicted", "unshifted"},
-        "shifts": {"vertical", "exponent", "vertical-alone", "both"},
+        "shifts": {"vertical", "exponent", "vertical-alone", "both"}
+        | {"exponent-alone", "exponent-beside-vertical", "vertical-exponent"},
     }
     assert {plot: {name for name in named if named[name] == plot} for plot in drawn} == drawn
 
@@ -249,10 +251,11 @@ def test_tables_have_points_shifts_and_their_intervals():
     found, mu = collapse(given), given.friction_force / given.load
     error = mu.std(axis=2, ddof=1) / sqrt(8) / mu.mean(axis=2)
     np.testing.assert_allclose([curve.error for curve in found.curves], error, rtol=1e-9)
-    points, shifts = found.points(), found.shifts
-    # Student's t of seven degrees of freedom, 2.3646.
-    ratio = points["friction_coefficient_high"] / points["friction_coefficient"]
-    np.testing.assert_allclose(np.log(ratio), 2.3646 * error.ravel(), rtol=1e-4)
+    points, shifts = found.points(), found.shifts(found.horizontal)
+    ends = Replicates.first_order(np.log(mu.mean(axis=2)).ravel(), given.deviations()).estimated.interval()
+    np.testing.assert_allclose(
+        np.log([points["friction_coefficient_low"], points["friction_coefficient_high"]]), ends, rtol=1e-9
+    )
     by = np.repeat(np.exp(shifts["log_shift"]), len(LOADS)).to_numpy()
     np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
     expected = found.points(POWER * np.log(SPEEDS))["shifted_force"].to_numpy()

@@ -8,7 +8,7 @@ import pytest
 
 from bem3d import BEM
 from compare import CorrectedMDR, vocabulary
-from compare.statistics.jackknife import student
+from compare.statistics.intervals import student
 from compare.studies.trust import corrected
 from compare.studies.trust.verdict import Trust, Worth, trust
 from compare.task import SceneTask, draws_of

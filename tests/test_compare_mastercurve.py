@@ -10,18 +10,19 @@ import compare
 from compare.finding import EXACT, FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.page import Plot
 from compare.plots import shifted_curves, style
-from compare.studies.mastercurve import NO_SHIFT, NOT_REPEATED, Mastercurve
+from compare.statistics.eq23 import NO_SHIFT
+from compare.studies.mastercurve import NOT_REPEATED, Mastercurve
 from scene.reading import InvalidInput
 
 
-def table(repeats=3, seed=4, order=(0, 1, 2), vertical=0.0):
-    """Rows of friction on one curve shifted by v^-1.5 along the load, with 1 % of scatter."""
+def table(repeats=3, seed=4, order=(0, 1, 2), vertical=0.0, noise=0.01, law=lambda x: (1 + 3e-4 * x) ** -0.6):
+    """Rows of friction on one curve shifted by v^-1.5 along the load, and along friction, with 1 % of scatter."""
     rng = np.random.default_rng(seed)
     rows = []
     for speed in np.geomspace(3e-3, 2e-2, 4):
         for load in np.geomspace(1.0, 100.0, 8):
-            friction = (1 + 3e-4 * load * speed**-1.5) ** -0.6 * speed**-vertical
-            for scatter in 1 + 0.01 * rng.normal(size=repeats):
+            friction = law(load * speed**-1.5) * speed**-vertical
+            for scatter in 1 + noise * rng.normal(size=repeats):
                 rows.append(",".join(str((friction * scatter, load, speed)[i]) for i in order))
     return "\n".join(rows)
 
@@ -53,6 +54,79 @@ def test_a_shift_along_friction_is_measured_beside_that_along_the_load(tmp_path)
     assert low <= -1.5 <= high
     assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
     assert told["both"].value < told["horizontal"].interval[0]
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
+@pytest.mark.parametrize("vertical", [0.0, 0.05, 0.1, -0.1])
+def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical, noise):
+    made = study(tmp_path, table(vertical=vertical, noise=noise))
+    told = found(made)
+    pair = {"vertical-exponent": vertical, "exponent-beside-vertical": -1.5} if vertical else {"exponent": -1.5}
+    for name, planted in pair.items():
+        low, high = told[name].interval
+        # rounding of a fit without scatter
+        assert low - 1e-3 * (noise == 0) <= planted <= high + 1e-3 * (noise == 0), name
+    first, *others = made.answer(list(made.findings(made.answers({}))))
+    if vertical:
+        assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
+        assert first.startswith(
+            f"Friction is shifted as v^{told['vertical-exponent'].found(3)} and the load as v^"
+        )
+        assert "the alternative, a shift of the load alone, as v^" in first
+        assert not any("No shift along friction" in each for each in others)
+        assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
+    else:
+        assert told["vertical"].verdict == HOLDS
+        assert not any("is shifted as" in each for each in [first, *others])
+
+
+@pytest.mark.parametrize("vertical", [0.0, 0.1])
+def test_of_straight_curves_no_shift_is_the_answer(tmp_path, vertical):
+    made = study(tmp_path, table(vertical=vertical, law=lambda x: x**-0.4))
+    told = found(made)
+    assert "straight parallel lines" in told["vertical-exponent"].reason
+    assert np.isnan(told["vertical-exponent"].value)
+    assert told["vertical"].verdict == UNDECIDED
+    assert not any("is shifted as" in each for each in made.answer(list(made.findings(made.answers({})))))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("vertical", [0.0, 0.05])
+def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertical):
+    """Of 60 tables; allowed: three deviations of as many beside 95 %."""
+    held = told = 0
+    for seed in range(60):
+        made = study(tmp_path, table(seed=seed, vertical=vertical))
+        ends = [each.interval() for each in (made.collapse.both.vertical_exponent, made.collapse.both.exponent)]
+        held += all(low <= planted <= high for (low, high), planted in zip(ends, (vertical, -1.5), strict=True))
+        told += made.lead is made.collapse.both
+    assert held >= 60 * (0.95 - 3 * np.sqrt(0.95 * 0.05 / 60))
+    assert told > 48 if vertical else told < 60 * (0.05 + 3 * np.sqrt(0.95 * 0.05 / 60))
+
+
+def test_the_figure_of_both_shifts_has_one_curve_and_both_exponents_of_the_words(tmp_path):
+    made = study(tmp_path, table(vertical=0.1))
+    findings = made.findings(made.answers({}))
+    (plot,) = made.page(made.answers({}), findings).every(Plot)
+    with style.applied():
+        drawing = shifted_curves.figure(again(plot), **plot.options)
+    _, middle, right, _ = drawing.axes
+    assert "shifted both ways" in " ".join(middle.get_title(loc="left").split())
+    points, powers = (plot.tables[name] for name in (shifted_curves.NAME, shifted_curves.POWERS))
+    order = np.argsort(points["shifted_force"].to_numpy())
+    shown = np.log(points[["shifted_force", "shifted_friction"]].to_numpy()[order])
+    # Neighbours on one falling curve, whatever their speed; unshifted along friction they are 7 % apart.
+    assert (np.diff(shown[:, 1])[np.diff(shown[:, 0]) > 0.03] < 0).all()
+    told = found(made)
+    for row, name in (("fitted", "exponent-beside-vertical"), ("along friction", "vertical-exponent")):
+        numbers = powers.set_index("power").loc[row, ["exponent", "exponent_low", "exponent_high"]]
+        assert numbers.tolist() == pytest.approx([told[name].value, *told[name].interval])
+    labels = [each.get_text() for each in right.get_legend().get_texts()]
+    assert [label.split(" ")[0] for label in labels] == ["along", "along"]
+    shifts = plot.tables[shifted_curves.SHIFTS]
+    speeds = np.log(shifts["speed"])
+    for column, planted in (("log_shift", -1.5), ("log_lift", 0.1)):
+        assert np.polyfit(speeds, shifts[column], 1)[0] == pytest.approx(planted, abs=0.05)
 
 
 def test_one_scatter_stands_behind_all_points(tmp_path):

@@ -9,7 +9,7 @@ from pandas import DataFrame
 from compare.finding import EXACT
 from compare.outcome import Outcome, Row
 from compare.runner import sweep
-from compare.statistics.jackknife import Estimated
+from compare.statistics.intervals import Estimated
 from compare.store import Store
 from compare.studies.paper import claims, law, losses, parameter_studies, parameters, predicted
 from compare.studies.paper.conditions import broken, with_conditions

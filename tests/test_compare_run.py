@@ -132,7 +132,11 @@ def invented_of(run, **how):
     return {each: invented(each, **how) for task in run.batches()[0].tasks for each in contacts_on(task)}
 
 
-def invented(task, halved=0.0, scatter=0.0, broken=()):
+def power_law(load, speed):
+    return 0.1 * speed**-0.1 * load**-0.2
+
+
+def invented(task, halved=0.0, scatter=0.0, broken=(), law=power_law):
     """Rows of a contact. halved : error of a coarse 3D grid; scatter : between surfaces of 3D; broken : seeds."""
     rows, name = [], task.solver.name
     coarse = name == "BEM" and task.solver.points < CASE.bem.points
@@ -144,7 +148,7 @@ def invented(task, halved=0.0, scatter=0.0, broken=()):
         motion = scene.motion
         load = motion.load if motion.load is not None else motion.depth * 1e4
         load *= FORCE if name == "MDR" and motion.load is None else 1.0
-        friction = 0.1 * (motion.speed or 1.0) ** -0.1 * load**0.8 * (FRICTION if name == "MDR" else 1.0)
+        friction = law(load, motion.speed or 1.0) * load * (FRICTION if name == "MDR" else 1.0)
         friction *= (1 + halved * coarse) * (1 + scatter * (-1) ** seed * (name == "BEM"))
         measures = {"friction_by_traction": 1.02 * friction, "friction_by_loss": friction} if name == "BEM" else {}
         rows.append(Row(load, 1e-4, friction, 0.0, 1.0, 2.0, measures | {"rms_slope": 0.01}))
@@ -174,6 +178,27 @@ def test_known_answers_are_found():
     shifted = found.loc["eq23.collapse", "a case"]
     assert shifted["verdict"].tolist() == ["undecided"] * 2
     assert shifted["reason"].str.contains("straight parallel lines").all()
+
+
+def test_a_shift_of_friction_itself_leads_the_answer_and_the_figure_shows_both():
+    def bent(load, speed):
+        x = np.log(load) - 1.5 * np.log(speed)
+        return np.exp(-0.3 * x - 0.03 * x**2) * speed**-0.1
+
+    run, answers, found = judged(scatter=1e-3, law=bent)
+    shifted = found.loc["eq23.vertical-exponent", "a case"]
+    assert (shifted["verdict"] == "fails").all()
+    assert shifted["value"].tolist() == pytest.approx([0.1, 0.1], abs=1e-3)
+    assert ((shifted["low"] <= 0.1 + 1e-6) & (shifted["high"] >= 0.1 - 1e-6)).all()
+    assert found.loc["eq23.exponent", "a case"]["value"].tolist() == pytest.approx([-1.5, -1.5], abs=1e-2)
+    first, second, *others = run.answer(run.findings(answers))
+    assert first.startswith("a case, 1D: friction is shifted as v^0.1")
+    assert second.startswith("a case, 3D: friction is shifted as v^0.1")
+    assert not any("no shift along friction" in each for each in others)
+    (plot,) = (each for each in run.page(answers, run.findings(answers)).every(Plot) if "collapse" in each.name)
+    assert plot.alternative == "1D: both shifts; 3D: both shifts"
+    straight, *_ = judged()
+    assert not any("is shifted as" in each for each in straight.answer(straight.findings(_[0])))
 
 
 def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():

@@ -13,7 +13,7 @@ from pandas import DataFrame, concat
 
 from ..finding import FAILS, Finding
 from ..page import Plot, Tables
-from ..statistics.collapse import Collapse
+from ..statistics.collapse import ENDS, Alignment, Collapse
 from . import shades, style
 from .curves import intervals, scatter
 from .lettering import clear, lettered, literal
@@ -23,7 +23,7 @@ SHIFTS, POWERS, FITS = f"{NAME}-shifts", f"{NAME}-powers", f"{NAME}-fits"
 LOG10 = np.log(10)
 # Of more speeds, so many are drawn.
 SPEEDS = 8
-FITTED, EXPECTED = "fitted", "expected"
+FITTED, EXPECTED, BOTH, ACROSS = "fitted", "expected", "both", "along friction"
 # Lines of other powers of the speed, in the order in which they come.
 OTHERS = (("#009E73", ":"), ("#CC79A7", "-."))
 
@@ -38,6 +38,7 @@ class ShiftedCurves:
     expected : exponent of the shifts as a power of the speed that is expected; NaN if none is
     powers : other exponents, by name
     conditions : further columns of the points, in their order; where the column `holds` is false points are hollow
+    lead : alignment of the collapse that is the answer; that along the load if None
     """
 
     title: str
@@ -46,11 +47,17 @@ class ShiftedCurves:
     expected: float = nan
     powers: Mapping[str, float] = field(default_factory=dict)
     conditions: DataFrame | None = None
+    lead: Alignment | None = None
+
+    @property
+    def both(self) -> bool:
+        """Whether the curves are shifted along friction too."""
+        return self.lead is self.collapse.both
 
     @property
     def decided(self) -> bool:
         """Whether the shifts mean anything: not where they bring the curves onto none, or the curves part."""
-        return not self.collapse.horizontal.reason and self.finding.verdict != FAILS
+        return self.both or (not self.collapse.horizontal.reason and self.finding.verdict != FAILS)
 
 
 def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Plot | None:
@@ -65,10 +72,13 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Pl
     tables = {name + key.removeprefix(NAME): concat(frames, ignore_index=True) for key, frames in parts.items()}
     caption = (
         f"Friction against normal force, a curve for each of at most {SPEEDS} speeds; the curves shifted along "
-        "the force so as to come closest to one (Eq. 23); and the shift. Bars are intervals of 95 %. Shifts of "
-        f"curves that do not collapse are hollow; curves that part are shifted as expected, if at all. {about}"
+        "the force (Eq. 23), and along friction where that is shifted too (squares), to come closest to one; the "
+        "shift. Bars: 95 %. Shifts of curves that do not collapse are hollow; curves that part are shifted as "
+        f"expected, if at all. {about}"
     )
-    alternative = "; ".join(f"{each.title}: collapse {each.finding.verdict}" for each in rows)
+    alternative = "; ".join(
+        f"{each.title}: " + ("both shifts" if each.both else f"collapse {each.finding.verdict}") for each in rows
+    )
     return Plot(name, figure, tables, caption.strip(), alternative, {"name": name})
 
 
@@ -84,8 +94,11 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
     for row, (_, fit) in zip(panels, fits.iterrows(), strict=True):
         own, moved, lines = (each[each["curves"] == fit["curves"]] for each in (points, shifts, powers))
         row[1].sharey(row[0])
-        for axes, across in zip(row, ("normal_force", "shifted_force"), strict=False):
-            _curves(axes, own, across, shades.SPEED(between(own["speed"].to_numpy())))
+        lifted = "shifted_friction" if fit["shifted_as"] == BOTH else "friction_coefficient"
+        for axes, at in zip(
+            row, (("normal_force", "friction_coefficient"), ("shifted_force", lifted)), strict=False
+        ):
+            _curves(axes, own, *at, shades.SPEED(between(own["speed"].to_numpy())))
             axes.set(xscale="log", yscale="log")
         if own["shifted_force"].isna().all():
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
@@ -118,29 +131,32 @@ def _few(table: DataFrame) -> DataFrame:
 
 def _tables(each):
     """Tables of one row of the figure, by their names."""
-    found, exponent = each.collapse, each.collapse.horizontal.exponent
-    expected = found.horizontal.reason and np.isfinite(each.expected)
+    found, lead = each.collapse, each.lead or each.collapse.horizontal
+    expected = lead.reason and np.isfinite(each.expected)
     reference = found.speeds[found.speeds.size // 2]
-    points = found.points(each.expected * np.log(found.speeds / reference) if expected else None)
+    along = each.expected * np.log(found.speeds / reference) if expected else lead.horizontal.value
+    points = found.points(along, lead.vertical.value if each.both else None)
     if each.conditions is not None:
         points = points.join(each.conditions.reset_index(drop=True))
-    low, high = exponent.interval()
-    fitted = (exponent.value, low, high) if each.decided else (nan, nan, nan)
-    powers = {FITTED: fitted, EXPECTED: (each.expected, nan, nan)}
-    powers |= {name: (power, nan, nan) for name, power in each.powers.items()}
+    fitted = (lead.exponent.value, *lead.exponent.interval()) if each.decided else (nan, nan, nan)
+    powers = {FITTED: fitted}
+    if each.both:
+        powers[ACROSS] = (lead.vertical_exponent.value, *lead.vertical_exponent.interval())
+    powers |= {name: (power, nan, nan) for name, power in ({EXPECTED: each.expected} | each.powers).items()}
+    missed = (
+        (lead.misfit.value, *lead.misfit.interval()) if each.both else (each.finding.value, *each.finding.interval)
+    )
     fit = {
         "verdict": each.finding.verdict,
-        "misfit": each.finding.value,
-        "misfit_low": each.finding.interval[0],
-        "misfit_high": each.finding.interval[1],
+        **{f"misfit{end}": number for end, number in zip(ENDS, missed, strict=True)},
         "decided": each.decided,
-        "shifted_as": EXPECTED if expected else FITTED,
+        "shifted_as": BOTH if each.both else EXPECTED if expected else FITTED,
         "reference_speed": reference,
         "degree": found.degree,
     }
     return {
         NAME: points,
-        SHIFTS: found.shifts,
+        SHIFTS: found.shifts(lead),
         POWERS: DataFrame(
             [(name, *found) for name, found in powers.items() if np.isfinite(found[0])],
             columns=["power", "exponent", "exponent_low", "exponent_high"],
@@ -151,21 +167,23 @@ def _tables(each):
 
 def _verdict(fit):
     misfit = f", misfit {fit['misfit']:.2%}" if np.isfinite(fit["misfit"]) else ""
+    if fit["shifted_as"] == BOTH:
+        return f"shifted both ways{misfit}"
     how = ", shifted as expected" if fit["shifted_as"] == EXPECTED else ""
     return f"collapse {fit['verdict']}{how}{misfit}"
 
 
-def _curves(axes: Axes, points: DataFrame, across: str, colours: Any) -> None:
+def _curves(axes: Axes, points: DataFrame, across: str, friction: str, colours: Any) -> None:
     """Lines with intervals; points filled where the conditions of the laws hold, or none are known."""
     known = points[across].notna().to_numpy()
     points, colours = points[known], colours[known]
-    x, mu, speed = (points[name].to_numpy() for name in (across, "friction_coefficient", "speed"))
+    x, mu, speed = (points[name].to_numpy() for name in (across, friction, "speed"))
     at = [np.flatnonzero(speed == each) for each in np.unique(speed)]
     lines = [np.column_stack([x[each], mu[each]]) for each in at]
     shade = [colours[each[0]] for each in at]
     axes.add_collection(LineCollection(lines, colors=shade, linewidths=style.width(0.45), zorder=2))
     bars = {"fmt": "none", "ecolor": colours, "elinewidth": style.width(0.8), "capsize": 0}
-    intervals(axes, x, points, "friction_coefficient", **bars)
+    intervals(axes, x, points, friction, **bars)
     holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
     scatter(axes, x, mu, holds, colours, 0.5, 0.35, zorder=2.5)
 
@@ -176,19 +194,24 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
     if np.isfinite(shift).any():
         intervals(axes, speed, shifts, "log_shift", 1 / LOG10, fmt="none", ecolor=colours, capsize=0)
         scatter(axes, speed, shift, np.full(len(speed), bool(fit["decided"])), colours, 0.8, 0.8, zorder=2)
+    if fit["shifted_as"] == BOTH:
+        squares = {"fmt": "s", "color": style.ink(), "markersize": style.mark(0.6), "capsize": 0}
+        intervals(axes, speed, shifts, "log_lift", 1 / LOG10, **squares)
     colour: Any
     decades, others = np.log10(speed / fit["reference_speed"]), iter(OTHERS)
     for power in powers.itertuples():
-        label = f"{power.power} {power.exponent:.3g}"
-        if power.power == FITTED:
-            colour, line = style.grey(0.6), "-"
+        name = "along the load" if ACROSS in set(powers["power"]) and power.power == FITTED else power.power
+        label = f"{name} {power.exponent:.3g}"
+        if power.power in (FITTED, ACROSS):
+            colour, line = style.grey(0.6), "-" if power.power == FITTED else (0, (5, 1))
             if np.isfinite(power.exponent_low):
                 label += f"\n({power.exponent_low:.3g} to {power.exponent_high:.3g})"
         elif power.power == EXPECTED:
             colour, line = style.ink(), "--"
         else:
             colour, line = next(others, OTHERS[-1])
-        axes.plot(speed, power.exponent * decades, line, color=colour, linewidth=style.width(0.8), label=label)
+        look = {"color": colour, "linestyle": line, "linewidth": style.width(0.8)}
+        axes.plot(speed, power.exponent * decades, label=label, **look)
     axes.set(xscale="log", xlim=(speed[0] / 1.2, speed[-1] * 1.2))
     if len(powers):
         low, high = axes.get_ylim()

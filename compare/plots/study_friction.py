@@ -44,7 +44,9 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
         column[1].set(xlabel="shifted normal force [N]", xscale="log", yscale="log")
         _curves(column[0], own, "normal_force", "friction_coefficient", solver, scale)
         marks: Any = {"linestyle": "none"} if dimension in fitted else {}
-        _curves(column[1], own, "shifted_force", "friction_coefficient", solver, scale, **marks)
+        lifted = "shifted_friction" in own and own["shifted_friction"].notna().any()
+        shown = "shifted_friction" if lifted else "friction_coefficient"
+        _curves(column[1], own, "shifted_force", shown, solver, scale, **marks)
         for name, curve in curves[curves["dimension"] == dimension].groupby("curve", sort=False):
             line, look = ("-", style.line(0, 0.8)) if name == COMMON else ("--", style.line(0.5))
             mu = curve["friction_coefficient"]
@@ -52,7 +54,8 @@ def collapse(tables: Tables, tolerance: float = 0.05) -> Figure:
         column[1].legend(loc="lower left")
         if len(rows) > 2:
             _left_over(column[2], own, fit, solver, scale, tolerance)
-        titles = (style.LABEL[solver], "shifted as fitted" if dimension in fitted else "shifted by p(v) of Eq. 22")
+        fit_to = "shifted both ways as fitted" if lifted else "shifted as fitted"
+        titles = (style.LABEL[solver], fit_to if dimension in fitted else "shifted by p(v) of Eq. 22")
         for axes, title in zip(column, titles, strict=False):
             axes.set_title(title)
     labels = ("friction coefficient [1]", "friction coefficient [1]", "off the curve [%]")
@@ -90,7 +93,7 @@ def _misfit(fit):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
     if not np.isfinite(fit["misfit_low"]):
         return f"δ = {fit['misfit']:.1%}"
-    return f"δ = {fit['misfit']:.1%} ({max(fit['misfit_low'], 0.0):.1%} to {fit['misfit_high']:.1%})"
+    return f"δ = {fit['misfit']:.1%} ({fit['misfit_low']:.1%} to {fit['misfit_high']:.1%})"
 
 
 def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:

@@ -29,6 +29,8 @@ UPRIGHT = 0.8, 1.1, 1.4, 1.8, 2.3
 WIDE = 0.75
 # Shades of the distance from the claimed number: up to so many tolerances, and grey between ink (0) and paper (1).
 SHADES = {1.0: 0.97, 3.0: 0.85, 10.0: 0.72, np.inf: 0.58}
+# Stands for the tolerance of a claim that has none: what is off is beyond the axis.
+EXACTLY = 1e-12
 # In tolerances, where the axis of effects ends; what lies beyond is an arrow there.
 END = 100.0
 
@@ -73,7 +75,7 @@ def _claimed(own: DataFrame) -> str:
     for name in ("expected", "tolerance"):
         ends = dict.fromkeys(digits.number(own[name].agg(end), 3) for end in ("min", "max"))
         said.append(" to ".join(ends))
-    return f"claimed: {said[0]} ± {said[1]}"
+    return f"claimed: {said[0]}" + (f" ± {said[1]}" if own["tolerance"].any() else "")
 
 
 def verdicts(tables: Tables, titles: Sequence[tuple[str, str]] = ()) -> Figure:
@@ -163,8 +165,13 @@ def _written(each, cell: float) -> tuple[tuple[float, float], str, tuple[float, 
 
 def _shade(each) -> float:
     """Grey of a finding by its distance from the claimed number; paper where none is known."""
-    off = abs(each["value"] - each["expected"]) / each["tolerance"]
+    off = abs(_tolerances(each["value"], each))
     return next((level for end, level in SHADES.items() if off <= end), 1.0)
+
+
+def _tolerances(value, found) -> float:
+    """Distance of a number from the one claimed, in tolerances; beyond all bounds of a claim without any."""
+    return (value - found["expected"]) / (found["tolerance"] or EXACTLY)
 
 
 def _marks():
@@ -201,14 +208,11 @@ def effects(tables: Tables) -> Figure:
 def _effect(axes, y, found):
     colour = style.COLOUR[SOLVER[found["dimension"]]]
 
-    def tolerances(value):
-        return (value - found["expected"]) / found["tolerance"]
-
     for names, width in ((("low", "high"), 0.65), (("scatter_low", "scatter_high"), 2.0)):
-        ends = [tolerances(found[name]) for name in names]
+        ends = [_tolerances(found[name], found) for name in names]
         if all(map(isfinite, ends)):
             axes.plot(np.clip(ends, -END, END), [y, y], color=colour, linewidth=style.width(width), zorder=2)
-    effect, look = tolerances(found["value"]), {"linestyle": "none", "color": colour, "zorder": 3}
+    effect, look = _tolerances(found["value"], found), {"linestyle": "none", "color": colour, "zorder": 3}
     if abs(effect) <= END:
         axes.plot(effect, y, **look | _marks()[found["verdict"]])
     elif isfinite(effect):

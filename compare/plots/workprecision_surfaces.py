@@ -59,9 +59,8 @@ def _plan(rows: DataFrame) -> SamplingPlan:
         )
         for row in rows.itertuples()
     )
-    bias = float(first["bias"])
-    reach = float(first["bias_most"]) - abs(bias)
-    return SamplingPlan(first["solver"], Bias(bias, reach), levels, float(first["setup"]))
+    bias = Bias(abs(float(first["bias"])), float(first["bias_least"]), float(first["bias_most"]))
+    return SamplingPlan(first["solver"], bias, levels, float(first["setup"]))
 
 
 def figure(tables: Tables, plans: str, levels: Sequence[float]) -> Figure:

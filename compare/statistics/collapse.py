@@ -9,11 +9,11 @@ from math import isfinite, nan
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from pandas import DataFrame, concat
+from pandas import DataFrame
 
-from .commoncurve import Fit, bounds, inside, near, within
+from .commoncurve import Fit, against_middle, bounds, exponents, inside, near, unfollowed, within
 from .frictioncurves import Curve, FrictionCurves
-from .jackknife import Estimated, RmsMisfit, student
+from .intervals import Estimated, RmsMisfit
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
@@ -27,6 +27,8 @@ CHANCE = 0.05
 POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 # Misfit of ln mu that rounding leaves.
 ROUNDING = 1e-9
+# Of the names of columns: a number, and the ends of its interval.
+ENDS = ("", "_low", "_high")
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
 PARTED = "the fit asks for less than the least overlap of neighbours"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
@@ -65,7 +67,7 @@ class Collapse:
 
     data : what was fitted; points_left_out, surfaces_left_out : how many were not
     curves : with standard errors, to first order
-    freedom : degrees of freedom of these errors
+    log_friction : of every point of every curve, with these errors
     degree : of the common polynomial
     straight : misfit of parallel straight lines, one a speed
     unshifted, horizontal, vertical, both : which shifts are fitted
@@ -75,7 +77,7 @@ class Collapse:
     points_left_out: int
     surfaces_left_out: int
     curves: tuple[Curve, ...] = field(repr=False)
-    freedom: float
+    log_friction: Estimated = field(repr=False)
     degree: int
     straight: RmsMisfit
     unshifted: Alignment
@@ -98,36 +100,34 @@ class Collapse:
         """Reason why a horizontal shift cannot be told from a vertical one; empty where it can."""
         return _inseparable(self.straight)
 
-    def points(self, shifts: np.ndarray | None = None) -> DataFrame:
+    def points(self, shifts: np.ndarray | None = None, lifts: np.ndarray | None = None) -> DataFrame:
         """Every point of every curve, with intervals of 95 % of friction, as it is and shifted.
 
         shifts : ln p(v) by which the force is shifted (S,); the best horizontal shifts if None
+        lifts : of ln mu (S,), by which friction is shifted too; not shifted if None
         """
-        shifts = self.horizontal.horizontal.value if shifts is None else shifts
-        student_t, parts = student(0.95, self.freedom), []
-        for curve, shift in zip(self.curves, shifts, strict=True):
-            load, friction, factor = np.exp([curve.log_load, curve.log_friction, student_t * curve.error])
-            parts.append(
-                DataFrame(
-                    {
-                        "speed": curve.speed,
-                        "normal_force": load,
-                        "shifted_force": load * np.exp(shift),
-                        "friction_coefficient": friction,
-                        "friction_coefficient_low": friction / factor,
-                        "friction_coefficient_high": friction * factor,
-                    }
-                )
-            )
-        return concat(parts, ignore_index=True)
+        counts = [curve.log_load.size for curve in self.curves]
+        along = np.repeat(self.horizontal.horizontal.value if shifts is None else shifts, counts)
+        load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
+        friction = self.log_friction.value, *self.log_friction.interval()
+        columns = {
+            "speed": np.repeat(self.speeds, counts),
+            "normal_force": load,
+            "shifted_force": load * np.exp(along),
+        } | {f"friction_coefficient{end}": np.exp(each) for end, each in zip(ENDS, friction, strict=True)}
+        if lifts is not None:
+            by = np.repeat(lifts, counts)
+            columns |= {
+                f"shifted_friction{end}": np.exp(each + by) for end, each in zip(ENDS, friction, strict=True)
+            }
+        return DataFrame(columns)
 
-    @property
-    def shifts(self) -> DataFrame:
-        """Shifts of each speed with intervals of 95 %: along the force; along friction where both are shifted."""
+    def shifts(self, lead: Alignment) -> DataFrame:
+        """Shifts of each speed with intervals of 95 %: along the force, of one alignment; along friction."""
         columns: dict[str, np.ndarray] = {"speed": self.speeds}
-        for name, found in (("log_shift", self.horizontal.horizontal), ("log_lift", self.both.vertical)):
-            low, high = found.interval()
-            columns |= {name: found.value, f"{name}_low": low, f"{name}_high": high}
+        for name, found in (("log_shift", lead.horizontal), ("log_lift", self.both.vertical)):
+            numbers = zip(ENDS, (found.value, *found.interval()), strict=True)
+            columns |= {f"{name}{end}": each for end, each in numbers}
         return DataFrame(columns)
 
     def misfit_at(self, shifts: np.ndarray) -> RmsMisfit:
@@ -160,14 +160,21 @@ def collapse(data: FrictionCurves) -> Collapse:
     horizontal = _moved(complete, level, along)
     why = _inseparable(straight)
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
+    if not raised.reason:
+        known = raised.misfit.value if raised.misfit.interval()[0] > 0 else 0.0
+        left = dict(zip(("exponent", "vertical_exponent"), unfollowed(lifted, both, known), strict=True))
+        raised = replace(
+            raised, **{name: replace(getattr(raised, name), bias=bias) for name, bias in left.items()}
+        )
     if horizontal.reason and not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
+    friction = _log_friction(complete)
     return Collapse(
         data=complete,
         points_left_out=data.points - count,
         surfaces_left_out=data.surfaces - complete.surfaces,
-        curves=_with_errors(complete, curves),
-        freedom=complete.replicates(unmoved, complete.deviations()[:, : unmoved.size]).freedom,
+        curves=_with_errors(curves, friction.error),
+        log_friction=friction,
         degree=lifted.degree,
         straight=straight,
         unshifted=_still(complete, level),
@@ -190,10 +197,15 @@ def along_load(data: FrictionCurves) -> Alignment:
     return _moved(complete, fit, _best(fit, np.zeros(len(curves) - 1)))
 
 
-def _with_errors(data, curves):
-    """Curves with standard errors, to first order."""
-    ends = np.cumsum([curve.log_load.size for curve in curves])
-    parts = np.split(data.replicates(np.zeros(ends[-1]), data.deviations()).estimated.error, ends[:-1])
+def _log_friction(data):
+    """ln mu of every point, with standard errors to first order."""
+    values = np.concatenate([curve.log_friction for curve in data.curves])
+    return data.replicates(values, data.deviations()).estimated
+
+
+def _with_errors(curves, errors):
+    """Curves with the standard errors of all points (N,)."""
+    parts = np.split(errors, np.cumsum([curve.log_load.size for curve in curves])[:-1])
     return tuple(replace(curve, error=error) for curve, error in zip(curves, parts, strict=True))
 
 
@@ -279,19 +291,18 @@ def _undecided(fit, increments, reason):
 
 def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]) -> Alignment:
     """Alignment at the best horizontal shifts of a fit; sought : function that finds their increments."""
-    logs = np.log(data.speeds) - np.mean(np.log(data.speeds))
-    lever = logs / (logs @ logs)
 
     def numbers(part):
         each = fit.of(part.curves)
         increments = sought(each)
         missed, mending = each.residuals(increments), _outside(each.tangent(increments), each.later)
-        moved, lifted = _shifts(increments), _shifts(each.lifts(increments))
+        moved, lifted = against_middle(increments), against_middle(each.lifts(increments))
+        along, across = exponents(each, increments)
         return {
             "horizontal": moved,
             "vertical": lifted,
-            "exponent": lever @ moved,
-            "vertical_exponent": lever @ lifted,
+            "exponent": along,
+            "vertical_exponent": across,
             "raised": lifted - lifted.mean(),
             "misfit": missed,
             "mended": mending @ (mending.T @ missed),
@@ -311,16 +322,10 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
     )
 
 
-def _shifts(increments):
-    """Shifts against the middle speed (S,)."""
-    sums = np.concatenate([[0], np.cumsum(increments)])
-    return sums - sums[sums.size // 2]
-
-
 def _curve(fit, increments):
     """The common polynomial as the curve of the middle speed has it."""
     common = fit.common(increments)
-    along, lift = (-_shifts(each)[0] for each in (increments, fit.lifts(increments)))
+    along, lift = (-against_middle(each)[0] for each in (increments, fit.lifts(increments)))
     polynomial = Chebyshev(common.coefficients[: fit.degree + 1], domain=np.array(common.domain) - along)
     return polynomial - lift
 

@@ -147,3 +147,44 @@ def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.n
 def inside(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> bool:
     """Whether the demand for overlap leaves the increments free."""
     return bool(np.all(np.minimum(increments - lower, upper - increments) > _CLEAR * (upper - lower)))
+
+
+def against_middle(increments: np.ndarray) -> np.ndarray:
+    """Shifts against the middle speed (S,)."""
+    sums = np.concatenate([[0], np.cumsum(increments)])
+    return sums - sums[sums.size // 2]
+
+
+def exponents(fit: Fit, increments: np.ndarray) -> np.ndarray:
+    """Powers of the speed that are closest to the shifts along load and friction (2,)."""
+    return np.array([increments, fit.lifts(increments)]) @ _lever(fit)
+
+
+def _lever(fit):
+    """Weights of increments of a shift in the exponent of its power of the speed, least squares."""
+    logs = np.log([curve.speed for curve in fit.curves])
+    logs -= logs.mean()
+    return np.cumsum(logs[:0:-1])[::-1] / (logs @ logs)
+
+
+def unfollowed(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
+    """What both exponents (2,) may be off by, as no polynomial is the law.
+
+    missed : rms of ln mu by which that of the fit is known to miss it
+    A miss of that size moves an exponent most where it lies along its gradient. And from one degree to the next
+    exponents change less and less, or do not settle: they may be off by the geometric mean of the change to the
+    degree of the fit and of the one from it, or by the latter where it is larger.
+    """
+
+    def at(degree):
+        each = Fit(fit.curves, degree, fit.lifted)
+        return exponents(each, near(each, guess))
+
+    here = at(fit.degree)
+    before, after = (np.abs(here - at(fit.degree + by)) for by in (-2, 2))
+    # Of the tangent the last columns are the shifts along the load, those before them the levels.
+    count = len(fit.curves) - 1
+    inverse = np.linalg.pinv(fit.tangent(near(fit, guess)))[-2 * count :]
+    gradients = _lever(fit) @ inverse.reshape(2, count, -1)
+    most = missed * np.sqrt(inverse.shape[1]) * np.linalg.norm(gradients[::-1], axis=1)
+    return np.maximum(most, np.sqrt(after * np.maximum(before, after)))

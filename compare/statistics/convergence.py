@@ -9,7 +9,7 @@ import numpy as np
 from pandas import DataFrame
 
 from ..amounts import seconds, setting, share
-from .jackknife import student
+from .intervals import student
 from .sampling import Effort
 
 # Steps that a line is fitted through at least, and how far above the error of the reference they have to lie.

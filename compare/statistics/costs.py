@@ -9,7 +9,7 @@ from scipy import special
 from scipy.optimize import OptimizeWarning, curve_fit
 from scipy.special import expit
 
-from .jackknife import student
+from .intervals import student
 
 FEWEST = 3  # points that a power is fitted to
 WITH_OVERHEAD = 5  # points from which on a fixed cost can be told from a power

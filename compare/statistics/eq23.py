@@ -1,6 +1,6 @@
 """Claims of Eqs. 22 and 23: what shifts of friction at several speeds, fitted or predicted, come to."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import isfinite, nan
 from operator import attrgetter
@@ -8,10 +8,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..finding import EXACT, HALVED, UNKNOWN, Claim, Finding
-from .collapse import DEGREE, Collapse
+from ..finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
+from .collapse import DEGREE, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
-from .jackknife import Estimated, RmsMisfit
+from .intervals import Estimated, RmsMisfit
 
 # Of ln mu, and relative of an exponent: what still counts as one curve, and as the exponent predicted.
 TOLERANCE = 0.05
@@ -58,7 +58,27 @@ BOTH = Claim(
     sentence="Misfit of friction to one curve with shifts along load and friction",
     meaning=f"{_MISFIT}, with both shifts at each speed.",
 )
+NOT_SHIFTED = Claim(
+    id="eq23.vertical-exponent",
+    sentence="Eq. 23: exponent of a shift along friction beside that along the load, as a power of the speed",
+    expected=0.0,
+    tolerance=0.0,
+    meaning="Exponent of the vertical shifts against the speed, least squares. Nil is claimed where both shifts "
+    "can be told apart and the interval leaves it out: then both are the answer.",
+)
+BESIDE = Claim(
+    id="eq23.exponent-beside-vertical",
+    sentence="Exponent of the shift along the load where the curves are shifted along friction too",
+    meaning="Exponent of the horizontal shifts against the speed, least squares.",
+)
+ALONE = Claim(
+    id="eq23.exponent-alone",
+    sentence="Exponent of the shift along the load where no curve is shifted along friction",
+    meaning="Exponent of the horizontal shifts against the speed, least squares.",
+)
+NO_SHIFT = "none, as these shifts do not bring the curves onto one"
 MISFIT, MENDED = attrgetter("horizontal.misfit"), attrgetter("horizontal.mended")
+LEFT = attrgetter("both.misfit")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
 _UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
@@ -74,15 +94,23 @@ def findings(
     draws: int | None = None,
     regime: str = "",
     plots: tuple[str, str] = ("", ""),
+    every: bool = False,
+    horizontal: bool = False,
 ) -> Iterator[Finding]:
-    """Every finding on the shifts of one set of curves.
+    """Every finding on the shifts of one set of curves, that on horizontal shifts alone first.
+
+    Where friction itself is shifted (`raised`), the exponent is that of the fit of both shifts, and what vertical
+    shifts mend is reported without a claim: little to mend does not say that there is no shift.
 
     coarse : the collapse on a grid of half the points; None of data without a grid, which have no error of one
     shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,) or by speed; None where it predicts none
     exponent : of p(v) as a power of the speed, predicted; NaN where p(v) is none
     draws : number of random surfaces; that of the fit if None
     plots : names of the plots that show the collapse, and the shifts
+    every : whether the exponents of both fits are told where horizontal shifts are the answer, too
+    horizontal : whether these are the only shifts that are asked about, as in the paper
     """
+    both = not horizontal and raised(fine, coarse)
     parted, straight = fine.horizontal.reason, fine.inseparable
     if shifts is not None and not isinstance(shifts, Mapping):
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
@@ -93,21 +121,84 @@ def findings(
     collapsed, plot_of_shifts = plots
     measured: list[tuple[Claim, Callable[[Collapse], Any], str, str]] = [
         (COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted), collapsed),
-        (VERTICAL, MENDED, straight or _unless_beyond(MENDED(fine), parted), plot_of_shifts),
+        (
+            replace(VERTICAL, tolerance=nan) if both else VERTICAL,
+            MENDED,
+            straight or _unless_beyond(MENDED(fine), parted),
+            plot_of_shifts,
+        ),
     ]
     if shifts is not None:
         measured.append((PREDICTED, predicted, "", collapsed))
     if shifts is not None and isfinite(exponent):
         claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
-        measured.append((claim, attrgetter("horizontal.exponent"), straight or parted, plot_of_shifts))
+        told = "both.exponent" if both else "horizontal.exponent"
+        measured.append((claim, attrgetter(told), straight or ("" if both else parted), plot_of_shifts))
     measured.append((UNSHIFTED, attrgetter("unshifted.misfit"), "", collapsed))
     measured.append((VERTICAL_ALONE, attrgetter("vertical.misfit"), "", plot_of_shifts))
     if not fine.both.reason:
-        measured.append((BOTH, attrgetter("both.misfit"), "", plot_of_shifts))
+        measured.append((BOTH, LEFT, "", plot_of_shifts))
+    if both or every:
+        measured += [(*each, plot_of_shifts) for each in _exponents(fine, coarse, both)]
     drawn = fine.data.surfaces if draws is None else draws
     for claim, number, reason, plot in measured:
         found = finding(claim, number(fine), number(coarse) if coarse else None, reason)
         yield replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
+
+
+def _exponents(fine, coarse, both):
+    """Claims on the exponents of horizontal shifts and of both, with what measures them and why they have none."""
+    none, neither = fine.horizontal.reason or _apart(MISFIT, fine, coarse), _neither(fine, coarse)
+    for claim, name, reason in (
+        (ALONE, "horizontal.exponent", none),
+        (BESIDE, "both.exponent", neither),
+        (NOT_SHIFTED if both else replace(NOT_SHIFTED, tolerance=nan), "both.vertical_exponent", neither),
+    ):
+        yield claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason
+
+
+def raised(fine: Collapse, coarse: Collapse | None = None) -> bool:
+    """Whether the fit of both shifts is the answer, and horizontal ones alone are its alternative.
+
+    Where both can be told apart and bring the curves onto one, the interval of the vertical exponent has to leave
+    out nil. Nearly straight lines tell them apart so little that the interval is found from a tangent that does
+    not hold; there vertical shifts have to take something from the misfit, too.
+    """
+    if _neither(fine, coarse) or not MENDED(fine).interval()[0] > ROUNDING:
+        return False
+    grid = coarse.both.vertical_exponent if coarse else None
+    low, high = finding(NOT_SHIFTED, fine.both.vertical_exponent, grid).interval
+    return low > 0 or high < 0
+
+
+def leading(found: Collapse, findings: Iterable[Finding]) -> Alignment:
+    """Alignment that findings on curves have as the answer."""
+    both = any(each.claim.id == NOT_SHIFTED.id and each.verdict == FAILS for each in findings)
+    return found.both if both else found.horizontal
+
+
+def answers(findings: Iterable[Finding]) -> list[str]:
+    """A sentence for each place where friction itself is shifted, with the other answer as the alternative."""
+    places: dict[tuple[str, str], dict[str, Finding]] = {}
+    for each in findings:
+        places.setdefault((each.where, each.dimension), {})[each.claim.id] = each
+    return [
+        f"{place}, {dimension}: {answer(*(found[claim.id] for claim in (NOT_SHIFTED, BESIDE, ALONE, COLLAPSE)))}"
+        for (place, dimension), found in places.items()
+        if NOT_SHIFTED.id in found
+    ]
+
+
+def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
+    """Both shifts in words, with horizontal ones alone as the alternative."""
+    if isfinite(alone.value):
+        other = f"as v^{alone.found(3)}, leaves curves that miss one by {collapsed.found(3)} of ln μ (rms)"
+    else:
+        other = "brings the curves onto none"
+    return (
+        f"friction is shifted as v^{across.found(3)} and the load as v^{along.found(3)}; "
+        f"the alternative, a shift of the load alone, {other}"
+    )
 
 
 def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "") -> Finding:
@@ -123,6 +214,7 @@ def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: 
         grid=grid,
         grid_method=method,
         reason=reason or ("" if known else _UNKNOWN),
+        size=isinstance(fine, RmsMisfit),
     )
 
 
@@ -136,6 +228,16 @@ def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", p
 def shiftable(speeds: int, points: int) -> bool:
     """Whether so many speeds, each with so many points, are enough to find shifts of both kinds."""
     return speeds > 1 and speeds * points > 2 * (speeds - 1) + DEGREE + 1
+
+
+def _neither(fine, coarse):
+    """Reason why the fit of both shifts has no exponents."""
+    return fine.both.reason or _apart(LEFT, fine, coarse)
+
+
+def _apart(misfit, fine, coarse):
+    """Reason why shifts have no exponent: what they leave is no one curve."""
+    return NO_SHIFT if finding(COLLAPSE, misfit(fine), coarse and misfit(coarse)).verdict == FAILS else ""
 
 
 def _unless_beyond(missed, reason):

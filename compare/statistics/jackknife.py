@@ -1,23 +1,20 @@
 """Intervals of what follows from averages over rough surfaces, by leaving some of them out (Tukey 1958).
 
-The same surfaces stand behind all points: each is left out everywhere at once. With Student's quantile a number
-is inside as often as stated from three surfaces on; percentiles of resampled surfaces are too narrow there.
+The same surfaces stand behind all points: each is left out everywhere at once. What leaving it out changes tells
+the scatter of a number and its skewness; percentiles of resampled surfaces are too narrow where there are few.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import hypot, inf, nan, sqrt
-from typing import Any, Generic, Protocol, Self, TypeVar
+from math import inf, nan, sqrt
+from typing import Any, Protocol, Self
 
 import numpy as np
 import xarray
-from scipy import special
-from scipy.optimize import brentq
 
 from ..finding import HALVED, UNKNOWN, Claim, Finding
+from .intervals import Estimated, RmsMisfit, skewness
 
-# Degrees of freedom of what counts as known exactly.
-KNOWN = 1e9
 # Statistics are found this often at most: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
 
@@ -41,98 +38,6 @@ class Drawn(Grouped, Protocol):
         """Number of surfaces; 0 of smooth bodies."""
 
 
-Value = TypeVar("Value", float, np.ndarray)
-
-
-@dataclass(frozen=True)
-class Estimated(Generic[Value]):
-    """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
-
-    freedom : degrees of freedom of the error
-    """
-
-    value: Value
-    error: Value
-    freedom: float | np.ndarray
-
-    @classmethod
-    def exact(cls, value: Value) -> Self:
-        """Number of a body without random surfaces, whose error is zero."""
-        return cls(value, value * 0.0, inf)
-
-    def interval(self, level: float = 0.95) -> tuple:
-        """Ends between which the number is, as often as stated."""
-        half = self.error * student(level, self.freedom)
-        return self.value - half, self.value + half
-
-    def apart(self, other: Self) -> float:
-        """Distance from another number."""
-        return abs(float(self.value) - float(other.value))
-
-
-@dataclass(frozen=True)
-class RmsMisfit:
-    """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
-
-    square : mean of the squares less their variances; negative by chance where there is little but scatter
-    noise : mean of the variances
-    along : of that, what changes the size to first order
-    modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
-    freedom : degrees of freedom of the noise
-    pooled : whether one scatter, common to all numbers, is known with that freedom, and not that of each mode
-    """
-
-    square: float
-    noise: float
-    along: float
-    modes: float
-    freedom: float
-    pooled: bool = False
-
-    @classmethod
-    def unknown(cls) -> Self:
-        """Misfit of numbers that are not known, or not with which scatter."""
-        return cls(nan, nan, nan, nan, 0)
-
-    @property
-    def value(self) -> float:
-        """Root mean square without scatter; zero where the scatter explains all, NaN where it is not known."""
-        return sqrt(max(self.square, 0.0)) if np.isfinite(self.square) else nan
-
-    def interval(self, level: float = 0.95) -> tuple[float, float]:
-        """Sizes that the data do not contradict.
-
-        To first order the square is off by 2 size sqrt(along) t, and where there is nothing but noise by an F
-        quantile of that; both count, added as squares, for the size asked about. Where it is nil the second
-        decides: there a jackknife of the square itself sees no derivative. Downwards, what is along stops at zero.
-        """
-        if not (np.isfinite(self.noise) and np.isfinite(self.square)):
-            return nan, nan
-        if self.noise == 0:
-            return self.value, self.value
-        reach = self.along * student(level, self.freedom) ** 2
-        known = self.freedom * (1.0 if self.pooled else self.modes)
-        second = (special.fdtri(self.modes, min(known, KNOWN), level) - 1) * self.noise
-        middle = self.square + 2 * reach
-        above = self.square**2 - second**2
-        low = above / (middle + sqrt(middle**2 - above)) if self.square > second else 0.0
-        second = max(second, self.noise)
-
-        def beyond(square):
-            first = square + self.along - max(sqrt(square) - sqrt(reach), 0.0) ** 2
-            return square - hypot(first, second) - self.square
-
-        least = max(self.square, 0.0)
-        most = 2 * (least + 4 * reach + self.along + second)
-        high = brentq(beyond, least, most, xtol=1e-12 * most)
-        return sqrt(low), sqrt(high)
-
-    def apart(self, other: Self) -> float:
-        """Distance from another misfit, by roots with the sign of the square: two of nil need not be equal."""
-        one, two = (np.copysign(sqrt(abs(each.square)), each.square) for each in (self, other))
-        return float(abs(one - two))
-
-
 @dataclass(frozen=True)
 class Replicates:
     """A statistic, (...), and how it changes with the surfaces.
@@ -151,6 +56,11 @@ class Replicates:
         count = len(changes)
         return cls(value, changes / sqrt(count - 1) if count > 1 else _unseen(count, value))
 
+    @classmethod
+    def without_one(cls, value: float | np.ndarray, without: np.ndarray) -> Self:
+        """without : (surfaces, ...), the statistic found without each of them."""
+        return cls(value, _deviations(without, np.ones(len(without))))
+
     @property
     def freedom(self) -> float:
         """Degrees of freedom of the errors."""
@@ -163,7 +73,10 @@ class Replicates:
         """Each number with its own error."""
         if not len(self.deviations):
             return Estimated.exact(self.value)
-        return Estimated(self.value, np.sqrt(np.mean(np.square(self.deviations), axis=0)), self.freedom)
+        error = np.sqrt(np.mean(np.square(self.deviations), axis=0))
+        # One scatter common to all is taken for normal: what few measurements of it show is not skewness.
+        skewed = skewness(self.deviations) if self.pooled is None else 0.0
+        return Estimated(self.value, error, self.freedom, skewed)
 
     @property
     def rms(self) -> RmsMisfit:
@@ -177,10 +90,12 @@ class Replicates:
             return RmsMisfit.unknown()
         products = deviations @ deviations.T
         noise, length = float(np.trace(products)), float(np.linalg.norm(value))
-        along = float(np.sum(np.square(deviations @ value))) / length**2 if length else 0.0
+        longer = deviations @ value
+        along = float(np.sum(np.square(longer))) / length**2 if length else 0.0
         modes = noise**2 / float(np.sum(np.square(products))) if noise else 1.0
         count, pooled = value.size, self.pooled is not None
-        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.freedom, pooled)
+        skewed = 0.0 if pooled else float(skewness(longer))
+        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.freedom, pooled, skewed)
 
 
 def groups(count: int) -> list[np.ndarray]:
@@ -216,7 +131,7 @@ def _deviations(without, sizes):
     share = sizes / sizes.sum()
     middle = np.tensordot(1 - share, without, axes=1) / (sizes.size - 1)
     weight = np.sqrt(1 / share - 1)
-    return weight.reshape(-1, *(1,) * (without.ndim - 1)) * (without - middle)
+    return weight.reshape(-1, *(1,) * (without.ndim - 1)) * (middle - without)
 
 
 def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated[np.ndarray]:
@@ -233,34 +148,13 @@ def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated[
         value = top / bottom
         left = np.where(known, above - value[..., None] * below, 0.0) / bottom[..., None]
         error = np.sqrt(np.sum(np.square(left), axis=-1) / np.where(count > 1, count * (count - 1.0), nan))
-    return Estimated(value, error, np.maximum(count - 1, 0))
+        return Estimated(value, error, np.maximum(count - 1, 0), skewness(left, axis=-1))
 
 
 def left_out(samples: np.ndarray) -> np.ndarray:
     """Averages over the surfaces, the last axis, without one: (..., surfaces) from (..., surfaces)."""
     count = samples.shape[-1]
     return (samples.sum(axis=-1, keepdims=True) - samples) / (count - 1)
-
-
-def standard_error(without: np.ndarray) -> np.ndarray:
-    """Standard error of a number, from its values (surfaces, ...) each found without one surface."""
-    return np.std(without, axis=0) * np.sqrt(len(without) - 1)
-
-
-def interval(value: float, error: float, freedom: int) -> tuple[float, float]:
-    """Interval of 95 %, from a standard error known with so many degrees of freedom."""
-    low, high = Estimated(value, error, freedom).interval()
-    return float(low), float(high)
-
-
-def student(level: float, freedom: float | np.ndarray) -> float:
-    """Number of standard errors to either end of an interval that covers as often as stated."""
-    # scipy.stats has the same functions, and takes a second to import.
-    with_errors = np.where(np.asarray(freedom) > 0, freedom, nan)
-    found = np.where(
-        np.isinf(with_errors), special.ndtri((1 + level) / 2), special.stdtrit(with_errors, (1 + level) / 2)
-    )
-    return found[()]
 
 
 # Claims on Datasets.
@@ -380,6 +274,7 @@ def measured(
         regime=regime,
         reason=_unknown(fine.draws, (found.value, low, high, grid)),
         plot=plot,
+        size=isinstance(found, RmsMisfit),
     )
 
 

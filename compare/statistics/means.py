@@ -10,7 +10,8 @@ import xarray
 from pandas import DataFrame
 
 from ..rectangle import COARSE, EMPTY, FAILED, FINE
-from .jackknife import Estimated, Sample, mean_ratio, resample
+from .intervals import Estimated
+from .jackknife import Sample, mean_ratio, resample
 
 # Of a mean: what is averaged, or the two forces of which the means are divided.
 FRICTION = ("friction_force", "normal_force")
@@ -18,6 +19,8 @@ RATIOS = {"friction_coefficient": FRICTION}
 # Told with deviation and interval, told as a mean alone.
 ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
+# Never negative: their intervals are those of their logarithms.
+SIZES = ("rms_slope",)
 
 
 class Interval(NamedTuple):
@@ -26,6 +29,12 @@ class Interval(NamedTuple):
     value: np.ndarray
     low: np.ndarray
     high: np.ndarray
+
+    @classmethod
+    def of(cls, found: Estimated, grid: np.ndarray | float, size: bool = False) -> "Interval":
+        """Interval of the scatter, wider at both ends by the error of the grid. size : see `Finding`"""
+        low, high = found.size_interval() if size else found.interval()
+        return cls(found.value, np.maximum(low - grid, 0.0) if size else low - grid, high + grid)
 
 
 def pressed(dataset: xarray.Dataset) -> str:
@@ -55,7 +64,7 @@ def means(dataset: xarray.Dataset) -> DataFrame:
         above, below = RATIOS.get(name, (name, None))
         if above not in fine:
             continue
-        found = interval(dataset, above, below)
+        found = interval(dataset, above, below, name in SIZES)
         one = fine[above] if below is None else fine[above] / fine[below].where(fine[below] != 0)
         deviation = one.std("draw", ddof=1) if "draw" in one.dims else xarray.full_like(one, nan)
         columns |= {name: found.value, f"{name}_deviation": deviation.transpose("speed", prescribed).values}
@@ -91,12 +100,17 @@ class Compared:
         return Interval(self.value, self.low - self.grid, self.high + self.grid)
 
 
-def compared(statistic: Callable[[Mapping], np.ndarray], fine: Sample, coarse: Mapping | None) -> Compared:
-    """Numbers that a statistic of Datasets gives; `coarse` are those on half the points, None if not solved."""
+def compared(
+    statistic: Callable[[Mapping], np.ndarray], fine: Sample, coarse: Mapping | None, size: bool = False
+) -> Compared:
+    """Numbers that a statistic of Datasets gives; `coarse` are those on half the points, None if not solved.
+
+    size : whether the numbers are never negative
+    """
     with np.errstate(invalid="ignore", divide="ignore"):
         found = resample(lambda sample: {"": statistic(sample)}, fine)[""].estimated
         grid = np.full(np.shape(found.value), nan) if coarse is None else np.abs(statistic(coarse) - found.value)
-    low, high = found.interval()
+    low, high = found.size_interval() if size else found.interval()
     return Compared(found.value, low, high, grid, fine.draws)
 
 
@@ -111,13 +125,15 @@ def touches(dataset: xarray.Dataset) -> np.ndarray:
     return _over_draws(dataset["status"].sel(grid=FINE) != EMPTY, "any")
 
 
-def interval(dataset: xarray.Dataset, above: str, below: str | None = None) -> Interval:
-    """Mean over draws of a variable, or ratio of two means, on the fine grid at every speed, and load or depth."""
+def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size: bool = False) -> Interval:
+    """Mean over draws of a variable, or ratio of two means, on the fine grid at every speed, and load or depth.
+
+    size : whether the variable is never negative
+    """
     found = {name: _estimated(dataset.sel(grid=name), above, below) for name in dataset["grid"].values.tolist()}
     fine = found[FINE]
-    low, high = fine.interval()
     grid = np.abs(fine.value - found[COARSE].value) if COARSE in found else nan
-    return Interval(fine.value, low - grid, high + grid)
+    return Interval.of(fine, grid, size)
 
 
 def _estimated(dataset, above, below):

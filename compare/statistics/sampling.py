@@ -8,7 +8,7 @@ from typing import Protocol, Self
 import numpy as np
 from scipy import special
 
-from .jackknife import student
+from .intervals import Estimated
 
 LEVEL = 0.95
 
@@ -34,22 +34,24 @@ class Scatter:
         low, high = special.chdtri(self.freedom, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
         return self.value * sqrt(self.freedom / low), self.value * sqrt(self.freedom / high)
 
-    @property
-    def of_mean(self) -> float:
-        """Standard error of the mean of as many values."""
-        return self.value / sqrt(self.freedom + 1)
-
 
 @dataclass(frozen=True)
 class Bias:
     """Error that remains however many surfaces are averaged, of which only the size counts.
 
     value : signed, found less true
-    reach : half of its interval of 95 %, with what the truth itself may be off by; NaN where that is not known
+    low, high : ends of its interval of 95 %, with what the truth itself may be off by; NaN where not known
     """
 
     value: float
-    reach: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, found: Estimated, left: float) -> Self:
+        """Bias whose truth is off by as much as is left beside the scatter."""
+        low, high = found.interval()
+        return cls(float(found.value), float(low) - left, float(high) + left)
 
     @property
     def size(self) -> float:
@@ -59,12 +61,12 @@ class Bias:
     @property
     def least(self) -> float:
         """Smallest size in the interval."""
-        return max(self.size - self.reach, 0.0)
+        return max(self.low, -self.high, 0.0)
 
     @property
     def most(self) -> float:
         """Largest size in the interval."""
-        return self.size + self.reach
+        return max(-self.low, self.high)
 
 
 @dataclass(frozen=True)
@@ -222,7 +224,7 @@ class Mean:
     def floor(self, solver: str = "MDR") -> Bias:
         """Error of a 1D model on its finest grid: no number of profiles passes it."""
         own = self.of(solver)
-        return own[-1].bias if own else Bias(nan, nan)
+        return own[-1].bias if own else Bias(nan, nan, nan)
 
 
 def cheapest(ways: Sequence[Way], level: float) -> Effort | None:
@@ -242,8 +244,3 @@ def envelope(plans: Sequence[SamplingPlan], seconds: np.ndarray) -> np.ndarray:
             known = np.where(seconds >= plan.least_seconds, plan.error(seconds), inf)
             best = np.fmin(best, known)
     return best
-
-
-def half_width(error: float, freedom: float) -> float:
-    """Half of the interval of 95 % of a mean with a standard error."""
-    return float(student(LEVEL, freedom)) * error if freedom > 0 else nan

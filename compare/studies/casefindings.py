@@ -169,9 +169,9 @@ class CaseFindings:
         """Spread of both estimates of friction in three dimensions, at every speed."""
         speeds = self._speeds(SPEED)
         if speeds and "friction_spread" in self.datasets[f"{SPEED}/BEM"]:
-            found = self._ratio(SPEED, ("BEM",), "friction_spread")
+            found = self._ratio(SPEED, ("BEM",), "friction_spread", size=True)
             known = [(k, speed) for k, speed in enumerate(speeds) if isfinite(found.value[k, 0])]
-            yield from (self._at_speed(SPREAD, found, k, speed) for k, speed in known)
+            yield from (replace(self._at_speed(SPREAD, found, k, speed), size=True) for k, speed in known)
 
     @cached_property
     def shifted(self) -> list[Shifted]:
@@ -192,6 +192,7 @@ class CaseFindings:
                 where=self.name,
                 draws=0 if self.case.roughness is None else fine.data.surfaces,
                 plots=(f"{self.folder}/collapse", f"{self.folder}/collapse"),
+                horizontal=coarse is None,
             )
             if coarse is None:  # for want of an answer: data without a grid are exact, this is not
                 told = (replace(each, grid=nan, grid_method=UNKNOWN) for each in told)
@@ -231,7 +232,7 @@ class CaseFindings:
     def _friction(self, curve) -> Compared:
         return self._ratio(curve, ("MDR", "BEM"), *FRICTION)
 
-    def _ratio(self, curve, solvers, over, under=None) -> Compared:
+    def _ratio(self, curve, solvers, over, under=None, size=False) -> Compared:
         """A mean, or a ratio of two means, of one solver, or of one over another, at every point of a curve."""
         names = [over] if under is None else [over, under]
         datasets = {solver: self.datasets[f"{curve}/{solver}"][names] for solver in solvers}
@@ -243,7 +244,7 @@ class CaseFindings:
         on_both = all(COARSE in each["grid"].values for each in datasets.values())
         fine = Sample({name: each.sel(grid=FINE) for name, each in datasets.items()})
         coarse = {name: each.sel(grid=COARSE) for name, each in datasets.items()} if on_both else None
-        return compared(ratio, fine, coarse)
+        return compared(ratio, fine, coarse, size)
 
     def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
         """Force of one over that of another less one, by depth."""

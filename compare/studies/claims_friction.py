@@ -187,7 +187,7 @@ def shift_findings(
         shifts = dict(zip(series.speeds, laws.shifts.tolist(), strict=True))
         found = list(eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots))
         # Shifts onto a curve that may be none are not drawn.
-        undecided = found[0].verdict == UNDECIDED
+        undecided = found[0].verdict == UNDECIDED and not eq23.raised(*both)
         yield from (replace(each, plot=plots[0]) if undecided else each for each in found)
     elif eq23.shiftable(len(series.speeds), len(series.values)):
         yield eq23.too_few(dimension, series.name, draws, words, plots[0])

@@ -21,6 +21,7 @@ from ..library import ready, studies
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
 from ..rectangle import Rectangle
+from ..statistics import eq23
 from ..suggest import known
 from ..task import Task
 from . import study_plots
@@ -134,8 +135,11 @@ class ClaimStudy(Study):
         return self.judged(answers).findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone."""
-        return sentences(claimed(findings))
+        """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone.
+
+        First come the places where friction itself is shifted.
+        """
+        return [*eq23.answers(findings), *sentences(claimed(findings))]
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]

@@ -10,7 +10,8 @@ from ..rectangle import COARSE, FINE
 from ..statistics import eq23
 from ..statistics.collapse import collapse
 from ..statistics.frictioncurves import SimulatedCurves
-from ..statistics.jackknife import RmsMisfit, Sample, friction, mean_ratio, measured
+from ..statistics.intervals import RmsMisfit
+from ..statistics.jackknife import Sample, friction, mean_ratio, measured
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
 from .judgement import JudgedSeries

@@ -16,12 +16,12 @@ from scene.reading import InvalidInput
 from scene.table import read_rows
 
 from ..declaration import Study
-from ..finding import EXACT, FAILS, Claim, Finding, claimed, sentences
+from ..finding import Finding, claimed, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Table, Text
 from ..plots import shifted_curves
 from ..statistics import eq23
-from ..statistics.collapse import Collapse, collapse
+from ..statistics.collapse import Alignment, Collapse, collapse
 from ..statistics.frictioncurves import Curve, MeasuredCurves
 from ..task import Batch, Task
 from ..vocabulary import attributes
@@ -50,23 +50,14 @@ CLAIMS = {
     eq23.UNSHIFTED.id: ("mastercurve.unshifted", "Misfit to one curve before shifting"),
     eq23.VERTICAL_ALONE.id: ("mastercurve.vertical-alone", "Misfit to one curve with shifts along friction alone"),
     eq23.BOTH.id: ("mastercurve.both", "Misfit to one curve with both shifts"),
+    eq23.ALONE.id: ("mastercurve.exponent", "Exponent of the shift along the load as a power of the speed"),
+    eq23.BESIDE.id: ("mastercurve.exponent-beside-vertical", eq23.BESIDE.sentence),
+    eq23.NOT_SHIFTED.id: (
+        "mastercurve.vertical-exponent",
+        "Exponent of the shift along friction, beside that along the load, as a power of the speed",
+    ),
 }
-EXPONENT, BESIDE, VERTICAL_EXPONENT = (
-    Claim(f"mastercurve.{name}", sentence, meaning="Least squares in logarithms.")
-    for name, sentence in (
-        ("exponent", "Exponent of the shift along the load as a power of the speed"),
-        (
-            "exponent-beside-vertical",
-            "Exponent of the shift along the load where the curves are shifted along friction too",
-        ),
-        (
-            "vertical-exponent",
-            "Exponent of the shift along friction, beside that along the load, as a power of the speed",
-        ),
-    )
-)
 NOT_REPEATED = "no point was measured more than once: the scatter is not known, and part of a misfit"
-NO_SHIFT = "none, as these shifts do not bring the curves onto one"
 
 
 @dataclass(frozen=True)
@@ -116,56 +107,48 @@ class Mastercurve(Study):
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         return xarray.DataTree.from_dict({f"/{MEASURED}": self.data})
 
+    @cached_property
+    def lead(self) -> Alignment:
+        """Alignment that is the answer: by both shifts where friction itself is shifted, else along the load."""
+        return self.collapse.both if eq23.raised(self.collapse) else self.collapse.horizontal
+
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
         """Whether horizontal shifts suffice, whether vertical ones are needed, and the exponents of both."""
-        found, where = self.collapse, self.path.stem
+        found, plots = self.collapse, (shifted_curves.NAME,) * 2
         raw = {
             eq23.COLLAPSE.id: found.horizontal.rms,
             eq23.UNSHIFTED.id: found.unshifted.rms,
             eq23.VERTICAL_ALONE.id: found.vertical.rms,
         }
         findings = []
-        for each in eq23.findings(found, None, MEASURED, where=where, draws=0, plots=(shifted_curves.NAME,) * 2):
+        for each in eq23.findings(found, None, MEASURED, where=self.path.stem, draws=0, plots=plots, every=True):
             name, sentence = CLAIMS[each.claim.id]
             if not isfinite(found.scatter):
-                each = replace(each, value=raw.get(each.claim.id, nan), reason=NOT_REPEATED)
+                known = each.value if each.claim is eq23.ALONE else raw.get(each.claim.id, nan)
+                each = replace(each, value=known, reason=NOT_REPEATED)
             findings.append(replace(each, claim=replace(each.claim, id=name, sentence=sentence)))
-        along, both = found.horizontal, found.both
-        no_shift = NO_SHIFT if findings[0].verdict == FAILS else ""
-        for claim, number, reason in (
-            (EXPONENT, along.exponent, along.reason or no_shift),
-            (BESIDE, both.exponent, both.reason),
-            (VERTICAL_EXPONENT, both.vertical_exponent, both.reason),
-        ):
-            low, high = number.interval()
-            findings.append(
-                Finding(
-                    claim=claim,
-                    value=nan if reason else float(number.value),
-                    scatter=(nan, nan) if reason else (float(low), float(high)),
-                    grid=0.0,
-                    grid_method=EXACT,
-                    where=where,
-                    reason=reason,
-                    plot=shifted_curves.NAME,
-                    dimension=MEASURED,
-                )
-            )
         return findings
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return sentences([*claimed(findings), *(each for each in findings if each.claim.id == EXPONENT.id)])
+        named = {each.claim.id: each for each in findings}
+        across, along, alone, collapsed = (
+            named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
+        )
+        told = sentences(claimed(findings))
+        if self.lead is self.collapse.both:
+            return [eq23.answer(across, along, alone, collapsed).capitalize(), *told]
+        return [*told, *sentences([alone])]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        row = shifted_curves.ShiftedCurves(self.path.stem, self.collapse, findings[0])
+        row = shifted_curves.ShiftedCurves(self.path.stem, self.collapse, findings[0], lead=self.lead)
         plot = shifted_curves.plot([row])
         return [plot] if plot else []
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
-        shifts = Table("shifts", self.collapse.shifts, "Natural logarithms of the shifts, with intervals of 95 %.")
-        return [*plots, Findings(findings), shifts]
+        told = "Natural logarithms of the shifts, with intervals of 95 %."
+        return [*plots, Findings(findings), Table("shifts", self.collapse.shifts(self.lead), told)]
 
     def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
         """Number and range of the measurements."""

@@ -55,6 +55,22 @@ def stacked(frames: Mapping[Any, DataFrame], *names: str) -> DataFrame:
     return concat([each for each in parts if len(each)] or parts[:1], ignore_index=True)
 
 
+def each_dimension(table: Callable[[str], DataFrame]) -> DataFrame:
+    """Tables of the solvers by their names, one below the other, with the dimension in front."""
+    return stacked({(dimension,): table(solver) for solver, dimension in SOLVERS.items()}, "dimension")
+
+
+def interval_columns(name: str, found: Interval) -> dict[str, np.ndarray]:
+    """Numbers and both ends of their intervals, flat, under a name."""
+    return {f"{name}{end}": np.ravel(each) for end, each in zip(("", "_low", "_high"), found, strict=True)}
+
+
+def place_columns(series, name="speed") -> dict[str, np.ndarray]:
+    """Speed, and load or depth, of each point, flat."""
+    speeds, values = np.meshgrid(series.speeds, series.values, indexing="ij")
+    return {name: speeds.ravel(), series.prescribed: values.ravel()}
+
+
 def points(contacts: Contacts) -> DataFrame:
     """A row for each solver, body, speed, and load or depth: means, intervals of 95 %, dimensionless groups."""
     frames = {(SOLVERS[solver], body): _rows(contacts, solver, body) for solver, body in contacts.datasets}

@@ -26,6 +26,7 @@ from ..page import Block, Findings, Plot, Section, Table, Text
 from ..path import by_contact
 from ..plots import contact_maps, force_depth, friction_curves, shifted_curves, smooth_limit
 from ..rectangle import Rectangle
+from ..statistics import eq23
 from ..statistics.means import with_spread
 from ..task import SceneTask, Task
 from ..views import view
@@ -143,7 +144,7 @@ class Run(Study):
             for name, found in self.trusts.items()
             for quantity, each in found.worths.items()
         ]
-        return [*finding.sentences(finding.claimed(findings)), *worth]
+        return [*eq23.answers(findings), *finding.sentences(finding.claimed(findings)), *worth]
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
@@ -259,7 +260,13 @@ def _shifted_curves(found: CaseFindings) -> Plot | None:
     """Friction against load shifted onto one curve."""
     expected = predicted_exponent(found.case)
     rows = [
-        shifted_curves.ShiftedCurves(DIMENSIONS[each.solver], each.collapse, each.findings[0], expected)
+        shifted_curves.ShiftedCurves(
+            DIMENSIONS[each.solver],
+            each.collapse,
+            each.findings[0],
+            expected,
+            lead=eq23.leading(each.collapse, each.findings),
+        )
         for each in found.shifted
     ]
     plot = shifted_curves.plot(rows, COLLAPSE)

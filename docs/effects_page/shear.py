@@ -21,7 +21,7 @@ from scene import Coulomb, Indent, Kelvin, Scene, Shear, Sphere
 
 from .chapter import Chapter, Rows
 from .figures import shear as drawing
-from .means import estimate, half, mean
+from .means import estimate, mean
 
 NAME, TITLE = "shear", "Tangential loading and partial slip"
 DEPTH, FRICTION, NU = 4e-4, 0.5, 0.5
@@ -242,7 +242,7 @@ def _sheet(curve: Curve):
             "way": curve.way,
             "share": share,
             "force": value.mean,
-            "half_interval": half(value),
+            **dict(zip(("low", "high"), value.found.interval(), strict=True)),
             "bodies": value.count,
             "full_slip": full.mean,
             "closed_form": float(tangential.force(min(share, 1.0))),

@@ -7,14 +7,12 @@ would give it. It stands in for a measured one.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from math import nan
 
 import numpy as np
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
 from compare.outcome import Outcome
-from compare.statistics.jackknife import student
 from compare.statistics.spectra import Description, describe
 from compare.task import SceneTask as Task
 from compare.task import Task as AnyTask
@@ -24,7 +22,7 @@ from scene.scales import elastic_contact
 
 from .chapter import Chapter, Rows
 from .figures import topography as drawing
-from .means import LEVEL, Estimate, estimate, half, plus_minus, ratio, written
+from .means import Estimate, between, estimate, ratio, written
 
 NAME, TITLE = "topography", "Measured topography"
 BODY = Scene(Sphere(radius=10e-3), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(depth=1e-4))
@@ -68,11 +66,6 @@ class Answer:
     x: float
     way: str
     value: Estimate
-
-    @property
-    def half(self) -> float:
-        """Half of the interval of the mean; NaN of a single value."""
-        return half(self.value)
 
 
 @cache
@@ -152,17 +145,15 @@ def _text(described: Description, found):
 def _said(found, quantity, way):
     """Over which range one dimension is of three."""
     ratios = [_ratio(found, each, way) for each in found if each.quantity == quantity and each.way == SURFACES]
-    low, high = (extreme(ratios, key=lambda pair: pair[0]) for extreme in (min, max))
+    low, high = (extreme(ratios, key=lambda each: each.value) for extreme in (min, max))
     lines = "rows" if way == ROWS else "mapped lines"
-    return f"The {quantity} of {lines} is {plus_minus(*low)} to {plus_minus(*high)} times that of the map."
+    return f"The {quantity} of {lines} is {between(low)} to {between(high)} times that of the map."
 
 
 def _ratio(found, three: Answer, way):
-    """One dimension over three, and half of its interval."""
+    """One dimension over three."""
     one = next(each for each in found if (each.quantity, each.x, each.way) == (three.quantity, three.x, way))
-    value, error = ratio(one.value, three.value)
-    freedom = min(one.value.count, three.value.count) - 1
-    return value, error * student(LEVEL, freedom) if freedom > 0 else nan
+    return ratio(one.value, three.value)
 
 
 def _table(found) -> Rows:
@@ -174,19 +165,21 @@ def _table(found) -> Rows:
         rows.append(
             {"": f"{three.quantity} at {at}"}
             | {way: written(each.value, unit) for way, each in same.items()}
-            | {f"{way}, over 3D": plus_minus(*_ratio(found, three, way)) for way in (MAPPED, ROWS)}
+            | {f"{way}, over 3D": between(_ratio(found, three, way)) for way in (MAPPED, ROWS)}
         )
     return rows
 
 
 def _sheet(each: Answer):
     smooth = elastic_contact(replace(BODY, motion=Indent(depth=each.x))).load if each.quantity == "force" else 1.0
+    low, high = each.value.found.interval()
     return {
         "quantity": each.quantity,
         "x": each.x,
         "way": each.way,
         "mean": each.value.mean,
-        "half_interval": each.half,
+        "low": low,
+        "high": high,
         "count": each.value.count,
         "unit": smooth,
     }

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...finding import EXACT, FAILS, Claim, Finding
 from ...statistics import eq23
-from ...statistics.jackknife import Estimated
+from ...statistics.intervals import Estimated
 from .conditions import FLAG, between
 from .law import Law, difference
 from .losses import ROUGH, STIFFNESS, WHOLE, Lossy
@@ -160,6 +160,7 @@ def _shifts(losses) -> Iterator[Finding]:
             draws=lossy.profiles,
             regime=f"|G(v/a)|/G₀ {between(lossy.points[STIFFNESS])}",
             plots=(f"shifted-curves{lossy.loss.suffix}",) * 2,
+            horizontal=True,
         ):
             if each.claim.id == eq23.COLLAPSE.id:
                 collapse = each.verdict

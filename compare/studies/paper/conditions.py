@@ -9,20 +9,13 @@ from pandas import DataFrame
 from scene import Regime, Scene
 from scene.scales import elastic_contact
 
-from ...statistics.jackknife import Estimated
+from ...statistics.intervals import Estimated
 from . import parameters
 
 # A model that is linear and knows no length has the same contact whatever the scale of heights, slopes and loads:
 # where slopes are not small the equations describe no body, but what they say of one another stands.
 SCALE_FREE = "small slopes"
 FLAG = "holds: "
-
-
-def over_profiles(samples: np.ndarray) -> Estimated[np.ndarray]:
-    """Means (points,) of samples (points, profiles), of those that are known."""
-    count = np.isfinite(samples).sum(axis=1)
-    error = np.nanstd(samples, axis=1, ddof=1) / np.sqrt(count)
-    return Estimated(np.nanmean(samples, axis=1), error, count - 1)
 
 
 def with_ends(name: str, found: Estimated) -> dict[str, Any]:

@@ -14,11 +14,12 @@ from scene import SolveError
 
 from ...outcome import Outcome
 from ...rectangle import FINE, Rectangle
-from ...statistics.jackknife import Estimated, left_out, standard_error
+from ...statistics.intervals import Estimated
+from ...statistics.jackknife import Replicates, left_out, mean_ratio
 from ...task import Task
 from ...vocabulary import attributes
 from . import parameters
-from .conditions import over_profiles, regime_of, with_conditions, with_ends
+from .conditions import regime_of, with_conditions, with_ends
 from .planes import Planes
 
 VARIABLES = tuple(float(xi) for xi in np.geomspace(1e-2, 1e2, 25))
@@ -115,8 +116,8 @@ def law(shape: str, solved: xarray.Dataset, of_planes: xarray.Dataset) -> Law:
         raise SolveError(f"Fig. 4, {shape}: nothing was solved: {fine['reason'].values.flat[0]}")
     samples = equations.normalised_friction(friction[known], slope)
     kept = samples[:, np.isfinite(samples).all(axis=0)]
-    found, scene = over_profiles(kept), parameters.base(shape)
-    mean, error, freedom = found.value, found.error, kept.shape[1] - 1
+    found, scene = mean_ratio(kept), parameters.base(shape)
+    mean, error = found.value, found.error
     xi = np.array([parameters.variable(parameters.base(shape, v), slope) for v in fine["speed"].values[known]])
     alpha, alphas = best(xi, mean), np.array([best(xi, without) for without in left_out(kept).T])
     by_planes = equations.normalised_friction(of_planes["friction_coefficient"].values[known], slope)
@@ -131,20 +132,20 @@ def law(shape: str, solved: xarray.Dataset, of_planes: xarray.Dataset) -> Law:
     return Law(
         shape=shape,
         points=with_conditions(DataFrame(columns), regime_of([scene], slope)),
-        alpha=Estimated(alpha, float(standard_error(alphas)), freedom),
+        alpha=Replicates.without_one(alpha, alphas).estimated,
         alphas=alphas,
         by_criterion={name: best(xi, mean, error, criterion) for name, criterion in CRITERIA.items()},
         left=float(np.max(np.abs(mean / equations.interpolation(xi, alpha) - 1))),
         planes_alpha=best(xi, by_planes),
-        plateau=Estimated(float(mean[-1] / top), float(error[-1] / top), freedom),
+        plateau=mean_ratio(kept[-1], top),
     )
 
 
 def difference(one: Law, other: Law) -> Estimated:
     """Difference of alpha between two shapes on the same profiles."""
     count = min(one.profiles, other.profiles)
-    error = float(standard_error(one.alphas[:count] - other.alphas[:count]))
-    return Estimated(one.alpha.value - other.alpha.value, error, count - 1)
+    apart = one.alphas[:count] - other.alphas[:count]
+    return Replicates.without_one(one.alpha.value - other.alpha.value, apart).estimated
 
 
 # What is least at the best alpha, of friction, law and standard errors, by name.

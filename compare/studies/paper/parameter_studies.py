@@ -16,12 +16,13 @@ from scene import Scene, SolveError
 
 from ...outcome import Outcome
 from ...rectangle import FAILED, SOLVED
-from ...statistics.jackknife import Estimated, left_out, standard_error
+from ...statistics.intervals import Estimated
+from ...statistics.jackknife import Replicates, left_out, mean_ratio
 from ...task import SCENES, Task
 from ...vocabulary import attributes
 from . import parameters
 from .arrays import ArrayTask
-from .conditions import over_profiles, regime_of, with_conditions, with_ends
+from .conditions import regime_of, with_conditions, with_ends
 
 NODE = "parameter-studies/MDR"
 # Profiles of one task: some seconds of work are lost at most in an interruption, and to prepare the scenes takes
@@ -179,7 +180,7 @@ def slow_friction(studies: ParameterStudies, dataset: xarray.Dataset) -> SlowFri
         "parameter": [place.value for place in found],
         "hurst": [place.hurst for place in found],
         "xi": xi,
-        **with_ends("normalised_friction", over_profiles(samples)),
+        **with_ends("normalised_friction", mean_ratio(samples)),
     }
     regime, slowly = regime_of([place.scene for place in found], slope), {"xi << 1": ("xi", xi, xi <= SLOW)}
     return SlowFriction(with_conditions(DataFrame(columns), regime, slowly), samples, float(np.nanmean(sweeps)))
@@ -214,10 +215,10 @@ def line(xi: np.ndarray, samples: np.ndarray, where: np.ndarray, over: np.ndarra
         unknown = Estimated(nan, nan, 0)
         return Line(unknown, unknown, nan, int(where.sum()))
     x, kept = np.log(xi[where]), (samples / np.reshape(over, (-1, 1)))[where]
-    mean, freedom = kept.mean(axis=1), kept.shape[1] - 1
-    errors = standard_error(np.transpose(_fit(x, left_out(kept))))
+    mean = kept.mean(axis=1)
     slope, factor = (
-        Estimated(float(value), float(error), freedom) for value, error in zip(_fit(x, mean), errors, strict=True)
+        Replicates.without_one(float(value), without).estimated
+        for value, without in zip(_fit(x, mean), _fit(x, left_out(kept)), strict=True)
     )
     return Line(slope, factor, float(np.abs(mean / xi[where] - 1).max()), len(x))
 

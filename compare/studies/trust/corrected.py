@@ -15,7 +15,7 @@ from scene.quantities import CLOSED
 
 from ...cases import Draws
 from ...outcome import Row
-from ...statistics.sampling import Scatter, half_width
+from ...statistics.jackknife import mean_ratio
 from ...task import SceneTask, draws_of
 from .verdict import Worth, trust, unmeasured
 
@@ -75,7 +75,7 @@ class CorrectedMDR:
         most = max(rows, key=lambda row: row.normal_force)
         if not most.normal_force:
             raise EmptyContact(f"none of {len(rows)} profiles touches at a depth of {motion.depth:g} m")
-        means = {name: _mean(name, rows) for name in worths}
+        means = {name: _mean(name, rows, rough) for name in worths}
         values = {name: means[name][0] / worth.ratio for name, worth in worths.items()}
         if not any(map(isfinite, values.values())):
             raise SolveError(f"no mean over {len(rows)} profiles is above zero, so that no ratio corrects it")
@@ -93,25 +93,29 @@ class CorrectedMDR:
             measures={
                 measure: number
                 for name, worth in worths.items()
-                for measure, number in _measures(name, worth, values[name], means[name][1] if rough else 0.0)
+                for measure, number in _measures(name, worth, values[name], *means[name][1:])
             },
         )
 
 
-def _mean(quantity: str, rows: Sequence[Row]) -> tuple[float, float]:
-    """Mean over profiles, and half of its interval of 95 %, relative; nan of a mean that no ratio corrects."""
+def _mean(quantity: str, rows: Sequence[Row], rough: bool) -> tuple[float, float, float]:
+    """Mean over profiles, and either side of its interval of 95 %, relative; nan of one that no ratio corrects."""
     values = np.array([getattr(row, TAKEN[quantity]) for row in rows])
     over = np.array([row.normal_force if quantity == "friction" else 1.0 for row in rows])
-    mean = float(values.mean() / over.mean())
-    if not mean > 0:
-        return nan, nan
-    scatter = Scatter.of((values / mean - over) / over.mean())
-    return mean, half_width(scatter.of_mean, scatter.freedom)
+    found = mean_ratio(values, over)
+    if not found.value > 0:
+        return nan, nan, nan
+    if not rough:
+        return float(found.value), 0.0, 0.0
+    below, above = (abs(float(end / found.value - 1)) for end in found.interval())
+    return float(found.value), below, above
 
 
-def _measures(quantity: str, worth: Worth, value: float, half: float) -> Iterator[tuple[str, float]]:
-    """Ratio, and ends of the intervals of a corrected value; half : of that of the profiles' mean, relative."""
+def _measures(
+    quantity: str, worth: Worth, value: float, below: float, above: float
+) -> Iterator[tuple[str, float]]:
+    """Ratio, and ends of the intervals of a corrected value; below, above : of the profiles' mean, relative."""
     yield f"{quantity}_ratio", worth.ratio
     for of, low, high in (("", worth.low, worth.high), ("_surface", worth.surface_low, worth.surface_high)):
-        yield f"{quantity}{of}_low", value * exp(-hypot(log(high / worth.ratio), half))
-        yield f"{quantity}{of}_high", value * exp(hypot(log(worth.ratio / low), half))
+        yield f"{quantity}{of}_low", value * exp(-hypot(log(high / worth.ratio), below))
+        yield f"{quantity}{of}_high", value * exp(hypot(log(worth.ratio / low), above))

@@ -87,7 +87,8 @@ def rough_means(node: xarray.DataTree) -> list[MeasuredMean]:
 def _smooth(own, method):
     first, uncertain = own[0], own[0].reference_error
     lines = [each for each in own if each.solver == "MDR"]
-    floor = Bias(float(lines[-1].errors[-1]), uncertain) if lines else Bias(nan, nan)
+    error = float(lines[-1].errors[-1]) if lines else nan
+    floor = Bias(error, error - uncertain, error + uncertain)
     known = {
         "scatter": (floor.value, floor.value),
         "grid": uncertain,
@@ -109,10 +110,10 @@ def _falls(ladder):
 def _rough(mean):
     """The scatter of profiles would hide whether the 1D model comes ever closer with its points."""
     floor, grid = mean.floor(), mean.grid_error
-    half = floor.reach - grid
-    sure = all(map(isfinite, (floor.value, half, grid)))
+    scatter = (floor.low + grid, floor.high - grid)
+    sure = all(map(isfinite, (floor.value, *scatter)))
     known = {
-        "scatter": (floor.value - half, floor.value + half),
+        "scatter": scatter,
         "grid": grid,
         "grid_method": HALVED if sure else UNKNOWN,
         "draws": min(sample.count for sample in mean.samples),
@@ -167,9 +168,9 @@ def _interval(bias):
     """A size with the ends of its interval in words."""
     if not isfinite(bias.size):
         return "not known"
-    if not isfinite(bias.reach):
+    if not isfinite(bias.most):
         return f"{share(bias.size)}, interval not known"
-    if bias.reach < 0.05 * bias.size:
+    if bias.high - bias.low < 0.1 * bias.size:
         return share(bias.size)
     least = share(bias.least).removesuffix(" %") if bias.least else "0"
     return f"{share(bias.size)} ({least} to {share(bias.most)})"

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import hypot, inf, nan, sqrt
+from math import inf, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,9 @@ from mdr1d import MDR
 from scene import Scene
 
 from ...rectangle import FAILED, NOT_ASKED, SOLVED
-from ...statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, half_width
+from ...statistics.intervals import Estimated, skewness
+from ...statistics.jackknife import mean_ratio
+from ...statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter
 from ...task import SceneTask, Task, draws_of
 from ..trust.corrected import CorrectedMDR
 from .convergence import costs_of, described
@@ -242,11 +244,9 @@ def _mean_of(variable, about, grids, lines):
     coarsest, finest = grids[0], grids[-1]
     first, best = coarsest.values[name], finest.values[name]
     many, corrections = Scatter.of(first), best - first[: best.size]
-    few = Scatter.of(corrections)
-    value = _mean(first) + _mean(corrections)
-    error, freedom = _combined(first, corrections, many, few)
-    unit = variable.attrs.get("scale", abs(value) or nan)
-    statistical = error / unit
+    found = _corrected_mean(first, corrections)
+    unit = variable.attrs.get("scale", abs(found.value) or nan)
+    known_mean = Estimated(found.value / unit, found.error / unit, found.freedom, found.skewness)
     known = np.isfinite(first)
     known[: corrections.size] &= np.isfinite(corrections)
     # Error of the finest grid at first order, from what it changes on the same surfaces.
@@ -258,10 +258,8 @@ def _mean_of(variable, about, grids, lines):
     def bias(sample):
         """Bias on the same surfaces: what they share does not count. Of the finest grid, the truth's own."""
         if sample is finest:
-            return Bias(left, 0.0)
-        changes = (sample.values[name][: best.size] - best) / unit
-        scatter = Scatter.of(changes)
-        return Bias(_mean(changes), half_width(scatter.of_mean, scatter.freedom) + left)
+            return Bias(left, left, left)
+        return Bias.of(mean_ratio(sample.values[name][: best.size] - best, unit), left)
 
     def plain(sample):
         """A mean on one grid. Its scatter is that of the first, times the change of it on the same surfaces."""
@@ -282,34 +280,35 @@ def _mean_of(variable, about, grids, lines):
 
     def line(sample):
         """Plan of a 1D model, its bias its own mean less the truth: two independent numbers."""
-        scatter = Scatter.of(sample.values[name] / unit)
-        parts, freedoms = (scatter.of_mean, statistical), (scatter.freedom, freedom)
-        error, both = hypot(*parts), 0.0
-        if scatter.freedom > 0 and error > 0:
-            both = error**4 / sum(p**4 / f for p, f in zip(parts, freedoms, strict=True))
-        found = Bias(_mean(sample.values[name]) / unit - value / unit, half_width(error, both) + left)
-        level = Level((sample.points,), scatter, sample.costs["processor"])
-        return SamplingPlan(sample.solver, found, (level,), sample.costs.get("setup", 0.0))
+        off = Bias.of(mean_ratio(sample.values[name], unit).less(known_mean), left)
+        level = Level((sample.points,), Scatter.of(sample.values[name] / unit), sample.costs["processor"])
+        return SamplingPlan(sample.solver, off, (level,), sample.costs.get("setup", 0.0))
 
     plans = (*map(plain, grids), *map(corrected, grids[1:]), *map(line, lines))
-    truth = Known(value, unit * (half_width(statistical, freedom) + left), unit)
+    low, high = known_mean.interval()
+    truth = Known(found.value, float(unit * ((high - low) / 2 + left)), unit)
     told = about["contact"], about["title"], name, variable.attrs["label"]
     samples = (*grids, *lines)
     failed = sum(len(sample.reasons) for sample in samples)
-    return MeasuredMean(*told, plans, left, failed, truth, statistical, freedom, samples)
+    return MeasuredMean(*told, plans, left, failed, truth, known_mean.error, found.freedom, samples)
 
 
-def _combined(first, corrections, many, few):
-    """Standard error of the sum of both means, which share surfaces, and its degrees of freedom."""
+def _corrected_mean(first, corrections) -> Estimated:
+    """Sum of the means of many answers and of corrections of the first of them, which share surfaces."""
     shared = first[: corrections.size]
     both = np.isfinite(shared) & np.isfinite(corrections)
+    many, few = mean_ratio(first), mean_ratio(corrections)
+    value = float(many.value + few.value)
     if both.sum() < 2:
-        return nan, 0.0
+        return Estimated(value, nan, 0.0)
     covariance = float(np.cov(shared[both], corrections[both])[0, 1]) / (many.freedom + 1)
-    parts = many.of_mean**2, few.of_mean**2
+    parts = float(many.error) ** 2, float(few.error) ** 2
     whole = sum(parts)
     freedom = whole**2 / (parts[0] ** 2 / many.freedom + parts[1] ** 2 / few.freedom) if whole else inf
-    return sqrt(max(whole + 2 * covariance, 0.0)), freedom
+    # What each surface adds to the sum of both.
+    added = np.nan_to_num(first - many.value) / (many.freedom + 1)
+    added[: corrections.size] += np.nan_to_num(corrections - few.value) / (few.freedom + 1)
+    return Estimated(value, sqrt(max(whole + 2 * covariance, 0.0)), freedom, float(skewness(added)))
 
 
 def _mean(values):

@@ -83,10 +83,9 @@ def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
             "surfaces.scatter", "Scatter of one surface", scatter.value, where,
             scatter=scatter.interval(), grid=0.0, draws=scatter.freedom + 1, missing=why,
         )  # fmt: skip
-        half = bias.reach - grid
         yield reported(
             "surfaces.coarsest-grid", f"Error that the coarsest grid leaves ({first.label} points)", bias.value,
-            where, scatter=(bias.value - half, bias.value + half), grid=grid, grid_method=HALVED, missing=why,
+            where, scatter=(bias.low + grid, bias.high - grid), grid=grid, grid_method=HALVED, missing=why,
         )  # fmt: skip
         worth = (scatter.value / bias.size) ** 2 if bias.size > 0 else nan
         yield reported(

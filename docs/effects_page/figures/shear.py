@@ -14,7 +14,7 @@ EVERY, FIRST = 4, {"smooth, 1D": 1, "smooth, 3D": 3}  # of the points of smooth 
 def figure(data) -> Figure:
     """Left: over the displacement at which the smooth sphere slips. Right: each over its own.
 
-    data : rows of way, share (of that of the smooth sphere), force, half_interval (of its mean), full_slip (a
+    data : rows of way, share (of that of the smooth sphere), force, low, high (of its mean), full_slip (a
         share), closed_form, and superposed, the force by two normal contacts of the body itself
     """
     drawing = style.canvas("double", 2.9)
@@ -22,15 +22,14 @@ def figure(data) -> Figure:
     for way in WAYS:
         look = _look(way)
         rows = [row for row in data if row["way"] == way]
-        share, force, half, full = (
-            np.array([row[name] for row in rows], float)
-            for name in ("share", "force", "half_interval", "full_slip")
+        share, force, low, high, full = (
+            np.array([row[name] for row in rows], float) for name in ("share", "force", "low", "high", "full_slip")
         )
         step = slice(FIRST.get(way, 0), None, EVERY if look["marker"] else 1)
         for axes, x in ((left, share), (right, share / full)):
             axes.plot(x[step], force[step], label=way, **look)
-            if np.isfinite(half).any():
-                axes.fill_between(x, force - half, force + half, color=look["color"], alpha=0.13, linewidth=0)
+            if np.isfinite(low).any():
+                axes.fill_between(x, low, high, color=look["color"], alpha=0.13, linewidth=0)
         if way.startswith("rough"):
             superposed = np.array([row["superposed"] for row in rows], float)
             label = "by two normal contacts" if way == "rough, 3D" else None

@@ -15,19 +15,20 @@ ASIDE = {"map, 3D": 1.0, "line by π q C2D": 1.025, "rows of the map": 0.975}
 def figure(data) -> Figure:
     """Left: force over that of the smooth sphere against depth. Right: friction against speed.
 
-    data : rows of quantity ("force", "friction"), x, way, mean, half_interval, and unit, what means are drawn
-        over; those with an interval are drawn up to 2.5 % aside of their x
+    data : rows of quantity ("force", "friction"), x, way, mean, low, high, and unit, what means are drawn over;
+        those with an interval are drawn up to 2.5 % aside of their x
     """
     drawing = style.canvas("double", 2.7)
     left, right = drawing.subplots(1, 2)
     for axes, quantity, scale in ((left, "force", 1e6), (right, "friction", 1.0)):
         for way, look in zip(WAYS, _looks(), strict=True):
             rows = [row for row in data if row["quantity"] == quantity and row["way"] == way]
-            x, mean, half, unit = (
-                np.array([row[name] for row in rows], float) for name in ("x", "mean", "half_interval", "unit")
+            x, mean, low, high, unit = (
+                np.array([row[name] for row in rows], float) for name in ("x", "mean", "low", "high", "unit")
             )
-            if np.isfinite(half).any():
-                axes.errorbar(ASIDE[way] * scale * x, mean / unit, yerr=half / unit, label=way, **look)
+            if np.isfinite(low).any():
+                sides = np.array([mean - low, high - mean]) / unit
+                axes.errorbar(ASIDE[way] * scale * x, mean / unit, yerr=sides, label=way, **look)
             else:
                 axes.plot(scale * x, mean / unit, label=way, **look)
     left.set(xscale="log", xlabel="depth [µm]", ylabel="force over Hertz [1]", title="(a)")

@@ -1,0 +1,169 @@
+"""Intervals of means over draws, and of what follows from them: Student's, corrected for skewness; of sizes too.
+
+A mean of skewed draws lies off its sample to one side more often than to the other. Hall's transformation (J. R.
+Stat. Soc. B 54, 221, 1992) moves the ends by what the skewness of the sample says, and leaves the interval of
+symmetric draws nearly as Student has it.
+"""
+
+from dataclasses import dataclass
+from math import hypot, inf, nan, sqrt
+from typing import Generic, Self, TypeVar
+
+import numpy as np
+from scipy import special
+from scipy.optimize import brentq
+
+# Degrees of freedom of what counts as known exactly.
+KNOWN = 1e9
+# Few draws show too little of their skewness, by about this over the root of their number.
+UNSEEN = 1.5
+# Skewness times Student's quantile counts up to this: beyond, the interval widens and holds no more for it. Its
+# longer side is then 1.6 times the other.
+MOST_SKEWED = 0.65
+NO_SKEWNESS = 1e-12
+
+Value = TypeVar("Value", float, np.ndarray)
+
+
+def student(level: float, freedom: float | np.ndarray) -> float:
+    """Number of standard errors to either end of an interval that covers as often as stated."""
+    # scipy.stats has the same functions, and takes a second to import.
+    with_errors = np.where(np.asarray(freedom) > 0, freedom, nan)
+    found = np.where(
+        np.isinf(with_errors), special.ndtri((1 + level) / 2), special.stdtrit(with_errors, (1 + level) / 2)
+    )
+    return found[()]
+
+
+def sides(level: float, freedom: float | np.ndarray, skewed: float | np.ndarray) -> tuple:
+    """Number of standard errors to the lower and to the upper end of such an interval of a skewed number."""
+    quantile = student(level, freedom)
+    most = MOST_SKEWED / np.maximum(quantile, 1.0)
+    seen = skewed * (1 + UNSEEN / np.sqrt(np.asarray(freedom) + 1))
+    # Without skewness the limit.
+    skewed = np.where(np.abs(seen) > NO_SKEWNESS, np.clip(seen, -most, most), NO_SKEWNESS)
+
+    def turned(by):
+        """Errors from the number to the end that lies `by` of Student's to its other side."""
+        return 3 * np.expm1(np.log1p(skewed * (by - skewed / 6)) / 3) / skewed
+
+    return turned(quantile), -turned(-quantile)
+
+
+def skewness(deviations: np.ndarray, axis: int = 0) -> np.ndarray:
+    """Skewness of a sum of independent deviations; nil where there are none."""
+    squares = np.sum(np.square(deviations), axis=axis)
+    return np.sum(deviations**3, axis=axis) / np.where(squares > 0, squares, 1.0) ** 1.5
+
+
+@dataclass(frozen=True)
+class Estimated(Generic[Value]):
+    """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
+
+    freedom : degrees of freedom of the error
+    skewness : third moment of what the number is off by, over the cube of its error
+    bias : what it may be off by beside its scatter, at most, to either side
+    """
+
+    value: Value
+    error: Value
+    freedom: float | np.ndarray
+    skewness: float | np.ndarray = 0.0
+    bias: float | np.ndarray = 0.0
+
+    @classmethod
+    def exact(cls, value: Value) -> Self:
+        """Number of a body without random surfaces, whose error is zero."""
+        return cls(value, value * 0.0, inf)
+
+    def interval(self, level: float = 0.95) -> tuple:
+        """Ends between which the number is, as often as stated."""
+        below, above = sides(level, self.freedom, self.skewness)
+        return self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
+
+    def size_interval(self, level: float = 0.95) -> tuple:
+        """Ends of a number that is never negative: those of its logarithm."""
+        exact = np.asarray(self.error) == 0
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = np.where(exact, 0.0, self.error / np.where(exact, 1.0, self.value))
+        logarithm = Estimated(np.zeros_like(share), share, self.freedom, self.skewness)
+        low, high = logarithm.interval(level)
+        return self.value * np.exp(low), self.value * np.exp(high)
+
+    def less(self, other: Self) -> "Estimated":
+        """Difference from a number of independent draws, with the degrees of freedom of Welch."""
+        parts = np.array([self.error, other.error])
+        error = np.sqrt(np.sum(np.square(parts), axis=0))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            freedom = error**4 / np.sum(parts**4 / [self.freedom, other.freedom], axis=0)
+            skewed = (parts[0] ** 3 * self.skewness - parts[1] ** 3 * other.skewness) / error**3
+        return Estimated(self.value - other.value, error, freedom, skewed)
+
+    def apart(self, other: Self) -> float:
+        """Distance from another number."""
+        return abs(float(self.value) - float(other.value))
+
+
+@dataclass(frozen=True)
+class RmsMisfit:
+    """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
+
+    square : mean of the squares less their variances; negative by chance where there is little but scatter
+    noise : mean of the variances
+    along : of that, what changes the size to first order
+    modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
+    freedom : degrees of freedom of the noise
+    pooled : whether one scatter, common to all numbers, is known with that freedom, and not that of each mode
+    skewness : of what changes the size to first order
+    """
+
+    square: float
+    noise: float
+    along: float
+    modes: float
+    freedom: float
+    pooled: bool = False
+    skewness: float = 0.0
+
+    @classmethod
+    def unknown(cls) -> Self:
+        """Misfit of numbers that are not known, or not with which scatter."""
+        return cls(nan, nan, nan, nan, 0)
+
+    @property
+    def value(self) -> float:
+        """Root mean square without scatter; zero where the scatter explains all, NaN where it is not known."""
+        return sqrt(max(self.square, 0.0)) if np.isfinite(self.square) else nan
+
+    def interval(self, level: float = 0.95) -> tuple[float, float]:
+        """Sizes that the data do not contradict.
+
+        To first order the square is off by 2 size sqrt(along) t, and where there is nothing but noise by an F
+        quantile of that; both count, added as squares, for the size asked about. Where it is nil the second
+        decides: there a jackknife of the square itself sees no derivative. Downwards, what is along stops at zero.
+        """
+        if not (np.isfinite(self.noise) and np.isfinite(self.square)):
+            return nan, nan
+        if self.noise == 0:
+            return self.value, self.value
+        down, up = (self.along * side**2 for side in sides(level, self.freedom, self.skewness))
+        known = self.freedom * (1.0 if self.pooled else self.modes)
+        second = (special.fdtri(self.modes, min(known, KNOWN), level) - 1) * self.noise
+        middle = self.square + 2 * down
+        above = self.square**2 - second**2
+        low = above / (middle + sqrt(middle**2 - above)) if self.square > second else 0.0
+        second = max(second, self.noise)
+
+        def beyond(square):
+            first = square + self.along - max(sqrt(square) - sqrt(up), 0.0) ** 2
+            return square - hypot(first, second) - self.square
+
+        least = max(self.square, 0.0)
+        most = 2 * (least + 4 * up + self.along + second)
+        high = brentq(beyond, least, most, xtol=1e-12 * most)
+        return sqrt(low), sqrt(high)
+
+    def apart(self, other: Self) -> float:
+        """Distance from another misfit, by roots with the sign of the square: two of nil need not be equal."""
+        one, two = (np.copysign(sqrt(abs(each.square)), each.square) for each in (self, other))
+        return float(abs(one - two))
