@@ -63,7 +63,7 @@ def learned_points() -> np.ndarray:
 def held_out_points() -> np.ndarray:
     """Points held out (4000, DIMENSIONS), drawn evenly; those from BLUNT_HELD_OUT on by a seed of their own."""
     return np.concatenate(
-        [np.random.default_rng(seed).random((2000, DIMENSIONS)) for seed in (HELD_OUT, HELD_OUT_BLUNT)]
+        [np.random.default_rng(seed).random((BLUNT_HELD_OUT, DIMENSIONS)) for seed in (HELD_OUT, HELD_OUT_BLUNT)]
     )
 
 
