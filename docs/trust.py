@@ -4,6 +4,7 @@ The folder is that of `crosscheck study trust --size standard`. Written are the 
 those learned from, beside the modules that read them, and the tables of docs/trust.md and the README.
 """
 
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from functools import cache, partial
@@ -28,6 +29,14 @@ PAGE = Path(__file__).with_suffix(".md")
 README = PAGE.parent.parent / "README.md"
 # Scenes below which a number says how few there are.
 FEW = 20
+# Words of the tables of advice, and what stands for them in the README.
+SHORT = {
+    "multiply by ": "×",
+    ", roughness ": ", ",
+    "the body is deep": "the depth",
+    r"; solve [1-4] %": "",
+    r"; (\d+) scenes": r" (\1)",
+}
 
 
 def ship(answers: xarray.DataTree) -> None:
@@ -117,10 +126,15 @@ def parts() -> Mapping[tuple[Path, str], str]:
             for part, table_of in tables.items()
         },
         (PAGE, "errors"): told(errors(even)),
-        (README, "friction"): told(advice(rows, "friction"))
-        .replace("multiply by ", "×")
-        .replace(", roughness ", ", "),
+        (README, "friction"): in_short(told(advice(rows, "friction"))),
     }
+
+
+def in_short(text: str) -> str:
+    """A table of advice in few words: shares to solve from 5 % on, the number of scenes in brackets."""
+    for pattern, brief in SHORT.items():
+        text = re.sub(pattern, brief, text)
+    return text.replace("|  |", "| (scenes, if few) |", 1)
 
 
 def corrected() -> str:
@@ -128,9 +142,9 @@ def corrected() -> str:
     used = evenly(scores())["friction"][0].used
     measured, alone = (100 * np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.errors, used.own))
     return (
-        f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {used.usable.size} rough "
-        f"contacts that it never saw is within {measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of "
-        f"ten ({alone[0]:.1f} % and {alone[1]:.1f} % without the scatter of the truth)."
+        f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen "
+        f"rough contacts is within {measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of ten "
+        f"({alone[0]:.1f} % and {alone[1]:.1f} % without the scatter of the truth)."
     )
 
 
