@@ -36,8 +36,9 @@ SPEEDS = 1e-3, 1e3
 # Points to learn from from which on the longest wave is far longer than the contact, as in the paper.
 LONG, LONG_PERIODS = 4096, (8.0, 25.0)
 # Points from which on bodies are blunt and slide under a load, where the depth is hardest to foretell: of those to
-# learn from and of those held out. Their exponents and heights, and the longest waves of both.
-BLUNT, BLUNT_HELD_OUT = 6144, 2000
+# learn from, of those that were held out once and then learned from, and of those held out. Their exponents and
+# heights, and the longest waves of all of them.
+BLUNT, BLUNT_CHECKED, BLUNT_HELD_OUT = 6144, 12_000, 4000
 TO_LEARN, TO_HOLD_OUT = ((2.5, 12.0), (0.05, 0.4)), ((3.0, 12.0), (0.08, 0.3))
 ALL_PERIODS = PERIODS[0], LONG_PERIODS[1]
 DIMENSIONS = 16
@@ -45,8 +46,8 @@ DIMENSIONS = 16
 CONES, ROUND = 0.3, 0.6
 # Shares of the scenes that are smooth, slide, and are pressed by a load.
 SMOOTH, SLIDING, UNDER_LOAD = 0.1, 0.88, 0.6
-# Seeds of the points to learn from, of those that are held out, and of the blunt ones among these.
-LEARNED, HELD_OUT, HELD_OUT_BLUNT = 20, 1120, 32_006
+# Seeds of the points to learn from, of those that are held out, and of blunt ones: held out once, and held out.
+LEARNED, HELD_OUT, CHECKED_BLUNT, HELD_OUT_BLUNT = 20, 1120, 32_006, 61_125
 # Surfaces that a point may have.
 SEEDS = 1000
 
@@ -60,16 +61,19 @@ def learned_points() -> np.ndarray:
 
 
 @cache
-def held_out_points() -> np.ndarray:
-    """Points held out (4000, DIMENSIONS), drawn evenly; those from BLUNT_HELD_OUT on by a seed of their own."""
-    return np.concatenate(
-        [np.random.default_rng(seed).random((BLUNT_HELD_OUT, DIMENSIONS)) for seed in (HELD_OUT, HELD_OUT_BLUNT)]
-    )
+def drawn_points(seed: int) -> np.ndarray:
+    """Points of a seed (2000, DIMENSIONS), drawn evenly."""
+    return np.random.default_rng(seed).random((2000, DIMENSIONS))
 
 
 def learned(point: int) -> Scene:
     """Scene of a number of a point to learn from; each has surfaces of its own, so that none scatter together."""
-    place, seed = learned_points()[point], SEEDS * point
+    seed = SEEDS * point
+    if point >= BLUNT_CHECKED:
+        return scene_at(
+            _blunt(drawn_points(CHECKED_BLUNT)[point - BLUNT_CHECKED], *TO_HOLD_OUT), seed, ALL_PERIODS
+        )
+    place = learned_points()[point]
     if point >= BLUNT:
         return scene_at(_blunt(place, *TO_LEARN), seed, ALL_PERIODS)
     return scene_at(place, seed, PERIODS if point < LONG else LONG_PERIODS)
@@ -77,10 +81,11 @@ def learned(point: int) -> Scene:
 
 def held_out(point: int) -> Scene:
     """Scene of a number of a point held out."""
-    place, seed = held_out_points()[point], 10_000 * SEEDS + SEEDS * point
+    seed = 10_000 * SEEDS + SEEDS * point
     if point >= BLUNT_HELD_OUT:
+        place = drawn_points(HELD_OUT_BLUNT)[point - BLUNT_HELD_OUT]
         return scene_at(_blunt(place, *TO_HOLD_OUT), seed, ALL_PERIODS)
-    return scene_at(place, seed)
+    return scene_at(drawn_points(HELD_OUT)[point], seed)
 
 
 def _blunt(point, exponents, heights):

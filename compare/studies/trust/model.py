@@ -21,8 +21,8 @@ MOST_NOISE, LEAST_SURFACES = 0.25, 3
 LEAST_VARIANCE = 1e-8
 # Scenes from which the scatter of one surface is learned, and scenes of like error whose intervals widen alike.
 SCATTERED, ALIKE = 600, 150
-# Share of the scenes left out that is to lie within. A region of enough scenes where it does not widens until more
-# do: 95 % hold then of scenes without which the scales were fitted.
+# Share of the scenes left out that is to lie within, and share in a region of enough scenes: so many more that 95 %
+# hold of scenes without which the scales were fitted.
 HELD, HELD_IN_PART, FEWEST = 0.95, 0.97, 40
 # Least factor on an error: noise that is larger says little of it.
 LEAST_FACTOR = 0.5
@@ -183,8 +183,7 @@ def _fitted(quantity, process, scatter):
     found = Fitted(process.scales, scatter.scales, errors, factors, np.ones(len(_parts(inputs))))
     needed = needed / found.widened(own, inputs)
     regions = [needed[counted[here[counted]]] for here in _parts(inputs)]
-    short = [few.size >= FEWEST and np.quantile(few, HELD) > 1 for few in regions]
-    widest = [np.quantile(few, HELD_IN_PART) if wide else 1.0 for few, wide in zip(regions, short, strict=True)]
+    widest = [max(1.0, np.quantile(few, HELD_IN_PART)) if few.size >= FEWEST else 1.0 for few in regions]
     return replace(found, parts=np.array(widest))
 
 
