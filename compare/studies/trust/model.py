@@ -21,8 +21,8 @@ MOST_NOISE, LEAST_SURFACES = 0.25, 3
 LEAST_VARIANCE = 1e-8
 # Scenes from which the scatter of one surface is learned, and scenes of like error whose intervals widen alike.
 SCATTERED, ALIKE = 600, 150
-# Share of the scenes left out that is to lie within, and share in a region of enough scenes: so many more that 95 %
-# hold of scenes without which the scales were fitted.
+# Share of the scenes left out that is to lie within, and that in a region of enough scenes: so large that 95 % of
+# those lie within to which no scale was fitted.
 HELD, HELD_IN_PART, FEWEST = 0.95, 0.97, 40
 # Least factor on an error: noise that is larger says little of it.
 LEAST_FACTOR = 0.5
