@@ -422,6 +422,33 @@ def test_every_point_of_the_design_is_a_scene_that_both_can_solve():
             assert rest.radius / rough.shortest <= design.WAVES[1] * 1.001
 
 
+def test_blunt_points_slide_rough_under_a_load_within_their_ranges_on_surfaces_of_their_own():
+    sets = (
+        (design.learned, design.BLUNT, design.TO_LEARN),
+        (design.learned, design.BLUNT_CHECKED, design.TO_HOLD_OUT),
+        (design.held_out, design.BLUNT_HELD_OUT, design.TO_HOLD_OUT),
+    )
+    scenes = []
+    for scene_of, first, (exponents, heights) in sets:
+        found = [scene_of(first + k) for k in range(100)]
+        for scene in found:
+            assert exponents[0] <= scene.indenter.exponent <= exponents[1]
+            assert heights[0] <= scene.roughness.rms_height / elastic_contact(scene).depth <= heights[1]
+            assert (scene.motion.speed, scene.motion.pressed_by) == (design.SPEED, "load")
+            assert verdict.unmeasured(scene) == []
+        scenes += found
+    assert len({scene.roughness.seed // design.SEEDS for scene in scenes}) == len(scenes)
+    assert len({scene.indenter.exponent for scene in scenes}) == len(scenes)
+
+
+def test_a_blunt_scene_is_solved_until_its_depth_is_known_too():
+    rows = [Row(1.0, depth, 0.2) for depth in (1.0, 2.0, 1.5, 0.7, 1.1, 2.2)]
+    friction_alone, both = (Contact(PAPER, 0.05, 8, depth_too=depth_too) for depth_too in (False, True))
+    assert friction_alone._known(rows)
+    assert not both._known(rows)
+    assert friction_alone.question != both.question
+
+
 def test_the_models_are_fitted_to_the_tables_they_come_with():
     """Half of what was learned is foretold from all else within 3 %; scales of other data would not do that."""
     for name in QUANTITIES:
