@@ -39,17 +39,24 @@ def on_grid(
 
     Raises SolveError as `bound` does.
     """
-    surface = problem.surface(grid)
-    wider = grid.coarser() if isinstance(problem.scene.indenter, Plane) else grid.wider()
-    friction = Friction.of(problem, grid, pressure, surface, lost)
+    friction, seen = estimated(problem, grid, pressure, lost)
     measures = friction.measures(float(pressure.sum() * grid.patch))
-    if friction.force:
-        coarser = Friction.of(problem, wider, wider.averaged(pressure, grid), surface, lost)
-        touched = pressure > 0
-        spot, count = grid.spot_radius(touched), int(np.count_nonzero(touched))
-        seen = signs(problem, grid, friction, coarser, spot, count)
+    if seen is not None:
         measures["friction_error"] = bound(seen, friction, grid.points, residual)
     return friction, measures
+
+
+def estimated(problem: Problem, grid: Grid, pressure: np.ndarray, lost: Lost) -> tuple[Friction, "Signs | None"]:
+    """Friction from a pressure, see `on_grid`, and the signs of its error; None without friction."""
+    surface = problem.surface(grid)
+    friction = Friction.of(problem, grid, pressure, surface, lost)
+    if not friction.force:
+        return friction, None
+    wider = grid.coarser() if isinstance(problem.scene.indenter, Plane) else grid.wider()
+    coarser = Friction.of(problem, wider, wider.averaged(pressure, grid), surface, lost)
+    touched = pressure > 0
+    spot, count = grid.spot_radius(touched), int(np.count_nonzero(touched))
+    return friction, signs(problem, grid, friction, coarser, spot, count)
 
 
 def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> float:

@@ -66,8 +66,10 @@ plot : Figure that shows it.
 
 Of the trust map: ratios of 1D over 3D, foretold and measured.
 advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D.
-surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D. [1]
-surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D. [1]
+surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none where
+    one surface says nothing. [1]
+surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none
+    where one surface says nothing. [1]
 group : Name of a dimensionless group of a rough scene.
 groups : Dimensionless groups, logarithms but for shape, prescribed, hurst and shares. [1]
 point : Number of a scene in the design of the campaign. [1]

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import fast
-import numpy as np
 import pandas
 import slow
 import spectrum
@@ -20,7 +19,6 @@ from tables import replaced, table
 import compare
 from compare.csvfiles import text, write_text
 from compare.digits import interval, number
-from compare.studies.trust.study import advice_rows
 
 PAGE = Path(__file__).with_suffix(".md")
 DOCS, README = PAGE.parent, PAGE.parent.parent / "README.md"
@@ -70,20 +68,19 @@ def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     run = pandas.read_csv(RUN)
     slow_found, fast_found = (pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast))
-    scores = trust.scores()
     return {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
         (PAGE, "costs"): table("to know friction in 3D|within 10 %|within 1 %|error that 1D keeps", _costs()),
         (PAGE, "spectrum"): _of_spectrum(),
-        (README, "answer"): _answer(run, scores["friction"][0]),
-        (README, "friction"): trust.friction(list(advice_rows(scores))),
+        (README, "answer"): _answer(run),
         (README, "slow"): slow.answer(slow_found),
         (README, "fast"): fast.answer(fast_found),
         (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",
         (slow.PAGE, "slow"): slow.answer(slow_found),
         (fast.PAGE, "fast"): fast.answer(fast_found),
+        **trust.parts(),
     }
 
 
@@ -138,19 +135,16 @@ def _reached(row) -> str:
     return f"{row['model']}, {row['settings']}: {number(row['seconds'], 2)} s" if known else "not reached"
 
 
-def _answer(run: DataFrame, score: trust.Score) -> str:
+def _answer(run: DataFrame) -> str:
     """Three sentences in one list, of the smooth body, of friction and of its correction."""
     smooth = run[run["claim"] == "run.force-depth.smooth"]["value"].abs().max()
     slow_body, rough = (_row(run, f"run.friction.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
-    half, most = 100 * np.quantile(np.abs(score.used.own), (0.5, 0.9))
     return "\n".join(
         [
             f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",
             f"- **Friction: do not trust it as it stands.** 1D has {_number(slow_body)} times the friction of a "
             f"slow, smooth sphere, and {_number(rough)} times that of the rough sphere of the paper.",
-            f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of "
-            f"{score.used.usable.size} rough contacts that it never saw is within {half:.1f} % of 3D in half of "
-            f"them, and within {most:.1f} % in nine of ten.",
+            trust.corrected(),
         ]
     )
 

@@ -4,8 +4,10 @@ The folder is that of `crosscheck study trust --size standard`. Written are the 
 those learned from, beside the modules that read them, and the tables of docs/trust.md and the README.
 """
 
+import re
 import sys
 from collections.abc import Iterator, Mapping
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +20,23 @@ import compare
 from compare.studies.trust import shipped, table
 from compare.studies.trust.model import Model
 from compare.studies.trust.ratio import QUANTITIES
-from compare.studies.trust.regions import BODIES
+from compare.studies.trust.regions import BODIES, SHAPES
 from compare.studies.trust.scoring import Score
-from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy, advice_rows
+from compare.studies.trust.statements import advice_rows, coverage_rows, evenly
+from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy
 
 PAGE = Path(__file__).with_suffix(".md")
 README = PAGE.parent.parent / "README.md"
+# Scenes below which a number says how few there are.
+FEW = 20
+# Words of the tables of advice, and what stands for them in the README.
+SHORT = {
+    "multiply by ": "×",
+    ", roughness ": ", ",
+    "the body is deep": "the depth",
+    r"; solve [1-4] %": "",
+    r"; (\d+) scenes": r" (\1)",
+}
 
 
 def ship(answers: xarray.DataTree) -> None:
@@ -37,6 +50,7 @@ def ship(answers: xarray.DataTree) -> None:
     shipped.model.cache_clear()
 
 
+@cache
 def scores() -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
     """Scores of the models that come with the package."""
     return TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in QUANTITIES})
@@ -52,12 +66,12 @@ def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]
         yield {"": f"{speed}, roughness {roughness}", **{body: found.get(body, "") for body in BODIES}}
 
 
-def friction(rows: list[dict[str, Any]]) -> str:
-    """The table of friction, in short: factors alone."""
-    return told(advice(rows, "friction")).replace("multiply by ", "×")
-
-
 def _cell(row):
+    few = f"; {row['scenes']} scenes" if row["scenes"] < FEW else ""
+    return _advised(row) + few
+
+
+def _advised(row):
     if row["solve"] > 0.5:
         return f"**solve** ({100 * row['solve']:.0f} %)"
     kind = "use" if row["use"] > 0.5 else f"multiply by {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
@@ -74,11 +88,24 @@ def errors(found: Mapping[str, tuple[Score, Mapping[str, np.ndarray]]]) -> Itera
             "": name,
             "held-out scenes": f"{score.usable.size}",
             "use or multiply": f"{100 * score.usable.mean():.0f} %",
-            "median error, map alone": f"{100 * own[0]:.2g} %",
-            "nine in ten within": f"{100 * own[1]:.2g} %",
-            "the same as measured": f"{100 * raw[0]:.2g} %, {100 * raw[1]:.2g} %",
+            "median error, as measured": f"{100 * raw[0]:.2g} %",
+            "nine in ten within, as measured": f"{100 * raw[1]:.2g} %",
+            "both without the scatter of the truth": f"{100 * own[0]:.2g} %, {100 * own[1]:.2g} %",
             "in their interval of 95 %": f"{100 * used.covered:.1f} %",
         }
+
+
+def coverage(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
+    """A row for each speed, roughness and what is prescribed, a cell for each body: share inside, of how many."""
+    cells: dict[str, dict[str, str]] = {}
+    for row in rows:
+        if row["quantity"] == quantity:
+            given = "under a load" if row["prescribed"] == "load" else "at a depth"
+            cell = f"{100 * row['in 95 %']:.0f} % of {row['scenes']}"
+            name = f"{row['speed']}, {given}, roughness {row['roughness']}"
+            cells.setdefault(name, {})[row["body"]] = f"**{cell}, fails**" if row["fails"] else cell
+    for name, found in cells.items():
+        yield {"": name, **{body: found.get(body, "") for body in SHAPES}}
 
 
 def told(rows: Iterator[dict[str, str]]) -> str:
@@ -87,16 +114,46 @@ def told(rows: Iterator[dict[str, str]]) -> str:
     return markdown("|".join(first), (tuple(row.values()) for row in (first, *others)))
 
 
+def parts() -> Mapping[tuple[Path, str], str]:
+    """Text between two comments, by the page and the name of the comment."""
+    found = scores()
+    even, regions = evenly(found), list(coverage_rows(found))
+    rows = list(advice_rows(even))
+    tables = {"advice": partial(advice, rows), "coverage": partial(coverage, regions)}
+    return {
+        **{
+            (PAGE, part): "\n\n".join(f"**{name}**\n\n{told(table_of(name))}" for name in found)
+            for part, table_of in tables.items()
+        },
+        (PAGE, "errors"): told(errors(even)),
+        (README, "friction"): in_short(told(advice(rows, "friction"))),
+    }
+
+
+def in_short(text: str) -> str:
+    """A table of advice in few words: shares to solve from 5 % on, the number of scenes in brackets."""
+    for pattern, brief in SHORT.items():
+        text = re.sub(pattern, brief, text)
+    return text.replace("|  |", "| (scenes, if few) |", 1)
+
+
+def corrected() -> str:
+    """What is left of the errors of friction once it is corrected, in one sentence."""
+    used = evenly(scores())["friction"][0].used
+    measured, alone = (100 * np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.errors, used.own))
+    return (
+        f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen "
+        f"rough contacts is within {measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of ten "
+        f"({alone[0]:.1f} % and {alone[1]:.1f} % without the scatter of the truth)."
+    )
+
+
 def main(folder: Path | None) -> None:
     """Write everything; without a folder, the tables of the pages alone."""
     if folder is not None:
         ship(compare.load(folder / "trust-standard"))
-    found = scores()
-    rows = list(advice_rows(found))
-    parts = [f"**{name}**\n\n{told(advice(rows, name))}" for name in found]
-    replaced(PAGE, "advice", "\n\n".join(parts))
-    replaced(PAGE, "errors", told(errors(found)))
-    replaced(README, "friction", friction(rows))
+    for (page, part), text in parts().items():
+        replaced(page, part, text)
 
 
 if __name__ == "__main__":

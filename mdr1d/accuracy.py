@@ -1,4 +1,4 @@
-"""Error of friction that the grid leaves: a bound of 95 %, from the profile on every second, third and fourth node."""
+"""Error of friction that the grid leaves: a bound of 95 %, from every second, third and fourth node."""
 
 from math import inf
 

@@ -1,7 +1,7 @@
 """The corrected 1D model: means over profiles over the ratio of the trust map, and no answer where it has none."""
 
 from dataclasses import replace
-from math import isnan, log
+from math import isnan, log, nan
 
 import numpy as np
 import pytest
@@ -118,6 +118,16 @@ def test_an_interval_holds_its_value_and_is_wider_for_fewer_profiles_and_for_one
     # Never narrower than that of the map.
     assert widths[-1] > log(WORTH.high / WORTH.low)
     assert isnan(replace(FEW, profiles=1).solve(ROUGH).measures["friction_low"])
+
+
+def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_has(monkeypatch):
+    silent = Trust(replace(WORTH, surface_low=nan, surface_high=nan), WORTH, None, {}, ())
+    monkeypatch.setattr(corrected, "trust", lambda scene: silent)
+    ends = FEW.solve(ROUGH).measures
+    assert isnan(ends["friction_surface_low"])
+    assert isnan(ends["friction_surface_high"])
+    assert ends["friction_low"] < ends["friction_high"]
+    assert ends["depth_surface_low"] < ends["depth_low"]
 
 
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])

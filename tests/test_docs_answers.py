@@ -4,8 +4,10 @@ import re
 from pathlib import Path
 
 import answers
+import numpy as np
 import pictures
 import pytest
+import trust
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -65,6 +67,16 @@ def test_every_number_of_the_readme_and_of_the_answers_is_the_stored_one(parts):
             1
         ]
         assert stands == text.strip(), f"{page.name}, {name}: run python docs/answers.py"
+
+
+def test_errors_are_told_as_measured_and_those_without_the_scatter_of_the_truth_beside_them():
+    used = trust.evenly(trust.scores())["friction"][0].used
+    told, beside = re.search(
+        r"is within (.*) \((.*) without the scatter of the truth\)", trust.corrected()
+    ).groups()
+    for text, errors in ((told, used.errors), (beside, used.own)):
+        found = [float(each) for each in re.findall(r"([\d.]+) %", text)]
+        assert found == pytest.approx(100 * np.quantile(np.abs(errors), (0.5, 0.9)), abs=0.05)
 
 
 def test_the_readme_is_short():

@@ -2,6 +2,7 @@
 
 import csv
 import gzip
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isnan, nan
@@ -15,10 +16,12 @@ from scipy.stats import beta
 
 from bem3d import BEM, frictionerror
 from bem3d.costs import band
-from compare.outcome import Outcome
-from compare.task import SceneTask, Task
+from bem3d.grid import Grid
+from bem3d.problem import Problem
+from compare.outcome import Outcome, Row, row
+from compare.task import SCENES, SceneTask, Task
 from mdr1d import MDR
-from scene import Scene
+from scene import Scene, SolveError
 
 from . import scenes
 
@@ -29,6 +32,7 @@ ORDERS = 0.7, 2.0  # between which the order is taken at which the last error fa
 WAVES = 2.2, 40.0  # nodes on the shortest wave of judged lines
 EXTENT = 8 * scenes.RADIUS  # of lines [m]
 FINER_LINES = 8, 16  # times the nodes of a judged line
+LEARNED_POINTS = 16, 20, 24, 27, 32, 40, 48, 64, 80, 96, 112, 128  # of grids that are learned from
 KNOWN = 1 / 3, 3e-5  # of the error, or at all: what the truth is known to where it judges
 SHARE, WIDENED = 0.95, 0.955  # of the answers that a bound is to hold: wanted, and of those it was not fitted to
 FOLDS = 5
@@ -132,6 +136,75 @@ def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
                     yield _coverage(model, label, group)
 
 
+@dataclass(frozen=True)
+class Signed:
+    """A task: the signs of the error of an answer, as measures of its row."""
+
+    solver: BEM
+    scene: Scene
+    work: float = 1e6
+    keeps_fields = False
+    packages = ("scene", "bem3d", __name__)
+
+    @property
+    def label(self) -> str:
+        """Short description for people."""
+        return f"signs on {self.solver.points} points, {type(self.scene.indenter).__name__.lower()}"
+
+    @property
+    def question(self) -> Mapping:
+        """The scene and the points."""
+        (scene,) = SCENES.dump_python((self.scene,), mode="json")
+        return {"signs": scene, "points": self.solver.points}
+
+    def solve(self) -> Outcome:
+        """Answer; NaN with its reason where there is none."""
+        try:
+            result = self.solver.solve(self.scene)
+        except SolveError as reason:
+            return self.failed(str(reason))
+        problem, settings = Problem(self.scene, self.solver.engine), result.settings
+        grid = Grid(self.solver.points, settings["extent"], settings["centre"], width=problem.width)
+        _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
+        return Outcome((replace(row(result), measures={} if seen is None else dict(seen.numbers)),))
+
+    def failed(self, reason: str) -> Outcome:
+        """One row, with the reason."""
+        return Outcome((Row(reason=reason),))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """One row."""
+        return len(outcome.rows) == 1
+
+
+def to_learn(seeds: range) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:
+    """Scenes by name, each on several grids, with the finer ones that tell the truth."""
+    for kind in scenes.KINDS:
+        for seed in seeds[:: EVERY[kind]]:
+            scene = scenes.drawn(kind, seed)
+            for points in LEARNED_POINTS:
+                yield f"{kind}{seed}", Signed(BEM(points=points), scene), reference(scene)
+
+
+def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) -> None:
+    """Write the table of signs and errors of every answer that has friction and whose truth is known."""
+    found = []
+    for name, task, finer in every:
+        answer = outcomes[task].rows[0]
+        truth, unsure = settled([outcomes[each].rows[0].friction_coefficient for each in finer])
+        error, (share, least) = abs(answer.friction_coefficient / truth - 1), KNOWN
+        if answer.measures and unsure <= max(share * error, least):
+            slow = "slow" if answer.measures["slowness"] > 1 / 2 else "fast"
+            kind = f"{'rough' if answer.measures['wave'] else 'smooth'}, {slow}"
+            numbers = {each: f"{value:.4g}" for each, value in answer.measures.items() if each != "one"}
+            error, residual = f"{error:.4g}", f"{answer.residual:.2g}"
+            found.append({"scene": name, "kind": kind, "error": error, "residual": residual, **numbers})
+    with gzip.GzipFile(path, "wb", mtime=0) as packed, io.TextIOWrapper(packed, newline="") as file:
+        lines = csv.DictWriter(file, list(found[0]), lineterminator="\n")
+        lines.writeheader()
+        lines.writerows(found)
+
+
 def learned(path: Path) -> int:
     """Number of answers that were learned from."""
     return len(_table(path))
@@ -140,8 +213,8 @@ def learned(path: Path) -> int:
 def refitted(path: Path) -> dict[str, dict[str, float]]:
     """Weights of the signs by kind of contact, from a table of signs and errors.
 
-    The quantile SHARE of what the error is over the residual, widened by what holds WIDENED of the answers to scenes
-    that were left out of a fit, a fold of them at a time.
+    The quantile SHARE of what the error is beside the residual, widened by what holds WIDENED of the answers to
+    scenes that were left out of a fit, a fold of them at a time.
     """
     table, weights = _table(path), {}
     names = [name for name in table[0] if name not in ("scene", "kind", "error", "residual")]
@@ -178,7 +251,7 @@ def _table(path):
 
 
 def _quantile(table, values, share):
-    """Weights of the columns of a table (n, k) by quantile regression, a linear program that prefers small ones."""
+    """Weights of the columns of a table (n, k) by quantile regression; it prefers small ones."""
     count, names = table.shape
     small = np.full(2 * names, 1e-4 * count)
     prices = np.concatenate([small, np.full(count, share), np.full(count, 1 - share)])

@@ -32,6 +32,7 @@ class Contact:
     scene : of the first surface
     wanted : standard error over draws at which friction, or force at rest, is known, relative
     surfaces : most of them on 128 points a side; on more points fewer, as their cost grows
+    depth_too : the depth is to be known as closely
 
     A row is a draw; its settings tell `solver`, `grid` (fine or coarse) and `points`.
     """
@@ -39,6 +40,7 @@ class Contact:
     scene: Scene
     wanted: float
     surfaces: int
+    depth_too: bool = False
     keeps_fields = False
     packages = ("scene", "mdr1d", "bem3d", "compare.studies.trust.contact")
 
@@ -57,7 +59,8 @@ class Contact:
     def question(self) -> Mapping[str, Any]:
         """Scene, and how well it is to be known."""
         (scene,) = SCENES.dump_python((self.scene,), mode="json")
-        return {"trust": scene, "wanted": self.wanted, "surfaces": self.surfaces}
+        told = {"trust": scene, "wanted": self.wanted, "surfaces": self.surfaces}
+        return told | ({"depth_too": True} if self.depth_too else {})
 
     def solve(self) -> Outcome:
         """Solve until the means are known, or the surfaces are spent."""
@@ -101,10 +104,13 @@ class Contact:
             yield from (replace(row, measures={}, settings=told) for row in found)
 
     def _known(self, rows):
-        """Whether the mean of what is asked of the scene has the standard error that is wanted."""
-        slides = getattr(self.scene.motion, "speed", 0.0) > 0
+        """Whether the means of what is asked of the scene have the standard error that is wanted."""
         at_rest = "depth" if self.scene.motion.pressed_by == "load" else "normal_force"
-        values = np.array([getattr(row, "friction_coefficient" if slides else at_rest) for row in rows])
+        asked = {"friction_coefficient" if getattr(self.scene.motion, "speed", 0.0) > 0 else at_rest}
+        return all(self._close(rows, name) for name in asked | ({"depth"} if self.depth_too else set()))
+
+    def _close(self, rows, name):
+        values = np.array([getattr(row, name) for row in rows])
         values = values[np.isfinite(values)]
         if values.size < BLOCK["BEM"]:
             return False

@@ -1,6 +1,6 @@
 """Model of one quantity: the ratio of 1D over 3D from groups, learned from scenes that both have solved."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from math import log
 from typing import NamedTuple, TypeAlias
 
@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import digamma, polygamma
 
 from .groups import Groups
+from .regions import LOST, WIDENED, parts
 from .regression import Process, Scales
 
 NAMES = tuple(each.name for each in fields(Groups))
@@ -19,13 +20,18 @@ UNKNOWN_GRID = 0.02
 MOST_NOISE, LEAST_SURFACES = 0.25, 3
 LEAST_VARIANCE = 1e-8
 # Scenes from which the scatter of one surface is learned, and scenes of like error whose intervals widen alike.
-SCATTERED, WIDENED = 600, 150
+SCATTERED, ALIKE = 600, 150
+# Share of the scenes left out that is to lie within, and that in a region of enough scenes: so large that 95 % of
+# those lie within to which no scale was fitted.
+HELD, HELD_IN_PART, FEWEST = 0.95, 0.97, 40
 # Least factor on an error: noise that is larger says little of it.
 LEAST_FACTOR = 0.5
-# Height over depth from which a depth is lost in the roughness, and how well it is known there at best: of the
-# scenes left out fewer than 95 % lie in narrower intervals.
-LOST, LEAST_LOST = 0.3, 0.08
+# How well a depth is known at best that is lost in the roughness: of the scenes left out fewer than 95 % lie in
+# narrower intervals.
+LEAST_LOST = 0.08
 NORMAL = 1.959964
+# Scatter of one surface from which on one in forty has no value above zero, so that its interval has no end.
+MOST_SCATTER = 1 / NORMAL
 # Inputs, values and variances of a process.
 Points: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 
@@ -36,6 +42,11 @@ class Foretold(NamedTuple):
     logarithm: np.ndarray
     error: np.ndarray
     scatter: np.ndarray
+
+    @property
+    def surface_told(self) -> np.ndarray:
+        """Scenes (M,) of which one surface says something: its values are above zero."""
+        return self.scatter < MOST_SCATTER
 
 
 @dataclass(frozen=True)
@@ -72,12 +83,21 @@ class Fitted:
     process : scales of what is measured beyond the estimate in closed form
     scatter : scales of the logarithm of the scatter of one surface
     errors, widening : standard errors of the process (K,), and factors on them under which 95 % hold
+    parts : further factors (P,), at least 1, one for each of `regions.WIDENED`
     """
 
     process: Scales
     scatter: Scales
     errors: np.ndarray
     widening: np.ndarray
+    parts: np.ndarray
+
+    def widened(self, error: np.ndarray, groups: np.ndarray) -> np.ndarray:
+        """Standard errors of the process (M,) at groups (M, D), as wide as those left out ask for."""
+        error = error * np.interp(np.log(error), np.log(self.errors), self.widening)
+        return error * np.prod(
+            [np.where(here, factor, 1.0) for here, factor in zip(_parts(groups), self.parts, strict=True)], axis=0
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,15 +125,12 @@ class Model:
         usable = _usable(measured)
         scatter = Process.fitted(*_scattered(usable))
         process = Process.fitted(*_learned(quantity, usable, scatter))
-        return cls(
-            quantity, process, scatter, Fitted(process.scales, scatter.scales, *_widening(quantity, process))
-        )
+        return cls(quantity, process, scatter, _fitted(quantity, process, scatter))
 
     def foretold(self, groups: np.ndarray) -> Foretold:
         """Ratios at groups (M, D)."""
         rest, variance = self.process.foretold(groups)
-        error = np.sqrt(variance)
-        error = error * np.interp(np.log(error), np.log(self.fitted.errors), self.fitted.widening)
+        error = self.fitted.widened(np.sqrt(variance), groups)
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
         logarithm, spread = self.scatter.foretold(groups)
@@ -153,17 +170,23 @@ def _learned(quantity, measured, scatter) -> Points:
     return measured.groups, measured.logarithm - estimate(quantity, measured.groups), variance[telling]
 
 
-def _widening(quantity, process):
-    """Factors by which errors grow for 95 % of the values left out to lie within, in groups of like error."""
+def _fitted(quantity, process, scatter):
+    """Fitted part of a model: factors by which errors grow for as many of the values left out to lie within."""
     error, variance = process.left_out()
-    own = np.maximum(variance - process.variances, LEAST_VARIANCE)
-    counted = np.flatnonzero(~lost(process.inputs)) if quantity == "depth" else np.arange(own.size)
-    order = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // WIDENED))
-    factors = [_factor(error[few], own[few], process.variances[few]) for few in order]
-    return np.array([np.sqrt(np.median(own[few])) for few in order]), np.array(factors)
+    own, inputs = np.sqrt(np.maximum(variance - process.variances, LEAST_VARIANCE)), process.inputs
+    # How wide each error has to be for its value to lie within, beside the noise of what was measured.
+    needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - process.variances, 0))
+    counted = np.flatnonzero(~lost(inputs)) if quantity == "depth" else np.arange(own.size)
+    alike = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // ALIKE))
+    errors = np.array([np.median(own[few]) for few in alike])
+    factors = np.array([max(LEAST_FACTOR, np.quantile(needed[few] / own[few], HELD)) for few in alike])
+    found = Fitted(process.scales, scatter.scales, errors, factors, np.ones(len(_parts(inputs))))
+    needed = needed / found.widened(own, inputs)
+    regions = [needed[counted[here[counted]]] for here in _parts(inputs)]
+    widest = [max(1.0, np.quantile(few, HELD_IN_PART)) if few.size >= FEWEST else 1.0 for few in regions]
+    return replace(found, parts=np.array(widest))
 
 
-def _factor(error, own, noise):
-    """Least factor on a standard error under which 95 % hold."""
-    needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - noise, 0) / own)
-    return max(LEAST_FACTOR, float(np.quantile(needed, 0.95)))
+def _parts(groups):
+    """Mask of scenes (M,) of each of the regions in which intervals widen."""
+    return [here for _, here in parts(WIDENED, dict(zip(NAMES, groups.T, strict=True)))]

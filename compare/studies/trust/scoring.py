@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+from scipy.special import betaincinv, ndtr, ndtri
 
 from .model import NORMAL, Foretold, Measurements
 from .verdict import SOLVE, advice_on
@@ -61,16 +61,30 @@ class Score:
         share = model / (model + self.variance)
         return np.expm1((apart * share)[:, None] + np.sqrt(self.variance * share)[:, None] * _QUANTILES)
 
+    @cached_property
+    def held(self) -> np.ndarray:
+        """Mask of the measured ratios within the interval of 95 % (N,), widened by the noise of the truth."""
+        apart = self.measured.logarithm - self.foretold.logarithm
+        return np.abs(apart) < NORMAL * np.sqrt(self.foretold.error**2 + self.variance)
+
     @property
     def covered(self) -> float:
-        """Share of the measured ratios within the interval of 95 %, widened by the noise of the truth."""
-        apart = self.measured.logarithm - self.foretold.logarithm
-        return float(np.mean(np.abs(apart) < NORMAL * np.sqrt(self.foretold.error**2 + self.variance)))
+        """Share of the measured ratios within the interval of 95 %."""
+        return float(np.mean(self.held))
 
     @property
     def surfaces_covered(self) -> float:
-        """Share of single surfaces within the interval of one surface, by the scatter that was measured."""
+        """Share of single surfaces within the interval of one surface, where it has one, as they were measured."""
+        if not self.foretold.surface_told.all():
+            return self.taken(self.foretold.surface_told).surfaces_covered
         apart = self.measured.logarithm - self.foretold.logarithm
         width = NORMAL * np.hypot(self.foretold.error, self.foretold.scatter)
         scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)
         return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
+
+
+def of_count(held: int, tried: int) -> tuple[float, float]:
+    """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
+    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
+    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
+    return float(low), float(high)

@@ -22,7 +22,7 @@ def model(quantity: str) -> Model:
         Scales(np.array(each["lengths"]), each["amplitude"], each["slope"], each["noise"])
         for each in (told["process"], told["scatter"])
     )
-    fitted = Fitted(process, scatter, np.array(told["errors"]), np.array(told["widening"]))
+    fitted = Fitted(process, scatter, *(np.array(told[each]) for each in ("errors", "widening", "parts")))
     return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
 
 

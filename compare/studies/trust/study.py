@@ -3,9 +3,8 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
-from itertools import product
 from math import log
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import xarray
@@ -27,27 +26,26 @@ from .contact import Contact
 from .groups import LINE, SPACE, Groups, Smooth
 from .map import ABOUT as ABOUT_FAMILY
 from .map import regime_table
-from .model import NAMES, NORMAL, Model
+from .model import NAMES, Model
 from .ratio import QUANTITIES, Ratio, asked_of, ratio_of
-from .regions import BODIES, REGIONS, ROUGHNESS, SPEEDS
 from .scoring import Score
-from .verdict import MULTIPLY, SOLVE, USE, WIDE
+from .statements import PROMISED, Scored, advice_rows, coverage_rows, error_rows, evenly
+from .verdict import WIDE
 
 LEARNED, HELD_OUT = "learned", "held-out"
 ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on
 surfaces until its scatter is known. Gaussian processes learn the ratio of 1D over 3D from these scenes alone.
 Those held out were drawn by another seed, and no model was fitted to them.
 
-Errors are those of all held-out scenes whose advice is "use" or "multiply". Each measured error contains the
-scatter of the surfaces behind the truth. The error of the map alone is the share that remains when the two are
-split in proportion to their variances."""
+Errors are those of all held-out scenes whose advice is "use" or "multiply", as measured: each contains the scatter
+of the surfaces behind the truth. The error without that scatter is the share that remains when the two are split
+in proportion to their variances."""
 # What the map is to keep, of each quantity: median error, error of nine in ten.
 WANTED = {"friction": (0.02, 0.08), "depth": (0.01, 0.05), "force": (0.01, 0.05)}
 BOOTSTRAPS = 200
-# Scenes of a regime below which nothing is said of it.
-FEWEST = 5
-# A score, and the groups of its scenes by name.
-Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
+# Standard error that is wanted of a scene, and most surfaces; those of blunt bodies are alike in both sets.
+KNOWN = {LEARNED: (0.015, 16), HELD_OUT: (0.01, 24)}
+KNOWN_BLUNT = KNOWN[LEARNED]
 
 
 @dataclass(frozen=True)
@@ -55,19 +53,24 @@ class Size:
     """Size of the campaign.
 
     learned : points of the design to learn from; none, and the models that come with the package are scored
-    held_out : number of points held out
+    held_out : points held out
     closer : how much closer scenes are known than those of the package
     """
 
     learned: tuple[int, ...]
-    held_out: int
+    held_out: tuple[int, ...]
     closer: float = 1.0
 
 
 def _size(name: str) -> Size:
-    points = tuple(int(each) for each in table.read(table.LEARNED)["point"])
-    held_out = int(table.read(table.HELD_OUT)["point"].max()) + 1
-    return {"quick": Size((), 24), "standard": Size(points, held_out), "full": Size(points, held_out, 2.0)}[name]
+    learned, held_out = (
+        tuple(int(each) for each in table.read(path)["point"]) for path in (table.LEARNED, table.HELD_OUT)
+    )
+    # Of those drawn evenly the smooth ones are in no table; the blunt ones after them are all rough.
+    evenly = [point for point in held_out if point < design.BLUNT_HELD_OUT]
+    held_out = *range(evenly[-1] + 1), *held_out[len(evenly) :]
+    sizes = {"quick": Size((), held_out[:24]), "standard": Size(learned, held_out)}
+    return (sizes | {"full": Size(learned, held_out, 2.0)})[name]
 
 
 SIZES = "quick", "standard", "full"
@@ -101,12 +104,12 @@ class TrustStudy(Study):
         """Task of each scene, by set and point."""
         size = _size(self.size)
         sets = {
-            LEARNED: (design.learned, size.learned, 0.015, 16),
-            HELD_OUT: (design.held_out, range(size.held_out), 0.01, 24),
+            LEARNED: (design.learned, size.learned, design.BLUNT, KNOWN[LEARNED]),
+            HELD_OUT: (design.held_out, size.held_out, design.BLUNT_HELD_OUT, KNOWN[HELD_OUT]),
         }
         return {
-            name: {k: Contact(scene(k), wanted / size.closer, round(most * size.closer**2)) for k in points}
-            for name, (scene, points, wanted, most) in sets.items()
+            name: {k: _contact(scene(k), k >= blunt, size.closer, *known) for k in points}
+            for name, (scene, points, blunt, known) in sets.items()
         }
 
     def batches(self) -> Sequence[Batch]:
@@ -149,12 +152,19 @@ class TrustStudy(Study):
             rows, measured = table.measurements(held_out, name)
             groups = {each: held_out[each][rows] for each in NAMES}
             groups["slides"] = held_out[table.column("friction", "surfaces")][rows] > 0
+            groups["blunt"] = held_out["point"][rows] >= design.BLUNT_HELD_OUT
             found[name] = Score(measured, model.foretold(measured.groups)), groups
         return found
 
     def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        rough = [each for name, (score, _) in self.scores(answers).items() for each in _findings(name, score)]
-        return [*rough, *_smooth_findings(answers[HELD_OUT].to_dataset())]
+        scores = self.scores(answers)
+        rough = [each for name, (score, _) in evenly(scores).items() for each in _findings(name, score)]
+        blunt = [
+            _held(name, score.taken(groups["blunt"]))
+            for name, (score, groups) in scores.items()
+            if groups["blunt"].any()
+        ]
+        return [*rough, *blunt, *_smooth_findings(answers[HELD_OUT].to_dataset())]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
         """The regime map."""
@@ -172,14 +182,17 @@ class TrustStudy(Study):
             *plots,
             Table(
                 "advice",
-                DataFrame(list(advice_rows(scores))),
+                DataFrame(list(advice_rows(evenly(scores)))),
                 "Advice on the scenes held out, by regime and body.",
             ),
             Findings(findings, "Errors on scenes held out, with intervals of 95 % over these scenes."),
+            Table(
+                "coverage", DataFrame(list(coverage_rows(scores))), "Share within the interval of 95 %, by region."
+            ),
             Section(
                 "Errors by region",
                 [
-                    Table(f"regions-{name}", DataFrame(list(_regions(*scores[name]))), f"{name.capitalize()}.")
+                    Table(f"regions-{name}", DataFrame(list(error_rows(*scores[name]))), f"{name.capitalize()}.")
                     for name in scores
                 ],
             ),
@@ -188,6 +201,12 @@ class TrustStudy(Study):
     def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
         """The campaign, and the meaning of its errors."""
         return [Text(ABOUT)]
+
+
+def _contact(scene: Scene, blunt: bool, closer: float, wanted: float, most: int) -> Contact:
+    """Task of a scene; closer : how much closer it is to be known than that of the package."""
+    wanted, most = KNOWN_BLUNT if blunt else (wanted, most)
+    return Contact(scene, wanted / closer, round(most * closer**2), depth_too=blunt)
 
 
 def _smooth(scene: Scene) -> tuple[SceneTask, SceneTask]:
@@ -237,17 +256,19 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
     def measured(id, sentence, expected, tolerance, measure, meaning, count=used.usable.size):
         return _measured(Claim(f"trust.{name}.{id}", sentence, expected, tolerance, meaning), measure, count)
 
-    split = "Quantile of the relative error over held-out scenes with advice use or multiply"
+    errors = np.abs(used.errors)
+    over = "Quantile of the relative error over held-out scenes with advice use or multiply"
     for id, share, bound in (("median", 0.5, half), ("nine-in-ten", 0.9, most)):
         told = "Half" if share == 0.5 else "Nine in ten"
         yield measured(
             id, f"{told} of the {name} errors of corrected 1D are at most {100 * bound:g} %", 0.0, bound,
-            lambda draw, share=share: float(np.quantile(own[draw], share)),
-            f"{split}, the scatter of the surfaces of the truth taken out",
+            lambda draw, share=share: float(np.quantile(errors[draw], share)),
+            f"{over}, the scatter of the surfaces of the truth in it",
         )  # fmt: skip
         yield measured(
-            f"{id}-raw", f"{told} of these, the scatter of the truth in them", 0.0, np.nan,
-            lambda draw, share=share: float(np.quantile(np.abs(used.errors[draw]), share)), split,
+            f"{id}-alone", f"{told} of these without the scatter of the truth", 0.0, np.nan,
+            lambda draw, share=share: float(np.quantile(own[draw], share)),
+            f"{over}, the scatter of the surfaces of the truth taken out",
         )  # fmt: skip
     yield measured(
         "coverage", f"95 % of the {name} ratios lie within their interval", 0.95, 0.02,
@@ -262,6 +283,16 @@ def _findings(name: str, score: Score) -> Iterator[Finding]:
         lambda draw: float(score.usable[draw].mean()),
         "Share of the held-out scenes with advice use or multiply", score.usable.size,
     )  # fmt: skip
+
+
+def _held(name: str, score: Score) -> Finding:
+    """Finding on the coverage of blunt bodies that slide under a load, held out by themselves."""
+    used = score.used
+    claim = Claim(
+        f"trust.{name}.coverage.blunt", f"95 % of the {name} ratios of blunt bodies lie within their interval",
+        PROMISED, 0.03, "Share within the interval: n from 3, sliding under a load, h0/d 0.08 to 0.3",
+    )  # fmt: skip
+    return _measured(claim, lambda draw: used.taken(draw).covered, used.usable.size)
 
 
 def _smooth_findings(held_out: xarray.Dataset) -> Iterator[Finding]:
@@ -288,47 +319,3 @@ def _measured(claim: Claim, measure: Callable[[np.ndarray], float], count: int) 
     draws = [measure(rng.integers(0, count, count)) for _ in range(BOOTSTRAPS)]
     low, high = np.quantile(draws, (0.025, 0.975))
     return Finding(claim, measure(np.arange(count)), (float(low), float(high)), 0.0, "exact", draws=count)
-
-
-def _regions(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, Any]]:
-    """Errors in each region."""
-    for kind, regions in REGIONS.items():
-        for region, condition in regions.items():
-            here = condition(groups)
-            if not here.any():
-                continue
-            part = score.taken(here)
-            used = part.used
-            row = {"kind": kind, "region": region, "scenes": int(here.sum()), "usable": part.usable.mean()}
-            if used.usable.any():
-                own = np.abs(used.own)
-                row |= {
-                    "median error": np.median(own),
-                    "nine in ten": np.quantile(own, 0.9),
-                    "median, raw": np.median(np.abs(used.errors)),
-                    "nine in ten, raw": np.quantile(np.abs(used.errors), 0.9),
-                    "in 95 %": used.covered,
-                }
-            yield row
-
-
-def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
-    """Factor on 1D, half its interval, and share of each advice, by quantity, speed, roughness and body.
-
-    The factor is that of the usable scenes, from the lowest to the highest of nine in ten.
-    """
-    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), BODIES.items()))
-    for (name, (score, groups)), named in product(scores.items(), regimes):
-        here = np.all([condition(groups) for _, condition in named], axis=0)
-        part = score.taken(here)
-        if here.sum() < FEWEST:
-            continue
-        row: dict[str, Any] = dict(zip(("speed", "roughness", "body"), (each for each, _ in named), strict=True))
-        row |= {"quantity": name, "scenes": part.usable.size}
-        row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
-        if part.usable.any():
-            known = part.taken(part.usable).foretold
-            low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
-            half = np.median(np.expm1(NORMAL * known.error))
-            row |= {"factor": middle, "from": low, "to": high, "interval": half}
-        yield row

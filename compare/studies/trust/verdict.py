@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, astuple, dataclass, replace
 from functools import cache
-from math import exp, hypot, log, nan
+from math import exp, hypot, isfinite, log, nan
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -14,7 +14,7 @@ from scene import Cone, Indent, PowerLaw, Scene, SelfAffine, Slide, SolveError, 
 
 from . import shipped, table
 from .groups import LINE, SPACE, Groups, Smooth
-from .model import NAMES, NORMAL, lost
+from .model import MOST_SCATTER, NAMES, NORMAL, lost
 from .ratio import QUANTITIES, asked_of
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ SMALL, WIDE = 0.05, 0.15
 # Of the range of a group, what may be missing to it.
 SLACK = 0.02
 NEAREST = 3
+NOTHING = "One surface says nothing: single surfaces differ by as much as their mean."
 HEADINGS = "quantity", "ratio", "low", "high", "surface_low", "surface_high", "advice", "reason"
 # Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
 LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening"
@@ -62,9 +63,10 @@ class Worth:
 
     ratio : mean over profiles in 1D over mean over surfaces in 3D; nan if not known
     low, high : its interval of 95 %
-    surface_low, surface_high : interval of 95 % of the mean in 1D over one single surface in 3D
+    surface_low, surface_high : interval of 95 % of the mean in 1D over one single surface in 3D; nan where single
+        surfaces differ so much that one says nothing, as the reason then tells
     advice : "use" 1D as it is, "multiply" it by 1 / ratio, or "solve" in 3D
-    reason : in one sentence
+    reason : in a sentence or two
     """
 
     ratio: float
@@ -229,7 +231,8 @@ def advice_on(ratio: float, error: float) -> Advice:
 
 
 def _worth(ratio, error, scatter, because):
-    half, whole = NORMAL * error, NORMAL * hypot(error, scatter)
+    half = NORMAL * error
+    whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
     low, high = ratio * exp(-half), ratio * exp(half)
     advice = advice_on(ratio, error)
     reason = {
@@ -237,7 +240,8 @@ def _worth(ratio, error, scatter, because):
         MULTIPLY: f"1D is {ratio:.3g} times 3D",
         SOLVE: f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}",
     }[advice]
-    return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, f"{reason}: {because}.")
+    told = f"{reason}: {because}." if isfinite(whole) else f"{reason}: {because}. {NOTHING}"
+    return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, told)
 
 
 def _because(name, groups):

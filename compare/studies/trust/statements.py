@@ -1,0 +1,91 @@
+"""What the map states of scenes held out: errors, coverage and advice, by region."""
+
+from collections.abc import Iterator, Mapping
+from itertools import product
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from .model import NORMAL
+from .regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, parts
+from .scoring import Score, of_count
+from .verdict import MULTIPLY, SOLVE, USE
+
+# Scenes of a regime below which nothing is said of its advice.
+FEWEST = 5
+# Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
+ENOUGH, PROMISED = 40, 0.95
+# A score, and the groups of its scenes by name.
+Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
+
+
+def error_rows(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, Any]]:
+    """Errors in each region of one kind."""
+    for kind, regions in REGIONS.items():
+        for region, condition in regions.items():
+            here = condition(groups)
+            if not here.any():
+                continue
+            part = score.taken(here)
+            used = part.used
+            row = {"kind": kind, "region": region, "scenes": int(here.sum()), "usable": part.usable.mean()}
+            if used.usable.any():
+                own, errors = np.abs(used.own), np.abs(used.errors)
+                row |= {
+                    "median error": np.median(errors),
+                    "nine in ten": np.quantile(errors, 0.9),
+                    "median without scatter of the truth": np.median(own),
+                    "nine in ten without it": np.quantile(own, 0.9),
+                    "in 95 %": used.covered,
+                }
+            yield row
+
+
+def evenly(scores: Mapping[str, Scored]) -> dict[str, Scored]:
+    """Scores on the scenes that were drawn evenly, without the blunt ones that were held out by themselves."""
+    return {
+        name: (score.taken(~groups["blunt"]), {key: each[~groups["blunt"]] for key, each in groups.items()})
+        for name, (score, groups) in scores.items()
+    }
+
+
+def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Share of the usable ratios within their interval, by quantity and region, with the interval of the count.
+
+    fails : whether a region of enough scenes has significantly fewer than what was promised
+    """
+    for name, (score, groups) in scores.items():
+        counts = score.usable & np.isfinite(score.measured.logarithm)
+        for named, here in parts(COVERED, groups):
+            used = score.taken(here & counts)
+            if tried := used.usable.size:
+                low, high = of_count(int(used.held.sum()), tried)
+                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": tried}
+                yield row | {
+                    "in 95 %": used.covered,
+                    "least": low,
+                    "most": high,
+                    "fails": tried >= ENOUGH and high < PROMISED,
+                }
+
+
+def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Factor on 1D, half its interval, and share of each advice, by quantity, speed, roughness and body.
+
+    The factor is that of the usable scenes, from the lowest to the highest of nine in ten.
+    """
+    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), BODIES.items()))
+    for (name, (score, groups)), named in product(scores.items(), regimes):
+        here = np.all([condition(groups) for _, condition in named], axis=0)
+        part = score.taken(here)
+        if here.sum() < FEWEST:
+            continue
+        row: dict[str, Any] = dict(zip(("speed", "roughness", "body"), (each for each, _ in named), strict=True))
+        row |= {"quantity": name, "scenes": part.usable.size}
+        row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
+        if part.usable.any():
+            known = part.taken(part.usable).foretold
+            low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
+            half = np.median(np.expm1(NORMAL * known.error))
+            row |= {"factor": middle, "from": low, "to": high, "interval": half}
+        yield row
