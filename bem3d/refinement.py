@@ -7,13 +7,13 @@ one.
 
 from dataclasses import dataclass, replace
 from functools import partial
-from numbers import Integral
 from time import process_time
 
 import numpy as np
 
 from scene import Cylinder, Plane, Program, Refused, Result, SolveError
 from scene.protocol import trusted
+from scene.quantities import WHOLE, takes
 from scene.terms import surrounded, terms_of
 
 from . import frictionerror, wake, window
@@ -47,11 +47,12 @@ class _Points:
 
 def _steps(times: int) -> list[int]:
     """Factors to refine by, one after the other. Raises ValueError for what is no power of two."""
-    if not isinstance(times, Integral) or times < 1 or times & (times - 1):
+    if times < 1 or times & (times - 1):
         raise ValueError(f"times = {times!r}: a power of two, as 1, 2, 4")
-    return [2**k for k in range(1, int(times).bit_length())] or [1]
+    return [2**k for k in range(1, times.bit_length())] or [1]
 
 
+@takes(times=WHOLE)
 def refined(solver, result: Result, times: int = 2) -> Result:
     """A steady contact on pixels `times` as fine, in the window in which it was solved.
 

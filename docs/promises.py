@@ -50,9 +50,9 @@ refused on 64 points and answered on 128.
 
 {scenes} contacts to which nothing was fitted, each on one or two grids ({answers} answers). Bodies with
 exponents from 1 to 100, smooth and rough, planes, waves and lines; solids of every kind with modes up to seven
-decades apart; memories from 1e-4 to 300 times the length that tells slow from fast. The truth is the answer on 512 points (1D:
-sixteen times the nodes), by the order at which the last answers change; contacts whose truth is not known to a
-third of the error are left out ({unknown} answers). {worst}
+decades apart; memories from 1e-4 to 300 times the length that tells slow from fast. The truth is the answer on
+512 points (1D: sixteen times the nodes), by the order at which the last answers change; contacts whose truth
+is not known to a third of the error are left out ({unknown} answers). {worst}
 
 {regions}
 
@@ -76,9 +76,9 @@ programs and of roughness without a shortest wave.
 
 ### Kept?
 
-Asked on {smooth} smooth and {rough} rough contacts of other seeds. Errors are against 128, 256 and 512 points,
-by the order at which these change, where 512 are twice as many or more and the truth is known to a fifth of what is wanted.
-Numbers: [promises.csv](promises/promises.csv).
+Asked on {smooth} smooth and {rough} rough contacts of other seeds. Errors are against 128, 256 and 512
+points, by the order at which these change, where 512 are twice as many or more and the truth is known to a
+fifth of what is wanted. Numbers: [promises.csv](promises/promises.csv).
 
 {kept}
 

@@ -6,6 +6,7 @@ from math import inf, nan
 from pathlib import Path
 
 import pytest
+from xarray import DataTree
 
 from compare import commands
 from compare.exact import Exact
@@ -102,7 +103,7 @@ def test_the_farthest_is_said_first_and_what_is_missing_is_undecided():
     assert "the young: not in the baseline: 2." in told
     assert study.failed(findings)
     assert not study.failed([each for each in findings if each.verdict == HOLDS])
-    page = study.page(None, findings)
+    page = study.page(DataTree(), findings)
     assert "0.001: a test" in str(page.blocks[-1])
 
 

@@ -45,7 +45,7 @@ def test_an_effect_comes_on_top_of_one_before_it():
 
 def test_plans_know_the_costs_of_every_part_that_the_solver_has():
     known = {
-        BEM: (bem3d.plan.IN_THE_LADDER, bem3d.plan.EFFECTS),
+        BEM: (bem3d.plan.PRICED, bem3d.plan.EFFECTS),
         MDR: (mdr1d.plan.COUNTED, mdr1d.plan.EFFECTS),
     }
     unmeasured = {"Measured", "Cylinder", "Plane", "Wave"}  # the ladder has none of them, or too few

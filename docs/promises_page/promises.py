@@ -106,9 +106,9 @@ def said(made: Sequence[Mapping]) -> str:
     counts = _counted(made)
     left, broken = counts["asked"] - counts["confirmed"], counts["broken"]
     return (
-        f"Of {counts['asked']} promises {left} ({_share(left, counts['asked'])}) were not confirmed, those without "
-        f"an answer among them. Of {counts['confirmed']} that were confirmed {counts['checked']} could be checked, "
-        f"and {broken} of these ({_share(broken, counts['checked'])}) were broken."
+        f"Of {counts['asked']} promises {left} ({_share(left, counts['asked'])}) were not confirmed, those "
+        f"without an answer among them. {counts['confirmed']} were confirmed; {counts['checked']} of these "
+        f"could be checked, and {broken} ({_share(broken, counts['checked'])}) were broken."
     )
 
 
