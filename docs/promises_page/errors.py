@@ -21,7 +21,7 @@ from bem3d.problem import Problem
 from compare.outcome import Outcome, Row, row
 from compare.task import SCENES, SceneTask, Task
 from mdr1d import MDR
-from scene import Scene, SolveError
+from scene import Refused, Scene, SolveError
 
 from . import scenes
 
@@ -69,7 +69,8 @@ def judged(seeds: range) -> Iterator[Judged]:
             finer = reference(scene)
             points = 2 * int(np.random.default_rng([seed, 7]).integers(*POINTS) // 2)
             for task in (_task(BEM(points=points), scene), finer[0]):
-                yield Judged(kind, task, finer)
+                if not task.solver.refusals(scene):
+                    yield Judged(kind, task, finer)
 
 
 def judged_lines(seeds: range) -> Iterator[Judged]:
@@ -112,10 +113,10 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
                 "body": each.kind,
                 "solid": type(each.scene.elastomer).__name__,
                 "speed": band(each.finer[0].scenes[0]),
-                "waves": waves,
+                "waves": float(f"{waves:.4g}"),
                 "points": each.task.solver.points,
-                "error": error,
-                "bound": answer.measures["friction_error"],
+                "error": float(f"{error:.4g}"),
+                "bound": float(f"{answer.measures['friction_error']:.4g}"),
             }
         )
     return found
@@ -161,7 +162,7 @@ class Signed:
         """Answer; NaN with its reason where there is none."""
         try:
             result = self.solver.solve(self.scene)
-        except SolveError as reason:
+        except (Refused, SolveError) as reason:
             return self.failed(str(reason))
         problem, settings = Problem(self.scene, self.solver.engine), result.settings
         grid = Grid(self.solver.points, settings["extent"], settings["centre"], width=problem.width)
@@ -177,7 +178,7 @@ class Signed:
         return len(outcome.rows) == 1
 
 
-def to_learn(seeds: range) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:
+def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:
     """Scenes by name, each on several grids, with the finer ones that tell the truth."""
     for kind in scenes.KINDS:
         for seed in seeds[:: EVERY[kind]]:

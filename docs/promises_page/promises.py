@@ -101,6 +101,11 @@ def kept(made: Sequence[Mapping]) -> list[dict]:
     return found
 
 
+def missed(made: Sequence[Mapping]) -> list[Mapping]:
+    """Promises that were not confirmed, or were broken."""
+    return [each for each in made if not each["shown"] <= each["wanted"] or each["error"] > each["wanted"]]
+
+
 def said(made: Sequence[Mapping]) -> str:
     """Counts of all promises in words, with intervals."""
     counts = _counted(made)
@@ -151,8 +156,8 @@ def _entry(task, answer: Row, *finer: Row):
         "quantity": task.quantity,
         "wanted": task.wanted,
         "points": points,
-        "shown": shown,
-        "error": error,
+        "shown": float(f"{shown:.3g}"),
+        "error": float(f"{error:.3g}"),
         "reason": answer.reason or "",
     }
 
