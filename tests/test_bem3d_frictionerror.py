@@ -61,20 +61,24 @@ def slow_law(scene):
     return scene.motion.speed * TAU * n * (n + 1) * c * a ** (n - 2) / (2 * (2 * n - 1))
 
 
-@pytest.mark.parametrize("exponent", [1, 2, 3, 10, 30, 50, 100])
-@pytest.mark.parametrize("points", [64, 128])
-def test_friction_of_a_slow_body_is_within_its_error_or_refused(exponent, points):
-    scene = slid(blunt(exponent), 1e-6)
-    law = slow_law(scene)
-    answer = told(scene, points)
-    if answer is None:
-        assert (exponent > 30, points) == (True, 64)
-        with pytest.raises(SolveError, match="friction is not told by 64 points a side") as refused:
-            BEM(points=points).solve(scene)
-        answer = BEM(points=named(refused.value)).solve(scene)
-    error = abs(answer.friction_coefficient / law - 1)
-    assert error <= answer.measures["friction_error"]
-    assert error < 0.1
+@pytest.mark.parametrize("points", [48, 64, 128])
+def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
+    beyond = []
+    for exponent in (1, 1.5, 2, 3, 4, 6, 10, 30, 50, 100):
+        scene = slid(blunt(exponent), 1e-6)
+        answer = told(scene, points)
+        if answer is None:
+            assert exponent > 30
+            assert points <= 64
+            with pytest.raises(SolveError, match=f"friction is not told by {points} points a side") as refused:
+                BEM(points=points).solve(scene)
+            answer = BEM(points=named(refused.value)).solve(scene)
+        error = abs(answer.friction_coefficient / slow_law(scene) - 1)
+        beyond.append(error / answer.measures["friction_error"])
+        assert error < 0.1
+    # Of a bound of 95 % one in ten may lie beyond; by half of it none.
+    assert sorted(beyond)[-2] <= 1
+    assert max(beyond) < 1.5
 
 
 @pytest.mark.parametrize("speed", [1e-6, 3e-3, 0.3, 300.0])
