@@ -10,7 +10,7 @@ from .profile import Profile
 # contact lie between the nodes makes more or less of it, and the most is taken.
 STEPS = 2, 3, 4
 # Bound over that: as far as 95 % of random contacts asked for, see docs/promises.md.
-SHARE = 1.7
+SHARE = 2.0
 # Nodes on the shortest wave below which it is more, and by which power of them.
 RESOLVED, POWER = 6.0, 0.7
 ROUNDING = 1e-9  # left where nothing changes: a load is met to a tenth of it
