@@ -40,7 +40,7 @@ other solve. There is none where there is no friction, nor of the tangential for
   answers to random contacts of other seeds, and widened, by kind of contact, to hold {share:.1%} of those left
   out in turn.
 - **1D.** The profile on every second, third and fourth node is swept once or twice more, at a depth that is
-  known. What friction changes by is taken as an error of second order; the bound is twice the most, and
+  known. The change of friction is taken as an error of second order; the bound is twice the greatest, and
   more where less than six nodes lie on the shortest wave.
 
 Where the estimates of three dimensions differ by more than half of the answer, or the bound is more than half,
