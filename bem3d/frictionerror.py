@@ -100,7 +100,7 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, s
     fast = 1 - slow
 
     def change(weight, one, other):
-        return min(weight * abs((one - other) / force), MOST) + LEAST
+        return (min(weight * abs((one - other) / force), MOST) if weight else 0.0) + LEAST
 
     changes = {
         "joined, on wider pixels": change(1.0, friction.joined(coarser), force),

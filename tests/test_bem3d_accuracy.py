@@ -111,6 +111,7 @@ FOOLING = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FOOLING)
 def test_what_is_confirmed_is_kept(name):
     scene, wanted = FOOLING[name]
