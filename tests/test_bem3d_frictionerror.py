@@ -81,6 +81,7 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
     assert max(beyond) < 1.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [1e-6, 3e-3, 0.3, 300.0])
 @pytest.mark.parametrize("points", [16, 24, 32])
 def test_no_body_is_given_half_or_twice_its_friction_in_silence(speed, points):

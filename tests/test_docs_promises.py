@@ -78,6 +78,7 @@ def test_coverage_is_counted_by_region_with_its_interval():
     assert [each["region"] for each in errors.regions(held(39, 39))] == ["all"]
 
 
+@pytest.mark.slow
 def test_the_fit_that_ships_is_that_of_the_table_that_ships():
     found, shipped = errors.refitted(LEARNED), frictionerror._fitted()
     for kind, weights in found.items():
