@@ -17,10 +17,8 @@ if TYPE_CHECKING:
 FIRST, MOST = 32, 1024  # points a side
 SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
 NARROW = 1e-7  # tolerance of a prescribed gap, at least: a narrow one is lost in a looser one
-ORDERS = (
-    0.5,
-    2.0,
-)  # of the points, at which an error is taken to fall: no lower is waited for, no higher is believed
+# Order at which an error is taken to fall with the points: no lower one is waited for, no higher one believed.
+ORDERS = 0.5, 2.0
 HOPELESS = 4  # times MOST: where so many points are needed by the order observed, no more are tried
 LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
@@ -86,28 +84,23 @@ def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
     what cannot be promised, Refused and SolveError as the solver does where no grid has an answer.
     """
     _check(solver, scene, wanted)
-    found: list[tuple[BEM, Result]] = []
+    answers: list[Result] = []
+    choice: Choice | None = None
     left: Refused | SolveError | None = None
     for settings in _doubled(solver, scene, SHARE * min(wanted.values())):
         try:
-            found.append((settings, settings.solve(scene)))
-        except Refused as reason:
-            # Too coarse for the waves, or too large for the memory.
-            if found:
-                break
-            left = reason
+            answers.append(settings.solve(scene))
+        except (Refused, SolveError) as reason:
+            # Too coarse, or too large; what answered before may still be all that there is.
+            left, answers = reason, []
             continue
-        except SolveError as reason:
-            left, found = reason, []
-            continue
-        answers = [result for _, result in found]
         seen = {name: changes(scene, name, answers) for name in wanted}
-        choice = Choice(*found[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
+        choice = Choice(settings, answers[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
         if choice.confirmed or any(
             _needed(settings.points, *each, wanted[name]) > HOPELESS * MOST for name, each in seen.items()
         ):
             break
-    if not found:
+    if choice is None:
         assert left is not None
         raise left
     if not choice.confirmed:

@@ -2,9 +2,10 @@
 
 What has been solved once is in docs/promises/solved.
 
-python docs/promises.py [learn|fit|errors]
+python docs/promises.py [learn|fit|errors|costs]
     learn   solves contacts to learn from (two hours): docs/promises/learned.csv.gz
     fit     writes the weights of the signs of an error of friction from it: bem3d/friction_error.csv
+    costs   measures what a solve takes, on a quiet machine: bem3d/costs.csv
     errors  tests the errors that are stated, without the promises, and prints the table
 """
 
@@ -13,10 +14,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from pandas import DataFrame
-from promises_page import errors, promises
+from promises_page import costs, errors, promises
 from rich.console import Console
 from tables import table
 
+from bem3d.costs import MEASURED
 from compare import csvfiles
 from compare.progress import Watched
 from compare.runner import sweep
@@ -25,6 +27,7 @@ from compare.store import Store
 FOLDER = Path(__file__).with_suffix("")
 LEARNED = *range(300), *range(9000, 9180), *range(11000, 11180)  # seeds of contacts that bounds are fitted to
 HELD_OUT = range(13000, 13180)  # and of those that they are tested on
+PRICED = range(40)  # of those whose costs are measured
 PAGE = """# Errors that are stated, and errors that are wanted
 
 ## Every answer states the error of its friction
@@ -95,6 +98,10 @@ def main() -> None:
         errors.write(errors.refitted(FOLDER / "learned.csv.gz"))
         return
     console, store = Console(highlight=False, soft_wrap=True), Store(FOLDER / "solved")
+    if "costs" in sys.argv[1:]:
+        priced = list(costs.asked(PRICED))
+        _write(MEASURED, costs.rows(priced, _swept(console, store, priced)))
+        return
     if "learn" in sys.argv[1:]:
         every = list(errors.to_learn(LEARNED))
         tasks = [task for _, own, finer in every for task in (own, *finer)]

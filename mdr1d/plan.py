@@ -17,7 +17,7 @@ from .timeline import timeline
 EFFECTS = Path(__file__).with_name("effects.csv")
 # Parts whose costs are counted below; of all others `effects.csv` has what they multiply costs with.
 COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, SelfAffine)
-# Processor seconds of one thread on the machine of the ladder of the three-dimensional solver: of a solve, and for
+# Processor seconds of one thread on the machine where those of three dimensions were measured: of a solve, and for
 # each node of a sweep of an elastic or Kelvin foundation, of Maxwell branches and each of them, of a step in time
 # and each of its modes, and of drawing a rough line.
 START, KELVIN, MAXWELL, BRANCH, STEP, MODE, DRAWN = 1e-4, 4e-9, 14e-9, 2.5e-9, 110e-9, 7e-9, 100e-9

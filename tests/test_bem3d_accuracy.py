@@ -145,6 +145,20 @@ def test_a_grid_that_cannot_carry_the_waves_is_passed_over():
     assert choice.result.measures["points_per_shortest_wave"] > 4
 
 
+def test_an_answer_is_kept_where_finer_grids_have_none(monkeypatch):
+    solve = BEM.solve
+
+    def failing(solver, scene):
+        if solver.points > 2 * FIRST:
+            raise SolveError("no converged contact")
+        return solve(solver, scene)
+
+    monkeypatch.setattr(BEM, "solve", failing)
+    with pytest.warns(Unconfirmed, match="friction by inf"):
+        choice = BEM.for_accuracy(SMOOTH, friction=0.01)
+    assert (choice.solver.points, choice.result.settings["points"]) == (2 * FIRST, 2 * FIRST)
+
+
 def test_where_no_grid_has_an_answer_the_reason_is_raised():
     finest = replace(ROUGH, shortest=1e-6)
     with pytest.raises(SolveError, match="take a longer shortest"):

@@ -26,16 +26,18 @@ def test_a_small_error_is_said_last_with_its_median_and_that_of_coarse_grids_not
     told = griderror.told(answers([0.01, 0.02, np.nan, 0.03]), ["the answer"])
     assert told == [
         "the answer",
-        "The grid leaves at most 0.002 % in 1D (0.0015 % in the median), 3 % in 3D (2 % in the median) of "
-        "friction uncertain (95 %).",
+        "The grid leaves at most 3 % in 3D (2 % in the median), 0.002 % in 1D (0.0015 % in the median) of "
+        "friction uncertain (bounds of 95 %).",
     ]
 
 
 def test_an_error_above_a_tenth_is_said_first_and_how_often():
     told = griderror.told(answers([0.01, 0.11, 0.23]), ["the answer"])
     assert told[1:] == ["the answer"]
-    assert told[0].startswith("Friction is uncertain by the grid, by up to 0.002 % in 1D")
-    assert "23 % in 3D (11 % in the median, 2 of 3 contacts by more than 10 %): take more points" in told[0]
+    assert told[0] == (
+        "Friction of 2 of 3 contacts in 3D may be wrong by more than 10 % by the grid, by up to 23 % (11 % in the "
+        "median): take more points (bounds of 95 %)."
+    )
 
 
 def test_without_friction_nothing_is_said():
@@ -63,10 +65,10 @@ def test_a_sweep_states_the_error_of_every_contact_and_warns_of_a_great_one(tmp_
         case(Sphere(radius=1e-2), 0.1), speed=[0.1], workers=1, report=False, output=tmp_path / "a"
     )
     assert (fine["friction_error"].sel(grid="fine") < griderror.MUCH).all()
-    with pytest.warns(compare.UncertainFriction, match="Friction is uncertain by the grid"):
+    with pytest.warns(compare.UncertainFriction, match="Friction in 3D may be wrong by up to .* by the grid"):
         compare.sweep(case(BLUNT, 0.3), speed=[0.3], workers=1, report=False, output=tmp_path / "b")
 
 
 def test_a_drawing_of_an_uncertain_contact_says_so_first(tmp_path):
     report = compare.draw(case(BLUNT, 0.3), workers=1, output=tmp_path)
-    assert report.page.answer[0].startswith("Friction is uncertain by the grid")
+    assert report.page.answer[0].startswith("Friction in 3D may be wrong by up to")

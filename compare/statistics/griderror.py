@@ -32,13 +32,15 @@ def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
 
 
 def sentence(bounds: Mapping[str, np.ndarray]) -> str:
-    """What the grids leave uncertain of friction, by model; empty without friction."""
+    """What the grids leave uncertain of friction, the model that errs most first; empty without friction."""
     if not bounds:
         return ""
-    told = [f"{_percent(each.max())} in {model}{_many(each)}" for model, each in bounds.items()]
+    falling = sorted(bounds.items(), key=lambda item: -item[1].max())
     if much(bounds):
-        return f"Friction is uncertain by the grid, by up to {', '.join(told)}: take more points (95 %)."
-    return f"The grid leaves at most {', '.join(told)} of friction uncertain (95 %)."
+        told = [_above(model, each) for model, each in falling if each.max() > MUCH]
+        return f"{'; '.join(told)}: take more points (bounds of 95 %)."
+    told = [f"{_percent(each.max())} in {model}{_median(each)}" for model, each in falling]
+    return f"The grid leaves at most {', '.join(told)} of friction uncertain (bounds of 95 %)."
 
 
 def much(bounds: Mapping[str, np.ndarray]) -> bool:
@@ -61,12 +63,18 @@ def warn(answers: "xarray.DataTree", level: int = 2) -> None:
 
 
 def _percent(share):
-    return f"{100 * share:.2g} %"
+    return f"{100 * share:.3g} %"
 
 
-def _many(bounds):
+def _median(bounds):
+    return f" ({_percent(np.median(bounds))} in the median)" if len(bounds) > 1 else ""
+
+
+def _above(model, bounds):
+    """Contacts of a model that may be wrong by more than a tenth, in words."""
     if len(bounds) == 1:
-        return ""
-    over = int((bounds > MUCH).sum())
-    many = f", {over} of {len(bounds)} contacts by more than {_percent(MUCH)}" if over else ""
-    return f" ({_percent(np.median(bounds))} in the median{many})"
+        return f"Friction in {model} may be wrong by up to {_percent(bounds[0])} by the grid"
+    return (
+        f"Friction of {int((bounds > MUCH).sum())} of {len(bounds)} contacts in {model} may be wrong by more than "
+        f"{_percent(MUCH)} by the grid, by up to {_percent(bounds.max())}{_median(bounds)}"
+    )

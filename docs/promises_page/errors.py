@@ -57,7 +57,7 @@ class Judged:
 
     @property
     def tasks(self) -> tuple[Task, ...]:
-        """What is solved."""
+        """The judged answer and those on finer grids."""
         return (self.task, *self.finer)
 
 
@@ -137,14 +137,27 @@ def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
                     yield _coverage(model, label, group)
 
 
+class OneRow:
+    """A task with the answer to one scene."""
+
+    keeps_fields = False
+
+    def failed(self, reason: str) -> Outcome:
+        """One row, with the reason."""
+        return Outcome((Row(reason=reason),))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether there is one row."""
+        return len(outcome.rows) == 1
+
+
 @dataclass(frozen=True)
-class Signed:
+class Signed(OneRow):
     """A task: the signs of the error of an answer, as measures of its row."""
 
     solver: BEM
     scene: Scene
     work: float = 1e6
-    keeps_fields = False
     packages = ("scene", "bem3d", __name__)
 
     @property
@@ -168,14 +181,6 @@ class Signed:
         grid = Grid(self.solver.points, settings["extent"], settings["centre"], width=problem.width)
         _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
         return Outcome((replace(row(result), measures={} if seen is None else dict(seen.numbers)),))
-
-    def failed(self, reason: str) -> Outcome:
-        """One row, with the reason."""
-        return Outcome((Row(reason=reason),))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """One row."""
-        return len(outcome.rows) == 1
 
 
 def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:

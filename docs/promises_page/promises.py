@@ -16,7 +16,7 @@ from scene import Scene, SolveError
 from scene.scales import elastic_contact
 
 from . import scenes
-from .errors import reference, settled
+from .errors import OneRow, reference, settled
 
 WANTED = (0.1, 0.03, 0.01, 0.003)
 FIRST = 7000  # seed
@@ -26,7 +26,7 @@ NUMBERS = ("asked", "answered", "confirmed", "checked", "broken", "worst error")
 
 
 @dataclass(frozen=True)
-class Promise:
+class Promise(OneRow):
     """A task: an answer within a wanted error.
 
     Its row is the answer's; measures has besides those: points, and the error as three grids show it.
@@ -36,7 +36,6 @@ class Promise:
     quantity: str
     wanted: float
     work: float = 1e8
-    keeps_fields = False
     packages = ("scene", "bem3d", __name__)
 
     @property
@@ -62,18 +61,10 @@ class Promise:
                 warnings.simplefilter("ignore", Unconfirmed)
                 choice = BEM.for_accuracy(self.scene, **{self.quantity: self.wanted})
         except (SolveError, ValueError) as reason:
-            return Outcome((Row(reason=str(reason)),))
+            return self.failed(str(reason))
         found, error = row(choice.result), choice.error[self.quantity]
         more = {"points": float(choice.solver.points), "shown": error if isfinite(error) else nan}
         return Outcome((replace(found, measures={**found.measures, **more}),))
-
-    def failed(self, reason: str) -> Outcome:
-        """One row, with the reason."""
-        return Outcome((Row(reason=reason),))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """One row."""
-        return len(outcome.rows) == 1
 
 
 def asked() -> Iterator[Promise]:
