@@ -34,7 +34,7 @@ SPHERE = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0))
 @pytest.mark.parametrize("pressed", ["load", "depth"])
 def test_nineteen_of_twenty_errors_are_within_what_is_stated(pressed):
     # 120 contacts: at a rate of 95 % fewer than 105 hold once in 2,000 times.
-    draw, held = np.random.default_rng(20), []
+    draw, errors, stated = np.random.default_rng(20), [], []
     for seed in range(120):
         body = (Sphere(radius=1e-2), Cone(angle=0.1), PowerLaw(coefficient=1e8, exponent=4.0))[seed % 3]
         rough = replace(
@@ -44,9 +44,11 @@ def test_nineteen_of_twenty_errors_are_within_what_is_stated(pressed):
         scene = Scene(body, SOLIDS[seed % 2], motion, rough if seed % 4 else None)
         points, extent = int(10 ** draw.uniform(2, 3.3)), 1.2e-2
         answer, finer = (MDR(points=times * points, extent=extent).solve(scene) for times in (1, 12))
-        error = abs(answer.friction_coefficient / finer.friction_coefficient - 1)
-        held.append(error * 144 / 143 <= answer.measures["friction_error"])
-    assert sum(held) >= 105
+        errors.append(abs(answer.friction_coefficient / finer.friction_coefficient - 1) * 144 / 143)
+        stated.append(answer.measures["friction_error"])
+    assert np.count_nonzero(np.array(errors) <= stated) >= 105
+    # Nor is it a bound that anything would keep.
+    assert np.median(stated) < 4 * np.median(errors)
 
 
 @pytest.mark.parametrize("solid", SOLIDS)
