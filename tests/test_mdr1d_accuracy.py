@@ -47,8 +47,9 @@ def test_nineteen_of_twenty_errors_are_within_what_is_stated(pressed):
         errors.append(abs(answer.friction_coefficient / finer.friction_coefficient - 1) * 144 / 143)
         stated.append(answer.measures["friction_error"])
     assert np.count_nonzero(np.array(errors) <= stated) >= 105
-    # Nor is it a bound that anything would keep.
-    assert np.median(stated) < 4 * np.median(errors)
+    # Nor is it a bound that anything would keep: four times the error over all kinds (docs/promises.md), and the
+    # median of 120 of them scatters by a tenth.
+    assert np.median(stated) < 5 * np.median(errors)
 
 
 @pytest.mark.parametrize("solid", SOLIDS)
