@@ -86,6 +86,8 @@ class Names:
             if not isinstance(kind, str) or kind not in mapping:
                 return {"type": "object"}
             return self._node({"$ref": mapping[kind]}, content)
+        if "properties" in node:  # choices beside them say which go together
+            return node
         if choices := node.get("anyOf") or node.get("oneOf"):
             wanted = "object" if isinstance(content, dict) else "array" if isinstance(content, list) else None
             every = [self._node(each, content) for each in choices]

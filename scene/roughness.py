@@ -1,14 +1,26 @@
 """Roughness: a self-affine spectrum, from which each solver draws its own surface, plain waves, or a map."""
 
 from itertools import pairwise
-from math import pi, sqrt
-from typing import Annotated, Literal
+from math import inf, pi, sqrt
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Finite, Length, LengthOrZero, Whole, takes
+from .printable import brief
+from .quantities import (
+    CLOSED,
+    METRE,
+    RADIAN_PER_METRE,
+    Finite,
+    Length,
+    LengthOrZero,
+    NonNegative,
+    Whole,
+    by_name,
+    takes,
+)
 from .topography import Topography
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -34,10 +46,22 @@ def power_integral(exponent, lower, upper):
     return lower**p * (np.expm1(p * ratio) / p if p else ratio)
 
 
+_SLOPE = TypeAdapter(NonNegative)
+
+
+def _or_slope(schema: dict[str, Any]) -> None:
+    """In JSON schema: a slope in place of the height."""
+    schema["properties"] |= {
+        "rms_slope": _SLOPE.json_schema() | {"description": "in place of rms_height: rms of the full gradient"}
+    }
+    schema["required"].remove("rms_height")
+    schema["oneOf"] = [{"required": ["rms_height"]}, {"required": ["rms_slope", "shortest"]}]
+
+
 _of_waves = takes(**dict.fromkeys(("q", "q_max", "lower", "upper"), RADIAN_PER_METRE))
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
+@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_slope), kw_only=True)
 class SelfAffine:
     """Randomly rough, isotropic, self-affine between two wavelengths.
 
@@ -52,6 +76,9 @@ class SelfAffine:
         Gaussian variables of the same mean square, so that heights are a Gaussian process and the rms height of a
         surface scatters
 
+    In place of rms_height `rms_slope` may be stated, the spectral rms of the full gradient [1], with `shortest`: it
+    becomes the rms_height that has it.
+
     Spectra are two-sided: <h^2> = 2 int_0^inf C_1D dq = 2 pi int_0^inf q C_2D dq. A line has the spectrum of the
     method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the full
     gradient, or that of a line scan.
@@ -65,6 +92,36 @@ class SelfAffine:
     seed: Annotated[Whole, Field(ge=0)] = 0
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["self-affine"] = Field(default="self-affine", repr=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_the_slope(cls, given: Any) -> Any:
+        stated = by_name(given)
+        if stated is None or "rms_slope" not in stated:
+            return given
+        stated = dict(stated)
+        said = f"rms_slope = {brief(repr(slope := stated.pop('rms_slope')))}"
+        if "rms_height" in stated:
+            raise ValueError(f"{said} beside rms_height = {brief(repr(stated['rms_height']))}: give one of them")
+        try:
+            slope = _SLOPE.validate_python(slope)
+        except ValidationError as error:
+            why = error.errors()[0]["msg"].removeprefix("Value error, ")
+            raise ValueError(f"{said}: {why}, the rms of the full gradient, a number without a unit") from None
+        try:
+            unit = cls(**stated, rms_height=1.0)
+        except ValidationError:
+            return stated | {"rms_height": 1.0}  # for the mistakes to be told of the fields that have them
+        if unit.shortest is None:
+            raise ValueError(
+                f"{said} without shortest: the cut-off would be that of each solver's grid, and so would the "
+                "height; state shortest, the shortest wavelength, or rms_height in place of rms_slope"
+            )
+        steepness = unit.rms_slope(unit.q_max(0.0))
+        height = slope / steepness if 0 < steepness < inf else inf
+        if not height < inf or (slope and not height):
+            raise ValueError(f"{said}: its rms height is beyond the range of numbers")
+        return stated | {"rms_height": height}
 
     @model_validator(mode="after")
     def _wavelengths_in_order(self):
