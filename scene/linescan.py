@@ -28,6 +28,7 @@ UNKNOWNS = 4
 TAPERS = 3
 # Waves in the line that are a bin each, of which levelling takes something; and those that leak into others.
 LOW, REACH, STEP = 12, 24, 0.25
+SMEARED = 2  # of a wave alone and its neighbours: measured, for intervals of the rms height to hold
 FINE = 1024  # points on which the leakage of the lowest waves is found
 TINY = 1e-300  # of a law beyond its end
 FOLDS = 4  # periods of the lattice of points over which a law beyond the spacing is followed
@@ -149,6 +150,8 @@ def _bins(count, degree, periodic):
     # Neighbours share what a taper smears: in the sum over many of them.
     shared = 1.0 if periodic else 1 + 1 / (2 * TAPERS)
     freedoms = 2 * number / shared
+    if not periodic:
+        freedoms[u <= LOW] /= SMEARED
     freedoms = 1 / (1 / freedoms + COARSE**2 / 2)
     u_low = np.maximum(np.arange(REACH / STEP) * STEP, 1e-3)
     if periodic:
