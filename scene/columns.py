@@ -13,6 +13,7 @@ from .quantities import KELVIN, Unit
 from .sheet import Sheet, named
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
+_MARKS = str.maketrans(',;|"', "    ")
 _SIGNS = str.maketrans("’‘′`´″”“", "''''''\"\"")
 # As they stand in headings of temperatures alone: elsewhere they are other units.
 _DEGREES = {"C": "degC", "c": "degC", "F": "degF", "deg. C": "degC", "deg C": "degC", "º C": "degC", "ºC": "degC"}
@@ -80,7 +81,7 @@ def joined(sheets: Sequence[Sheet]) -> Sheet:
             raise ValueError(
                 f"{first.name} has two tables, from line {first.lines[0]} and from line {each.lines[0]} on: keep one"
             )
-        if each.unread:
+        if each.unread and not each.commented:
             raise ValueError(
                 f"{each.name}, line {each.lines[0] - 1}: {brief(repr(each.unread))} parts two tables: keep one"
             )
@@ -177,8 +178,8 @@ def _by_place(sheet, wanted, positional):
 
 
 def _speaks_of(text, name):
-    words = f" {' '.join(_plain(text).casefold().replace(',', ' ').replace(';', ' ').split())} "
-    return len(name) > 1 and f" {_plain(name).casefold()} " in words
+    words = f" {' '.join(_plain(text).casefold().translate(_MARKS).split())} "
+    return f" {_plain(name).casefold()} " in words
 
 
 def _spoken_unit(text, wanted):

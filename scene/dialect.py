@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from math import nan
 
-NUMBER, EMPTY, WORD, BAD = "NEWB"  # kinds of cells; bad is what has digits and is no number
+NUMBER, EMPTY, WORD, BAD = "NEWB"  # kinds of cells; bad is what begins as a number and is none
 BLANK = " "
 # In the order in which a separator that stands in every row excludes those after it.
 STRONG = "\t;|"
@@ -41,7 +41,7 @@ class Dialect:
     def cells(self, line: str) -> list[str]:
         """Cells of a line, without the blanks around them; with a separator of one letter quotes hold one together."""
         if self.separator == BLANK:
-            return [each[1:-1] if _quoted(each) else each for each in line.split()]
+            return list(map(unquoted, line.split()))
         if '"' not in line:
             return [each.strip() for each in line.split(self.separator)]
         reader = csv.reader([line], delimiter=self.separator, skipinitialspace=True)
@@ -52,18 +52,19 @@ class Dialect:
         return self.separator != "," or f'"{cell}"' in line
 
     def kind(self, cell: str) -> str:
-        """Whether a cell is a number, says that there is none, is a word, or none of these."""
+        """Whether a cell is a number, says that there is none, is a word, or begins as a number and is none."""
         if _number(self.decimal).fullmatch(cell):
             # No program writes 05; where a decimal comma is taken for a separator it stands.
             zero = self.separator == "," and self.decimal == "." and re.fullmatch(r"[+-]?0\d+", cell)
             return BAD if zero else NUMBER
         if _NOT_MEASURED.fullmatch(cell):
             return EMPTY
-        if "\t" in cell or ";" in cell:
-            return BAD
-        if _MOMENT.fullmatch(cell) or any(map(str.isalpha, cell)):
+        if _MOMENT.fullmatch(cell):
             return WORD
-        return BAD if any(map(str.isdigit, cell)) else WORD
+        numeric = cell[0].isdigit() or cell[0] in "+-.,"
+        if numeric and ("\t" in cell or ";" in cell):
+            return BAD  # a stronger separator stands in it
+        return BAD if numeric and not any(map(str.isalpha, cell)) else WORD
 
     def kinds(self, cells: Sequence[str]) -> str:
         """Kinds of cells, a letter each."""
@@ -103,5 +104,6 @@ def thousands(cells: Sequence[str]) -> str | None:
     return commas[0] if commas and all(map(_THOUSAND.fullmatch, commas)) else None
 
 
-def _quoted(cell):
-    return len(cell) > 1 and cell[0] == cell[-1] == '"'
+def unquoted(cell: str) -> str:
+    """A cell without the quotes around it; a doubled quote within them is one."""
+    return cell[1:-1].replace('""', '"') if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell
