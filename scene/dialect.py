@@ -16,7 +16,10 @@ _NOT_MEASURED = re.compile(r"[+-]?(?:nan|na|n/a|n\.a\.|null|none|bad|no ?data|-+
 # Marks of spreadsheets and of old compilers for what is no number; a # in them begins no comment.
 _SPREADSHEET = re.compile(r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])")
 _CODE = re.compile(r"\s#.*")  # a comment after numbers
-_MOMENT = re.compile(r"\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}(?:[ T]\d{1,2}:.*)?|\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?")
+_MOMENT = re.compile(
+    r"(?:\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2}))(?:[ T]+\d{1,2}:.*)?"
+    r"|\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?"
+)
 _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _MINUS = str.maketrans("−‐‑–", "----")
 
@@ -40,12 +43,11 @@ class Dialect:
 
     def cells(self, line: str) -> list[str]:
         """Cells of a line, without the blanks around them; with a separator of one letter quotes hold one together."""
-        if self.separator == BLANK:
-            return list(map(unquoted, line.split()))
         if '"' not in line:
-            return [each.strip() for each in line.split(self.separator)]
-        reader = csv.reader([line], delimiter=self.separator, skipinitialspace=True)
-        return [each.strip() for each in next(reader)]
+            return line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
+        if self.separator == BLANK:
+            line = " ".join(line.split())
+        return [each.strip() for each in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
 
     def fits(self, line: str, cell: str) -> bool:
         """Whether a decimal comma in a cell is no separator: it stands in quotes, or another letter separates."""
@@ -61,10 +63,8 @@ class Dialect:
             return EMPTY
         if _MOMENT.fullmatch(cell):
             return WORD
-        numeric = cell[0].isdigit() or cell[0] in "+-.,"
-        if numeric and ("\t" in cell or ";" in cell):
-            return BAD  # a stronger separator stands in it
-        return BAD if numeric and not any(map(str.isalpha, cell)) else WORD
+        first = cell.lstrip('"')[:1]
+        return BAD if first.isdigit() or first in ("+", "-", ".", ",") else WORD
 
     def kinds(self, cells: Sequence[str]) -> str:
         """Kinds of cells, a letter each."""

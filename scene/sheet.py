@@ -280,17 +280,30 @@ class _Reading:
         whole = [self.lines[each].strip() if text is None else text for each, text in zip(said, texts, strict=True)]
         if not said:
             return (), (), [], False, ""
-        parts, *above = self._parted(whole[-1]), *whole[:-1]
-        if parts and above and (names := self._parted(above[-1])) and _are_units(parts):
-            pairs, units = [named(each) for each in names], [_unit(each) for each in parts]
+        # The lowest line of as many cells as columns; below it there may be rulers and remarks.
+        places = [k for k, text in enumerate(whole) if self._names(text)]
+        unread = [text for text, remark in zip(whole, texts, strict=True) if remark is None][-1:]
+        if not places:
+            stated = not unread or _STATEMENT.fullmatch(unread[0])
+            return (), (), whole, texts[-1] is not None, "" if stated else unread[0]
+        place = places[-1]
+        parts, below = self._parted(whole[place]), whole[place + 1 :]
+        remark = texts[place] is not None
+        last = "" if all(text is not None for text in texts[place + 1 :]) else unread[0]
+        if len(places) > 1 and places[-2] == place - 1 and _are_units(parts):
+            pairs, units = [named(each) for each in self._parted(whole[place - 1])], [_unit(each) for each in parts]
             if any(own and unit not in ("", "-", own) for (_, own), unit in zip(pairs, units, strict=True)):
-                raise _Mistake(f"{self.name}, line {said[-1] + 1}: units beside those of the heading: state them once")
+                where = f"{self.name}, line {said[place] + 1}"
+                raise _Mistake(f"{where}: units beside those of the heading: state them once")
             units = [own or unit for (_, own), unit in zip(pairs, units, strict=True)]
-            return tuple(name for name, _ in pairs), tuple(units), above[:-1], texts[-2] is not None, ""
-        stated = _STATEMENT.fullmatch(whole[-1])
-        if parts and not (stated and len(parts) == 1):
-            return (*zip(*map(named, parts), strict=True), above, texts[-1] is not None, "")
-        return (), (), whole, texts[-1] is not None, "" if stated else whole[-1]
+            return tuple(name for name, _ in pairs), tuple(units), whole[: place - 1] + below, remark, last
+        return (*zip(*map(named, parts), strict=True), whole[:place] + below, remark, last)
+
+    def _names(self, line):
+        """Whether a line may be a heading, or the units of one."""
+        parts = self._parted(line)
+        stated = _STATEMENT.fullmatch(line) and (len(parts) == 1 or self.dialect.separator == BLANK)
+        return parts and not stated and any(map(str.isalpha, line))
 
     def _parted(self, line):
         """Cells of a heading, as many as columns; none where it has not as many."""
@@ -303,10 +316,10 @@ class _Reading:
             for cells in (plainly, Dialect(separator, ".").cells(line)):
                 if len(cells) == width and (width > 1 or not any(map(line.count, STRONG))):
                     return [self._as_point(each) for each in cells]
-        for blanks in _BLANKS if self.dialect.separator == BLANK else ():
-            cells = blanks.split(line.strip())
-            if len(cells) == width:
-                return [unquoted(each) for each in cells]
+        if self.dialect.separator == BLANK:
+            for cells in (*(blanks.split(line.strip()) for blanks in _BLANKS), self.dialect.cells(line)):
+                if len(cells) == width:
+                    return [self._as_point(unquoted(each)) for each in cells]
         return []
 
     def _as_point(self, cell):
@@ -322,8 +335,9 @@ class _Reading:
                 continue
             if each == gap[0] > 0:
                 self._refuse(each)  # no blank line parts it from the rows above
-            kinds = self.dialect.kinds(self.dialect.cells(line))
-            if not (NUMBER in kinds or BAD in kinds) or _STATEMENT.fullmatch(line):
+            cells = self.dialect.cells(line)
+            kinds = self.dialect.kinds(cells)
+            if not any(map(_like_a_number, kinds, cells)) or _STATEMENT.fullmatch(line):
                 continue
             axes = len(kinds) == len(self.form) and set(kinds[1:]) == {NUMBER}
             lowest = each == said[-1]
@@ -339,6 +353,10 @@ class _Reading:
             raise _Mistake(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number")
         count = f"{len(cells)} column{'s' * (len(cells) != 1)}, and other rows have {len(form)}"
         raise _Mistake(f"{where}: {count}: {brief(repr(self.lines[number].strip()))}")
+
+
+def _like_a_number(kind, cell):
+    return kind == NUMBER or (kind == BAD and not any(map(str.isalpha, cell)))
 
 
 def _unit(cell):
