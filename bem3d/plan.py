@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import ceil, log10
 from pathlib import Path
 
-from scene import Indent, Measured, Plane, Program, Scene, SelfAffine, Slide
+from scene import Indent, Measured, Plane, Profile, Program, Scene, SelfAffine, Slide
 from scene.costs import at_tolerance, expected, not_known
 from scene.indenter import Axisymmetric
 from scene.plan import PIECE, Array, Kernel, Modes, Plan, by, left_out
@@ -24,7 +24,7 @@ from .upstream import left_behind, wider_grids
 
 EFFECTS = Path(__file__).with_name("effects.csv")
 # What was measured. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
-PRICED = (Axisymmetric, Linear, Indent, Slide, SelfAffine)
+PRICED = (Axisymmetric, Linear, Indent, Slide, SelfAffine, Profile)
 HOW = "medians of solves to 1e-7 on the machine where they were measured"
 TIGHT = 1e-7
 LEFT_OUT = {

@@ -6,7 +6,7 @@ from math import isqrt
 import numpy as np
 from scipy.fft import ifft, irfft
 
-from scene import CrossedWaves, SelfAffine, SolveError, Topography
+from scene import CrossedWaves, Profile, SelfAffine, SolveError, Topography
 from scene.waves import MOST_WAVES, Waves
 
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
@@ -26,6 +26,8 @@ class RoughSurface:
         """The surface of a scene's roughness, with the cut-off q_max [rad/m] where it has a spectrum."""
         if isinstance(roughness, SelfAffine):
             return cls.draw(roughness, q_max)
+        if isinstance(roughness, Profile):
+            return cls.draw(roughness.fitted, q_max)
         if isinstance(roughness, Topography):
             return cls(roughness.waves if roughness.seed == 0 else roughness.waves.moved(*roughness.shift))
         amplitudes = np.zeros((3, 2), complex)

@@ -10,6 +10,7 @@ from scene import (
     Layer,
     Measured,
     Plane,
+    Profile,
     Program,
     SelfAffine,
     Shear,
@@ -25,7 +26,7 @@ from .heating import HeatedContact
 from .layer import LayerTerm
 from .tangential import Drawn, Interface
 from .term import Term
-from .topography import MeasuredRoughness
+from .topography import FittedRoughness, MeasuredRoughness
 
 __all__ = ["TERMS", "Term"]
 
@@ -43,6 +44,7 @@ TERMS: Table = {
     Wave: Term,
     Layer: LayerTerm,
     Topography: MeasuredRoughness,
+    Profile: FittedRoughness,
     WLF: Term,
     Arrhenius: Term,
     Heating: HeatedContact,

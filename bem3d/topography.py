@@ -1,6 +1,8 @@
-"""Roughness that was measured, as boundary elements take it up: the waves of its map, where they fit."""
+"""Roughness that was measured, as boundary elements take it up: a map by its waves, a line by a fitted surface."""
 
 from scene import Plane, Scene
+from scene.plan import said
+from scene.waves import MOST_WAVES
 
 from .term import Term
 
@@ -21,3 +23,22 @@ class MeasuredRoughness(Term):
                 "cell of a Plane is a square: crop the map"
             )
         return reasons
+
+
+class FittedRoughness(Term):
+    """A measured line as the isotropic surface that is fitted to it."""
+
+    @property
+    def says(self) -> str:
+        """The line, and the surface that is solved."""
+        return f"{said(self.part)} by {said(self.part.fitted)}"
+
+    def refusals(self, scene: Scene) -> list[str]:
+        """Reasons to refuse surfaces with more waves than fit in memory."""
+        waves = self.part.longest / self.part.shortest
+        if waves < MOST_WAVES + 1:
+            return []
+        return [
+            f"roughness = Profile has {waves:.0f} waves a side, {MOST_WAVES} fit in memory: state shortest_kept = "
+            f"{1.01 * self.part.longest / MOST_WAVES:.3g} or more, or take a piece of the line"
+        ]

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene import Cylinder, EmptyContact, Measured, Plane, Scene, SolveError
+from scene import Cylinder, EmptyContact, Measured, Plane, Profile, Scene, SolveError
 from scene.heightmap import Scanned
 from scene.scales import elastic_contact
 
@@ -224,7 +224,8 @@ def _missed(scene, grid):
         f"{field}.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
         f"points = {least:.15g} would carry it, {4 * least:.15g} resolve it"
     )
-    if isinstance(rough, Scanned):
-        kept = 2 * FULLER * max(*rough.pixel, grid.pixel)
+    if isinstance(rough, Scanned | Profile):
+        own = rough.pixel if isinstance(rough, Scanned) else (rough.spacing,)
+        kept = 2 * FULLER * max(*own, grid.pixel)
         reason += f"; {field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"
     return [reason]

@@ -10,6 +10,7 @@ from typing import Any
 from matplotlib.ticker import EngFormatter
 
 from scene import Indent, Slide
+from scene.plan import by
 from scene.printable import brief
 from scene.quantities import unit_of
 from scene.reading import InvalidInput
@@ -83,7 +84,8 @@ def folders(names: Iterable[str], what: str) -> dict[str, str]:
 def _quantity(part, name):
     value = asdict(part)[name]
     if name == "heights":
-        return "of {} x {} pixels".format(*value["shape"])
+        shape = value["shape"]
+        return f"of {by(shape)} {'points' if len(shape) == 1 else 'pixels'}"
     if isinstance(value, dict):
         return f"of {len(next(iter(value.values())))} rows"
     unit, several = unit_of(type(part), name), value if isinstance(value, tuple) else (value,)

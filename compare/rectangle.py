@@ -14,7 +14,7 @@ import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Indent, Program, Scene, SelfAffine, Slide, Solver, Stage, Topography
+from scene import Indent, Program, Scene, Slide, Solver, Stage
 from scene.motion import PRESSES, Motion
 from scene.protocol import refuse
 from scene.quantities import SPEED, WHOLE, argument
@@ -90,7 +90,7 @@ class Rectangle:
     @property
     def random(self) -> bool:
         """Whether the body has draws: rough surfaces that differ by their seed."""
-        return isinstance(self.scene.roughness, SelfAffine | Topography)
+        return hasattr(self.scene.roughness, "seed")
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The scene under one load or depth, at rest or at a speed."""

@@ -1,10 +1,10 @@
 """The rough line of a scene, by whatever its roughness is."""
 
-from scene import Topography
+from scene import Profile, SelfAffine, Topography
 from scene.quantities import WHOLE, takes
-from scene.roughness import Roughness, SelfAffine
+from scene.roughness import Roughness
 
-from . import surface, topography
+from . import measuredline, surface, topography
 from .surface import Spectrum, Surface
 
 
@@ -14,6 +14,10 @@ def draw(roughness: Roughness, nodes: int, spectrum: Spectrum = "mapped") -> Sur
     match roughness:
         case Topography():
             return topography.draw(roughness, nodes, spectrum)
+        case Profile() if spectrum == "line-scan":
+            return measuredline.draw(roughness, nodes)
+        case Profile():
+            return surface.draw(roughness.fitted, nodes)
         case SelfAffine():
             return surface.draw(roughness, nodes, spectrum)
     raise TypeError(f"roughness = {type(roughness).__name__}: no line stands for it")

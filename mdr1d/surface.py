@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 from scipy.fft import irfft
 
-from scene import Topography
+from scene import Profile, SelfAffine, Topography
 from scene.quantities import BARE, takes
-from scene.roughness import Roughness, SelfAffine
+from scene.roughness import Roughness
 
 # Of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
 Spectrum = Literal["mapped", "line-scan"]
@@ -50,8 +50,10 @@ def band_of(roughness: Roughness, spectrum: Spectrum = "mapped") -> Band:
     """Band of a line that stands for a scene's roughness.
 
     A measured map has waves in all directions, the shortest of them across its pixels' corners; its rows have
-    those along x.
+    those along x. A measured line has its own as a line scan, and else those of the surface fitted to it.
     """
+    if isinstance(roughness, Profile) and spectrum == "line-scan":
+        return Band(roughness.side, roughness.side / roughness.top)
     if not isinstance(roughness, Topography):
         return Band(roughness.longest, roughness.shortest)
     (side_x, side_y), (top_x, top_y) = roughness.sides, roughness.tops
@@ -63,7 +65,7 @@ def band_of(roughness: Roughness, spectrum: Spectrum = "mapped") -> Band:
     return Band(period, period / int(period * highest + 0.5))
 
 
-def nodes_needed(roughness: SelfAffine | Topography, spectrum: Spectrum = "mapped") -> int:
+def nodes_needed(roughness: Roughness, spectrum: Spectrum = "mapped") -> int:
     """Nodes in a period that the shortest wave asks for."""
     return band_of(roughness, spectrum).nodes
 
@@ -104,6 +106,16 @@ class Surface:
         """rms slope of the sum of waves [1]; finite differences cut the shortest ones short."""
         k = np.arange(1, self.amplitudes.size + 1)
         return 2 * pi / self.period * sqrt(np.sum(np.square(k * self.amplitudes)) / 2)
+
+
+def through(waves: np.ndarray, nodes: int, band: Band) -> Surface:
+    """The line of complex amplitudes of the waves k = 1, 2, ... (K,) [m] on so many nodes a period."""
+    spread = np.zeros(nodes // 2 + 1, complex)
+    spread[1 : waves.size + 1] = waves / 2
+    if 2 * waves.size == nodes:
+        spread[-1] = waves[-1].real
+    heights = np.fft.irfft(spread, n=nodes, norm="forward")
+    return Surface(heights, band.period / nodes, np.abs(waves), band.shortest or nan)
 
 
 @takes(bandwidth=BARE)

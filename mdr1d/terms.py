@@ -10,6 +10,7 @@ from scene import (
     Layer,
     Measured,
     Plane,
+    Profile,
     Program,
     SelfAffine,
     Shear,
@@ -22,6 +23,7 @@ from scene.terms import Table, lacking
 from scene.viscoelastic import Linear
 
 from .heating import HeatedContact
+from .measuredline import FittedRoughness
 from .tangential import Drawn, Interface
 from .term import Term
 from .topography import MeasuredRoughness
@@ -54,6 +56,7 @@ TERMS: Table = {
     SelfAffine: Term,
     Wave: NOT_ISOTROPIC,
     Topography: MeasuredRoughness,
+    Profile: FittedRoughness,
     Layer: NO_LAYER,
     WLF: Term,
     Arrhenius: Term,

@@ -8,7 +8,7 @@ import numpy as np
 
 from scene import Scene, Topography
 
-from .surface import Band, LineFamily, Spectrum, Surface, band_of
+from .surface import Band, LineFamily, Spectrum, Surface, band_of, through
 from .term import Term
 
 
@@ -56,9 +56,4 @@ def _row(topography: Topography, nodes: int, band: Band) -> Surface:
     # The middle of an even number of rows lies between two: it is the upper one.
     y = (count // 2 + rows - (count - 1) / 2) * topography.pixel[1]
     found = waves.row(y) * np.exp(1j * waves.along_x[1:] * columns * topography.pixel[0])
-    spread = np.zeros(nodes // 2 + 1, complex)
-    spread[1 : found.size + 1] = found / 2
-    if 2 * found.size == nodes:
-        spread[-1] = found[-1].real
-    heights = np.fft.irfft(spread, n=nodes, norm="forward")
-    return Surface(heights, band.period / nodes, np.abs(found), band.shortest or nan)
+    return through(found, nodes, band)

@@ -8,12 +8,14 @@ from .layer import Layer
 from .measured import Measured
 from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
+from .profile import Profile
 from .protocol import EmptyContact, OutOfMemory, Refused, SolveError, Solver
 from .regime import Regime
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
-from .roughness import CrossedWaves, SelfAffine, Wave
+from .roughness import CrossedWaves, Wave
 from .scene import Scene
+from .selfaffine import SelfAffine
 from .table import Table, read_table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius
@@ -39,6 +41,7 @@ __all__ = [
     "Plan",
     "Plane",
     "PowerLaw",
+    "Profile",
     "Program",
     "Prony",
     "Refused",

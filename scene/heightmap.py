@@ -40,18 +40,21 @@ class HeightMap:
         @property
         def heights(self) -> np.ndarray: ...
 
+    _check = staticmethod(check_layout)
+
     def __init__(self, heights):
         if np.ma.is_masked(heights):
             raise ValueError(f"{np.ma.count_masked(heights)} pixels have no height: fill them in, or crop the map")
         values = np.asarray(METRE.values(heights))
-        check_layout(values.shape, values.dtype)
+        self._check(values.shape, values.dtype)
         with np.errstate(over="ignore"):  # beyond the range of numbers is not finite
             # A copy of our own, with one zero.
             values = np.asarray(values, float) + 0.0
         if not np.isfinite(values).all():
-            row, column = np.argwhere(~np.isfinite(values))[0]
+            place = tuple(np.argwhere(~np.isfinite(values))[0])
+            where = "".join(f"[{k}]" for k in place)
             raise ValueError(
-                f"heights[{row}][{column}] = {values[row, column]:g}: every pixel needs a finite height, fill in "
+                f"heights{where} = {values[place]:g}: every pixel needs a finite height, fill in "
                 "what was not measured, or crop the map"
             )
         most = max(values.max(), -values.min())
@@ -70,7 +73,7 @@ class HeightMap:
             object.__setattr__(self, name, value)
 
     def __reduce__(self):
-        return HeightMap, (self.heights,)
+        return type(self), (self.heights,)
 
 
 def _as_map(value):

@@ -1,12 +1,12 @@
 """The self-affine law in a measured line: which isotropic surface it was cut from, and how surely that is known.
 
-A line scan has the spectrum C_1D(q) = 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds of its surface. C_2D is sought among laws
-that are flat up to a roll-off and fall from there as q^(-2H - 2) to a cut-off; beyond it the spectrum of the line is
-whatever it is, as of noise. The periodogram is that of three sine tapers, Riedel and Sidorenko, IEEE Trans. Signal
-Process. 43, 188 (1995). Every law is compared as it would come out: cut to the line's length, levelled, tapered, and
-folded where it goes on beyond the spacing. Ordinates of a Gaussian line are chi square; all laws of a lattice are
-weighed by that, and intervals are quantiles of these weights. A line that scatters more about every law than it
-should is weighed at its own scatter.
+A line scan has the spectrum C_1D(q) = 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds of its surface. C_2D is sought among
+laws that are flat up to a roll-off and fall from there as q^(-2H - 2) to a cut-off; beyond it the line may have
+any spectrum, like that of noise. The periodogram is that of three sine tapers, Riedel and Sidorenko, IEEE Trans.
+Signal Process. 43, 188 (1995). Every law is compared after what happens to a line of it: cut to its length,
+levelled, tapered, and folded where it goes on beyond the spacing. Ordinates of a Gaussian line are chi square; all
+laws of a lattice are weighed by that, and intervals are quantiles of these weights. A line that scatters more
+about every law than it should is weighed at its own scatter.
 
 Wave numbers here are waves u in the length of the line: <h^2> = 2 int c du = 2 pi int u C_2D du.
 """
@@ -48,7 +48,8 @@ class Interval:
 class LineLaw:
     """Self-affine law of the surface that a line was cut from, each number with its interval of 95 %.
 
-    hurst, rms_height [m], rms_slope : of the surface, the slope that of the full gradient, waves up to `length` long
+    hurst : Hurst exponent
+    rms_height, rms_slope : of the surface with waves up to `length` [m], of the full gradient [1]
     rolloff, shortest : wavelengths [m]; a roll-off as long as the line is one that it does not show
     length : of the line, the longest wave that it tells of [m]
     cutoff : whether the spectrum ends within what the spacing resolves
@@ -119,7 +120,9 @@ class _Bins:
 
     starts : first wave of each bin less one (B,); u : of their centres (B,)
     freedoms : of the chi square of each (B,)
-    leaked : shares (B, J) of the waves u_low (J,) in each bin, by tapers and levelling; own : share of its own (B,)
+    leaked : shares (B, J) of the waves u_low (J,) in each bin, by tapers and levelling
+    own : share of its own waves (B,)
+    nyquist : waves of two spacings
     """
 
     starts: np.ndarray
@@ -234,7 +237,7 @@ class _Laws:
         return deviance, amplitude
 
     def _lines(self, hurst):
-        """Lines of unit plateaus without a cut-off, plain and folded (2, R, B), and of tails of unit falls (Q, B)."""
+        """Lines of unit plateaus without a cut-off, plain and folded (2, R, B); of tails of unit falls (Q, B)."""
         bins, rolloffs, cutoffs = self._bins, self.rolloffs[:, None], self.cutoffs[:, None]
         fall, folds = rolloffs ** (2 * hurst + 2), self._folds.astype(bool)
 

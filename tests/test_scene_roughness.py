@@ -9,7 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 from scene import CrossedWaves, SelfAffine, Wave
-from scene.roughness import power_integral
+from scene.selfaffine import power_integral
 
 ROUNDING = 1e-12
 # Of the directions of a line scan: measured 5e-14 on two decades.

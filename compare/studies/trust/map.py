@@ -46,6 +46,7 @@ def regime_table(
     """
     if reasons := verdict.unmeasured(family):
         raise ValueError("; ".join(reasons))
+    family = verdict.as_judged(family)
     rows: list[tuple[float, ...]] = []
     for memory in memories:
         speed = memory / (mean_lag(family.solid) * family.roughness.q_max(0.0))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from scene import Cone, Indent, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, markup
+from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, SolveError, Sphere, markup
 
 from . import shipped, table
 from .groups import LINE, SPACE, Groups, Smooth
@@ -29,6 +29,7 @@ SMALL, WIDE = 0.05, 0.15
 # Of the range of a group, what may be missing to it.
 SLACK = 0.02
 NEAREST = 3
+FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."
 NOTHING = "One surface says nothing: single surfaces differ by as much as their mean."
 HEADINGS = "quantity", "ratio", "low", "high", "surface_low", "surface_high", "advice", "reason"
 # Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
@@ -148,7 +149,12 @@ class Trust:
 
 
 def trust(scene: Scene) -> Trust:
-    """Worth of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved."""
+    """Worth of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved.
+
+    A measured line is judged as the surface that is fitted to it.
+    """
+    if isinstance(scene.roughness, Profile):
+        return _of_fit(trust(as_judged(scene)))
     if reasons := unmeasured(scene):
         return _unknown(scene, f"Off the map: {'; '.join(reasons)}.")
     try:
@@ -169,8 +175,21 @@ def trust(scene: Scene) -> Trust:
     return Trust(**_all(worths), groups=named, nearest=tuple(_nearest(asked[0], place)))
 
 
+def as_judged(scene: Scene) -> Scene:
+    """The scene with the surface that is fitted to a measured line in its place."""
+    rough = scene.roughness
+    return replace(scene, roughness=rough.fitted) if isinstance(rough, Profile) else scene
+
+
+def _of_fit(found):
+    """Worths with what a fit adds to their uncertainty."""
+    told = {name: replace(worth, reason=f"{worth.reason} {FITTED}") for name, worth in found.worths.items()}
+    return replace(found, **told)
+
+
 def unmeasured(scene: Scene) -> list[str]:
     """Parts of a scene that were never measured, a reason each; empty if all were."""
+    scene = as_judged(scene)
     reasons = [
         f"{name} = {type(part).__name__} was not measured" for name in NEVER if (part := getattr(scene, name))
     ]
