@@ -25,6 +25,7 @@ FALLING = 4  # bins over which a law falls, at least
 COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices leave
 UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
 UNKNOWNS = 4
+FOREIGN = 10.0  # mean square of a line over that of its law, or the other way, from which the law is none of it
 TAPERS = 3
 # Waves in the line that are a bin each, of which levelling takes something; and those that leak into others.
 LOW, REACH, STEP = 12, 24, 0.25
@@ -54,6 +55,7 @@ class LineLaw:
     length : of the line, the longest wave that it tells of [m]
     cutoff : whether the spectrum ends within what the spacing resolves
     follows : whether the line scatters about the law no more than a Gaussian one does
+    beyond : share of the mean square slope of the line in waves shorter than the cut-off, which are left out
     """
 
     hurst: Interval
@@ -64,6 +66,7 @@ class LineLaw:
     length: float
     cutoff: bool
     follows: bool
+    beyond: float
 
 
 def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = False) -> LineLaw:
@@ -73,7 +76,8 @@ def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = F
     degree : of the polynomial that is taken off first
     periodic : the line repeats, and is no piece of a longer one
 
-    Raises ValueError for too few or too many points, and for a line that lacks waves.
+    Raises ValueError for too few or too many points, for a line that lacks waves, and for one that is nothing like
+    any law, such as a single wave.
     """
     count = len(heights)
     if not LEAST <= count <= MOST:
@@ -118,7 +122,7 @@ def _periodogram(heights, periodic):
 class _Bins:
     """Means over waves u, the lowest each for itself.
 
-    starts : first wave of each bin less one (B,); u : of their centres (B,)
+    starts : first wave of each bin less one (B,); number : of its waves (B,); u : of their centres (B,)
     freedoms : of the chi square of each (B,)
     leaked : shares (B, J) of the waves u_low (J,) in each bin, by tapers and levelling
     own : share of its own waves (B,)
@@ -126,6 +130,7 @@ class _Bins:
     """
 
     starts: np.ndarray
+    number: np.ndarray
     u: np.ndarray
     freedoms: np.ndarray
     leaked: np.ndarray
@@ -135,7 +140,7 @@ class _Bins:
 
     def means(self, periodogram):
         """Means of a periodogram over the bins."""
-        return np.add.reduceat(periodogram, self.starts) / np.diff(self.starts, append=len(periodogram))
+        return np.add.reduceat(periodogram, self.starts) / self.number
 
 
 @lru_cache(maxsize=8)
@@ -168,7 +173,7 @@ def _bins(count, degree, periodic):
         leaked[:, 0] /= 2
         leaked *= STEP
         own = np.where(low, 0.0, np.maximum(1 - leaked.sum(axis=1), 0.0))
-    return _Bins(starts - 1, u, freedoms, leaked, u_low, own, count / 2)
+    return _Bins(starts - 1, number, u, freedoms, leaked, u_low, own, count / 2)
 
 
 def _leakage(offset):
@@ -256,6 +261,11 @@ class _Laws:
         tails[folds] += sum(beyond(u, cutoffs[folds]) for u in self._images)
         return np.stack([plain, folded]), tails
 
+    def line(self, at):
+        """The line of a law of unit plateau in the bins of its band."""
+        (whole, beyond), fall = self._lines(HURSTS[at[0]]), self.rolloffs[at[1]] ** (2 * HURSTS[at[0]] + 2)
+        return (whole[self._folds[at[2]], at[1]] - fall * beyond[at[2]])[: self.ends[at[2]]]
+
     def numbers(self, at, jitter=(0.0, 0.0, 0.0)):
         """Exponents, roll-offs and cut-offs of laws, moved by parts of a step of the lattice."""
         hurst = np.clip(HURSTS[at[0]] + jitter[0] * (HURSTS[1] - HURSTS[0]), 0, 1)
@@ -288,8 +298,14 @@ def _weighed(bins, seen, unit, length):
     laws = _Laws(bins)
     deviance, amplitude = laws.compared(seen)
     best = np.unravel_index(np.argmin(deviance), deviance.shape)
-    freedom = max(1, laws.ends[best[2]] - UNKNOWNS)
-    own = float(deviance[best] - laws.penalty * (len(seen) - laws.ends[best[2]]))
+    end, square = laws.ends[best[2]], float(bins.number @ seen)
+    if not 1 / FOREIGN < amplitude[best] * float(bins.number[:end] @ laws.line(best)) / square < FOREIGN:
+        raise ValueError(
+            "its spectrum is nothing like that of a self-affine surface, and no surface stands for it: of regular "
+            'waves take type = "wave", or measure a map'
+        )
+    freedom = max(1, end - UNKNOWNS)
+    own = float(deviance[best] - laws.penalty * (len(seen) - end))
     spread = max(1.0, own / freedom)
     random = np.random.default_rng(0)
     weights = np.cumsum(np.exp((deviance[best] - deviance.ravel()) / (2 * spread)))
@@ -302,6 +318,7 @@ def _weighed(bins, seen, unit, length):
         low, high = np.quantile(all_of_them, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
         return Interval(float(one), float(min(low, one)), float(max(high, one)))
 
+    slopes = bins.number * seen * bins.u**2
     one, root = laws.numbers(best), sqrt(amplitude[best])
     height, slope = (
         told(factor * root * np.sqrt(_moment(power, *one)), factor * scale * np.sqrt(_moment(power, *many)))
@@ -316,4 +333,5 @@ def _weighed(bins, seen, unit, length):
         length=length,
         cutoff=bool(one[2] < bins.nyquist),
         follows=bool(chdtrc(freedom, own) > UNLIKELY),
+        beyond=float(slopes[end:].sum() / slopes.sum()),
     )

@@ -160,19 +160,20 @@ class Profile:
     @property
     def fitted(self) -> SelfAffine:
         """The surface that solvers take up. Waves longer than the line are not known, and left out."""
-        law, two = self.law, 2 * self.spacing
+        law, shortest = self.law, 2 * self.spacing
         if law is None:
-            return SelfAffine(hurst=1.0, rms_height=0.0, longest=self.length, shortest=two, seed=self.seed)
+            return SelfAffine(hurst=1.0, rms_height=0.0, longest=self.length, shortest=shortest, seed=self.seed)
+        shortest = max(shortest, law.shortest.value)
         whole = SelfAffine(
             hurst=law.hurst.value,
             rms_height=law.rms_height.value,
             longest=self.length,
-            shortest=max(two, law.shortest.value),
+            shortest=shortest,
             rolloff=None if law.rolloff.value >= self.length else law.rolloff.value,
             seed=self.seed,
         )
         kept = self.shortest_kept
-        if kept is None or kept <= whole.shortest:
+        if kept is None or kept <= shortest:
             return whole
         left = whole.share(whole.q_min, 2 * pi / kept, whole.q_max(0.0))
         return replace(whole, rms_height=whole.rms_height * sqrt(left), shortest=kept)
@@ -250,8 +251,8 @@ def _told(law):
     yield (
         f"roughness is an isotropic surface fitted to a line: Hurst exponent {_said(law.hurst)}, rms height "
         f"{_said(law.rms_height, ' m')}, rms slope of the full gradient {_said(law.rms_slope)}, roll-off "
-        f"{_said(law.rolloff, ' m')}, shortest wave {_said(law.shortest, ' m')}; intervals of 95 % are those of the "
-        "fit alone"
+        f"{_said(law.rolloff, ' m')}, shortest wave {_said(law.shortest, ' m')}; intervals of 95 % are those of "
+        "the fit alone"
     )
     if law.rolloff.value < law.length:
         lengths = Interval(*(law.length / each for each in (law.rolloff.value, law.rolloff.high, law.rolloff.low)))
@@ -261,7 +262,12 @@ def _told(law):
             f"the line of {law.length:.3g} m shows no roll-off, so it is less than a correlation length: how high "
             "longer waves are is not known"
         )
-    if not law.cutoff:
+    if law.cutoff:
+        yield (
+            f"waves of the line that are shorter than the cut-off are left out: they have "
+            f"{100 * law.beyond:.2g} % of the mean square slope between its points"
+        )
+    else:
         yield "the spectrum goes on to two spacings of the line: shorter waves, and how steep, are not known"
     if not law.follows:
         yield (
