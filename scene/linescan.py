@@ -19,8 +19,8 @@ import numpy as np
 
 LEAST, MOST = 64, 2**20  # points of a line that is fitted
 LEVEL = 0.95  # of intervals
-HURSTS = np.linspace(0, 1, 51)
-PER_DECADE, FINER = 20, 40  # bins of the spectrum and roll-offs that are tried; cut-offs
+HURSTS = np.linspace(0, 1, 41)
+PER_DECADE = 20  # bins of the spectrum, and roll-offs and cut-offs that are tried
 FALLING = 4  # bins over which a law falls, at least
 COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices leave
 UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
@@ -211,7 +211,7 @@ class _Laws:
         decades = log10(bins.nyquist)
         # Both may lie beyond what the line shows.
         self.rolloffs = 10 ** (np.arange(-PER_DECADE, int(decades * PER_DECADE)) / PER_DECADE)
-        cutoffs = bins.nyquist * 10 ** (np.arange(-int(decades * FINER), FINER + 1) / FINER)
+        cutoffs = bins.nyquist * 10 ** (np.arange(-int(decades * PER_DECADE), PER_DECADE + 1) / PER_DECADE)
         ends = np.searchsorted(bins.u, cutoffs, side="right")
         enough = (ends >= max(FALLING, len(bins.u) / 3)) & (ends >= len(bins.u) - ends)
         self.cutoffs, self.ends = cutoffs[enough], ends[enough]
@@ -221,6 +221,7 @@ class _Laws:
         self._folds = (self.cutoffs > bins.nyquist).astype(int)
         period = 2 * bins.nyquist
         self._images = [number * period + sign * bins.u for number in range(1, FOLDS + 1) for sign in (-1, 1)]
+        self._lines = [self._lined(hurst) for hurst in HURSTS]
 
     def compared(self, seen):
         """Deviances and amplitudes of all laws (hurst, roll-off, cut-off)."""
@@ -230,7 +231,7 @@ class _Laws:
         weights = inside * self._bins.freedoms
         total = weights.sum(axis=1)
         for k, hurst in enumerate(HURSTS):
-            whole, beyond = self._lines(hurst)
+            whole, beyond = self._lines[k]
             fall = self.rolloffs[:, None] ** (2 * hurst + 2)
             for j, end in enumerate(self.ends):
                 law = whole[self._folds[j]][:, :end] - fall * beyond[j, :end]
@@ -241,7 +242,7 @@ class _Laws:
         deviance[:, ~self._falls] = np.inf
         return deviance, amplitude
 
-    def _lines(self, hurst):
+    def _lined(self, hurst):
         """Lines of unit plateaus without a cut-off, plain and folded (2, R, B); of tails of unit falls (Q, B)."""
         bins, rolloffs, cutoffs = self._bins, self.rolloffs[:, None], self.cutoffs[:, None]
         fall, folds = rolloffs ** (2 * hurst + 2), self._folds.astype(bool)
@@ -263,15 +264,21 @@ class _Laws:
 
     def line(self, at):
         """The line of a law of unit plateau in the bins of its band."""
-        (whole, beyond), fall = self._lines(HURSTS[at[0]]), self.rolloffs[at[1]] ** (2 * HURSTS[at[0]] + 2)
+        (whole, beyond), fall = self._lines[at[0]], self.rolloffs[at[1]] ** (2 * HURSTS[at[0]] + 2)
         return (whole[self._folds[at[2]], at[1]] - fall * beyond[at[2]])[: self.ends[at[2]]]
 
     def numbers(self, at, jitter=(0.0, 0.0, 0.0)):
         """Exponents, roll-offs and cut-offs of laws, moved by parts of a step of the lattice."""
         hurst = np.clip(HURSTS[at[0]] + jitter[0] * (HURSTS[1] - HURSTS[0]), 0, 1)
         rolloff = self.rolloffs[at[1]] * 10 ** (jitter[1] / PER_DECADE)
-        cutoff = self.cutoffs[at[2]] * 10 ** (jitter[2] / FINER)
+        cutoff = self.cutoffs[at[2]] * 10 ** (jitter[2] / PER_DECADE)
         return hurst, rolloff, np.minimum(cutoff, self._bins.nyquist)
+
+
+@lru_cache(maxsize=2)
+def _laws(bins):
+    """Laws of lines alike, which are the same whatever the heights."""
+    return _Laws(bins)
 
 
 def _tail(hurst, u, start):
@@ -295,7 +302,7 @@ def _weighed(bins, seen, unit, length):
     """The law of least deviance, with quantiles of all of them by their likelihood."""
     from scipy.special import chdtrc
 
-    laws = _Laws(bins)
+    laws = _laws(bins)
     deviance, amplitude = laws.compared(seen)
     best = np.unravel_index(np.argmin(deviance), deviance.shape)
     end, square = laws.ends[best[2]], float(bins.number @ seen)

@@ -52,7 +52,7 @@ def read_line(path: Any, spacing: Any = None, unit: str | None = None) -> Line:
     path = checked(path, MOST_BYTES)
     name = brief(str(path))
     if path.suffix.lower() == ".npy":
-        return _in_metres(name, _array(path, name), None, unit), spacing, ()
+        return _in_metres(name, _array(path, name), unit), spacing, ()
     sheets = read_sheets(path, MOST, MOST_BYTES)
     if len(sheets) > 1:
         lines = " and ".join(str(each.lines[0]) for each in sheets[:2])
@@ -112,7 +112,8 @@ def _of_sheet(sheet: Sheet, spacing, unit) -> Line:
     heights, x = found["heights"], found.get("x")
     if heights.name.casefold().endswith("depth"):
         notes += (f'{sheet.name}: {brief(repr(heights.name))} is read as heights; peaks = "down" turns them over',)
-    numbers = _in_metres(sheet.name, heights.numbers, heights, unit)
+    written = sheet.units[heights.index] if sheet.units else ""
+    numbers = _in_metres(sheet.name, heights.numbers, unit, heights, written)
     if x is None:
         return numbers, spacing, notes
     step, rising = _even(f"{sheet.name}, {x.name or 'x'}", x.numbers, sheet)
@@ -126,14 +127,14 @@ def _of_sheet(sheet: Sheet, spacing, unit) -> Line:
     return numbers if rising else numbers[::-1], spacing, notes
 
 
-def _in_metres(name, numbers, column: Chosen | None, unit):
+def _in_metres(name, numbers, unit, column: Chosen | None = None, written: str = ""):
     if unit is not None:
         plain = unit.replace("µ", "u").replace("μ", "u") if isinstance(unit, str) else unit
         if not (isinstance(plain, str) and plain in UNITS):
             raise ValueError(f"unit = {briefly(unit)}: one of {', '.join(UNITS)}")
     if column is not None and column.unit is not None:
-        if unit is not None:
-            raise ValueError(f"unit = {unit!r}: {name} states its own, leave unit out")
+        if unit is not None and METRE.scale(written)[0] != METRE.scale(plain)[0]:
+            raise ValueError(f"unit = {unit!r}: {name} states its own, {brief(written)}, leave unit out")
         return numbers
     if unit is None:
         raise ValueError(f"{name} does not state {NEEDED}")
