@@ -195,8 +195,8 @@ def _refuse_spoken_units(sheet, wanted):
         for before, word in zip(["", *words], words, strict=False):
             if not before[-1:].isdigit() and any(_of_another_size(unit, word) for unit in units):
                 raise ValueError(
-                    f"{sheet.name} speaks of {brief(word)} above its numbers, and no heading says of which column: "
-                    "write units into the heading"
+                    f"{sheet.name} speaks of {brief(word)} above its numbers, and no heading says of which "
+                    "column: write units into the heading"
                 )
 
 

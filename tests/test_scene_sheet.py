@@ -62,10 +62,12 @@ def test_a_file_in_any_dialect_is_read_as_it_was_written_or_refused(tmp_path, dr
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("draw", "read", "share"), [(draw_table, read_table, 0.7), (draw_map, read_map, 0.75)])
-def test_five_thousand_files_in_any_dialect_are_read_as_they_were_written_or_refused(tmp_path, draw, read, share):
-    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, range(1000, 6000))
-    assert sound > share * 5000
+@pytest.mark.parametrize(
+    ("draw", "read", "share", "count"), [(draw_table, read_table, 0.7, 5000), (draw_map, read_map, 0.75, 1000)]
+)
+def test_thousands_of_files_in_any_dialect_are_read_as_written_or_refused(tmp_path, draw, read, share, count):
+    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, range(1000, 1000 + count))
+    assert sound > share * count
     assert damaged == 0
 
 
