@@ -25,12 +25,15 @@ FALLING = 4  # bins over which a law falls, at least
 COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices leave
 UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
 UNKNOWNS = 4
-FOREIGN = 10.0  # mean square of a line over that of its law, or the other way, from which the law is none of it
+# From where on a law is none of a line: mean square of the line over that of its law, or the other way; and rms of
+# the logarithm of the ratio of their spectra, which scatters by 1 in the lowest bins.
+FOREIGN, SCATTERED = 10.0, 2.0
 TAPERS = 3
 # Waves in the line that are a bin each, of which levelling takes something; and those that leak into others.
 LOW, REACH, STEP = 12, 24, 0.25
 SMEARED = 2  # of a wave alone and its neighbours: measured, for intervals of the rms height to hold
 FINE = 1024  # points on which the leakage of the lowest waves is found
+NOTHING = 1e-24  # of the greatest density: rounding
 TINY = 1e-300  # of a law beyond its end
 FOLDS = 4  # periods of the lattice of points over which a law beyond the spacing is followed
 DRAWN = 4000
@@ -76,8 +79,8 @@ def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = F
     degree : of the polynomial that is taken off first
     periodic : the line repeats, and is no piece of a longer one
 
-    Raises ValueError for too few or too many points, for a line that lacks waves, and for one that is nothing like
-    any law, such as a single wave.
+    Raises ValueError for too few or too many points, and for a line that is nothing like any law, such as a single
+    wave.
     """
     count = len(heights)
     if not LEAST <= count <= MOST:
@@ -86,9 +89,7 @@ def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = F
     left = taken_off(heights / unit, degree) if unit else heights
     bins = _bins(count, degree, periodic)
     seen = bins.means(_periodogram(left, periodic))
-    if not (seen > 1e-24 * seen.max()).all():
-        raise ValueError("waves of some length are not in it at all, so there is no spectrum to fit")
-    return _weighed(bins, seen, unit, count * spacing)
+    return _weighed(bins, np.maximum(seen, NOTHING * seen.max()), unit, count * spacing)
 
 
 def taken_off(heights: np.ndarray, degree: int) -> np.ndarray:
@@ -306,7 +307,9 @@ def _weighed(bins, seen, unit, length):
     deviance, amplitude = laws.compared(seen)
     best = np.unravel_index(np.argmin(deviance), deviance.shape)
     end, square = laws.ends[best[2]], float(bins.number @ seen)
-    if not 1 / FOREIGN < amplitude[best] * float(bins.number[:end] @ laws.line(best)) / square < FOREIGN:
+    law = amplitude[best] * laws.line(best)
+    strange = float(np.sqrt(np.mean(np.log(seen[:end] / law) ** 2))) > SCATTERED
+    if strange or not 1 / FOREIGN < float(bins.number[:end] @ law) / square < FOREIGN:
         raise ValueError(
             "its spectrum is nothing like that of a self-affine surface, and no surface stands for it: of regular "
             'waves take type = "wave", or measure a map'
