@@ -11,7 +11,7 @@ from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from typing import Any
 
-from .printable import brief
+from .printable import ESCAPED, brief
 
 PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
 
@@ -100,7 +100,9 @@ def _asked(path, system, *arguments):
     try:
         return system(*arguments)
     except FileNotFoundError as error:
-        raise _unreadable(path, "no such file") from error
+        # A tabulator or the like is what TOML makes of a backslash and a letter.
+        hint = f"; {ESCAPED}" if any(map(str.isspace, str(path).replace(" ", ""))) else ""
+        raise _unreadable(path, f"no such file{hint}") from error
     except OSError as error:
         raise _unreadable(path, error.strerror or str(error)) from error
     except ValueError as error:  # of zero bytes, and of letters that no file system has
