@@ -129,6 +129,12 @@ def scale(given: str, unit: str, difference: bool = True) -> tuple[Fraction, Fra
     return one - zero, zero
 
 
+@lru_cache(maxsize=256)
+def known(given: str) -> bool:
+    """Whether a text is a unit of anything. Raises Unreadable as `in_si`."""
+    return bool(factors := _factors(_typed(given))) and _product(factors) is not None
+
+
 def _typed(text):
     """A text in the letters of a keyboard."""
     if len(text) > LONGEST:
@@ -224,10 +230,10 @@ def _meant(given, name, unit, difference):
     # Only a mistake needs it.
     from difflib import get_close_matches
 
-    alike = [known for known in KNOWN if known.casefold() == name.casefold()]
+    alike = [each for each in KNOWN if each.casefold() == name.casefold()]
     said = []
-    for known in alike or get_close_matches(name, KNOWN, n=9):
-        meant = re.sub(rf"(?<![^\W\d_]){re.escape(name)}(?![^\W\d_])", known, given.strip())
+    for each in alike or get_close_matches(name, KNOWN, n=9):
+        meant = re.sub(rf"(?<![^\W\d_]){re.escape(name)}(?![^\W\d_])", each, given.strip())
         try:
             one, zero = scale(meant, unit, difference)
         except Unreadable:
