@@ -88,9 +88,17 @@ _OTHER = (
         "viscosity eta",
         "a viscosity has no field: relaxation_time = viscosity / (glassy_modulus - rubbery_modulus)",
     ),
-    ("lowest_frequency", "viscosity eta", "a springpot has no viscosity: relaxation_time and exponent state its loss"),
+    (
+        "lowest_frequency",
+        "viscosity eta",
+        "a springpot has no viscosity: relaxation_time and exponent state its loss",
+    ),
     ("relaxation_time", "viscosity eta", "a viscosity has no field: relaxation_time = viscosity / modulus"),
-    ("relaxation_times", "viscosity viscosities eta", "a viscosity has no field: relaxation_time = viscosity / modulus"),
+    (
+        "relaxation_times",
+        "viscosity viscosities eta",
+        "a viscosity has no field: relaxation_time = viscosity / modulus",
+    ),
     (
         "modulus",
         "viscosity eta",
@@ -126,7 +134,11 @@ _OTHER = (
         "Ra Sa mean_roughness average_roughness",
         "rms_height is the root mean square, Sq or Rq; where heights are normally distributed, 1.25 Ra",
     ),
-    ("rms_height", "Rz Sz Rt Rmax peak_to_valley", "rms_height is the root mean square, Sq or Rq, several times less"),
+    (
+        "rms_height",
+        "Rz Sz Rt Rmax peak_to_valley",
+        "rms_height is the root mean square, Sq or Rq, several times less",
+    ),
     ("amplitude", "Rz Sz Rt height peak_to_valley", "amplitude is half of the height from valley to peak"),
     ("amplitude", "rms h_rms Sq Rq rms_height", "amplitude is the height of a crest above the mean, not an rms"),
     ("hurst", "D fractal_dimension", "hurst = 3 - D of a surface, 2 - D of a profile"),
@@ -135,7 +147,11 @@ _OTHER = (
     ("rolloff", "q_r qr q_rolloff", "rolloff = 2 pi / q"),
     ("wavelength", "q k wave_number wavenumber", "wavelength = 2 pi / q"),
     ("pixel", "width size extent scan_size field_of_view", "pixel is the width of the map over its columns"),
-    ("reference", "Tg T_g", "reference is where the elastomer, c1 and c2 are stated: Tg, if they are stated there"),
+    (
+        "reference",
+        "Tg T_g",
+        "reference is where the elastomer, c1 and c2 are stated: Tg, if they are stated there",
+    ),
     ("points", "dx pixel pixel_size spacing", "points = extent / pixel"),
 )
 

@@ -80,7 +80,9 @@ class Names:
 
     def takes(self, where: Place, content: Any) -> str:
         """What a name at a place takes, in words."""
-        return _WORDS.get(self._node(self._table(where[:-1], content)[str(where[-1])], {}).get("type"), "other values")
+        return _WORDS.get(
+            self._node(self._table(where[:-1], content)[str(where[-1])], {}).get("type"), "other values"
+        )
 
     def _table(self, where: Place, content) -> Mapping[str, Any]:
         node = self._node(self.schema, content)
@@ -108,7 +110,8 @@ class Names:
             if not isinstance(kind, str) or kind not in mapping:
                 return {"type": "object"}
             return self._node({"$ref": mapping[kind]}, content)
-        if choices := node.get("anyOf") or node.get("oneOf"):
+        # Choices beside names say which of them go together.
+        if "properties" not in node and (choices := node.get("anyOf") or node.get("oneOf")):
             every = [self._node(each, content) for each in choices]
             return next((each for each in every if each.get("type") in _kinds(content)), every[0])
         return node

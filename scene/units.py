@@ -71,7 +71,15 @@ _TOKEN = re.compile(
 )
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 # Letters as a keyboard has them; "m²" is m^2.
-_PLAIN = (("−", "-"), ("\N{KELVIN SIGN}", "K"), ("\N{ANGSTROM SIGN}", "Å"), ("℃", "°C"), ("℉", "°F"), ("º", "°"), ("˚", "°"))
+_PLAIN = (
+    ("−", "-"),
+    ("\N{KELVIN SIGN}", "K"),
+    ("\N{ANGSTROM SIGN}", "Å"),
+    ("℃", "°C"),
+    ("℉", "°F"),
+    ("º", "°"),
+    ("˚", "°"),
+)
 _DEGREES = re.compile(r"(?:\bdeg\.?\s+|°\s+)([CF])(?!\w)")  # as in "deg C"
 _SUPERSCRIPT = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
 

@@ -207,7 +207,9 @@ def test_a_hint_shows_every_unit_that_letters_leave_open_and_its_magnitude(text,
 
 
 @settings(deadline=None)
-@given(st.sampled_from(UNITS), st.sampled_from(KNOWN), st.sampled_from(["{}", "{}s", "{}2", "1/{}", "{}/s", "N/{}"]))
+@given(
+    st.sampled_from(UNITS), st.sampled_from(KNOWN), st.sampled_from(["{}", "{}s", "{}2", "1/{}", "{}/s", "N/{}"])
+)
 def test_no_unit_is_suggested_that_would_be_refused(unit, name, written):
     for misspelt in (name.upper(), name.lower(), name.swapcase(), name + "x"):
         try:
@@ -230,7 +232,9 @@ def test_no_unit_is_suggested_that_would_be_refused(unit, name, written):
         ("0.2 W/mK", "W/(m K)", "W/(m K)"),
     ],
 )
-def test_a_quantity_that_is_often_taken_for_another_is_refused_with_the_way_from_one_to_the_other(text, unit, said):
+def test_a_quantity_that_is_often_taken_for_another_is_refused_with_the_way_from_one_to_the_other(
+    text, unit, said
+):
     with pytest.raises(Unreadable) as raised:
         in_si(text, unit)
     assert said in str(raised.value)
