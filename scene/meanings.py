@@ -73,14 +73,14 @@ _OTHER = (
     (
         "rubbery_modulus",
         "modulus G G0 G_0 G_inf ginf shear_modulus",
-        "rubbery_modulus is the shear modulus at rest, glassy_modulus that at once: books differ in what they call "
-        "G0 and G_inf",
+        "rubbery_modulus is the shear modulus at rest, glassy_modulus that at once: books differ in what they "
+        "call G0 and G_inf",
     ),
     (
         "equilibrium_modulus",
         "modulus G G0 G_0 G_inf ginf shear_modulus",
-        "equilibrium_modulus is the shear modulus at rest, without that of the branches: books differ in what they "
-        "call G0 and G_inf",
+        "equilibrium_modulus is the shear modulus at rest, without the branches: books differ in what they call "
+        "G0 and G_inf",
     ),
     ("poisson_ratio", "K bulk_modulus", "poisson_ratio = (3 K - 2 G) / (6 K + 2 G), with G the shear modulus"),
     (
@@ -91,7 +91,7 @@ _OTHER = (
     (
         "lowest_frequency",
         "viscosity eta",
-        "a springpot has no viscosity: relaxation_time and exponent state its loss",
+        "a springpot has no viscosity: relaxation_time and exponent state it",
     ),
     ("relaxation_time", "viscosity eta", "a viscosity has no field: relaxation_time = viscosity / modulus"),
     (
@@ -137,7 +137,7 @@ _OTHER = (
     (
         "rms_height",
         "Rz Sz Rt Rmax peak_to_valley",
-        "rms_height is the root mean square, Sq or Rq, several times less",
+        "rms_height is the root mean square, Sq or Rq, which is less",
     ),
     ("amplitude", "Rz Sz Rt height peak_to_valley", "amplitude is half of the height from valley to peak"),
     ("amplitude", "rms h_rms Sq Rq rms_height", "amplitude is the height of a crest above the mean, not an rms"),
@@ -150,7 +150,7 @@ _OTHER = (
     (
         "reference",
         "Tg T_g",
-        "reference is where the elastomer, c1 and c2 are stated: Tg, if they are stated there",
+        "reference is where the elastomer, c1 and c2 are stated: Tg, if it is there",
     ),
     ("points", "dx pixel pixel_size spacing", "points = extent / pixel"),
 )

@@ -80,9 +80,8 @@ class Names:
 
     def takes(self, where: Place, content: Any) -> str:
         """What a name at a place takes, in words."""
-        return _WORDS.get(
-            self._node(self._table(where[:-1], content)[str(where[-1])], {}).get("type"), "other values"
-        )
+        node = self._node(self._table(where[:-1], content)[str(where[-1])], {})
+        return _WORDS.get(str(node.get("type")), "other values")
 
     def _table(self, where: Place, content) -> Mapping[str, Any]:
         node = self._node(self.schema, content)

@@ -232,9 +232,7 @@ def test_no_unit_is_suggested_that_would_be_refused(unit, name, written):
         ("0.2 W/mK", "W/(m K)", "W/(m K)"),
     ],
 )
-def test_a_quantity_that_is_often_taken_for_another_is_refused_with_the_way_from_one_to_the_other(
-    text, unit, said
-):
+def test_a_quantity_that_is_often_taken_for_another_is_refused_with_the_way_to_it(text, unit, said):
     with pytest.raises(Unreadable) as raised:
         in_si(text, unit)
     assert said in str(raised.value)
