@@ -1,12 +1,19 @@
-"""The files of the pages on data of one's own, as instruments write them: made up, each from a law and a seed.
+"""The pages on data of one's own: files as instruments write them, made up, and what commands print of them.
 
-`python docs/yourdata.py` writes them again.
+`python docs/yourdata.py` writes the files again, and below each command of the pages what it prints.
 """
 
+import re
+import shlex
+from collections.abc import Iterator
+from contextlib import chdir
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
+from typer.testing import CliRunner
 
+from compare.cli import app
 from scene import Prony
 
 FOLDER = Path(__file__).with_suffix("")
@@ -76,14 +83,12 @@ def stylus() -> str:
     heights = rough((2 * count,), 8e-3, 0.75, 2.6e-6, 0.8e-3, seed=3)[:count]
     places = np.arange(count) * 5e-3  # [mm]
     heading = ["Profile of batch 7, ground", "Tip radius: 2 µm, cut-off: none", "X [mm];Z [µm]"]
-    rows = [
-        f"{comma(x, '.3f')};{comma(1e6 * z + 1.5 * x, '.3f')}" for x, z in zip(places, heights, strict=True)
-    ]
+    rows = [f"{comma(x, '.3f')};{comma(1e6 * z + 1.5 * x, '.3f')}" for x, z in zip(places, heights, strict=True)]
     return "\n".join([*heading, *rows]) + "\n"
 
 
 def tribometer() -> str:
-    """Friction force at three temperatures, five speeds and four loads, each three times, loads and speeds as met."""
+    """Friction force at three temperatures, five speeds and four loads, three times, loads and speeds as met."""
     noise = np.random.default_rng(4)
     lines = ['Run;"Temperature [°C]";"Speed [mm/s]";"Normal force [N]";"Friction force [N]";Remark']
     for celsius in (10, 25, 40):
@@ -93,7 +98,11 @@ def tribometer() -> str:
                     met = np.array([speed, load]) * (1 + 0.003 * noise.standard_normal(2))
                     shifted = met[1] * (shift(celsius) * met[0]) ** BY_SPEED
                     force = met[1] * 0.9 / np.sqrt(1 + (shifted / 4) ** 0.8) * (1 + 0.01 * noise.standard_normal())
-                    row = (len(lines), f"{celsius + 0.1 * noise.standard_normal():.1f}", *(f"{x:.4g}" for x in met))
+                    row = (
+                        len(lines),
+                        f"{celsius + 0.1 * noise.standard_normal():.1f}",
+                        *(f"{x:.4g}" for x in met),
+                    )
                     lines.append(";".join(map(str, (*row, f"{force:.4g}", ""))))
     return "\n".join(lines) + "\n"
 
@@ -106,10 +115,44 @@ FILES = {
 }
 
 
+BLOCK = re.compile(r"^```(toml|sh|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+NAMED = re.compile(r"# (\w+\.toml)\n")  # first line of a file that a page shows
+HEAD = " | head -"
+
+
+def printed(page: Path) -> Iterator[tuple[str, re.Match]]:
+    """What each command of a page prints among the files of all, and the block that shows it."""
+    command = None
+    with TemporaryDirectory() as folder, chdir(folder):
+        for name in FILES:
+            Path(name).write_bytes((FOLDER / name).read_bytes())
+        for block in BLOCK.finditer(page.read_text(encoding="utf-8")):
+            kind, text = block.groups()
+            if kind == "toml" and (named := NAMED.match(text)):
+                Path(named[1]).write_text(text, encoding="utf-8")
+            elif kind == "text" and command:
+                yield _output(command), block
+            command = text.strip() if kind == "sh" else None
+
+
+def _output(command):
+    """Lines that a command prints, of it alone or through `head`."""
+    asked, _, most = command.partition(HEAD)
+    program, *arguments = shlex.split(asked)
+    assert program == "crosscheck", command
+    lines = CliRunner().invoke(app, arguments).output.splitlines(keepends=True)
+    return "".join(lines[: int(most)] if most else lines)
+
+
 def main() -> None:
-    """Write the files."""
+    """Write the files, and what the commands print."""
     for name, make in FILES.items():
         (FOLDER / name).write_text(make(), encoding="utf-8")
+    for page in sorted(FOLDER.glob("*.md")):
+        text = page.read_text(encoding="utf-8")
+        for output, block in reversed(list(printed(page))):
+            text = f"{text[: block.start(2)]}{output.rstrip()}\n{text[block.end(2) :]}"
+        page.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
