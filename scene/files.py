@@ -11,7 +11,7 @@ from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from typing import Any
 
-from .printable import ESCAPED, brief
+from .printable import brief
 
 # Of encodings, by the mark at the beginning of a file.
 _MARKS = {"utf-8-sig": b"\xef\xbb\xbf", "utf-16": (b"\xff\xfe", b"\xfe\xff")}
@@ -121,9 +121,7 @@ def _asked(path, system, *arguments):
     try:
         return system(*arguments)
     except FileNotFoundError as error:
-        # A tabulator or the like is what TOML makes of a backslash and a letter.
-        hint = f"; {ESCAPED}" if any(map(str.isspace, str(path).replace(" ", ""))) else ""
-        raise _unreadable(path, f"no such file{hint}") from error
+        raise _unreadable(path, "no such file") from error
     except OSError as error:
         raise _unreadable(path, error.strerror or str(error)) from error
     except ValueError as error:  # of zero bytes, and of letters that no file system has

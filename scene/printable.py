@@ -1,7 +1,6 @@
 """Text as a terminal may show it: what controls one, or turns the direction of reading, is written out."""
 
 LONGEST = 200  # letters of a name or a value in a message
-ESCAPED = r"a backslash between double quotes is an escape: write a path in single quotes, as 'C:\data\map.csv'"
 
 
 def printable(text: str) -> str:

@@ -11,7 +11,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from . import files
 from .mistakes import SAID, mistakes
-from .printable import ESCAPED, brief, printable
+from .printable import brief, printable
 from .quantities import WHOLE
 
 __all__ = [
@@ -76,17 +76,10 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
     except RecursionError as error:
         raise invalid(path, [f"tables and lists stand in one another deeper than {DEEPEST} levels"]) from error
     except tomllib.TOMLDecodeError as error:
-        raise invalid(path, [f"is not valid TOML: {error}{_of_a_path(str(error), text)}"]) from error
+        raise invalid(path, [f"is not valid TOML: {error}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
     return content
-
-
-def _of_a_path(said, text):
-    """What to do about a backslash between double quotes in the line that a mistake names."""
-    line = re.search(r"\(at line (\d+)", said)
-    stands = text.split("\n")[int(line[1]) - 1] if line else ""
-    return f"; {ESCAPED}" if re.search(r'"[^"]*\\', stands) else ""
 
 
 def made(content: dict[str, Any], what: Any, path: str | Path):

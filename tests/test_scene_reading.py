@@ -139,17 +139,6 @@ def test_what_is_no_toml_or_no_file_is_said(tmp_path):
         read(tmp_path, Scene)
 
 
-@pytest.mark.parametrize("path", [r"C:\Users\me\map.csv", r"C:\temp\new.csv", r"data\map.csv", r"..\new.csv"])
-def test_a_path_of_windows_between_double_quotes_is_recognised(tmp_path, path):
-    table = "[elastomer]\ntype = 'tabulated'\nfrequency_unit = 'Hz'\nkind = 'shear'\n"
-    with pytest.raises(InvalidInput, match="path in single quotes, as 'C:") as raised:
-        scene_from(tmp_path, f'{INDENTER}{MOTION}{table}table = "{path}"\n')
-    assert len(str(raised.value).splitlines()) == 1
-    for plain in (f"'{path}'", '"data/map.csv"'):
-        with pytest.raises(InvalidInput, match=r"no such file$"):
-            scene_from(tmp_path, f"{INDENTER}{MOTION}{table}table = {plain}\n")
-
-
 def test_any_number_is_kept_as_a_float_and_a_whole_one_is_no_other():
     for number in (2, np.float32(2), np.int64(2)):
         assert (Sphere(number).radius, type(Sphere(number).radius)) == (2.0, float)
