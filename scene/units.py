@@ -58,7 +58,7 @@ _CONFUSED = (
     ("rad/s", "1/s", "cycles are counted: of omega in rad/s give omega / (2 pi), in Hz"),
     ("1/m", "rad/m", "an angle counts: of a wavelength give 2 pi / wavelength, in rad/m"),
     ("kg", "N", "this is a mass: the weight of 1 kg is 1 kgf"),
-    ("Pa s", "s", "this is a viscosity: a time is viscosity / modulus"),
+    ("Pa s", "s", "this is a viscosity: a time is viscosity / shear modulus"),
     ("N", "N/m", "this is a whole force: divide it by the length of the line"),
     ("W/K", "W/(m K)", "mK is a millikelvin: write W/(m K)"),
 )

@@ -228,7 +228,7 @@ def test_no_unit_is_suggested_that_would_be_refused(unit, name, written):
         ("10 1/mm", "rad/m", "2 pi / wavelength"),
         ("10 kg", "N", "the weight of 1 kg is 1 kgf"),
         ("10 N", "N/m", "divide it by the length"),
-        ("10 kPa s", "s", "viscosity / modulus"),
+        ("10 kPa s", "s", "viscosity / shear modulus"),
         ("0.2 W/mK", "W/(m K)", "W/(m K)"),
     ],
 )
