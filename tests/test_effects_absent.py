@@ -157,7 +157,7 @@ def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
         solver.solve(PLAIN["rest"])
     modules = ("marching", "material", "upstream", "timeline", "elements")
     later = {f"{package(solver)}/{module}.py" for module in modules}
-    drawn = {"bem3d/surface.py", "scene/roughness.py"}
+    drawn = {"bem3d/surface.py", "scene/selfaffine.py"}
     flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/maxwell.py sweep_modes"}
     assert not called.files & (later | drawn)
     assert not called.functions & flowing

@@ -6,7 +6,7 @@ from math import gamma
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from scene import CrossedWaves, SelfAffine, Wave
 from scene.selfaffine import power_integral
@@ -49,6 +49,43 @@ def test_both_densities_integrate_to_the_rms_height_and_to_the_rms_slope(hurst, 
     steep = 2 * integral(lambda q: q**2 * rough.density_1d(q, top), rough)
     gradient = 2 * np.pi * integral(lambda q: q**3 * rough.density_2d(q, top), rough)
     assert (steep, gradient) == pytest.approx((rough.rms_slope(top) ** 2,) * 2, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("hurst", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("rolloff", [None, 1.1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("slope", [0.0, 1e-9, 0.3, 5.0])
+def test_a_slope_in_place_of_the_height_is_the_slope_of_the_surface(hurst, rolloff, slope):
+    rough = SelfAffine(hurst=hurst, rms_slope=slope, longest="10 mm", shortest="0.1 mm", rolloff=rolloff)
+    assert rough.rms_slope(rough.q_max(0.0)) == pytest.approx(slope, rel=ROUNDING)
+    assert rough.flat == (slope == 0)
+    assert replace(rough, seed=2).rms_height == rough.rms_height
+
+
+@pytest.mark.parametrize(
+    ("message", "stated"),
+    [
+        ("without shortest: the cut-off would be that of each solver's grid", {"shortest": None}),
+        ("rms_slope = 0.1 beside rms_height = 1e-06: give one of them", {"rms_height": 1e-6}),
+        ("rms_slope = -1: .* greater than or equal to 0", {"rms_slope": -1}),
+        ("rms_slope = '3 deg': .*a number without a unit", {"rms_slope": "3 deg"}),
+        ("rms_slope = True", {"rms_slope": True}),
+        ("rms_slope = nan: .*finite", {"rms_slope": float("nan")}),
+        ("beyond the range of numbers", {"rms_slope": 1e300, "longest": 1e300, "shortest": 1e200}),
+        # mistakes of other fields are their own
+        ("hurst\n  Input should be less than or equal to 1", {"hurst": 2}),
+        ("longest\n  Field required", {"longest": None}),
+    ],
+)
+def test_a_slope_that_states_no_surface_is_refused_with_the_reason(message, stated):
+    content = {"hurst": 0.5, "rms_slope": 0.1, "longest": 1e-2, "shortest": 1e-4} | stated
+    with pytest.raises(ValidationError, match=message):
+        SelfAffine(**{name: value for name, value in content.items() if value is not None})
+
+
+def test_the_schema_of_a_scene_knows_the_slope():
+    schema = TypeAdapter(SelfAffine).json_schema()
+    assert "rms_slope" in schema["properties"]
+    assert {"required": ["rms_slope", "shortest"]} in schema["oneOf"]
 
 
 @pytest.mark.parametrize("hurst", HURSTS)
