@@ -74,7 +74,12 @@ def _metre(unit):
 def check_layout(shape: tuple[int, ...], dtype: np.dtype) -> None:
     """Raise ValueError for the shape and type of an array that is no map of heights."""
     if len(shape) != 2 or min(shape) < LEAST:
-        raise ValueError(f"an array of shape {brief(str(shape))}: a map has at least {LEAST} rows and columns")
+        line = (
+            '; a line of heights is roughness of type = "profile"' if sum(side > 1 for side in shape) == 1 else ""
+        )
+        raise ValueError(
+            f"an array of shape {brief(str(shape))}: a map has at least {LEAST} rows and columns{line}"
+        )
     if dtype.kind not in "fiu":
         raise ValueError(f"an array of type {brief(str(dtype))}: heights are real numbers [m]")
 

@@ -17,22 +17,18 @@ from math import log10, pi, sqrt
 
 import numpy as np
 
+from .periodogram import PER_DECADE, bins_of, periodogram, taken_off
+
 LEAST, MOST = 64, 2**20  # points of a line that is fitted
 LEVEL = 0.95  # of intervals
-HURSTS = np.linspace(0, 1, 41)
-PER_DECADE = 20  # bins of the spectrum, and roll-offs and cut-offs that are tried
+# Beyond what a surface has, for intervals to reach its ends.
+HURSTS = np.linspace(-0.2, 1.2, 57)
 FALLING = 4  # bins over which a law falls, at least
-COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices leave
 UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
 UNKNOWNS = 4
 # From where on a law is none of a line: mean square of the line over that of its law, or the other way; and rms of
 # the logarithm of the ratio of their spectra, which scatters by 1 in the lowest bins.
 FOREIGN, SCATTERED = 10.0, 2.0
-TAPERS = 3
-# Waves in the line that are a bin each, of which levelling takes something; and those that leak into others.
-LOW, REACH, STEP = 12, 24, 0.25
-SMEARED = 2  # of a wave alone and its neighbours: measured, for intervals of the rms height to hold
-FINE = 1024  # points on which the leakage of the lowest waves is found
 NOTHING = 1e-24  # of the greatest density: rounding
 TINY = 1e-300  # of a law beyond its end
 FOLDS = 4  # periods of the lattice of points over which a law beyond the spacing is followed
@@ -87,121 +83,9 @@ def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = F
         raise ValueError(f"{count:,} points: {LEAST} to {MOST:,} are fitted")
     unit = float(np.abs(heights).max())
     left = taken_off(heights / unit, degree) if unit else heights
-    bins = _bins(count, degree, periodic)
-    seen = bins.means(_periodogram(left, periodic))
+    bins = bins_of(count, degree, periodic)
+    seen = bins.means(periodogram(left, periodic))
     return _weighed(bins, np.maximum(seen, NOTHING * seen.max()), unit, count * spacing)
-
-
-def taken_off(heights: np.ndarray, degree: int) -> np.ndarray:
-    """Heights less the polynomial of a degree that fits them best."""
-    basis = _polynomials(len(heights), degree)
-    left = heights - basis @ (basis.T @ heights)
-    return left - basis @ (basis.T @ left)
-
-
-@lru_cache(maxsize=4)
-def _polynomials(count, degree):
-    """Orthonormal polynomials at so many places (count, degree + 1)."""
-    return np.linalg.qr(np.polynomial.legendre.legvander(np.linspace(-1, 1, count), degree))[0]
-
-
-def _tapers(count):
-    """Sine tapers (TAPERS, count), each of unit sum of squares."""
-    place = pi / (count + 1) * np.arange(1, count + 1)
-    return sqrt(2 / (count + 1)) * np.sin(np.arange(1, TAPERS + 1)[:, None] * place)
-
-
-def _periodogram(heights, periodic):
-    """c at u = 1, 2, ... below the Nyquist wave number."""
-    count = len(heights)
-    tapers = np.full((1, count), 1 / sqrt(count)) if periodic else _tapers(count)
-    waves = np.fft.rfft(tapers * heights, axis=1)[:, 1 : (count + 1) // 2]
-    return np.mean(np.abs(waves) ** 2, axis=0) / count
-
-
-@dataclass(frozen=True, eq=False)
-class _Bins:
-    """Means over waves u, the lowest each for itself.
-
-    starts : first wave of each bin less one (B,); number : of its waves (B,); u : of their centres (B,)
-    freedoms : of the chi square of each (B,)
-    leaked : shares (B, J) of the waves u_low (J,) in each bin, by tapers and levelling
-    own : share of its own waves (B,)
-    nyquist : waves of two spacings
-    """
-
-    starts: np.ndarray
-    number: np.ndarray
-    u: np.ndarray
-    freedoms: np.ndarray
-    leaked: np.ndarray
-    u_low: np.ndarray
-    own: np.ndarray
-    nyquist: float
-
-    def means(self, periodogram):
-        """Means of a periodogram over the bins."""
-        return np.add.reduceat(periodogram, self.starts) / self.number
-
-
-@lru_cache(maxsize=8)
-def _bins(count, degree, periodic):
-    top = (count - 1) // 2
-    single = np.arange(1, min(LOW, top) + 1)
-    number = max(1, round(PER_DECADE * log10(top / LOW))) if top > LOW else 0
-    wide = np.unique(np.rint(LOW * (top / LOW) ** (np.arange(number) / number)).astype(int)) + 1 if number else []
-    starts = np.append(single, wide).astype(int)
-    starts = np.unique(starts[starts <= top])
-    number = np.diff(starts, append=top + 1)
-    # Of a falling spectrum the mean over a bin is that at a mean which favours its lower end.
-    waves = np.arange(1, top + 1.0)
-    u = (np.add.reduceat(waves**-2.5, starts - 1) / number) ** (-1 / 2.5)
-    # Neighbours share what a taper smears: in the sum over many of them.
-    shared = 1.0 if periodic else 1 + 1 / (2 * TAPERS)
-    freedoms = 2 * number / shared
-    if not periodic:
-        freedoms[u <= LOW] /= SMEARED
-    freedoms = 1 / (1 / freedoms + COARSE**2 / 2)
-    u_low = np.maximum(np.arange(REACH / STEP) * STEP, 1e-3)
-    if periodic:
-        leaked, own = np.zeros((len(u), len(u_low))), np.ones(len(u))
-    else:
-        low = u <= LOW
-        leaked = np.empty((len(u), len(u_low)))
-        leaked[low] = _levelled_leakage(degree)[: low.sum()]
-        centres = np.rint(u[~low])[:, None]
-        leaked[~low] = _leakage(centres - u_low) + _leakage(centres + u_low)
-        leaked[:, 0] /= 2
-        leaked *= STEP
-        own = np.where(low, 0.0, np.maximum(1 - leaked.sum(axis=1), 0.0))
-    return _Bins(starts - 1, number, u, freedoms, leaked, u_low, own, count / 2)
-
-
-def _leakage(offset):
-    """Mean square of the tapers' transforms at offsets in waves, its integral one."""
-    total = 0.0
-    for order in range(1, TAPERS + 1):
-        turns, centre = 2 * pi * offset, pi * order
-        apart = turns**2 - centre**2
-        near = np.abs(apart) < 1e-6
-        found = 4 * centre**2 * (1 - (-1) ** order * np.cos(turns)) / np.where(near, 1.0, apart) ** 2
-        total = total + np.where(near, 0.5, found)
-    return total / TAPERS
-
-
-@lru_cache(maxsize=4)
-def _levelled_leakage(degree):
-    """Shares of waves of the lattice in the lowest bins of a line that is levelled first (LOW, J)."""
-    basis, tapers = _polynomials(FINE, degree), _tapers(FINE)
-    places, size = np.arange(FINE) / FINE, int(FINE / STEP)
-    rows = []
-    for u in range(1, LOW + 1):
-        tapered = tapers * np.exp(-2j * pi * u * places)
-        tapered = tapered - (tapered @ basis) @ basis.T
-        power = np.mean(np.abs(np.fft.fft(tapered, size, axis=1)) ** 2, axis=0) / FINE
-        lattice = np.arange(int(REACH / STEP))
-        rows.append(power[lattice] + power[-lattice])
-    return np.array(rows)
 
 
 class _Laws:
@@ -270,7 +154,7 @@ class _Laws:
 
     def numbers(self, at, jitter=(0.0, 0.0, 0.0)):
         """Exponents, roll-offs and cut-offs of laws, moved by parts of a step of the lattice."""
-        hurst = np.clip(HURSTS[at[0]] + jitter[0] * (HURSTS[1] - HURSTS[0]), 0, 1)
+        hurst = HURSTS[at[0]] + jitter[0] * (HURSTS[1] - HURSTS[0])
         rolloff = self.rolloffs[at[1]] * 10 ** (jitter[1] / PER_DECADE)
         cutoff = self.cutoffs[at[2]] * 10 ** (jitter[2] / PER_DECADE)
         return hurst, rolloff, np.minimum(cutoff, self._bins.nyquist)
@@ -305,7 +189,8 @@ def _weighed(bins, seen, unit, length):
 
     laws = _laws(bins)
     deviance, amplitude = laws.compared(seen)
-    best = np.unravel_index(np.argmin(deviance), deviance.shape)
+    possible = ((HURSTS > -1e-9) & (HURSTS < 1 + 1e-9))[:, None, None]
+    best = np.unravel_index(np.argmin(np.where(possible, deviance, np.inf)), deviance.shape)
     end, square = laws.ends[best[2]], float(bins.number @ seen)
     law = amplitude[best] * laws.line(best)
     strange = float(np.sqrt(np.mean(np.log(seen[:end] / law) ** 2))) > SCATTERED
@@ -318,7 +203,7 @@ def _weighed(bins, seen, unit, length):
     own = float(deviance[best] - laws.penalty * (len(seen) - end))
     spread = max(1.0, own / freedom)
     random = np.random.default_rng(0)
-    weights = np.cumsum(np.exp((deviance[best] - deviance.ravel()) / (2 * spread)))
+    weights = np.cumsum(np.exp((deviance.min() - deviance.ravel()) / (2 * spread)))
     drawn = np.unravel_index(np.searchsorted(weights, random.random(DRAWN) * weights[-1]), deviance.shape)
     freedoms = np.array([bins.freedoms[:end].sum() for end in laws.ends])[drawn[2]] / spread
     many = laws.numbers(drawn, random.uniform(-0.5, 0.5, (3, DRAWN)))
@@ -335,7 +220,7 @@ def _weighed(bins, seen, unit, length):
         for power, factor in ((1, unit), (3, unit * 2 * pi / length))
     )
     return LineLaw(
-        hurst=told(one[0], many[0]),
+        hurst=told(min(max(one[0], 0.0), 1.0), np.clip(many[0], 0, 1)),
         rms_height=height,
         rms_slope=slope,
         rolloff=told(length / max(one[1], 1.0), length / np.maximum(many[1], 1.0)),

@@ -6,37 +6,20 @@ from math import pi, sqrt
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, ConfigDict, Field, InstanceOf, PlainSerializer, model_validator
+from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from . import linescan, stylus
 from .heightfile import UNITS
-from .heightmap import LONGEST, QUOTIENT, ROUNDING, SHORTEST, HeightMap
+from .heightline import HeightLine, Heights
+from .heightmap import LONGEST, QUOTIENT, ROUNDING, SHORTEST
 from .linescan import Interval, LineLaw
+from .periodogram import taken_off
 from .printable import brief
-from .quantities import CLOSED, METRE, Length, Whole, by_name, takes
+from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Whole, by_name, takes
 from .selfaffine import SelfAffine
 
 DEGREES = {"mean": 0, "tilt": 1, "curvature": 2, "cubic": 3}
-
-
-class HeightLine(HeightMap):
-    """One row of heights [m], which cannot be changed, known by a digest. Raises as `HeightMap` does."""
-
-    notes: tuple[str, ...] = ()
-
-    @staticmethod
-    def _check(shape: tuple[int, ...], dtype: np.dtype) -> None:
-        if len(shape) != 1 or dtype.kind not in "fiu":
-            raise ValueError(f"an array of shape {brief(str(shape))}: a line is one row of heights")
-
-
-def _as_line(value):
-    if isinstance(value, HeightLine):
-        return value
-    if isinstance(value, str):
-        raise ValueError("Input should be a row of heights [m], or give file instead")
-    return HeightLine(value)
 
 
 def _or_file(schema: dict[str, Any]) -> None:
@@ -48,13 +31,6 @@ def _or_file(schema: dict[str, Any]) -> None:
     }
     del schema["required"]
     schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", "spacing"]}]
-
-
-Heights = Annotated[
-    InstanceOf[HeightLine],
-    BeforeValidator(_as_line, json_schema_input_type=list[Annotated[float, METRE]]),
-    PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest}),
-]
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
@@ -241,10 +217,17 @@ class Profile:
         """Highest wave number of the fitted surface [rad/m]; the pixel of a grid does not matter."""
         return self.fitted.q_max(pixel)
 
+    @takes(q_max=RADIAN_PER_METRE)
+    def rms_slope(self, q_max: float) -> float:
+        """Rms slope of the full gradient of the fitted surface [1] with the cut-off q_max [rad/m]."""
+        return self.fitted.rms_slope(q_max)
+
     @property
     def notes(self) -> tuple[str, ...]:
         """What was read and how it is used, a sentence each."""
-        return (*self.heights.notes, *(() if self.law is None else _told(self.law)))
+        kept = self.shortest_kept
+        left = () if kept is None else (f"waves shorter than {kept:.3g} m are left out, as shortest_kept states",)
+        return (*self.heights.notes, *(() if self.law is None else _told(self.law)), *left)
 
 
 def _told(law):
@@ -287,7 +270,7 @@ def _said(number: Interval, unit: str = "") -> str:
 @lru_cache(maxsize=8)
 def _relief(heights, level):
     most = np.abs(heights.heights).max() or 1.0
-    left = linescan.taken_off(heights.heights / most, DEGREES[level])
+    left = taken_off(heights.heights / most, DEGREES[level])
     return np.zeros(len(left)) if np.abs(left).max() <= ROUNDING else most * left
 
 

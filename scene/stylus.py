@@ -1,6 +1,7 @@
 """Lines of heights, as a stylus writes them: out of a text, a table or an array, in metres and evenly spaced."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from reprlib import repr as briefly
 from typing import Any
@@ -104,9 +105,7 @@ def filled(heights: np.ndarray, fill: bool) -> tuple[np.ndarray, tuple[str, ...]
 
 def _of_sheet(sheet: Sheet, spacing, unit) -> Line:
     if not sheet.names and len(sheet.numbers) == 1 and sheet.numbers.size > 1:
-        sheet = Sheet(
-            sheet.name, sheet.numbers.T, (), before=sheet.before, unread=sheet.unread
-        )  # one row of heights
+        sheet = replace(sheet, numbers=sheet.numbers.T, lines=())  # a row of heights
     positional = ("heights",) if sheet.numbers.shape[1] == 1 else ("x", "heights")
     found, notes = chosen(sheet, (X, Z), positional)
     heights, x = found["heights"], found.get("x")

@@ -221,8 +221,7 @@ def _setting(title: str, case: Case) -> Iterator[Block]:
     )
     lines.append(f"averaged: {counts}")
     lines.append(f"grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
-    notes = [note for _, part in parts for note in getattr(part, "notes", ())]
-    yield Section(f"Scene: {title}", [_list([*lines, *notes, *case.notes])])
+    yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
     if case.departures:
         yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
 
