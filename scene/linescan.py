@@ -22,7 +22,7 @@ from .periodogram import PER_DECADE, bins_of, periodogram, taken_off
 LEAST, MOST = 64, 2**20  # points of a line that is fitted
 LEVEL = 0.95  # of intervals
 # Beyond what a surface has, for intervals to reach its ends.
-HURSTS = np.linspace(-0.2, 1.2, 57)
+HURSTS = np.arange(-8, 49) / 40
 FALLING = 4  # bins over which a law falls, at least
 UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
 UNKNOWNS = 4
