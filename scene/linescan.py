@@ -189,7 +189,7 @@ def _weighed(bins, seen, unit, length):
 
     laws = _laws(bins)
     deviance, amplitude = laws.compared(seen)
-    possible = ((HURSTS > -1e-9) & (HURSTS < 1 + 1e-9))[:, None, None]
+    possible = ((HURSTS >= 0) & (HURSTS <= 1))[:, None, None]
     best = np.unravel_index(np.argmin(np.where(possible, deviance, np.inf)), deviance.shape)
     end, square = laws.ends[best[2]], float(bins.number @ seen)
     law = amplitude[best] * laws.line(best)
@@ -220,7 +220,7 @@ def _weighed(bins, seen, unit, length):
         for power, factor in ((1, unit), (3, unit * 2 * pi / length))
     )
     return LineLaw(
-        hurst=told(min(max(one[0], 0.0), 1.0), np.clip(many[0], 0, 1)),
+        hurst=told(one[0], np.clip(many[0], 0, 1)),
         rms_height=height,
         rms_slope=slope,
         rolloff=told(length / max(one[1], 1.0), length / np.maximum(many[1], 1.0)),
