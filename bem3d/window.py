@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scene import Cylinder, EmptyContact, Measured, Plane, Scene, SolveError
-from scene.heightmap import Scanned
+from scene.scanned import Scanned
 from scene.scales import elastic_contact
 
 from . import layer

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -10,7 +10,20 @@ from pathlib import Path
 import numpy as np
 
 from . import files
-from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, plain, thousands, unquoted
+from .dialect import (
+    BAD,
+    BLANK,
+    DIALECTS,
+    EMPTY,
+    NUMBER,
+    STRONG,
+    WORD,
+    Dialect,
+    comment,
+    plain,
+    thousands,
+    unquoted,
+)
 from .printable import brief
 
 SAMPLE = 300  # lines from which the dialect of a long file is found; the others have to be in it too

@@ -22,8 +22,9 @@ import scene.topography
 from compare.cases import Case
 from compare.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
-from scene.heightfile import LINE, MOST_BYTES
+from scene.heightfile import MOST_BYTES
 from scene.reading import InvalidInput, read
+from scene.sheet import LINE
 from scene.waves import MOST_WAVES
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
@@ -601,7 +602,7 @@ def test_larger_files_than_are_read_are_not_opened(tmp_path, name):
 )
 def test_a_text_is_read_line_by_line_and_no_further_than_a_map_goes(tmp_path, monkeypatch, content, said):
     monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 160)
-    monkeypatch.setattr(scene.heightfile, "LINES", 50)
+    monkeypatch.setattr(scene.sheet, "LINES", 50)
     path = tmp_path / "a.csv"
     path.write_text(content)
     with pytest.raises(ValidationError, match=f"a.csv cannot be read as rows of numbers: .*{said}") as error:
