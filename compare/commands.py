@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from .planning import Plans
     from .quantity import Quantity
     from .report import Report
+    from .studies.topography import Surface
     from .studies.trust.verdict import Trust
 
 
@@ -180,10 +181,15 @@ def mastercurve(table: str | Path, output: str | Path = "mastercurve", **options
 
 
 def topography(
-    file: str | Path,
+    file: Surface,
     pixel: str | float | Sequence[str | float] | None = None,
     unit: str | None = None,
+    channel: str | None = None,
+    crop: Sequence[str | float] | None = None,
+    outliers: float | None = None,
+    missing: str = "refuse",
     level: str | None = None,
+    shortest_kept: str | float | None = None,
     repeat: str = "mirror",
     peaks: str = "up",
     output: str | Path = "topography",
@@ -191,18 +197,26 @@ def topography(
 ) -> Report:
     """Describe a measured surface: slopes, spectra, exponent H.
 
-    file : map of heights: .npy, .npz, .csv, .txt, or any format that SurfaceTopography reads
+    file : map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads. From Python
+        also heights [m] as rows, an array, a DataFrame or an object of xarray
     pixel : side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.
         Needed if the file states none. From Python also a number [m]
     unit : unit of the heights: m, mm, um or nm. Needed if the file states none
-    level : what is subtracted first: mean, tilt (a plane) or curvature (a paraboloid); if absent, tilt, and mean
-        of a periodic map
+    channel : name of the map to take, of a file that holds several
+    crop : part to keep: give it four times, x from, x to, y from, y to, as "10 um", from the corner of the map
+    outliers : heights so many robust standard deviations off the median around them are filled in, 3 or more
+    missing : fill fills in missing heights, at most 5 % of the pixels; refuse, the default, makes them an error
+    level : what is subtracted first: mean, tilt (a plane), curvature (a form of second degree) or cubic (of third); if
+        absent, tilt, and mean of a periodic map
+    shortest_kept : leave out waves shorter than this, as "5 um"
     repeat : how the map continues beyond its sides: mirror or periodic
     peaks : up if the heights grow towards the elastomer, down if they grow away from it
     """
     from .studies.topography import Map
 
-    return solve(Map.of(file, pixel=pixel, unit=unit, level=level, repeat=repeat, peaks=peaks), output, **options)
+    asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
+    done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
+    return solve(Map.of(file, pixel=pixel, **asked, **done), output, **options)
 
 
 def sweep(

@@ -28,6 +28,7 @@ from compare.studies.workprecision.study import DIAGRAMS
 from compare.tables import FORMS
 from scene import Topography
 from scene.heightfile import UNITS
+from scene.scanned import FILL
 
 TINY = (
     SCENE
@@ -253,6 +254,7 @@ def test_the_values_that_a_shell_completes_are_those_that_are_allowed():
     assert set(values["format"]) == set(pages.FORMATS)
     assert set(values["figures"]) == set(pages.FORMS)
     assert set(values["unit"]) == set(UNITS)
+    assert set(values["missing"]) == set(FILL)
     assert set(values["to"]) == set(FORMS)
     assert set(values["kind"]) == set(KINDS)
     for name in ("level", "repeat", "peaks"):
