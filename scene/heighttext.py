@@ -12,7 +12,7 @@ from .lattice import mapped as on_lattice
 from .lattice import placed
 from .printable import brief
 from .quantities import METRE
-from .scan import EVEN, LEAST, Scan, measured_in, picked
+from .scan import EVEN, LEAST, Scan, counts, measured_in, picked
 from .sheet import Sheet, named, read_sheets
 
 X = Column("x", ("x", "x position", "position x", "x coordinate", "pos x", "x pos", "x axis"), (METRE,))
@@ -200,7 +200,8 @@ def _of_rows(sheet, told):
         numbers = numbers[len(numbers) - len(y) :, 1:]
         numbers, dx = _ascending(sheet, "first row", x, numbers, 1)
         numbers, dy = _ascending(sheet, "first column", y, numbers, 0)
-        steps = dx, dy
+        # Numbers of rows and columns, as tables have them, say nothing of the pixel.
+        steps = None if not unit and counts((dx, dy)) and {x.min(), y.min()} <= {0, 1} else (dx, dy)
     elif len(numbers[0]) > LEAST and np.isnan(numbers[:, -1]).all():
         numbers = numbers[:, :-1]
         notes.append(

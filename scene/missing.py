@@ -146,7 +146,10 @@ def outliers(heights: np.ndarray, deviations: float) -> np.ndarray:
     # Only who asks for it needs it.
     from scipy.ndimage import median_filter
 
-    off = np.abs(heights - median_filter(heights, size=NEIGHBOURS, mode="nearest"))
+    # Beyond its sides the map goes on as it came: a slope is no outlier there.
+    beyond = NEIGHBOURS // 2
+    around = median_filter(np.pad(heights, beyond, mode="reflect", reflect_type="odd"), size=NEIGHBOURS)
+    off = np.abs(heights - around[beyond:-beyond, beyond:-beyond])
     deviation = NORMAL * np.median(off)
     if not deviation:
         raise ValueError(

@@ -41,14 +41,14 @@ class Scan:
     def settled(self, pixel: Any = None, unit: str | None = None) -> tuple[np.ndarray, Any]:
         """Heights [m] and the pixel, what is stated and what the file says put together.
 
-        A pixel without a unit is in that which is stated for the heights, unless it merely counts. Raises ValueError
-        where one is stated twice and differs, and where one is stated nowhere.
+        Sides without a unit are in that which is stated for the heights; where they are 1 and a pixel is stated, they
+        count. Raises ValueError where one is stated twice and differs, and where one is stated nowhere.
         """
         metre = None if unit is None else metres(unit)
         if self.unit and metre is not None and not _is_metres(self.unit, metre):
             raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(self.unit)}, leave unit out")
         found = self.pixel
-        if found is None and self.steps is not None and metre is not None and not self._counts:
+        if found is None and self.steps is not None and metre is not None and not (pixel is not None and counts(self.steps)):
             found = self.steps[0] * metre, self.steps[1] * metre
         needed = {UNIT: not self.unit and unit is None, PIXEL: found is None and pixel is None}
         if lacking := [each for each, lacks in needed.items() if lacks]:
@@ -58,11 +58,6 @@ class Scan:
         with np.errstate(over="ignore"):
             heights = self.heights.astype(float, copy=False) * (1.0 if self.unit else metre)
         return heights, found if pixel is None else pixel
-
-    @property
-    def _counts(self):
-        """Whether a pixel is one along both, as of places that are numbered."""
-        return self.steps is not None and max(abs(step - 1) for step in self.steps) < 1e-9
 
     def _check(self, pixel, found):
         """Raise ValueError for a pixel that differs from what the file says; one that is none, its field refuses."""
@@ -79,6 +74,11 @@ class Scan:
                 f"pixel = {briefly(pixel)}: coordinates in {self.name} lie {self.steps[0]:g} apart along x and "
                 f"{self.steps[1]:g} along y, which is another ratio"
             )
+
+
+def counts(steps: tuple[float, float]) -> bool:
+    """Whether coordinates so far apart merely number the pixels."""
+    return max(abs(step - 1) for step in steps) < 1e-9
 
 
 def _alike(one, other):

@@ -1,6 +1,7 @@
 """What a measured map may be given as, and how it is prepared: read, laid out, cropped, mended."""
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any, Literal
 
 import numpy as np
@@ -17,6 +18,8 @@ from .scan import LEAST, UNITS, check_layout, metres, picked, sides
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
+# What is asked of a map before it is one; no fields: what comes of it is in the heights.
+ASKED = ("file", "unit", "channel", "crop", "missing", "outliers")
 
 
 def _or_file(schema: dict[str, Any]) -> None:
@@ -75,6 +78,10 @@ class Scanned:
             return given
         if "file" in stated and "heights" in stated:
             raise ValueError(f"file = {stated['file']!r} beside heights: give one of them")
+        if {*stated} - {*ASKED, *(each.name for each in fields(cls))}:
+            # First what is misspelt: another map may be meant.
+            left = {name: each for name, each in stated.items() if name not in ASKED}
+            return {"pixel": 1.0} | left | {"heights": HeightMap(np.eye(LEAST))}
         return _of_file(dict(stated)) if "file" in stated else _of_array(dict(stated))
 
     @model_validator(mode="after")
