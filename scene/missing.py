@@ -56,16 +56,14 @@ def mended(
         return heights, ()
     count = _checked(holes, "have no height", "has no height")
     if count:
-        notes.append(f"{_pixels(count, 'had', 'had')} no height, {_share(count, holes.size)}, and were filled in")
+        notes.append(f"{_pixels(count, 'had', 'had')} no height, {_share(count, holes.size)}, and {_were(count)} filled in")
     if deviations is not None:
         off = outliers(filled(heights, pixel), deviations) & ~holes
         beyond = np.count_nonzero(off)
         _checked(off | holes, "are outliers or have no height", "is an outlier or has no height")
         heights = np.where(off, np.nan, heights)
-        notes.append(
-            f"{_pixels(beyond, 'were', 'was')} more than {deviations:g} robust standard deviations off the median around, "
-            f"{_share(beyond, holes.size)}, and filled in"
-        )
+        off_by = f"more than {deviations:g} robust standard deviations off the median around"
+        notes.append(f"{_pixels(beyond, 'were', 'was')} {off_by}, {_share(beyond, holes.size)}, and filled in")
     return filled(heights, pixel), tuple(notes)
 
 
@@ -82,6 +80,10 @@ def _checked(holes, are, is_):
 
 def _pixels(count, are, is_):
     return f"{count} pixel{'' if count == 1 else 's'} {is_ if count == 1 else are}"
+
+
+def _were(count):
+    return "was" if count == 1 else "were"
 
 
 def _share(count, size):
