@@ -8,12 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from .columns import Column, chosen, joined
+from .heading import named
 from .lattice import mapped as on_lattice
 from .lattice import placed
 from .printable import brief
 from .quantities import METRE
 from .scan import EVEN, LEAST, Scan, counts, measured_in, picked
-from .sheet import Sheet, named, read_sheets
+from .sheet import Sheet, read_sheets
 
 X = Column("x", ("x", "x position", "position x", "x coordinate", "pos x", "x pos", "x axis"), (METRE,))
 Y = Column("y", ("y", "y position", "position y", "y coordinate", "pos y", "y pos", "y axis"), (METRE,))
@@ -168,7 +169,9 @@ def _called(name):
 def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
     """The map of points x, y and z, or the column that is chosen, which lie on a lattice. Raises ValueError."""
     told = _Told.of(sheets[0])
-    sheet = joined([replace(each, before=(), unread="" if told.unit else each.unread) for each in sheets])
+    # What is told above the points is taken out: the rest may be a heading that is none.
+    bare = (replace(each.heading, before=(), unread="" if told.unit else each.unread) for each in sheets)
+    sheet = joined([replace(each, heading=heading) for each, heading in zip(sheets, bare, strict=True)])
     wanted = [X, Y, Z if channel is None else Column("z", (channel,), (METRE,))]
     found, notes = chosen(sheet, wanted, ("x", "y", "z"))
 
