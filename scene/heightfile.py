@@ -22,7 +22,7 @@ __all__ = ["UNITS", "read_heights"]
 SIDE = 5120
 MOST_PIXELS = SIDE**2  # that are read of a file
 MOST_BYTES = 2**28  # of a file, as it is and unpacked: of so many pixels with eight bytes each, and more
-MOST_TEXT, ROWS = 2**27, 2**20  # bytes of a text, and rows of numbers in it
+MOST_TEXT, ROWS = 2**27, 2**21  # bytes of a text, and rows of numbers in it
 ARRAYS, TEXTS = {".npy", ".npz"}, {".csv", ".txt", ".tsv", ".xyz"}
 SECONDS = 10.0  # of a processor, for SurfaceTopography: some of its readers take minutes for what they do not know
 
