@@ -149,7 +149,12 @@ def _parameter(
     elif kind is bool and default:
         told = typer.Option(f"--{name}/--no-{name}", help=text)
     else:
-        told = typer.Option(f"--{name.replace('_', '-')}", help=text, min=1 if name == "workers" else None, autocompletion=completed)
+        told = typer.Option(
+            f"--{name.replace('_', '-')}",
+            help=text,
+            min=1 if name == "workers" else None,
+            autocompletion=completed,
+        )
     if isinstance(default, str) and kind in (Path, Path | None):
         default = Path(default)
     return _keyword(name, Annotated[kind, told], default)

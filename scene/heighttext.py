@@ -26,7 +26,16 @@ SIZE = ("scan size", "scan range", "size", "image size", "field of view")
 PIXEL_X = ("x pixel size", "pixel size x", "pixel width", "x step", "step x", "dx", "x spacing", "spacing x")
 PIXEL_Y = ("y pixel size", "pixel size y", "pixel height", "y step", "step y", "dy", "y spacing", "spacing y")
 PIXEL = ("pixel size", "pixel", "pixel spacing", "spacing", "step size", "point spacing")
-UNIT = ("value units", "value unit", "z unit", "z units", "unit z", "height unit", "height units", "unit of heights")
+UNIT = (
+    "value units",
+    "value unit",
+    "z unit",
+    "z units",
+    "unit z",
+    "height unit",
+    "height units",
+    "unit of heights",
+)
 CHANNEL = ("channel", "channel name")
 _LINE = re.compile(r"([^:=;\t]*[^\W\d][^:=;\t]*?)\s*[:=;\t,]\s*(.*?)[\s;,]*")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -90,7 +99,10 @@ class _Told:
             if stated is None:
                 continue
             key, written = named(stated[1])
-            key, value = " ".join(key.replace("_", " ").replace("-", " ").casefold().split()), stated[2].strip('" ')
+            key, value = (
+                " ".join(key.replace("_", " ").replace("-", " ").casefold().split()),
+                stated[2].strip('" '),
+            )
             if key in CHANNEL:
                 channel, unit = _parted(value, unit)
             elif key in UNIT:

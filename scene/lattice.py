@@ -38,9 +38,7 @@ def mapped(
     return heights.reshape(shape), (dx, dy)
 
 
-def placed(
-    name: str, values: np.ndarray, where: Callable[[int], str] = lambda _: ""
-) -> tuple[np.ndarray, float]:
+def placed(name: str, values: np.ndarray, where: Callable[[int], str] = lambda _: "") -> tuple[np.ndarray, float]:
     """Numbers of the places of evenly spaced values, from 0, and their spacing; places may be empty.
 
     Values lie within a twentieth of the spacing of their places. Raises ValueError.
@@ -71,7 +69,9 @@ def placed(
             return found - found.min(), float(step)
         worst = int(off.argmax())
     place = where(worst)
-    raise ValueError(f"{place}{': ' if place else ''}{name} = {values[worst]:g} is on no lattice: {name} of a map are evenly spaced")
+    raise ValueError(
+        f"{place}{': ' if place else ''}{name} = {values[worst]:g} is on no lattice: {name} of a map are evenly spaced"
+    )
 
 
 def _between(gaps):

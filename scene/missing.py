@@ -56,7 +56,9 @@ def mended(
         return heights, ()
     count = _checked(holes, "have no height", "has no height")
     if count:
-        notes.append(f"{_pixels(count, 'had', 'had')} no height, {_share(count, holes.size)}, and {_were(count)} filled in")
+        notes.append(
+            f"{_pixels(count, 'had', 'had')} no height, {_share(count, holes.size)}, and {_were(count)} filled in"
+        )
     if deviations is not None:
         off = outliers(filled(heights, pixel), deviations) & ~holes
         beyond = np.count_nonzero(off)

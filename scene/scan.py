@@ -48,7 +48,12 @@ class Scan:
         if self.unit and metre is not None and not _is_metres(self.unit, metre):
             raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(self.unit)}, leave unit out")
         found = self.pixel
-        if found is None and self.steps is not None and metre is not None and not (pixel is not None and counts(self.steps)):
+        if (
+            found is None
+            and self.steps is not None
+            and metre is not None
+            and not (pixel is not None and counts(self.steps))
+        ):
             found = self.steps[0] * metre, self.steps[1] * metre
         needed = {UNIT: not self.unit and unit is None, PIXEL: found is None and pixel is None}
         if lacking := [each for each, lacks in needed.items() if lacks]:
@@ -97,7 +102,9 @@ def measured_in(name: str, heights: np.ndarray, unit: str) -> np.ndarray:
     try:
         return in_unit(heights, unit, "m")
     except ValueError:
-        raise ValueError(f"{name} has values in {brief(repr(unit))}: heights are needed, in a unit of length") from None
+        raise ValueError(
+            f"{name} has values in {brief(repr(unit))}: heights are needed, in a unit of length"
+        ) from None
 
 
 def metres(unit: Any) -> float:

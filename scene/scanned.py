@@ -164,7 +164,9 @@ def _of_array(stated):
 
 def _is_table(heights):
     """Whether something has columns called x and y."""
-    names = getattr(heights, "data_vars", getattr(heights, "columns", heights if isinstance(heights, Mapping) else ()))
+    names = getattr(
+        heights, "data_vars", getattr(heights, "columns", heights if isinstance(heights, Mapping) else ())
+    )
     return {"x", "y"} <= {str(name).partition("[")[0].partition("(")[0].strip().casefold() for name in names}
 
 

@@ -75,16 +75,25 @@ LAYOUTS = {
     "a blank line after each row": (lambda h, p: text(h).replace("\n", "\n\n"), ROWS),
     "Gwyddion": (gwyddion, {}),
     "a pixel": (lambda h, p: f"X Pixel size: {p[0]} µm\nY pixel size;{p[1]};um\nZ unit: um\n\n" + text(h), {}),
-    "a unit in brackets": (lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h), UM),
+    "a unit in brackets": (
+        lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h),
+        UM,
+    ),
     "axes": (with_axes, UM),
     "axes with a word": (lambda h, p: with_axes(h, p, "y \\ x"), UM),
     "axes with a unit": (lambda h, p: with_axes(h * 1e3, p, "y [um]"), {"unit": "nm"}),
     "falling axes": (lambda h, p: with_axes(h[::-1, ::-1], (-p[0], -p[1])), UM),
     "points": (lambda h, p: text(points(h, p)), UM),
     "points in any order": (lambda h, p: "x;y;z\n" + text(points(h, p, seed=1)), UM),
-    "points with units": (lambda h, p: "z [nm]\tx [um]\ty [um]\n" + text(points(h * 1e3, p)[:, [2, 0, 1]], "\t"), {}),
+    "points with units": (
+        lambda h, p: "z [nm]\tx [um]\ty [um]\n" + text(points(h * 1e3, p)[:, [2, 0, 1]], "\t"),
+        {},
+    ),
     "scan lines": (scan_lines, {}),
-    "points beside other columns": (lambda h, p: "Nr;X;Y;Z\n" + text(np.column_stack([np.arange(h.size), points(h, p)])), UM),
+    "points beside other columns": (
+        lambda h, p: "Nr;X;Y;Z\n" + text(np.column_stack([np.arange(h.size), points(h, p)])),
+        UM,
+    ),
 }
 
 
@@ -96,7 +105,9 @@ def test_a_map_is_the_same_in_every_layout(tmp_path_factory, layout, seed, rows,
     pixel = tuple(np.random.default_rng(seed).uniform(0.1, 3.0, 2).round(3))
     path = tmp_path_factory.getbasetemp() / "map.txt"
     path.write_text(write(heights, pixel))
-    stated = {name: tuple(1e-6 * each for each in pixel) if name == "pixel" else each for name, each in stated.items()}
+    stated = {
+        name: tuple(1e-6 * each for each in pixel) if name == "pixel" else each for name, each in stated.items()
+    }
     found = Topography(file=path, **stated)
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS, atol=1e-18)
     np.testing.assert_allclose(found.pixel, np.multiply(1e-6, pixel), rtol=1e-9)
@@ -119,7 +130,10 @@ ARRAYS = {
     "xarray": lambda h: {"heights": labelled(h, PIXEL)},
     "xarray, turned": lambda h: {"heights": labelled(h, PIXEL).transpose()},
     "xarray in um": lambda h: {"heights": labelled(1e6 * h, (2.0, 3.0), units="um")},
-    "a Dataset": lambda h: {"heights": xarray.Dataset({"a": labelled(h, PIXEL), "b": labelled(0 * h, PIXEL)}), "channel": "a"},
+    "a Dataset": lambda h: {
+        "heights": xarray.Dataset({"a": labelled(h, PIXEL), "b": labelled(0 * h, PIXEL)}),
+        "channel": "a",
+    },
     "points": lambda h: {"heights": pandas.DataFrame(points(h, PIXEL, seed=2), columns=["x", "y", "z"])},
     "points in um": lambda h: {
         "heights": pandas.DataFrame(points(1e6 * h, (2.0, 3.0)), columns=["x (um)", "y (um)", "z (um)"])
@@ -146,7 +160,10 @@ def written(tmp_path, content, name="map.txt"):
 
 def test_channels_are_never_joined(tmp_path):
     height, phase = drawn((5, 6)), drawn((5, 6), seed=1)
-    file = written(tmp_path, gwyddion(height, (1, 1)) + "\n" + gwyddion(phase, (1, 1), "Phase").replace("units: um", "units: deg"))
+    file = written(
+        tmp_path,
+        gwyddion(height, (1, 1)) + "\n" + gwyddion(phase, (1, 1), "Phase").replace("units: um", "units: deg"),
+    )
     with pytest.raises(ValidationError, match="has 2 channels, 'Height', 'Phase': choose one, channel = 'Height'"):
         Topography(file=file)
     np.testing.assert_allclose(Topography(file=file, channel="height").heights.heights, 1e-6 * height, rtol=DIGITS)
@@ -181,19 +198,43 @@ def test_what_a_file_states_may_be_stated_again_and_not_otherwise(tmp_path):
 WRONG = {
     "a profile": ("1\n2\n3\n4\n5\n", 'line 1: 1 column of numbers, .* the type = "profile"'),
     "a profile of x and z": (text(drawn((9, 2))), 'type = "profile"'),
-    "points on a line": (text(np.column_stack([np.arange(9), np.ones(9), drawn(9)])), 'all y are 1.*type = "profile"'),
+    "points on a line": (
+        text(np.column_stack([np.arange(9), np.ones(9), drawn(9)])),
+        'all y are 1.*type = "profile"',
+    ),
     "scattered points": (text(drawn((200, 3))), "is on no lattice"),
-    "a point off its place": (text(points(drawn((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)), "line 12: x = 2.2"),
+    "a point off its place": (
+        text(points(drawn((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)),
+        "line 12: x = 2.2",
+    ),
     "points on a diagonal": (text(np.repeat(np.arange(30.0), 3).reshape(30, 3)), "30 points on 30 x 30 places"),
-    "a place twice": (text(np.vstack([points(drawn((5, 5)), (1, 1)), [2, 3, 0.5]])), "line 26: a second height at x = 2, y = 3"),
+    "a place twice": (
+        text(np.vstack([points(drawn((5, 5)), (1, 1)), [2, 3, 0.5]])),
+        "line 26: a second height at x = 2, y = 3",
+    ),
     "no place": ("x;y;z\n" + text([[1, NAN, 2], *points(drawn((5, 5)), (1, 1))]), "line 2: a point needs x and y"),
     "another width": ("1 2 3\n" + text(drawn((5, 5)), " "), "line 1: 3 columns, and other rows have 5"),
     "a longer row": (text(drawn((5, 5))) + "1;2;3;4;5;6\n", "line 6: 6 columns, and other rows have 5"),
-    "a first row of numbers that count": (text(np.vstack([np.arange(8), drawn((6, 8))])), "line 1: the first row, 0, 1, 2 .* as coordinates"),
-    "a first column of numbers that count": (text(np.column_stack([np.arange(8), drawn((8, 6))])), "the first column, 0, 1, 2"),
-    "uneven axes": (with_axes(drawn((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1), "first row .* evenly spaced"),
-    "sides that contradict": ("Width: 10 um\nPixel size: 3 um\n\n" + text(drawn((5, 5))), "pixels of 3e-06 m and a size of 1e-05 m"),
-    "axes that contradict": ("Width: 10 um\n" + with_axes(drawn((5, 5)), (1, 1), "y [um]"), "states pixels of 2e-06 .* its axes lie 1e-06"),
+    "a first row of numbers that count": (
+        text(np.vstack([np.arange(8), drawn((6, 8))])),
+        "line 1: the first row, 0, 1, 2 .* as coordinates",
+    ),
+    "a first column of numbers that count": (
+        text(np.column_stack([np.arange(8), drawn((8, 6))])),
+        "the first column, 0, 1, 2",
+    ),
+    "uneven axes": (
+        with_axes(drawn((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
+        "first row .* evenly spaced",
+    ),
+    "sides that contradict": (
+        "Width: 10 um\nPixel size: 3 um\n\n" + text(drawn((5, 5))),
+        "pixels of 3e-06 m and a size of 1e-05 m",
+    ),
+    "axes that contradict": (
+        "Width: 10 um\n" + with_axes(drawn((5, 5)), (1, 1), "y [um]"),
+        "states pixels of 2e-06 .* its axes lie 1e-06",
+    ),
     "a unit of nothing": ("Width: 10 ell\n\n" + text(drawn((5, 5))), "'Width: 10 ell'"),
 }
 
@@ -273,9 +314,13 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
 def test_no_more_than_a_twentieth_is_filled_in():
     heights = drawn((20, 20))
     heights.ravel()[:20] = NAN
-    assert Topography(heights=heights, pixel=1.0, missing="fill").notes[0].startswith("20 pixels had no height, 5 %")
+    assert (
+        Topography(heights=heights, pixel=1.0, missing="fill").notes[0].startswith("20 pixels had no height, 5 %")
+    )
     heights[5, 5] = NAN
-    with pytest.raises(ValidationError, match="21 pixels have no height, 5.25 % of 400, and at most 5 % are filled in"):
+    with pytest.raises(
+        ValidationError, match="21 pixels have no height, 5.25 % of 400, and at most 5 % are filled in"
+    ):
         Topography(heights=heights, pixel=1.0, missing="fill")
     heights[:] = NAN
     with pytest.raises(ValidationError, match="400 pixels have no height, 100 %"):
@@ -310,7 +355,9 @@ def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
     # planes and xy are harmonic on any lattice, and at a side nothing leaves
     x, y = np.meshgrid(np.arange(12.0), np.arange(10.0))
     for surface in (1 + 2 * x + 3 * y, x * y, x**2 - y**2):
-        assert filled(np.where((x > 3) & (x < 6) & (y > 3) & (y < 7), NAN, surface), (1, 1)) == pytest.approx(surface)
+        assert filled(np.where((x > 3) & (x < 6) & (y > 3) & (y < 7), NAN, surface), (1, 1)) == pytest.approx(
+            surface
+        )
     assert filled(np.where((x < 3) & (y < 2), NAN, 7.0), (1, 2)) == pytest.approx(7.0)
 
 
@@ -333,17 +380,23 @@ def test_outliers_are_found_on_request_and_counted():
     assert np.array_equal(outliers(heights, 15.0), spikes)
     assert Topography(heights=heights, pixel=1e-3).notes == ()
     found = Topography(heights=heights, pixel=1e-3, outliers=15)
-    assert found.notes == ("3 pixels were more than 15 robust standard deviations off the median around, 0.25 % of 1200, and filled in",)
+    assert found.notes == (
+        "3 pixels were more than 15 robust standard deviations off the median around, 0.25 % of 1200, and filled in",
+    )
     assert np.abs(found.heights.heights - smooth).max() < 0.1
     assert np.array_equal(found.heights.heights[~spikes], heights[~spikes])
     # of normal noise 0.27 % lie beyond three deviations, up to twice that as the median has noise of its own
     noise = drawn((300, 300))
     beyond = outliers(noise, 3.0).mean()
     assert 0.0027 < beyond < 0.0054
-    with pytest.raises(ValidationError, match=f"more than half of the heights are the median of the {NEIGHBOURS} x"):
+    with pytest.raises(
+        ValidationError, match=f"more than half of the heights are the median of the {NEIGHBOURS} x"
+    ):
         Topography(heights=np.where(spikes, 1.0, 0.0), pixel=1e-3, outliers=10)
     for wrong in (2.9, NAN, "ten", True):
-        with pytest.raises(ValidationError, match="outliers = .*a number of standard deviations|outliers = .*number"):
+        with pytest.raises(
+            ValidationError, match="outliers = .*a number of standard deviations|outliers = .*number"
+        ):
             Topography(heights=heights, pixel=1e-3, outliers=wrong)
     with pytest.raises(ValidationError, match="0.0833 % of 1200: missing"):
         Topography(heights=np.where(np.arange(1200).reshape(30, 40) == 77, NAN, heights), pixel=1e-3, outliers=10)
@@ -364,8 +417,18 @@ def test_a_crop_is_the_map_of_what_it_keeps():
     # what is cut away may be missing
     heights[0, 0] = NAN
     assert Topography(**whole | {"heights": heights}, crop=crop) == Topography(**kept)
-    for wrong in ([5, 20, 3, 13], ["10 um", "12 um", "0 um", "60 um"], ["40 um", "10 um", "9 um", "39 um"], crop[:3], "10 um", [NAN] * 4, ["1 s"] * 4):
-        with pytest.raises(ValidationError, match="crop = .*(x from, x to, y from, y to as lengths, 0 to 6e-05 m|a list|a length)"):
+    for wrong in (
+        [5, 20, 3, 13],
+        ["10 um", "12 um", "0 um", "60 um"],
+        ["40 um", "10 um", "9 um", "39 um"],
+        crop[:3],
+        "10 um",
+        [NAN] * 4,
+        ["1 s"] * 4,
+    ):
+        with pytest.raises(
+            ValidationError, match="crop = .*(x from, x to, y from, y to as lengths, 0 to 6e-05 m|a list|a length)"
+        ):
             Topography(**whole, crop=wrong)
 
 
@@ -420,7 +483,10 @@ def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sough
     for written_, said in (
         ("maps/a.csv", f"maps/a.csv: no such file in {tmp_path}, the working directory"),
         (f"{tmp_path}/a.csv", f"{tmp_path}/a.csv: no such file"),
-        ("C:\\new\\table.csv", "no such file: a backslash in double quotes .* single quotes, or with forward slashes"),
+        (
+            "C:\\new\\table.csv",
+            "no such file: a backslash in double quotes .* single quotes, or with forward slashes",
+        ),
         ("C:\\data\\map.csv", "is not valid TOML: .* a path with backslashes stands in single quotes"),
         ("C:\\Users\\map.csv", "is not valid TOML: .* a path with backslashes stands in single quotes"),
     ):
