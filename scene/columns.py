@@ -137,7 +137,13 @@ def _items(table):
 
 def _plain(name):
     """A name in one spelling; letters stay as large as they are."""
-    name = normalize("NFKC", name).translate(_SIGNS).replace("''", '"').replace("_", " ").replace("-", " ")
+    name = (
+        normalize("NFKC", name.translate(_SIGNS))
+        .translate(_SIGNS)
+        .replace("''", '"')
+        .replace("_", " ")
+        .replace("-", " ")
+    )
     return " ".join(name.strip(" .:").split())
 
 

@@ -104,7 +104,7 @@ def plain(line: str) -> str:
 def comment(line: str) -> str | None:
     """Text of a line that is a comment as a whole; None of any other."""
     found = _COMMENT.match(line)
-    return line[found.end() :].strip() if found else None
+    return line[found.end() :].strip(" ") if found else None
 
 
 def thousands(cells: Iterable[str]) -> str | None:

@@ -8,11 +8,14 @@ from .dialect import BLANK, NUMBER, STRONG, Dialect, comment, unquoted
 from .printable import brief
 
 _STATEMENT = re.compile(r"[^\W\d][^:=;\t,|]{0,80}[:=].*")  # "Width: 20 µm", "T = 25 °C"
-# "F_N [mN]", "F_N (mN)", "F_N / mN", "F_N in mN", or a name alone.
-_NAMED = re.compile(
-    r"(?P<name>.*?)\s*(?:\[(?P<a>[^\[\]]*)\]|\((?P<b>[^()]*(?:\([^()]*\)[^()]*)*)\)|/\s*\(?(?P<c>[^()/]+)\)?"
-    r"|\s+in\s+(?P<d>\S+))?"
+# Ways to write a unit behind a name: "F_N [mN]", "F_N (mN)", "F_N / (N/m)", "F_N / mN", "F_N in mN"; "F_N, mN" and
+# "F(mN)" where it is one, as what is behind a comma or in brackets may belong to the name; "G' MPa", "freq_Hz".
+_SURE = re.compile(
+    r"(?P<name>.+?)(?:\s*\[(?P<a>[^\[\]]*)\]|\s+\((?P<b>[^()]*(?:\([^()]*\)[^()]*)*)\)|\s*/\s*\((?P<c>[^()]+)\)"
+    r"|\s*/\s*(?P<d>[^()\[\]/]+)|\s+in\s+(?P<e>\S+))"
 )
+_MAYBE = re.compile(r"(?P<name>.+?)(?:,\s*(?P<a>\S+)|\((?P<b>[^()]+)\))")
+_BEHIND = re.compile(r"(?P<name>.+?)[_ ](?P<a>[mkMGµμu]?(?:Hz|Pa)|[nuµμmk]m|[uµμmk]N|[nuµμmk]?m/s|rad/s|[uµμm]s)")
 _UNIT = re.compile(r"[\[(]?\s*(?P<unit>[^\[\]]*?)\s*[\])]?")
 _NONE = "", "-", "1"  # in a line of units
 # Names of several words are parted by two blanks, or a unit in brackets ends them.
@@ -39,7 +42,7 @@ class Heading:
     @classmethod
     def of(cls, lines: Sequence[str], width: int, dialect: Dialect) -> "Heading":
         """The heading among the lines above so many columns. Raises ValueError for units that are stated twice."""
-        said = [(comment(line), line.strip()) for line in lines if line.strip(' \t;,|"')]
+        said = [(comment(line), line.strip(" ")) for line in lines if line.strip(' \t;,|"')]
         texts = [line if remark is None else remark for remark, line in said]
         remarks = [remark is not None for remark, _ in said]
         unread = [(k, text) for k, text in enumerate(texts) if not remarks[k] and not is_statement(text)][-1:]
@@ -70,17 +73,20 @@ def is_statement(line: str) -> bool:
 
 def named(cell: str) -> tuple[str, str]:
     """Name and unit of a heading, as "F_N [mN]" has them; an empty unit where it has none."""
-    found = _NAMED.fullmatch(" ".join(cell.split()))
-    if not found or not found["name"]:
-        return cell.strip(), ""
-    return found["name"].strip(), next(filter(None, found.group("a", "b", "c", "d")), "").strip()
+    cell = " ".join(cell.split())
+    for way, certain in ((_MAYBE, False), (_SURE, True), (_BEHIND, True)):
+        if found := way.fullmatch(cell):
+            unit = next((each for each in found.groups()[1:] if each is not None), "").strip()
+            if certain or _is_unit(unit):
+                return found["name"].rstrip(" /"), unit
+    return cell, ""
 
 
 def parted(line: str, width: int, dialect: Dialect) -> list[str]:
     """Cells of a heading, as many as columns; none where it has not as many.
 
-    A heading may be parted otherwise than the numbers, as by commas above blanks; numbers in it, as of axes, get
-    decimal points.
+    A heading may be parted otherwise than the numbers, commas above blanks for one. A number in it, an axis for one,
+    gets a decimal point.
     """
     ways = []
     for separator in dict.fromkeys((dialect.separator, *STRONG, ",")):
@@ -127,11 +133,14 @@ def _unit(cell):
 
 
 def _are_units(cells):
-    """Whether every cell of a line is a unit, says that there is none, or is empty; and one at least is a unit."""
+    """Whether a line is one of units: all are in brackets, or known, or say that there is none."""
+    stated = [each for each in cells if each.strip()]
+    if stated and all(each[0] + each[-1] in ("[]", "()") for each in stated):
+        return True
     units = [_unit(each) for each in cells]
-    if all(each in _NONE for each in units):
-        return False
-    return all(each in (*_NONE, "%") or _is_unit(each) for each in units)
+    said = [each for each in units if each not in (*_NONE, "%")]
+    # Of columns that nobody asks for the unit may be unknown.
+    return len(said) > 0 and sum(map(_is_unit, said)) > len(said) / 2
 
 
 def _is_unit(text):

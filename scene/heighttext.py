@@ -1,45 +1,21 @@
-"""Maps of heights in text files: rows of heights, with axes or without, channels one after the other, or points."""
+"""Maps of heights in text files: rows of heights, with axes or without, one channel or several, or points."""
 
-import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from .columns import Column, chosen, joined
-from .heading import named
-from .lattice import mapped as on_lattice
-from .lattice import placed
-from .printable import brief
+from .lattice import mapped, placed
 from .quantities import METRE
 from .scan import EVEN, LEAST, Scan, counts, measured_in, picked
+from .scanheader import Header
 from .sheet import Sheet, read_sheets
 
 X = Column("x", ("x", "x position", "position x", "x coordinate", "pos x", "x pos", "x axis"), (METRE,))
 Y = Column("y", ("y", "y position", "position y", "y coordinate", "pos y", "y pos", "y axis"), (METRE,))
 Z = Column("z", ("z", "height", "heights", "h", "elevation", "topography", "z position", "z height"), (METRE,))
-# Lines above the numbers, "Width: 20.00 µm": of the whole map, of a pixel, of the heights.
-WIDTH = ("width", "x size", "size x", "scan size x", "x scan size", "x range", "x length", "scan width")
-HEIGHT = ("height", "y size", "size y", "scan size y", "y scan size", "y range", "y length", "scan height")
-SIZE = ("scan size", "scan range", "size", "image size", "field of view")
-PIXEL_X = ("x pixel size", "pixel size x", "pixel width", "x step", "step x", "dx", "x spacing", "spacing x")
-PIXEL_Y = ("y pixel size", "pixel size y", "pixel height", "y step", "step y", "dy", "y spacing", "spacing y")
-PIXEL = ("pixel size", "pixel", "pixel spacing", "spacing", "step size", "point spacing")
-UNIT = (
-    "value units",
-    "value unit",
-    "z unit",
-    "z units",
-    "unit z",
-    "height unit",
-    "height units",
-    "unit of heights",
-)
-CHANNEL = ("channel", "channel name")
-_LINE = re.compile(r"([^:=;\t]*[^\W\d][^:=;\t]*?)\s*[:=;\t,]\s*(.*?)[\s;,]*")
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_LENGTHS = re.compile(rf"({_NUMBER})\s*([^\W\d]+|Å)?(?:\s*[x×*]\s*({_NUMBER})\s*([^\W\d]+|Å)?)?")
 _TOLD = 6  # cells: so many evenly spaced ones in one row alone are no heights
 _EXACT, _NEAR = 1e-6, 1e-2  # relative, of spacings
 
@@ -67,111 +43,13 @@ def read_text(path: str | Path, channel: str | None, rows: int, most_bytes: int,
         return of_points(sheets, channel)
     if len(sheets) > 1 and all(len(each.lines) == 1 and not each.before for each in sheets[1:]):
         sheets = (joined(sheets),)  # of an empty line after each row
-    channels: dict[str, tuple[Sheet, _Told]] = {}
-    told = _Told()
+    channels: dict[str, tuple[Sheet, Header]] = {}
+    told = Header()
     for number, sheet in enumerate(sheets, 1):
-        told = _Told.of(sheet, told)
+        told = Header.of(sheet, told)
         name = told.channel or str(number)
         channels[name if name not in channels else f"{name} ({number})"] = sheet, told
-    sheet, told = channels[picked(first.name, channels, channel)]
-    return _of_rows(sheet, told)
-
-
-@dataclass(frozen=True)
-class _Told:
-    """What lines above a block say.
-
-    pixel, size : sides [m] along x and y, None where one is not stated
-    """
-
-    channel: str = ""
-    unit: str = ""
-    pixel: tuple[float | None, float | None] = (None, None)
-    size: tuple[float | None, float | None] = (None, None)
-    notes: tuple[str, ...] = ()
-
-    @classmethod
-    def of(cls, sheet: Sheet, above: "_Told | None" = None) -> "_Told":
-        """What the lines above a block say, and of its sides, what those above the block before said."""
-        found, notes, channel, unit = {}, [], "", ""
-        for line in sheet.before:
-            stated = _LINE.fullmatch(line.strip())
-            if stated is None:
-                continue
-            key, written = named(stated[1])
-            key, value = (
-                " ".join(key.replace("_", " ").replace("-", " ").casefold().split()),
-                stated[2].strip('" '),
-            )
-            if key in CHANNEL:
-                channel, unit = _parted(value, unit)
-            elif key in UNIT:
-                unit = value
-            elif names := [each for each in (WIDTH, HEIGHT, SIZE, PIXEL_X, PIXEL_Y, PIXEL) if key in each]:
-                lengths = _lengths(sheet, line, value, written)
-                if lengths is None:
-                    notes.append(f"{sheet.name}: {brief(repr(line))} states no unit of length and is not used")
-                else:
-                    found[names[0]] = lengths
-        above = above or cls()
-        return cls(
-            channel,
-            unit,
-            _both(found, PIXEL, PIXEL_X, PIXEL_Y, above.pixel),
-            _both(found, SIZE, WIDTH, HEIGHT, above.size),
-            tuple(notes),
-        )
-
-    def sides(self, sheet: Sheet, columns: int, rows: int) -> tuple[float, float] | None:
-        """Sides of a pixel of a map of so many. Raises ValueError where size and pixel contradict one another."""
-        found = []
-        for pixel, size, count in zip(self.pixel, self.size, (columns, rows), strict=True):
-            of_all = None if size is None else size / count
-            # Some count from the first pixel to the last.
-            if pixel and size and min(abs(of_all - pixel), abs(size / (count - 1) - pixel)) > 10 * EVEN * pixel:
-                raise ValueError(
-                    f"{sheet.name} states pixels of {pixel:g} m and a size of {size:g} m, which is {of_all:g} m a "
-                    f"pixel of {count}"
-                )
-            found.append(pixel or of_all)
-        if None in found:
-            return None if found == [None, None] else (found[0] or found[1], found[1] or found[0])  # type: ignore
-        return found[0], found[1]  # type: ignore[return-value]
-
-
-def _both(found, both, x, y, above):
-    one, other = found.get(both, (None, None))
-    along_x, along_y = found.get(x, (one,))[0], found.get(y, (other,))[0]
-    return (along_x, along_y) if along_x or along_y else above
-
-
-def _parted(value, unit):
-    """Name of a channel, and the unit in brackets after it, if it is one of a length."""
-    name, written = named(value)
-    try:
-        METRE.scale(written)
-    except ValueError:
-        return value, unit
-    return name, written
-
-
-def _lengths(sheet, line, value, written):
-    """One length [m] or two, along x and along y; None where there is no unit."""
-    text = re.sub(r"(?<=\d),(?=\d)", ".", value) if "." not in value else value
-    found = _LENGTHS.fullmatch(" ".join(re.split(r"[\s;,]+", text)).strip())
-    if found is None:
-        return None
-    one, unit, other, others = found.groups()
-    units = [unit or others or written, others or unit or written]
-    if not units[0]:
-        return None
-    try:
-        lengths = [float(n) * float(METRE.scale(u)[0]) for n, u in zip((one, other or one), units, strict=True)]
-    except ValueError as error:
-        raise ValueError(f"{sheet.name}: {brief(repr(line))}: {error or 'a length is needed'}") from None
-    if not all(0 < each < np.inf for each in lengths):
-        raise ValueError(f"{sheet.name}: {brief(repr(line))}: a length greater than 0 is needed")
-    return tuple(lengths)
+    return _of_rows(*channels[picked(first.name, channels, channel)])
 
 
 def _called(name):
@@ -180,7 +58,7 @@ def _called(name):
 
 def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
     """The map of points x, y and z, or the column that is chosen, which lie on a lattice. Raises ValueError."""
-    told = _Told.of(sheets[0])
+    told = Header.of(sheets[0])
     # What is told above the points is taken out: the rest may be a heading that is none.
     bare = (replace(each.heading, before=(), unread="" if told.unit else each.unread) for each in sheets)
     sheet = joined([replace(each, heading=heading) for each, heading in zip(sheets, bare, strict=True)])
@@ -194,7 +72,7 @@ def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
     if (x.unit is None) != (y.unit is None):
         raise ValueError(f"{sheet.name}: one of x and y has a unit and the other has none")
     try:
-        heights, steps = on_lattice(x.numbers, y.numbers, z.numbers, where)
+        heights, steps = mapped(x.numbers, y.numbers, z.numbers, where)
     except ValueError as error:
         text = str(error)
         raise ValueError(text if text.startswith(sheet.name) else f"{sheet.name}: {text}") from None
@@ -208,24 +86,18 @@ def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
 
 def _of_rows(sheet, told):
     """The map of a block, without its axes."""
-    numbers, notes = sheet.numbers, list(told.notes)
+    numbers, steps = sheet.numbers, None
     x, y, unit = _axes(sheet)
-    steps = None
     if x is not None:
         numbers = numbers[len(numbers) - len(y) :, 1:]
         numbers, dx = _ascending(sheet, "first row", x, numbers, 1)
         numbers, dy = _ascending(sheet, "first column", y, numbers, 0)
         # Numbers of rows and columns, as tables have them, say nothing of the pixel.
         steps = None if not unit and counts((dx, dy)) and {x.min(), y.min()} <= {0, 1} else (dx, dy)
-    elif len(numbers[0]) > LEAST and np.isnan(numbers[:, -1]).all():
-        numbers = numbers[:, :-1]
-        notes.append(
-            f"{sheet.name}: the last cell of every line is empty, and is taken for the separator at its end"
-        )
     _check_axes(sheet, numbers)
-    pixel = told.sides(sheet, numbers.shape[1], numbers.shape[0])
+    pixel = told.sides(sheet.name, numbers.shape[1], numbers.shape[0])
     if steps is not None and unit:
-        lateral = tuple(step * float(METRE.scale(unit)[0]) for step in steps)
+        lateral = tuple(measured_in(f"{sheet.name}, line {sheet.lines[0] - 1}, axes", step, unit) for step in steps)
         if pixel is not None and any(abs(a - b) > EVEN * b for a, b in zip(lateral, pixel, strict=True)):
             raise ValueError(
                 f"{sheet.name} states pixels of {pixel[0]:g} x {pixel[1]:g} m, and its axes lie {lateral[0]:g} x "
@@ -234,7 +106,7 @@ def _of_rows(sheet, told):
         pixel, steps = lateral, None
     if told.unit:
         numbers = measured_in(sheet.name, numbers, told.unit)
-    return Scan(sheet.name, numbers, told.unit, pixel, None if pixel is not None else steps, tuple(notes))
+    return Scan(sheet.name, numbers, told.unit, pixel, None if pixel is not None else steps, told.notes)
 
 
 def _axes(sheet):
@@ -242,14 +114,9 @@ def _axes(sheet):
     numbers, names = sheet.numbers, sheet.names
     cells = [_as_number(each) for each in names[1:]]
     if cells and not np.isnan(cells).any():
-        if _as_number(names[0]) == _as_number(names[0]):
-            return None, None, ""
-        unit = sheet.units[0]
-        try:
-            METRE.scale(unit)
-        except ValueError:
-            unit = ""
-        return np.array(cells), numbers[:, 0], unit
+        return np.array(cells), numbers[:, 0], sheet.units[0]
+    if min(numbers.shape) < LEAST:
+        return None, None, ""
     first, second = numbers[0, 1:], numbers[1, 1:]
     empty = np.isnan(numbers[0, 0])
     if not (empty and _even(first, _NEAR) and _even(numbers[1:, 0], _NEAR)):

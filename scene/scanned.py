@@ -135,10 +135,9 @@ def _of_array(stated):
     if isinstance(heights, HeightMap):
         return _mapped(stated, heights.heights, heights.notes, given=heights)
     channel, unit = stated.pop("channel", None), stated.pop("unit", None)
-    if hasattr(heights, "data_vars"):  # of xarray
+    if channel is not None and hasattr(heights, "data_vars") and not _is_table(heights):  # of xarray
         maps = {str(name): each for name, each in heights.data_vars.items() if each.ndim == 2}
-        if len(maps) or channel is not None:
-            heights, channel = maps[picked("a Dataset", maps, channel)], None
+        heights, channel = maps[picked("a Dataset", maps, channel)], None
     if _is_table(heights):
         # Only tables of points need them.
         from .columns import sheet_of

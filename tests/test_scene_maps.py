@@ -167,7 +167,7 @@ def test_channels_are_never_joined(tmp_path):
     with pytest.raises(ValidationError, match="has 2 channels, 'Height', 'Phase': choose one, channel = 'Height'"):
         Topography(file=file)
     np.testing.assert_allclose(Topography(file=file, channel="height").heights.heights, 1e-6 * height, rtol=DIGITS)
-    with pytest.raises(ValidationError, match="has values in 'deg': heights are needed"):
+    with pytest.raises(ValidationError, match="has values in 'deg': a unit of length is needed"):
         Topography(file=file, channel="Phase")
     with pytest.raises(ValidationError, match="channel = 'Error': .* has 'Height', 'Phase'"):
         Topography(file=file, channel="Error")
