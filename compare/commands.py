@@ -197,8 +197,8 @@ def topography(
 ) -> Report:
     """Describe a measured surface: slopes, spectra, exponent H.
 
-    file : map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads. From Python
-        also heights [m] as rows, an array, a DataFrame or an object of xarray
+    file : map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads. From
+        Python also heights [m] as rows, an array, a DataFrame or an object of xarray
     pixel : side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.
         Needed if the file states none. From Python also a number [m]
     unit : unit of the heights: m, mm, um or nm. Needed if the file states none
@@ -206,8 +206,8 @@ def topography(
     crop : part to keep: give it four times, x from, x to, y from, y to, as "10 um", from the corner of the map
     outliers : heights so many robust standard deviations off the median around them are filled in, 3 or more
     missing : fill fills in missing heights, at most 5 % of the pixels; refuse, the default, makes them an error
-    level : what is subtracted first: mean, tilt (a plane), curvature (a form of second degree) or cubic (of third); if
-        absent, tilt, and mean of a periodic map
+    level : what is subtracted first: mean, tilt (a plane), curvature (a form of second degree) or cubic (of
+        third); if absent, tilt, and mean of a periodic map
     shortest_kept : leave out waves shorter than this, as "5 um"
     repeat : how the map continues beyond its sides: mirror or periodic
     peaks : up if the heights grow towards the elastomer, down if they grow away from it

@@ -137,8 +137,8 @@ def _not_found(path):
     """Where a path that leads nowhere was sought, and what became of a backslash that was none."""
     if any(mark in str(path) for mark in _ESCAPED):
         return (
-            "no such file: a backslash in double quotes was read as the beginning of a sign; write the path in single "
-            "quotes, or with forward slashes"
+            "no such file: a backslash in double quotes was read as the beginning of a sign; write the path in "
+            "single quotes, or with forward slashes"
         )
     if Path(path).is_absolute():
         return "no such file"

@@ -32,9 +32,9 @@ def read_heights(
 ) -> tuple[np.ndarray, Any, tuple[str, ...]]:
     """Heights (rows, columns) [m], rows along y, NaN where none was measured; the pixel [m], and notes.
 
-    path : of an array (.npy), an archive with the arrays `heights` and, if it has one, `pixel` (.npz), a text (.csv,
-        .txt, .tsv, .xyz, see `heighttext.read_text`), or anything else that the package SurfaceTopography reads
-        (extra `topography`)
+    path : of an array (.npy), an archive with the arrays `heights` and, if it has one, `pixel` (.npz), a text
+        (.csv, .txt, .tsv, .xyz, see `heighttext.read_text`), or anything else that the package SurfaceTopography
+        reads (extra `topography`)
     pixel : [m], where the file states none; one number, or two along x and along y
     unit : of all numbers in a file that states none, as arrays do not: "m", "mm", "um" or "nm"
     channel : which map of a file with several is read, by its name
@@ -149,7 +149,7 @@ def _silent():
 
 
 def _scan(path, channel):
-    """A channel of a file by SurfaceTopography, its own choice where none is chosen; in metres where it states a unit."""
+    """A channel of a file by SurfaceTopography, its own choice where none is chosen."""
     name = brief(str(path))
     try:
         with _silent():

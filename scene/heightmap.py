@@ -25,8 +25,8 @@ class HeightMap:
     heights : the array, read-only; no field
     notes : what was done to the heights before, and what of a file was not used, a line each; no field
 
-    Raises ValueError for what is no map of finite numbers, has less than four pixels a side, heights beyond 1e-50 to
-    1e50 m, or some that stand for none, see `missing.sentinels`.
+    Raises ValueError for what is no map of finite numbers, has less than four pixels a side, heights beyond 1e-50
+    to 1e50 m, or some that stand for none, see `missing.sentinels`.
     """
 
     shape: tuple[int, int]

@@ -9,7 +9,7 @@ import numpy as np
 from .columns import Column, chosen, joined
 from .lattice import mapped, placed
 from .quantities import METRE
-from .scan import EVEN, LEAST, Scan, counts, measured_in, picked
+from .scan import EVEN, LEAST, Scan, measured_in, picked
 from .scanheader import Header
 from .sheet import Sheet, read_sheets
 
@@ -24,8 +24,8 @@ def read_text(path: str | Path, channel: str | None, rows: int, most_bytes: int,
     """The map in a text file, or the channel of it that is chosen.
 
     Three columns, or columns called x and y, are points: on a lattice, in any order, as many blocks as there are.
-    Otherwise a block of numbers is a map, rows along y. A first row and a first column are its axes where their common
-    cell is empty or a word. Lines above the numbers may state its name, its width, its pixel and its unit.
+    Otherwise a block of numbers is a map, rows along y. A first row and a first column are its axes where their
+    common cell is empty or a word. Lines above the numbers may state its name, its width, its pixel and its unit.
 
     rows, most_bytes, pixels : that are read
 
@@ -80,8 +80,13 @@ def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
     if z.unit is None and told.unit:
         heights = measured_in(sheet.name, heights, told.unit)
     if x.unit is not None:
-        return Scan(sheet.name, heights, unit, pixel=steps, notes=notes)
-    return Scan(sheet.name, heights, unit, steps=steps, notes=notes)
+        return Scan(sheet.name, heights, unit, steps, notes=notes)
+    return Scan(sheet.name, heights, unit, steps=steps, counted=_count(steps), notes=notes)
+
+
+def _count(steps):
+    """Whether coordinates so far apart may merely number the pixels."""
+    return max(abs(step - 1) for step in steps) < _EXACT
 
 
 def _of_rows(sheet, told):
@@ -93,20 +98,20 @@ def _of_rows(sheet, told):
         numbers, dx = _ascending(sheet, "first row", x, numbers, 1)
         numbers, dy = _ascending(sheet, "first column", y, numbers, 0)
         # Numbers of rows and columns, as tables have them, say nothing of the pixel.
-        steps = None if not unit and counts((dx, dy)) and {x.min(), y.min()} <= {0, 1} else (dx, dy)
+        steps = None if not unit and _count((dx, dy)) and {x.min(), y.min()} <= {0, 1} else (dx, dy)
     _check_axes(sheet, numbers)
     pixel = told.sides(sheet.name, numbers.shape[1], numbers.shape[0])
     if steps is not None and unit:
-        lateral = tuple(measured_in(f"{sheet.name}, line {sheet.lines[0] - 1}, axes", step, unit) for step in steps)
-        if pixel is not None and any(abs(a - b) > EVEN * b for a, b in zip(lateral, pixel, strict=True)):
+        lateral = tuple(measured_in(f"{sheet.name}, axes,", step, unit) for step in steps)
+        if any(side and abs(step - side) > EVEN * side for step, side in zip(lateral, pixel, strict=True)):
             raise ValueError(
-                f"{sheet.name} states pixels of {pixel[0]:g} x {pixel[1]:g} m, and its axes lie {lateral[0]:g} x "
-                f"{lateral[1]:g} m apart"
+                f"{sheet.name} states pixels of {pixel[0]} m, and its axes lie {lateral[0]:g} m apart"
             )
         pixel, steps = lateral, None
     if told.unit:
         numbers = measured_in(sheet.name, numbers, told.unit)
-    return Scan(sheet.name, numbers, told.unit, pixel, None if pixel is not None else steps, told.notes)
+    stated = None if None not in pixel else steps
+    return Scan(sheet.name, numbers, told.unit, pixel, stated, stated is not None and _count(stated), told.notes)
 
 
 def _axes(sheet):
@@ -156,13 +161,13 @@ def _ascending(sheet, called, axis, numbers, along):
 
 
 def _check_axes(sheet, numbers):
-    """Raise ValueError where the first row or column of a map seems to be coordinates: evenly spaced, and no other is."""
+    """Raise ValueError where the first row or column of a map is evenly spaced, as coordinates."""
     for called, rows in (("row", numbers), ("column", numbers.T)):
         if rows.shape[1] < _TOLD or len(rows) < 2 or not _even(rows[0], _EXACT) or _even(rows[1], _EXACT):
             continue
         if np.isfinite(rows[1]).all():
             raise ValueError(
                 f"{sheet.name}, line {sheet.lines[0]}: the first {called}, {rows[0, 0]:g}, {rows[0, 1]:g}, "
-                f"{rows[0, 2]:g} and so on, is evenly spaced as coordinates are, and the next is not: leave it out, "
-                "or write axes on both sides and nothing in their common cell"
+                f"{rows[0, 2]:g} and so on, is evenly spaced as coordinates are, and the next is not: leave it "
+                "out, or write axes on both sides and nothing in their common cell"
             )

@@ -25,8 +25,8 @@ def mapped(
     places = shape[0] * shape[1]
     if len(z) < _LEAST_FULL * places:
         raise ValueError(
-            f"{len(z):,} points on {shape[1]:,} x {shape[0]:,} places of x and y are no map: a map has a height at "
-            "nearly every place of a lattice"
+            f"{len(z):,} points on {shape[1]:,} x {shape[0]:,} places of x and y are no map: a map has a height "
+            "at nearly every place of a lattice"
         )
     flat = rows * shape[1] + columns
     if np.bincount(flat).max() > 1:
@@ -51,7 +51,7 @@ def placed(name: str, values: np.ndarray, where: Callable[[int], str] = lambda _
             'type = "profile"'
         )
     worst = 0
-    # What lies closer together than this is one place: but for rounding; else where gaps part into small and large.
+    # What lies closer together than this is one place: but for rounding, or where gaps are small or large.
     for closest in (_NOISE * (different[-1] - different[0]), _between(gaps)):
         if closest is None:
             continue
@@ -70,7 +70,7 @@ def placed(name: str, values: np.ndarray, where: Callable[[int], str] = lambda _
         worst = int(off.argmax())
     place = where(worst)
     raise ValueError(
-        f"{place}{': ' if place else ''}{name} = {values[worst]:g} is on no lattice: {name} of a map are evenly spaced"
+        f"{place}{': ' if place else ''}{name} = {values[worst]:g} is on no lattice: those of a map are even"
     )
 
 

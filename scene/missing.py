@@ -10,8 +10,8 @@ NORMAL = 1.4826  # standard deviation of a normal distribution over its median a
 _NONES = (-999.0, -32768.0, 32767.0, 65535.0, -2147483648.0, 2147483647.0, 4294967295.0)
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 _ENDLESS = 1e30
-# Over the range of all other heights: how far off is a number that stands for none, one that programs write, one that
-# is there more than once, and any other.
+# Over the range of all other heights: how far off is a number that stands for none, one that programs write, one
+# that is there more than once, and any other.
 _PROGRAMS, _REPEATED, _ALONE = 1.0, 100.0, 1000.0
 _FARTHER = 10.0  # and over the largest of them
 
@@ -28,8 +28,8 @@ def refuse_missing(heights: np.ndarray) -> None:
     if found := sentinels(heights):
         counts = [np.count_nonzero(heights == value) for value in found]
         raise ValueError(
-            f"{' and '.join(map(_held, found, counts))}, {_share(sum(counts), size)}, far off all others: such numbers "
-            f"stand for missing heights: {_remedy(sum(counts), size)}"
+            f"{' and '.join(map(_held, found, counts))}, {_share(sum(counts), size)}, far off all others: such "
+            f"numbers stand for missing heights: {_remedy(sum(counts), size)}"
         )
 
 
@@ -74,8 +74,8 @@ def _checked(holes, are, is_):
     count = np.count_nonzero(holes)
     if count > MOST_FILLED * holes.size:
         raise ValueError(
-            f"{_pixels(count, are, is_)}, {_share(count, holes.size)}, and at most {100 * MOST_FILLED:g} % are filled "
-            "in: crop the map"
+            f"{_pixels(count, are, is_)}, {_share(count, holes.size)}, and at most {100 * MOST_FILLED:g} % are "
+            "filled in: crop the map"
         )
     return count
 
@@ -108,8 +108,8 @@ def sentinels(heights: np.ndarray) -> list[float]:
     """Heights [m] that lie so far off all others that they stand for none: exact numbers, one at each end at most.
 
     A number that programs write for none, as -9999, 32767 or 1e38 in m, mm, um or nm, has to lie farther from all
-    other heights than those lie from one another; another one a hundred times as far if it is there more than once,
-    a thousand times if not, and to be ten times as large as any. Beside heights that are all alike none is far off.
+    others than those lie from one another; another one a hundred times as far if it is there more than once, a
+    thousand times if not, and to be ten times as large as any. Beside heights that are all alike none is far off.
     """
     known = heights[np.isfinite(heights)]
     if not known.size:
@@ -142,7 +142,7 @@ def _written(value):
 
 
 def outliers(heights: np.ndarray, deviations: float) -> np.ndarray:
-    """Whether each height of a whole map is farther from the median of the square around it than so many deviations.
+    """Whether heights of a whole map are farther off the median of the square around them than so many deviations.
 
     The standard deviation is the robust one of all these distances, 1.4826 times the median of their sizes. Raises
     ValueError where more than half of them are 0, which leaves none.

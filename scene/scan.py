@@ -26,68 +26,58 @@ class Scan:
     name : of the file, for messages
     heights : (rows, columns), rows along y, NaN where none was measured; [m] if the file states a unit
     unit : of the heights as the file writes it; empty where it states none
-    pixel : sides along x and along y [m], where the file states them
-    steps : the same as numbers without a unit
+    pixel : sides along x and along y [m], None where the file does not state one
+    steps : both as numbers without a unit
+    counted : whether these may merely number the pixels, as coordinates that are 1 apart do
     notes : what was read and is not used, a line each
     """
 
     name: str
     heights: np.ndarray
     unit: str = ""
-    pixel: tuple[float, float] | None = None
+    pixel: tuple[float | None, float | None] = (None, None)
     steps: tuple[float, float] | None = None
+    counted: bool = False
     notes: tuple[str, ...] = ()
 
     def settled(self, pixel: Any = None, unit: str | None = None) -> tuple[np.ndarray, Any]:
         """Heights [m] and the pixel, what is stated and what the file says put together.
 
-        Sides without a unit are in that which is stated for the heights; where they are 1 and a pixel is stated, they
-        count. Raises ValueError where one is stated twice and differs, and where one is stated nowhere.
+        Sides without a unit are in that which is stated for the heights, unless they count and a pixel is stated.
+        Raises ValueError where one is stated twice and differs, and where one is stated nowhere.
         """
-        metre = None if unit is None else metres(unit)
+        metre, own = None if unit is None else metres(unit), self.pixel
         if self.unit and metre is not None and not _is_metres(self.unit, metre):
             raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(self.unit)}, leave unit out")
-        found = self.pixel
-        if (
-            found is None
-            and self.steps is not None
-            and metre is not None
-            and not (pixel is not None and counts(self.steps))
-        ):
-            found = self.steps[0] * metre, self.steps[1] * metre
-        needed = {UNIT: not self.unit and unit is None, PIXEL: found is None and pixel is None}
+        if self.steps is not None and metre is not None and not (self.counted and pixel is not None):
+            own = self.steps[0] * metre, self.steps[1] * metre
+        needed = {UNIT: not self.unit and unit is None, PIXEL: None in own and pixel is None}
         if lacking := [each for each, lacks in needed.items() if lacks]:
             raise ValueError(f"{self.name} does not state {'; nor '.join(lacking)}")
-        self._check(pixel, found)
+        self._check(pixel, own)
         # First the numbers in full: those of half precision end where nanometres begin.
         with np.errstate(over="ignore"):
             heights = self.heights.astype(float, copy=False) * (1.0 if self.unit else metre)
-        return heights, found if pixel is None else pixel
+        return heights, own if pixel is None else pixel
 
-    def _check(self, pixel, found):
-        """Raise ValueError for a pixel that differs from what the file says; one that is none, its field refuses."""
+    def _check(self, pixel, own):
+        """Raise ValueError for a pixel that differs from that of the file; one that is none, its field refuses."""
         try:
             given = sides(pixel) if pixel is not None else None
         except ValueError:
             return
-        if given is not None and found is not None and not _alike(given, found):
-            said = " x ".join(f"{side:.6g}" for side in dict.fromkeys(found))
+        if given is None:
+            return
+        if not all(
+            found is None or abs(side - found) <= EVEN * found for side, found in zip(given, own, strict=True)
+        ):
+            said = " x ".join(f"{side:.6g}" for side in dict.fromkeys(own) if side is not None)
             raise ValueError(f"pixel = {briefly(pixel)}: {self.name} states its own, {said} m, leave pixel out")
-        ratio = None if self.steps is None else self.steps[0] / self.steps[1]
-        if given is not None and ratio is not None and not _alike((given[0] / given[1],), (ratio,)):
+        if self.steps is not None and abs(given[0] / given[1] - self.steps[0] / self.steps[1]) > EVEN:
             raise ValueError(
                 f"pixel = {briefly(pixel)}: coordinates in {self.name} lie {self.steps[0]:g} apart along x and "
                 f"{self.steps[1]:g} along y, which is another ratio"
             )
-
-
-def counts(steps: tuple[float, float]) -> bool:
-    """Whether coordinates so far apart merely number the pixels."""
-    return max(abs(step - 1) for step in steps) < 1e-9
-
-
-def _alike(one, other):
-    return all(abs(a - b) <= EVEN * b for a, b in zip(one, other, strict=True))
 
 
 def _is_metres(unit, metre):
@@ -97,14 +87,12 @@ def _is_metres(unit, metre):
         return False
 
 
-def measured_in(name: str, heights: np.ndarray, unit: str) -> np.ndarray:
-    """Heights of a unit that a file of this name writes [m]. Raises ValueError for a unit of anything else."""
+def measured_in(name: str, lengths: Any, unit: str) -> Any:
+    """Numbers in a unit that a file of this name writes [m]. Raises ValueError for a unit of anything else."""
     try:
-        return in_unit(heights, unit, "m")
+        return in_unit(lengths, unit, "m")
     except ValueError:
-        raise ValueError(
-            f"{name} has values in {brief(repr(unit))}: heights are needed, in a unit of length"
-        ) from None
+        raise ValueError(f"{name} has values in {brief(repr(unit))}: a unit of length is needed") from None
 
 
 def metres(unit: Any) -> float:

@@ -10,7 +10,16 @@ from .scan import EVEN
 from .sheet import Sheet
 
 CHANNEL = ("channel", "channel name")
-UNIT = ("value units", "value unit", "z unit", "z units", "unit z", "height unit", "height units", "unit of heights")
+UNIT = (
+    "value units",
+    "value unit",
+    "z unit",
+    "z units",
+    "unit z",
+    "height unit",
+    "height units",
+    "unit of heights",
+)
 # Sides along x, along y, and both, of the whole map and of a pixel.
 SIZES = (
     ("width", "x size", "size x", "scan size x", "x scan size", "x range", "x length", "scan width"),
@@ -62,28 +71,34 @@ class Header:
                     notes.append(f"{sheet.name}: {brief(repr(line))} has no unit of length and is not used")
         return cls(channel, unit, lengths, tuple(notes))
 
-    def sides(self, name: str, columns: int, rows: int) -> tuple[float, float] | None:
-        """Sides of a pixel of a map of so many [m]; None where they are not both stated.
+    def sides(self, name: str, columns: int, rows: int) -> tuple[float | None, float | None]:
+        """Sides of a pixel of a map of so many [m], None where one is not stated.
 
         name : of the file. Raises ValueError where the size and the pixel contradict one another.
         """
-        found = []
-        for k, count in enumerate((columns, rows)):
-            pixel, size = self._side(PIXELS, k, True), self._side(SIZES, k, columns == rows)
-            # Some count from the first pixel to the last.
-            spans = [] if size is None else [size / count, size / (count - 1)]
-            if pixel and spans and min(abs(span - pixel) for span in spans) > 10 * EVEN * pixel:
-                raise ValueError(
-                    f"{name} states pixels of {pixel:g} m and a size of {size:g} m, which is {spans[0]:g} m a pixel "
-                    f"of {count}"
-                )
-            found += [pixel] if pixel else spans[:1]
-        return (found[0], found[1]) if len(found) == 2 else None
+        along_x, along_y = (
+            self._agreed(name, self._side(PIXELS, k, True), self._side(SIZES, k, columns == rows), count)
+            for k, count in enumerate((columns, rows))
+        )
+        return along_x, along_y
+
+    def _agreed(self, name, pixel, size, count):
+        # Some count from the first pixel to the last.
+        spans = [] if size is None else [size / count, size / (count - 1)]
+        if pixel and spans and min(abs(span - pixel) for span in spans) > 10 * EVEN * pixel:
+            raise ValueError(
+                f"{name} states pixels of {pixel:g} m and a size of {size:g} m, which is {spans[0]:g} m a pixel of "
+                f"{count}"
+            )
+        return pixel or next(iter(spans), None)
 
     def _side(self, names, k, alike):
         """The side along x or y, one for both only if pixels are squares."""
         both = self.lengths.get(names[2], ())
-        return next(iter(self.lengths.get(names[k], ())), both[k] if len(both) == 2 else both[0] if both and alike else None)
+        return next(
+            iter(self.lengths.get(names[k], ())),
+            both[k] if len(both) == 2 else both[0] if both and alike else None,
+        )
 
 
 def _parted(value, unit):

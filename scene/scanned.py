@@ -56,9 +56,10 @@ class Scanned:
 
     Before heights are a map, in this order:
 
-    crop : x from, x to, y from, y to [m], from the corner of the first pixel: pixels whose middles lie between are kept
-    outliers : heights farther off the median of the 5 x 5 pixels around them than so many robust standard deviations,
-        from 3 on, are filled in; absent, none is
+    crop : x from, x to, y from, y to [m], from the corner of the first pixel: pixels whose middles lie between are
+        kept
+    outliers : heights farther off the median of the 5 x 5 pixels around them than so many robust standard
+        deviations, from 3 on, are filled in; absent, none is
     missing : "fill", heights that are missing, NaN, masked or a number far off that stands for none, are filled in
         harmonically, a twentieth of the pixels at most; "refuse", the default, they are an error
 
@@ -170,7 +171,7 @@ def _is_table(heights):
 
 
 def _mapped(stated, heights, notes=(), given=None):
-    """Fields of a map: heights cropped and mended as stated. What is none of both is left to its field to refuse."""
+    """Fields of a map, its heights cropped and mended as stated. What is no map is left to its field to refuse."""
     asked = {name: stated.pop(name, None) for name in ("crop", "missing", "outliers")}
     crop, missing, deviations = asked.values()
     if missing not in (None, *FILL):
@@ -206,8 +207,8 @@ def _cropped(heights, pixel, crop):
     rows, columns = heights.shape
     size = columns * pixel[0], rows * pixel[1]
     allowed = (
-        f"x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 to {size[1]:g} m along y, with at "
-        f"least {LEAST} pixels on either side"
+        f"x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 to {size[1]:g} m along y, with "
+        f"at least {LEAST} pixels on either side"
     )
     ends = argument("crop", crop, METRE.row)
     if len(ends) != 4 or not np.isfinite(ends).all():

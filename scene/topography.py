@@ -23,9 +23,9 @@ class Topography(Scanned):
     """Roughness that was measured, of zero mean, around the indenter's axis.
 
     heights, pixel, peaks, shortest_kept : what was measured, and how much of it is kept, see `Scanned`
-    level : what is taken off the heights first, their "mean", the plane ("tilt"), or the form of second ("curvature")
-        or third degree ("cubic") that fits them best; absent, the plane of a map that is mirrored and the mean of one that repeats, which
-        has no other: a plane taken off a whole period would leave a step at its sides
+    level : what is taken off the heights first, their "mean", the plane ("tilt"), or the form of second degree
+        ("curvature") or third ("cubic") that fits them best; absent, the plane of a map that is mirrored and the
+        mean of one that repeats, which has no other: a plane taken off a period would leave a step at its sides
     repeat : how the map goes on beyond its sides: "mirror", mirrored at each, which leaves no step and has a
         period of twice the map, or "periodic", as it stands, for what was made to repeat
     seed : 0, the middle of the map lies under the indenter's axis; another, a pixel drawn at random. The row

@@ -164,21 +164,23 @@ def test_channels_are_never_joined(tmp_path):
         tmp_path,
         gwyddion(height, (1, 1)) + "\n" + gwyddion(phase, (1, 1), "Phase").replace("units: um", "units: deg"),
     )
-    with pytest.raises(ValidationError, match="has 2 channels, 'Height', 'Phase': choose one, channel = 'Height'"):
+    with pytest.raises(
+        ValidationError, match=r"has 2 channels, 'Height', 'Phase': choose one, channel = 'Height'"
+    ):
         Topography(file=file)
     np.testing.assert_allclose(Topography(file=file, channel="height").heights.heights, 1e-6 * height, rtol=DIGITS)
-    with pytest.raises(ValidationError, match="has values in 'deg': a unit of length is needed"):
+    with pytest.raises(ValidationError, match=r"has values in 'deg': a unit of length is needed"):
         Topography(file=file, channel="Phase")
-    with pytest.raises(ValidationError, match="channel = 'Error': .* has 'Height', 'Phase'"):
+    with pytest.raises(ValidationError, match=r"channel = 'Error': .* has 'Height', 'Phase'"):
         Topography(file=file, channel="Error")
     # blocks without names are numbered
     file = written(tmp_path, text(height) + "\n" + text(phase))
-    with pytest.raises(ValidationError, match="has 2 channels, '1', '2'"):
+    with pytest.raises(ValidationError, match=r"has 2 channels, '1', '2'"):
         Topography(file=file, unit="um", pixel=1e-6)
     found = Topography(file=file, unit="um", pixel=1e-6, channel="2")
     np.testing.assert_allclose(found.heights.heights, 1e-6 * phase, rtol=DIGITS)
     np.savez(tmp_path / "map.npz", front=height, back=phase)
-    with pytest.raises(ValidationError, match='no array heights; choose one of them, channel = "front"'):
+    with pytest.raises(ValidationError, match=r'no array heights; choose one of them, channel = "front"'):
         Topography(file=tmp_path / "map.npz", unit="um", pixel=1e-6)
     found = Topography(file=tmp_path / "map.npz", unit="um", pixel=1e-6, channel="back")
     np.testing.assert_allclose(found.heights.heights, 1e-6 * phase)
@@ -186,7 +188,9 @@ def test_channels_are_never_joined(tmp_path):
 
 def test_what_a_file_states_may_be_stated_again_and_not_otherwise(tmp_path):
     file = written(tmp_path, gwyddion(drawn((4, 5)), (2.0, 3.0)))
-    assert Topography(file=file) == Topography(file=file, pixel=("2 um", "3 um"), unit="um")
+    found, again = Topography(file=file), Topography(file=file, pixel=("2 um", "3 um"), unit="um")
+    assert again.heights == found.heights
+    assert again.pixel == pytest.approx(found.pixel, rel=1e-12)
     for wrong, said in (
         ({"pixel": "2 um"}, "states its own, 2e-06 x 3e-06 m, leave pixel out"),
         ({"unit": "nm"}, "states its own, um, leave unit out"),
@@ -225,7 +229,7 @@ WRONG = {
     ),
     "uneven axes": (
         with_axes(drawn((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
-        "first row .* evenly spaced",
+        "first row .*: coordinates = 5.3 is on no lattice",
     ),
     "sides that contradict": (
         "Width: 10 um\nPixel size: 3 um\n\n" + text(drawn((5, 5))),
@@ -233,7 +237,7 @@ WRONG = {
     ),
     "axes that contradict": (
         "Width: 10 um\n" + with_axes(drawn((5, 5)), (1, 1), "y [um]"),
-        "states pixels of 2e-06 .* its axes lie 1e-06",
+        "states pixels of 2e-06 m, and its axes lie 1e-06",
     ),
     "a unit of nothing": ("Width: 10 ell\n\n" + text(drawn((5, 5))), "'Width: 10 ell'"),
 }
@@ -261,7 +265,7 @@ def test_axes_that_count_state_no_pixel(tmp_path):
     heights, frame = drawn((5, 6)), StringIO()
     pandas.DataFrame(heights).to_csv(frame)
     file = written(tmp_path, frame.getvalue(), "map.csv")
-    with pytest.raises(ValidationError, match="does not state the side of a pixel"):
+    with pytest.raises(ValidationError, match=r"does not state the side of a pixel"):
         Topography(file=file, unit="um")
     found = Topography(file=file, unit="um", pixel="2 um")
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=1e-9)
@@ -319,11 +323,11 @@ def test_no_more_than_a_twentieth_is_filled_in():
     )
     heights[5, 5] = NAN
     with pytest.raises(
-        ValidationError, match="21 pixels have no height, 5.25 % of 400, and at most 5 % are filled in"
+        ValidationError, match=r"21 pixels have no height, 5.25 % of 400, and at most 5 % are filled in"
     ):
         Topography(heights=heights, pixel=1.0, missing="fill")
     heights[:] = NAN
-    with pytest.raises(ValidationError, match="400 pixels have no height, 100 %"):
+    with pytest.raises(ValidationError, match=r"400 pixels have no height, 100 %"):
         Topography(heights=heights, pixel=1.0, missing="fill")
 
 
@@ -390,15 +394,15 @@ def test_outliers_are_found_on_request_and_counted():
     beyond = outliers(noise, 3.0).mean()
     assert 0.0027 < beyond < 0.0054
     with pytest.raises(
-        ValidationError, match=f"more than half of the heights are the median of the {NEIGHBOURS} x"
+        ValidationError, match=rf"more than half of the heights are the median of the {NEIGHBOURS} x"
     ):
         Topography(heights=np.where(spikes, 1.0, 0.0), pixel=1e-3, outliers=10)
     for wrong in (2.9, NAN, "ten", True):
         with pytest.raises(
-            ValidationError, match="outliers = .*a number of standard deviations|outliers = .*number"
+            ValidationError, match=r"outliers = .*a number of standard deviations|outliers = .*number"
         ):
             Topography(heights=heights, pixel=1e-3, outliers=wrong)
-    with pytest.raises(ValidationError, match="0.0833 % of 1200: missing"):
+    with pytest.raises(ValidationError, match=r"0.0833 % of 1200: missing"):
         Topography(heights=np.where(np.arange(1200).reshape(30, 40) == 77, NAN, heights), pixel=1e-3, outliers=10)
 
 
@@ -427,7 +431,8 @@ def test_a_crop_is_the_map_of_what_it_keeps():
         ["1 s"] * 4,
     ):
         with pytest.raises(
-            ValidationError, match="crop = .*(x from, x to, y from, y to as lengths, 0 to 6e-05 m|a list|a length)"
+            ValidationError,
+            match=r"crop = .*(x from, x to, y from, y to as lengths, 0 to 6e-05 m|a list|a length)",
         ):
             Topography(**whole, crop=wrong)
 
@@ -469,12 +474,12 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path, monkeypatch):
     assert found.heights.shape == (10, 20)
     assert len(found.notes) == 3
     (tmp_path / "scene.toml").write_text(FILE + more.replace("missing", "mising").replace('"fill"', '"full"'))
-    with pytest.raises(InvalidInput, match="roughness.mising = 'full': unknown here; did you mean missing"):
+    with pytest.raises(InvalidInput, match=r"roughness.mising = 'full': unknown here; did you mean missing"):
         read("scene.toml", Scene)
-    with pytest.raises(InvalidInput, match="missing = 'full': 'refuse' or 'fill'"):
+    with pytest.raises(InvalidInput, match=r"missing = 'full': 'refuse' or 'fill'"):
         read("scene.toml", Scene)
     (tmp_path / "scene.toml").write_text(FILE + more.replace('"fill"', '"full"'))
-    with pytest.raises(InvalidInput, match="missing = 'full': 'refuse' or 'fill'"):
+    with pytest.raises(InvalidInput, match=r"missing = 'full': 'refuse' or 'fill'"):
         read("scene.toml", Scene)
 
 
@@ -503,5 +508,5 @@ def test_a_page_tells_what_was_done_to_a_map():
     assert {"cropped to 20 x 20 of 30 x 30 pixels", filled_in} < set(study.lines())
     assert any(filled_in in each for each in study.answer(study.findings(study.answers({}))))
     assert study.title == "Topography of MaskedArray"
-    with pytest.raises(InvalidInput, match='missing = "fill"'):
+    with pytest.raises(InvalidInput, match=r'missing = "fill"'):
         Map.of(heights, pixel="1 um")

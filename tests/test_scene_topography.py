@@ -760,10 +760,10 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
         InvalidInput, match=r"roughness: surface.npy does not state the unit .* nor the side of a pixel"
     ):
         read("scene.toml", Scene)
-    (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\npath"))
+    (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\nzzz"))
     with pytest.raises(InvalidInput) as error:
         read("scene.toml", Scene)
-    for named in ("roughness.heights", "roughness.pixel: missing", "roughness.path"):
+    for named in ("roughness.heights", "roughness.pixel: missing", "roughness.zzz"):
         assert named in str(error.value)
 
 

@@ -82,7 +82,7 @@ class Map(Study):
 
     @classmethod
     def of(cls, file: Surface, pixel: Side | Sequence[Side] | None = None, **stated: Any) -> "Map":
-        """The study of a file or of heights. Raises InvalidInput for what they or a field of `Topography` do not allow.
+        """The study of a file or of heights. Raises InvalidInput for what a field of `Topography` does not allow.
 
         pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
             default
