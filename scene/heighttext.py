@@ -104,9 +104,8 @@ def _of_rows(sheet, told):
     if steps is not None and unit:
         lateral = tuple(measured_in(f"{sheet.name}, axes,", step, unit) for step in steps)
         if any(side and abs(step - side) > EVEN * side for step, side in zip(lateral, pixel, strict=True)):
-            raise ValueError(
-                f"{sheet.name} states pixels of {pixel[0]} m, and its axes lie {lateral[0]:g} m apart"
-            )
+            said = " x ".join(f"{side:g}" for side in pixel if side)
+            raise ValueError(f"{sheet.name} states pixels of {said} m, and its axes lie {lateral[0]:g} m apart")
         pixel, steps = lateral, None
     if told.unit:
         numbers = measured_in(sheet.name, numbers, told.unit)

@@ -94,11 +94,10 @@ class Header:
 
     def _side(self, names, k, alike):
         """The side along x or y, one for both only if pixels are squares."""
-        both = self.lengths.get(names[2], ())
-        return next(
-            iter(self.lengths.get(names[k], ())),
-            both[k] if len(both) == 2 else both[0] if both and alike else None,
-        )
+        own, both = self.lengths.get(names[k], ()), self.lengths.get(names[2], ())
+        if own or len(both) < 2:
+            return next(iter(own or (both if alike else ())), None)
+        return both[k]
 
 
 def _parted(value, unit):

@@ -3,6 +3,7 @@
 import pickle
 from dataclasses import replace
 from io import StringIO
+from types import SimpleNamespace
 
 import numpy as np
 import pandas
@@ -237,7 +238,7 @@ WRONG = {
     ),
     "axes that contradict": (
         "Width: 10 um\n" + with_axes(drawn((5, 5)), (1, 1), "y [um]"),
-        "states pixels of 2e-06 m, and its axes lie 1e-06",
+        "states pixels of 2e-06 m, and its axes lie 1e-06 m",
     ),
     "a unit of nothing": ("Width: 10 ell\n\n" + text(drawn((5, 5))), "'Width: 10 ell'"),
 }
@@ -315,6 +316,47 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
     )
 
 
+class Reader:
+    """As SurfaceTopography opens a file of two channels, of which the second is its own choice."""
+
+    def __init__(self, peer, heights):
+        maps = {"Front": heights, "Back": np.ma.masked_array(2 * heights, heights == heights.max())}
+        self.channels = [SimpleNamespace(name=name, **self.channel(peer, each)) for name, each in maps.items()]
+        self.default_channel = self.channels[1]
+
+    def channel(self, peer, heights):
+        map_ = peer.Topography(heights.T, (12.0, 20.0), unit="um")
+        return {
+            "nb_grid_pts": map_.nb_grid_pts,
+            "physical_sizes": map_.physical_sizes,
+            "topography": lambda physical_sizes: map_,
+        }
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+
+def test_channels_and_holes_of_other_files_are_those_of_their_reader(tmp_path, monkeypatch):
+    peer, heights = pytest.importorskip("SurfaceTopography"), drawn((5, 6))
+    monkeypatch.setattr(peer, "open_topography", lambda _: Reader(peer, heights))
+    file = written(tmp_path, "0", "map.sur")
+    front = Topography(file=file, channel="Front")
+    np.testing.assert_allclose(front.heights.heights, 1e-6 * heights, rtol=DIGITS)
+    assert front.pixel == pytest.approx((2e-6, 4e-6))
+    assert front.notes == ()
+    with pytest.raises(ValidationError, match=r"1 pixel has no height, 3.33 % of 30"):
+        Topography(file=file)
+    back = Topography(file=file, missing="fill")
+    assert "its channel 'Back' is taken, of 'Front', 'Back'" in back.notes[0]
+    least = heights < heights.max()
+    np.testing.assert_allclose(back.heights.heights[least], 2e-6 * heights[least], rtol=DIGITS)
+    with pytest.raises(ValidationError, match=r"channel = 'Side': .*map.sur has 'Front', 'Back'"):
+        Topography(file=file, channel="Side")
+
+
 def test_no_more_than_a_twentieth_is_filled_in():
     heights = drawn((20, 20))
     heights.ravel()[:20] = NAN
@@ -384,9 +426,8 @@ def test_outliers_are_found_on_request_and_counted():
     assert np.array_equal(outliers(heights, 15.0), spikes)
     assert Topography(heights=heights, pixel=1e-3).notes == ()
     found = Topography(heights=heights, pixel=1e-3, outliers=15)
-    assert found.notes == (
-        "3 pixels were more than 15 robust standard deviations off the median around, 0.25 % of 1200, and filled in",
-    )
+    said = "3 pixels were more than 15 robust standard deviations off the median around, 0.25 % of 1200"
+    assert found.notes == (f"{said}, and filled in",)
     assert np.abs(found.heights.heights - smooth).max() < 0.1
     assert np.array_equal(found.heights.heights[~spikes], heights[~spikes])
     # of normal noise 0.27 % lie beyond three deviations, up to twice that as the median has noise of its own
@@ -468,7 +509,8 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path, monkeypatch):
     heights = drawn((30, 30))
     heights[2, 2] = NAN
     np.savetxt("map.csv", heights, delimiter=";")
-    more = 'file = "map.csv"\nmissing = "fill"\ncrop = ["0 um", "20 um", "0 um", "10 um"]\noutliers = 6\nlevel = "cubic"\n'
+    more = 'file = "map.csv"\nmissing = "fill"\noutliers = 6\nlevel = "cubic"\n'
+    more += 'crop = ["0 um", "20 um", "0 um", "10 um"]\n'
     (tmp_path / "scene.toml").write_text(FILE + more)
     found = read("scene.toml", Scene).roughness
     assert found.heights.shape == (10, 20)
