@@ -87,8 +87,8 @@ class Header:
         spans = [] if size is None else [size / count, size / (count - 1)]
         if pixel and spans and min(abs(span - pixel) for span in spans) > 10 * EVEN * pixel:
             raise ValueError(
-                f"{name} states pixels of {pixel:g} m and a size of {size:g} m, which is {spans[0]:g} m a pixel of "
-                f"{count}"
+                f"{name} states pixels of {pixel:g} m and a size of {size:g} m, which is {spans[0]:g} m a "
+                f"pixel of {count}"
             )
         return pixel or next(iter(spans), None)
 
