@@ -1,5 +1,6 @@
 """Maps of heights in text files: rows of heights, with axes or without, one channel or several, or points."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -8,6 +9,7 @@ import numpy as np
 
 from .columns import Column, chosen, joined
 from .lattice import mapped, placed
+from .printable import brief
 from .quantities import METRE
 from .scan import EVEN, LEAST, Scan, measured_in, picked
 from .scanheader import Header
@@ -16,6 +18,7 @@ from .sheet import Sheet, read_sheets
 X = Column("x", ("x", "x position", "position x", "x coordinate", "pos x", "x pos", "x axis"), (METRE,))
 Y = Column("y", ("y", "y position", "position y", "y coordinate", "pos y", "y pos", "y axis"), (METRE,))
 Z = Column("z", ("z", "height", "heights", "h", "elevation", "topography", "z position", "z height"), (METRE,))
+_NUMBERS = re.compile(r"(?<![\w.,])[+-]?\d[\d.,]*")
 _TOLD = 6  # cells: so many evenly spaced ones in one row alone are no heights
 _EXACT, _NEAR = 1e-6, 1e-2  # relative, of spacings
 
@@ -92,6 +95,11 @@ def _count(steps):
 def _of_rows(sheet, told):
     """The map of a block, without its axes."""
     numbers, steps = sheet.numbers, None
+    if len(_NUMBERS.findall(sheet.unread)) > 2:
+        raise ValueError(
+            f"{sheet.name}, line {sheet.lines[0] - 1}: {brief(repr(sheet.unread))} is neither a row of heights nor "
+            "a heading: leave it out"
+        )
     x, y, unit = _axes(sheet)
     if x is not None:
         numbers = numbers[len(numbers) - len(y) :, 1:]
@@ -107,10 +115,15 @@ def _of_rows(sheet, told):
             said = " x ".join(f"{side:g}" for side in pixel if side)
             raise ValueError(f"{sheet.name} states pixels of {said} m, and its axes lie {lateral[0]:g} m apart")
         pixel, steps = lateral, None
-    if told.unit:
-        numbers = measured_in(sheet.name, numbers, told.unit)
+    # Headings of columns of heights may have a unit, one for all.
+    own = {each for each in sheet.units[steps is not None or bool(unit) :] if each} | {told.unit} - {""}
+    if len(own) > 1:
+        raise ValueError(f"{sheet.name} states several units of its heights, {', '.join(sorted(own))}: state one")
+    height = next(iter(own), "")
+    if height:
+        numbers = measured_in(sheet.name, numbers, height)
     stated = None if None not in pixel else steps
-    return Scan(sheet.name, numbers, told.unit, pixel, stated, stated is not None and _count(stated), told.notes)
+    return Scan(sheet.name, numbers, height, pixel, stated, stated is not None and _count(stated), told.notes)
 
 
 def _axes(sheet):
@@ -118,7 +131,7 @@ def _axes(sheet):
     numbers, names = sheet.numbers, sheet.names
     cells = [_as_number(each) for each in names[1:]]
     if cells and not np.isnan(cells).any():
-        return np.array(cells), numbers[:, 0], sheet.units[0]
+        return np.array(cells), numbers[:, 0], _of_corner(names[0], sheet.units[0])
     if min(numbers.shape) < LEAST:
         return None, None, ""
     first, second = numbers[0, 1:], numbers[1, 1:]
@@ -129,6 +142,16 @@ def _axes(sheet):
     if _even(second, _NEAR) and np.abs(second - first).max() <= 3 * np.abs(numbers[2, 1:] - second).max():
         return None, None, ""
     return first, numbers[1:, 0], ""
+
+
+def _of_corner(name, unit):
+    """Unit of axes, after the word in their corner or in its place; "y / x" has none."""
+    alone = name.strip("[]() ")
+    try:
+        METRE.scale(alone)
+    except ValueError:
+        return "" if unit.casefold() in ("x", "y") else unit
+    return unit or alone
 
 
 def _as_number(cell):

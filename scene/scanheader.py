@@ -31,6 +31,7 @@ PIXELS = (
     ("y pixel size", "pixel size y", "pixel height", "y step", "step y", "dy", "y spacing", "spacing y"),
     ("pixel size", "pixel", "pixel spacing", "spacing", "step size", "point spacing"),
 )
+_HEIGHTS = {"height", "heights", "z", "topography", "elevation"}
 _LINE = re.compile(r"([^:=;\t]*[^\W\d][^:=;\t]*?)\s*[:=;\t,]\s*(.*?)[\s;,]*")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _LENGTHS = re.compile(rf"({_NUMBER})\s*([^\W\d]+|Å)?(?:\s*[x×*]\s*({_NUMBER})\s*([^\W\d]+|Å)?)?")
@@ -57,6 +58,7 @@ class Header:
         for line in sheet.before:
             stated = _LINE.fullmatch(line.strip())
             if stated is None:
+                unit = _of_heights(line) or unit
                 continue
             key, written = named(stated[1])
             key, value = " ".join(re.split(r"[\s_-]+", key.casefold())), stated[2].strip('" ')
@@ -98,6 +100,12 @@ class Header:
         if own or len(both) < 2:
             return next(iter(own or (both if alike else ())), None)
         return both[k]
+
+
+def _of_heights(line):
+    """The unit of a line like "Heights in nm" or "z [um]"; empty of any other."""
+    name, written = named(line)
+    return _parted(line, "")[1] if written and not set(name.casefold().split()).isdisjoint(_HEIGHTS) else ""
 
 
 def _parted(value, unit):

@@ -80,9 +80,16 @@ LAYOUTS = {
         lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h),
         UM,
     ),
+    "a sentence": (lambda h, p: "# Heights in um\n" + text(h), {"pixel": "stated"}),
+    "headings with a unit": (
+        lambda h, p: ";".join(f"z{k} [um]" for k in range(h.shape[1])) + "\n" + text(h),
+        {"pixel": "stated"},
+    ),
     "axes": (with_axes, UM),
     "axes with a word": (lambda h, p: with_axes(h, p, "y \\ x"), UM),
     "axes with a unit": (lambda h, p: with_axes(h * 1e3, p, "y [um]"), {"unit": "nm"}),
+    "axes with nothing but a unit": (lambda h, p: with_axes(h * 1e3, p, "um"), {"unit": "nm"}),
+    "axes with two words": (lambda h, p: with_axes(h, p, "y/x"), UM),
     "falling axes": (lambda h, p: with_axes(h[::-1, ::-1], (-p[0], -p[1])), UM),
     "points": (lambda h, p: text(points(h, p)), UM),
     "points in any order": (lambda h, p: "x;y;z\n" + text(points(h, p, seed=1)), UM),
@@ -227,6 +234,10 @@ WRONG = {
     "a first column of numbers that count": (
         text(np.column_stack([np.arange(8), drawn((8, 6))])),
         "the first column, 0, 1, 2",
+    ),
+    "a line that is neither": (
+        with_axes(drawn((5, 5)), (1, 1), "[um]"),
+        r"line 1: '\[um\];3.*is neither a row of",
     ),
     "uneven axes": (
         with_axes(drawn((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
