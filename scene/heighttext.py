@@ -96,10 +96,8 @@ def _of_rows(sheet, told):
     """The map of a block, without its axes."""
     numbers, steps = sheet.numbers, None
     if len(_NUMBERS.findall(sheet.unread)) > 2:
-        raise ValueError(
-            f"{sheet.name}, line {sheet.lines[0] - 1}: {brief(repr(sheet.unread))} is neither a row of heights nor "
-            "a heading: leave it out"
-        )
+        where = f"{sheet.name}, line {sheet.lines[0] - 1}"
+        raise ValueError(f"{where}: {brief(repr(sheet.unread))} is neither a row of heights nor a heading")
     x, y, unit = _axes(sheet)
     if x is not None:
         numbers = numbers[len(numbers) - len(y) :, 1:]
