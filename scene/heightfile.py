@@ -80,6 +80,8 @@ def _array(path, channel):
 
     try:
         if not held.startswith(b"PK"):
+            if channel is not None:
+                raise Unreadable(f"channel = {brief(repr(channel))}: {name} holds one array, leave channel out")
             return Scan(name, array_in(held, heights))
         held_names = [each for each in names_in(held) if each != "pixel"]
         if channel is None and "heights" not in held_names:

@@ -187,6 +187,9 @@ def test_channels_are_never_joined(tmp_path):
         Topography(file=file, unit="um", pixel=1e-6)
     found = Topography(file=file, unit="um", pixel=1e-6, channel="2")
     np.testing.assert_allclose(found.heights.heights, 1e-6 * phase, rtol=DIGITS)
+    np.save(tmp_path / "map.npy", height)
+    with pytest.raises(ValidationError, match=r"channel = 'front': .*map.npy holds one array, leave channel out"):
+        Topography(file=tmp_path / "map.npy", channel="front", unit="um", pixel=1e-6)
     np.savez(tmp_path / "map.npz", front=height, back=phase)
     with pytest.raises(ValidationError, match=r'no array heights; choose one of them, channel = "front"'):
         Topography(file=tmp_path / "map.npz", unit="um", pixel=1e-6)
