@@ -91,6 +91,12 @@ def scale(given: str, unit: str, difference: bool = True) -> tuple[Fraction, Fra
     return one - zero, zero
 
 
+@lru_cache(maxsize=256)
+def known(given: str) -> bool:
+    """Whether a text is a unit of anything. Raises Unreadable as `in_si`."""
+    return bool(factors := _factors(_typed(given))) and _product(factors) is not None
+
+
 def _typed(text):
     """A text in the letters of a keyboard."""
     if len(text) > LONGEST:
