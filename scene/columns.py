@@ -13,6 +13,7 @@ from .quantities import KELVIN, Unit
 from .sheet import Sheet, named
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
+_MARKS = str.maketrans(',;|"[]()/\t', " " * 10)
 _SIGNS = str.maketrans("’‘′`´″”“", "''''''\"\"")
 # As they stand in headings of temperatures alone: elsewhere they are other units.
 _DEGREES = {"C": "degC", "c": "degC", "F": "degF", "deg. C": "degC", "deg C": "degC", "º C": "degC", "ºC": "degC"}
@@ -61,10 +62,17 @@ def chosen(
     for a text above the numbers that may be the heading of them.
     """
     fields = {column.field: column for column in wanted}
+    if sheet.names and sheet.unread:
+        raise ValueError(
+            f"{sheet.name}: {brief(repr(sheet.unread))} between heading and numbers is neither: leave it out, or begin "
+            "it with #"
+        )
     if not sheet.names or (sheet.commented and not any(_meant(name, wanted) for name in sheet.names)):
         places = _by_place(sheet, wanted, positional)
     else:
         places = _by_name(sheet, wanted)
+    if any(not (sheet.units and sheet.units[k]) and fields[name].units for name, k in places.items()):
+        _refuse_spoken_units(sheet, wanted)
     if lacking := [each for each in wanted if not each.optional and each.field not in places]:
         raise ValueError(f"{_heading(sheet)} has no column for {'; nor for '.join(map(_allowed, lacking))}")
     known = {name: _converted(sheet, index, fields[name]) for name, index in places.items()}
@@ -80,7 +88,7 @@ def joined(sheets: Sequence[Sheet]) -> Sheet:
             raise ValueError(
                 f"{first.name} has two tables, from line {first.lines[0]} and from line {each.lines[0]} on: keep one"
             )
-        if each.unread:
+        if each.unread and not each.commented:
             raise ValueError(
                 f"{each.name}, line {each.lines[0] - 1}: {brief(repr(each.unread))} parts two tables: keep one"
             )
@@ -162,43 +170,39 @@ def _by_place(sheet, wanted, positional):
         needed = f"; without a heading, {', '.join(positional)} are needed, and no others" if positional else ""
         count = sheet.numbers.shape[1]
         raise ValueError(f"{_heading(sheet)}: {count} column{'s' * (count != 1)} without a heading{needed}")
-    above = " ".join((*sheet.before, sheet.unread, *(sheet.names if sheet.commented else ())))
-    if sheet.unread and any(_speaks_of(sheet.unread, name) for each in wanted for name in each.called):
-        raise ValueError(
-            f"{sheet.name}, line {sheet.lines[0] - 1}: {brief(repr(sheet.unread))} is no heading of "
-            f"{len(positional)} columns: part its names by semicolons or tabs"
-        )
-    if unit := _spoken_unit(above, wanted):
-        raise ValueError(
-            f"{sheet.name} speaks of {brief(unit)} above its numbers, and no heading says of which column: write a "
-            f"heading, as {', '.join(positional)}, with units"
-        )
+    for text in filter(None, (*sheet.before, sheet.unread)):
+        if sum(any(_speaks_of(text, name) for name in each.called) for each in wanted) > 1:
+            raise ValueError(
+                f"{sheet.name}: {brief(repr(text))} above the numbers is no heading of {len(positional)} columns: part "
+                "its names by semicolons or tabs"
+            )
     return {field: index for index, field in enumerate(positional)}
 
 
 def _speaks_of(text, name):
-    words = f" {' '.join(_plain(text).casefold().replace(',', ' ').replace(';', ' ').split())} "
-    return len(name) > 1 and f" {_plain(name).casefold()} " in words
+    words = f" {' '.join(_plain(text).casefold().translate(_MARKS).split())} "
+    return f" {_plain(name).casefold()} " in words
 
 
-def _spoken_unit(text, wanted):
-    """A unit other than that of SI in a text, which may be one of a column."""
-    words = text.replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").replace(",", " ").split()
+def _refuse_spoken_units(sheet, wanted):
+    """Raise ValueError for a text above the numbers with a unit that may be one of a column without any."""
+    named = sheet.names if sheet.commented else ()
+    words = " ".join((*sheet.before, sheet.unread, *named)).translate(_MARKS).split()
+    units = {unit for each in wanted for unit in each.units}
     for before, word in zip(["", *words], words, strict=False):
-        if _ends_in_a_digit(before) or not any(map(str.isalpha, word)) or len(word) < 2:
-            continue
-        for unit in {unit for each in wanted for unit in each.units}:
-            try:
-                factor, zero = unit.scale(word)
-            except ValueError:
-                continue
-            if (factor, zero) != (1, 0):
-                return word
-    return ""
+        if not before[-1:].isdigit() and any(_of_another_size(unit, word) for unit in units):
+            raise ValueError(
+                f"{sheet.name} speaks of {brief(word)} above its numbers, and no heading says of which column: write "
+                "units into the heading"
+            )
 
 
-def _ends_in_a_digit(word):
-    return word[-1:].isdigit()
+def _of_another_size(unit, word):
+    """Whether a word is a unit of the same kind, and another one. One letter may be anything."""
+    try:
+        return len(word) > 1 and any(map(str.isalpha, word)) and unit.scale(word) != (1, 0)
+    except ValueError:
+        return False
 
 
 def _converted(sheet, index, column):

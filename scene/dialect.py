@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from math import nan
 
-NUMBER, EMPTY, WORD, BAD = "NEWB"  # kinds of cells; bad is what has digits and is no number
+NUMBER, EMPTY, WORD, BAD = "NEWB"  # kinds of cells; bad is what begins as a number and is none
 BLANK = " "
 # In the order in which a separator that stands in every row excludes those after it.
 STRONG = "\t;|"
@@ -16,7 +16,10 @@ _NOT_MEASURED = re.compile(r"[+-]?(?:nan|na|n/a|n\.a\.|null|none|bad|no ?data|-+
 # Marks of spreadsheets and of old compilers for what is no number; a # in them begins no comment.
 _SPREADSHEET = re.compile(r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])")
 _CODE = re.compile(r"\s#.*")  # a comment after numbers
-_MOMENT = re.compile(r"\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}(?:[ T]\d{1,2}:.*)?|\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?")
+_MOMENT = re.compile(
+    r"(?:\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2}))(?:[ T]+\d{1,2}:.*)?"
+    r"|\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?"
+)
 _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _MINUS = str.maketrans("−‐‑–", "----")
 
@@ -40,30 +43,28 @@ class Dialect:
 
     def cells(self, line: str) -> list[str]:
         """Cells of a line, without the blanks around them; with a separator of one letter quotes hold one together."""
-        if self.separator == BLANK:
-            return [each[1:-1] if _quoted(each) else each for each in line.split()]
         if '"' not in line:
-            return [each.strip() for each in line.split(self.separator)]
-        reader = csv.reader([line], delimiter=self.separator, skipinitialspace=True)
-        return [each.strip() for each in next(reader)]
+            return line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
+        if self.separator == BLANK:
+            line = " ".join(line.split())
+        return [each.strip() for each in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
 
     def fits(self, line: str, cell: str) -> bool:
         """Whether a decimal comma in a cell is no separator: it stands in quotes, or another letter separates."""
         return self.separator != "," or f'"{cell}"' in line
 
     def kind(self, cell: str) -> str:
-        """Whether a cell is a number, says that there is none, is a word, or none of these."""
+        """Whether a cell is a number, says that there is none, is a word, or begins as a number and is none."""
         if _number(self.decimal).fullmatch(cell):
             # No program writes 05; where a decimal comma is taken for a separator it stands.
             zero = self.separator == "," and self.decimal == "." and re.fullmatch(r"[+-]?0\d+", cell)
             return BAD if zero else NUMBER
         if _NOT_MEASURED.fullmatch(cell):
             return EMPTY
-        if "\t" in cell or ";" in cell:
-            return BAD
-        if _MOMENT.fullmatch(cell) or any(map(str.isalpha, cell)):
+        if _MOMENT.fullmatch(cell):
             return WORD
-        return BAD if any(map(str.isdigit, cell)) else WORD
+        first = cell.lstrip('"')[:1]
+        return BAD if first.isdigit() or first in ("+", "-", ".", ",") else WORD
 
     def kinds(self, cells: Sequence[str]) -> str:
         """Kinds of cells, a letter each."""
@@ -103,5 +104,6 @@ def thousands(cells: Sequence[str]) -> str | None:
     return commas[0] if commas and all(map(_THOUSAND.fullmatch, commas)) else None
 
 
-def _quoted(cell):
-    return len(cell) > 1 and cell[0] == cell[-1] == '"'
+def unquoted(cell: str) -> str:
+    """A cell without the quotes around it; a doubled quote within them is one."""
+    return cell[1:-1].replace('""', '"') if len(cell) > 1 and cell[0] == cell[-1] == '"' else cell

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from . import files
-from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, plain, thousands
+from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, plain, thousands, unquoted
 from .printable import brief
 
 SAMPLE = 300  # lines from which the dialect of a long file is found; the others have to be in it too
@@ -212,6 +212,7 @@ class _Reading:
                 raise ValueError(
                     f"{self.name}: at least {self.most_rows + 1:,} rows: at most {self.most_rows:,} are read"
                 )
+            self._check_gap(gap)
             yield self._sheet(gap, start, numbers[:, [kind == NUMBER for kind in form]], form)
             gap, start = [], end
         if self.whole:
@@ -277,33 +278,48 @@ class _Reading:
         said = [each for each in gap if self.lines[each].strip(" \t;,|\"")]
         texts = [comment(self.lines[each]) for each in said]
         whole = [self.lines[each].strip() if text is None else text for each, text in zip(said, texts, strict=True)]
-        self._check_gap(gap)
         if not said:
             return (), (), [], False, ""
-        parts, above = self._parted(whole[-1]), whole[:-1]
-        if parts and above and (names := self._parted(above[-1])) and _are_units(parts):
-            named_units = [named(each) for each in names]
-            if any(own and own != unit for (_, own), unit in zip(named_units, map(_unit, parts), strict=True)):
-                raise _Mistake(f"{self.name}, line {said[-1] + 1}: units beside those of the heading above: state them once")
-            names_ = tuple(name for name, _ in named_units)
-            return names_, tuple(map(_unit, parts)), above[:-1], texts[-2] is not None, ""
-        if parts and not (_STATEMENT.fullmatch(whole[-1]) and len(parts) == 1):
-            pairs = [named(each) for each in parts]
-            return (*zip(*pairs, strict=True), above, texts[-1] is not None, "")
-        return (), (), whole, False, "" if _STATEMENT.fullmatch(whole[-1]) else whole[-1]
+        # The lowest line of as many cells as columns; below it there may be rulers and remarks.
+        places = [k for k, text in enumerate(whole) if self._names(text)]
+        unread = [text for text, remark in zip(whole, texts, strict=True) if remark is None][-1:]
+        if not places:
+            stated = not unread or _STATEMENT.fullmatch(unread[0])
+            return (), (), whole, texts[-1] is not None, "" if stated else unread[0]
+        place = places[-1]
+        parts, below = self._parted(whole[place]), whole[place + 1 :]
+        remark = texts[place] is not None
+        last = "" if all(text is not None for text in texts[place + 1 :]) else unread[0]
+        if len(places) > 1 and places[-2] == place - 1 and _are_units(parts):
+            pairs, units = [named(each) for each in self._parted(whole[place - 1])], [_unit(each) for each in parts]
+            if any(own and unit not in ("", "-", own) for (_, own), unit in zip(pairs, units, strict=True)):
+                where = f"{self.name}, line {said[place] + 1}"
+                raise _Mistake(f"{where}: units beside those of the heading: state them once")
+            units = [own or unit for (_, own), unit in zip(pairs, units, strict=True)]
+            return tuple(name for name, _ in pairs), tuple(units), whole[: place - 1] + below, remark, last
+        return (*zip(*map(named, parts), strict=True), whole[:place] + below, remark, last)
+
+    def _names(self, line):
+        """Whether a line may be a heading, or the units of one."""
+        parts = self._parted(line)
+        stated = _STATEMENT.fullmatch(line) and (len(parts) == 1 or self.dialect.separator == BLANK)
+        return parts and not stated and any(map(str.isalpha, line))
 
     def _parted(self, line):
         """Cells of a heading, as many as columns; none where it has not as many."""
         width = len(self.form)
         for separator in dict.fromkeys((self.dialect.separator, *STRONG, ",")):
-            if separator != BLANK:
-                cells = Dialect(separator, ".").cells(line)
+            if separator == BLANK:
+                continue
+            # Quotes within quotes, as of G", are not doubled by every program.
+            plainly = [unquoted(each.strip()) for each in line.split(separator)]
+            for cells in (plainly, Dialect(separator, ".").cells(line)):
                 if len(cells) == width and (width > 1 or not any(map(line.count, STRONG))):
                     return [self._as_point(each) for each in cells]
-        for blanks in _BLANKS:
-            cells = blanks.split(line.strip())
-            if self.dialect.separator == BLANK and len(cells) == width:
-                return [each.strip('"') for each in cells]
+        if self.dialect.separator == BLANK:
+            for cells in (*(blanks.split(line.strip()) for blanks in _BLANKS), self.dialect.cells(line)):
+                if len(cells) == width:
+                    return [self._as_point(unquoted(each)) for each in cells]
         return []
 
     def _as_point(self, cell):
@@ -312,22 +328,20 @@ class _Reading:
 
     def _check_gap(self, gap, last=False):
         """Raise _Mistake where lines between blocks may be rows that went wrong."""
-        lines = [each for each in gap if self.lines[each].strip() and comment(self.lines[each]) is None]
-        if not lines:
-            return
-        if lines[0] == gap[0] and gap[0] > 0:
-            self._refuse(lines[0])
-        heading = lines[-1]
-        for each in lines:
-            cells = self.dialect.cells(self.lines[each])
+        said = [each for each in gap if self.lines[each].strip()]
+        for each in said:
+            line = self.lines[each].strip()
+            if comment(line) is not None:
+                continue
+            if each == gap[0] > 0:
+                self._refuse(each)  # no blank line parts it from the rows above
+            cells = self.dialect.cells(line)
             kinds = self.dialect.kinds(cells)
-            if not (NUMBER in kinds or BAD in kinds):
+            if not any(map(_like_a_number, kinds, cells)) or _STATEMENT.fullmatch(line):
                 continue
-            if _STATEMENT.fullmatch(self.lines[each].strip()):
-                continue
-            axes = kinds[0] == WORD and set(kinds[1:]) == {NUMBER} and len(kinds) == len(self.form)
-            above = each != heading and kinds[0] == WORD and not last
-            if not (above or (axes and each == heading and not last)):
+            axes = len(kinds) == len(self.form) and set(kinds[1:]) == {NUMBER}
+            lowest = each == said[-1]
+            if last or kinds[0] != WORD or (lowest and not axes):
                 self._refuse(each)
 
     def _refuse(self, number):
@@ -339,6 +353,10 @@ class _Reading:
             raise _Mistake(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number")
         count = f"{len(cells)} column{'s' * (len(cells) != 1)}, and other rows have {len(form)}"
         raise _Mistake(f"{where}: {count}: {brief(repr(self.lines[number].strip()))}")
+
+
+def _like_a_number(kind, cell):
+    return kind == NUMBER or (kind == BAD and not any(map(str.isalpha, cell)))
 
 
 def _unit(cell):

@@ -74,12 +74,13 @@ def draw(seed: int) -> Drawn:
             one(f"{name} [{unit}]", f"{name} ({unit})", f"{name} / {unit}", f"{name} in {unit}") if unit else name
             for name, unit in zip(headings, units, strict=True)
         ]
+    doubled = one('"', '""')
     mark = one("", "", "", "# ", "#", "% ")
     tail = separator if often(0.1) and separator.strip() else ""
     lines = [one("", "# ", "") + one(*METADATA) for _ in range(int(rng.integers(0, 4)))]
     lines += [""] * (len(lines) > 0 and often(0.5))
     if heads:
-        lines.append(mark + separator.join(f"{quote}{name}{quote}" for name in headings) + tail)
+        lines.append(mark + separator.join(f"{quote}{name.replace(chr(34), doubled) if quote else name}{quote}" for name in headings) + tail)
     if unit_line:
         said = [one(unit, f"[{unit}]") if unit else one("-", "") for unit in units]
         lines.append(mark + separator.join(said) + tail)
