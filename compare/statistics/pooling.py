@@ -13,12 +13,12 @@ WARMTH = 2.0  # [K]: temperatures no farther apart are one, unless only equal nu
 class Point:
     """Repeats of one point: their mean.
 
-    temperature, speed : means over its curve [K], [m/s]; NaN without a temperature
+    temperature, speed : means over its curve [K], [m/s]; None where no temperature was measured
     load, friction : means over the repeats, friction at this load and speed [N], [1]
     repeats : friction of each, at this load and speed (N,)
     """
 
-    temperature: float
+    temperature: float | None
     speed: float
     load: float
     friction: float
@@ -33,11 +33,16 @@ class Pooled:
     parabola in their logarithms through all measurements at the temperature. What is left scatters, relative to
     friction, alike everywhere: two or three measurements say too little of their own.
 
-    loads : number of loads that are told apart in all measurements together
+    presses : number of the load of each point, of those that are told apart, ascending (N,)
     """
 
     points: tuple[Point, ...]
-    loads: int
+    presses: np.ndarray
+
+    @property
+    def loads(self) -> int:
+        """Number of loads that are told apart."""
+        return int(self.presses.max()) + 1
 
     @property
     def freedom(self) -> int:
@@ -68,8 +73,9 @@ def pooled(
         return low * (1 + tolerance)
 
     points: list[Point] = []
-    warmth = np.full(friction.size, nan) if temperature is None else temperature
-    for warm in _groups(np.zeros(friction.size) if temperature is None else temperature, lambda low: low + WARMTH * (tolerance > 0)):
+    kelvins = np.zeros(friction.size) if temperature is None else temperature
+    for warm in _groups(kelvins, lambda low: low + WARMTH * (tolerance > 0)):
+        warmth = None if temperature is None else mean(temperature[warm])
         falls = _parabola(np.log(friction[warm]), np.log(load[warm]), np.log(speed[warm]))
         for slide in _groups(speed[warm], alike):
             curve = warm[slide]
@@ -79,8 +85,11 @@ def pooled(
                 f = mean(load[rows])
                 at = falls(np.log(f), np.log(v)) - falls(np.log(load[rows]), np.log(speed[rows]))
                 repeats = friction[rows] * np.exp(at)
-                points.append(Point(mean(warmth[warm]), v, f, float(np.mean(repeats)), repeats))
-    return Pooled(tuple(points), len(list(_groups(load, alike))))
+                points.append(Point(warmth, v, f, float(np.mean(repeats)), repeats))
+    presses = np.empty(len(points), int)
+    for number, same in enumerate(_groups(np.array([each.load for each in points]), alike)):
+        presses[same] = number
+    return Pooled(tuple(points), presses)
 
 
 def mean(values: np.ndarray) -> float:

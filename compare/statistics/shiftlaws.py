@@ -15,7 +15,8 @@ from scene.temperature import GAS_CONSTANT
 from .intervals import KNOWN, student
 from .temperatureshifts import TemperatureShifts
 
-LEVEL = 0.95
+WLF, ARRHENIUS = "WLF", "Arrhenius"
+LEVEL, UNLIKELY = 0.95, 0.01  # of intervals; chance of the scatter about a law, below which it is none
 # Values of c2 over the distance of the pole from the lowest temperature, in which its interval is sought.
 REACH = np.concatenate([[0.0], np.geomspace(1e-3, 1e4, 4001)])
 TWO = "two temperatures: c1 and c2 are told from three at least"
@@ -49,7 +50,6 @@ class ShiftLaw:
     reference : T_r of the constants [K]
     c1, c2 : of WLF [1], [K]
     activation_energy : of the law of Arrhenius closest to the shifts [J/mol]
-    arrhenius : whether the shifts allow that law
     reason : why c1 and c2 are not told; empty where they are
     against : why the law of Arrhenius is none of these shifts; empty where it is
     """
@@ -58,14 +58,18 @@ class ShiftLaw:
     c1: Number
     c2: Number
     activation_energy: Number
-    arrhenius: bool
     reason: str
     against: str
 
-    def log_shift(self, temperature: np.ndarray, arrhenius: bool) -> np.ndarray:
+    @property
+    def allowed(self) -> tuple[str, ...]:
+        """Names of the laws whose constants are told."""
+        return (WLF,) * (not self.reason) + (ARRHENIUS,) * (not self.against)
+
+    def log_shift(self, temperature: np.ndarray, law: str) -> np.ndarray:
         """ln a_T of one of both laws at temperatures [K]."""
         above = temperature - self.reference
-        if arrhenius:
+        if law == ARRHENIUS:
             return -self.activation_energy.value / GAS_CONSTANT / self.reference * above / temperature
         return -log(10) * self.c1.value * above / (self.c2.value + above)
 
@@ -75,9 +79,13 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     reference, others = found.reference, found.temperatures != found.reference
     above, shifts = (found.temperatures - reference)[others], found.shifts.value[others]
     # What the polynomial misses counts beside scatter.
-    spread = found.covariance[np.ix_(others, others)] + np.diag(np.square(np.broadcast_to(found.shifts.bias, others.shape)[others]))
+    spread = found.covariance[np.ix_(others, others)] + np.diag(
+        np.square(np.broadcast_to(found.shifts.bias, others.shape)[others])
+    )
     known = bool(np.isfinite(spread).all())
-    white = np.linalg.pinv(np.linalg.cholesky(spread + 1e-20 * np.eye(len(above)))) if known else np.eye(len(above))
+    white = (
+        np.linalg.pinv(np.linalg.cholesky(spread + 1e-20 * np.eye(len(above)))) if known else np.eye(len(above))
+    )
     seen = white @ shifts
 
     def fitted(c2):
@@ -93,11 +101,11 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     energy = Number(*(scale * each for each in (c1, c1 - quantile * error, c1 + quantile * error)))
     wrong = _unlikely(square, len(above) - 1, freedom)
     if not known:
-        return ShiftLaw(reference, NONE, NONE, energy, False, UNSCATTERED, UNSCATTERED)
+        return ShiftLaw(reference, NONE, NONE, energy, UNSCATTERED, UNSCATTERED)
     if energy.high < 0:
-        return ShiftLaw(reference, NONE, NONE, NONE, False, RISING, RISING)
+        return ShiftLaw(reference, NONE, NONE, NONE, RISING, RISING)
     if len(above) < 2:
-        return ShiftLaw(reference, NONE, NONE, energy, True, TWO, "")
+        return ShiftLaw(reference, NONE, NONE, energy, TWO, "")
     pole = max(float(-above.min()), 1.0)
     tried = max(float(-above.min()), 0.0) + 1e-6 * pole + pole * REACH
     squares, firsts, errors = (np.array(each) for each in zip(*map(fitted, tried), strict=True))
@@ -106,15 +114,17 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     margin = errors * np.sqrt(np.where(allowed, quantile**2 - (squares - squares[best]), 0.0))
     high = inf if allowed[-1] else tried[allowed].max()
     c2 = Number(tried[best], tried[allowed].min(), high)
-    c1s = Number(firsts[best], (firsts - margin)[allowed].min(), inf if allowed[-1] else (firsts + margin)[allowed].max())
+    c1s = Number(
+        firsts[best], (firsts - margin)[allowed].min(), inf if allowed[-1] else (firsts + margin)[allowed].max()
+    )
     against = f"c2 of WLF is not T_r = {reference:.4g} K" if wrong or not c2.low <= reference <= c2.high else ""
     if _unlikely(squares[best], len(above) - 2, freedom):
         reason = WRONG
     else:
         reason = "" if c2.told else OPEN
-    return ShiftLaw(reference, c1s, c2, energy, not against, reason, against)
+    return ShiftLaw(reference, c1s, c2, energy, reason, against)
 
 
 def _unlikely(square, left, freedom):
     """Whether scatter would hardly make such a chi square, of so many degrees of freedom."""
-    return left > 0 and square / left > special.fdtri(left, min(freedom, KNOWN), LEVEL)
+    return left > 0 and square / left > special.fdtri(left, min(freedom, KNOWN), 1 - UNLIKELY)

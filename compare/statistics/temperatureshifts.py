@@ -88,7 +88,9 @@ class Surface(Projected):
         i, k = np.transpose(self._powers)
         basis = along[:, i] * self._across[:, k]
         orthonormal, coefficients = self._projected(basis)
-        return Common(basis, orthonormal, slopes[:, i] * self._across[:, k] @ coefficients, coefficients, (x.min(), x.max()))
+        return Common(
+            basis, orthonormal, slopes[:, i] * self._across[:, k] @ coefficients, coefficients, (x.min(), x.max())
+        )
 
 
 def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, freedom: float) -> TemperatureShifts:

@@ -1,0 +1,128 @@
+"""What measured friction at several temperatures says of their shifts along the speed."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, fields, replace
+from math import nan
+from typing import Any
+
+import numpy as np
+from pydantic import TypeAdapter, ValidationError
+
+from scene.reading import InvalidInput, mistakes
+from scene.temperature import WLF
+
+from ..finding import EXACT, FAILS, Claim, Finding, sentences
+from ..plots import temperature_shifts
+from ..statistics import eq23
+from ..statistics.measuredcurves import isotherms
+from ..statistics.pooling import Pooled
+from ..statistics.shiftlaws import Number, ShiftLaw
+from ..statistics.temperatureshifts import TemperatureShifts, found, stated
+
+TOGETHER = Claim(
+    id="mastercurve.temperatures",
+    sentence="Shifts along the speed bring the temperatures together",
+    expected=0.0,
+    tolerance=eq23.TOLERANCE,
+    meaning="rms of ln mu about one function of load and shifted speed, without what scatter adds. Each temperature "
+    "has one shift along the logarithm of the speed.",
+)
+APART = Claim("mastercurve.temperatures-unshifted", "Misfit of the temperatures before shifting along the speed")
+C1 = Claim("mastercurve.c1", "Constant c1 of WLF that the shifts ask for")
+C2 = Claim("mastercurve.c2", "Constant c2 of WLF that the shifts ask for", unit="K")
+ENERGY = Claim("mastercurve.activation-energy", "Activation energy of the shifts", unit="J/mol")
+NOT_TOGETHER = "none, as no shifts along the speed bring the temperatures together"
+ONE = "one temperature, {:.4g} K: nothing is shifted along the speed"
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Constants of WLF as a user states them; all or none.
+
+    c1, c2, reference : as `scene.WLF` has them, strings with units too
+    """
+
+    c1: Any = None
+    c2: Any = None
+    reference: Any = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """What is stated, by name."""
+        return {each.name: value for each in fields(self) if (value := getattr(self, each.name)) is not None}
+
+    def shifts(self, temperatures: np.ndarray) -> np.ndarray:
+        """ln a_T at temperatures [K]. Raises InvalidInput."""
+        return np.array([self._at(float(each)).log_shift for each in temperatures])
+
+    def _at(self, temperature):
+        content = {"type": "wlf", "temperature": temperature, **self.given}
+        adapter = TypeAdapter(WLF)
+        try:
+            return adapter.validate_python(content)
+        except ValidationError as error:
+            raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+
+
+def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
+    """Shifts of points at several temperatures, stated or found; None of one. Raises ValueError, InvalidInput."""
+    each = isotherms(pooled)
+    if len(each) < 2:
+        return None
+    if constants.given:
+        shifts = constants.shifts(np.array([one.temperature for one in each]))
+        return stated(each, shifts, pooled.loads, pooled.freedom)
+    return found(each, pooled.loads, pooled.freedom)
+
+
+def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Iterator[Finding]:
+    """Whether the temperatures come together, and the constants of the laws of shifts that were found."""
+    sentence = TOGETHER.sentence if shifts.found else "The stated shifts of WLF bring the temperatures together"
+    place = {"where": where, "plot": temperature_shifts.NAME}
+    for claim, missed in ((replace(TOGETHER, sentence=sentence), shifts.misfit), (APART, shifts.unshifted)):
+        yield replace(eq23.finding(claim, missed), dimension="measured", **place)
+    if law is None:
+        return
+    reference = f"reference {law.reference:.5g} K"
+    for claim, number, why in (
+        (C1, law.c1, law.reason),
+        (C2, law.c2, law.reason),
+        (ENERGY, law.activation_energy, law.against),
+    ):
+        number = Number(nan, nan, nan) if why and claim is not ENERGY else number
+        yield Finding(
+            claim,
+            number.value,
+            scatter=(number.low, number.high),
+            grid=0.0,
+            grid_method=EXACT,
+            reason=why,
+            dimension="measured",
+            regime=reference,
+            **place,
+        )
+
+
+def come_together(findings: Iterable[Finding]) -> bool:
+    """Whether nothing says that shifts along the speed leave the temperatures apart."""
+    return not any(each.claim.id == TOGETHER.id and each.verdict == FAILS for each in findings)
+
+
+def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Iterable[Finding]) -> list[str]:
+    """Whether the temperatures come together, and by which law of their shifts."""
+    named = {each.claim.id: each for each in findings}
+    told = sentences([named[TOGETHER.id]])
+    if law is None or not come_together(named.values()):
+        return told
+    c1, c2, energy = (named[claim.id].found(3) for claim in (C1, C2, ENERGY))
+    at = f"at {law.reference:.5g} K"
+    if not law.reason:
+        told.append(f"Their shifts follow WLF with c1 = {c1} and c2 = {c2} {at}.")
+        told.append(
+            f"Arrhenius is ruled out: {law.against}." if law.against else f"Arrhenius does as well: {energy}."
+        )
+    elif not law.against:
+        told.append(f"Their shifts allow the law of Arrhenius with {energy}; those of WLF: {law.reason}.")
+    else:
+        told.append(f"No law of their shifts is told: {law.reason}.")
+    return told
