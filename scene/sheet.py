@@ -4,16 +4,17 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import islice
+from itertools import accumulate, islice
 from pathlib import Path
 
 import numpy as np
 
 from . import files
-from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, plain, thousands, unquoted
+from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, decimals, plain, thousands, unquoted
 from .printable import brief
 
-SAMPLE = 300  # lines from which the dialect of a long file is found; the others have to be in it too
+# Lines, and letters in them, from which the dialect of a long file is found; the others have to be in it too.
+SAMPLE, SHORT, LETTERS = 300, 20, 50_000
 LINES, LINE = 2**20, 2**20  # lines of a file, and letters in one of them
 MOST = 20_000_000  # bytes of a file
 _STATEMENT = re.compile(r"[^\W\d][^:=;\t,|]{0,80}[:=].*")  # "Width: 20 µm", "T = 25 °C"
@@ -99,9 +100,10 @@ class _Mistake(ValueError):
 
 def _found(name, lines):
     """The dialect in which the beginning of a file can be read. Raises ValueError with no such, or with several."""
-    sample, reasons, fitting = lines[:SAMPLE], {}, []
+    count = next((k for k, letters in enumerate(accumulate(map(len, lines)), 1) if letters > LETTERS), len(lines))
+    sample, reasons, fitting = lines[: min(max(count, SHORT), SAMPLE)], {}, []
     for dialect in DIALECTS:
-        reading = _Reading(name, dialect, sample, whole=len(lines) <= SAMPLE)
+        reading = _Reading(name, dialect, sample, whole=len(sample) == len(lines))
         try:
             fitting.append((dialect, tuple(reading.sheets())))
         except _Mistake as mistake:
@@ -141,15 +143,25 @@ def _shown(sheet):
 
 
 def _check_commas(name, dialect, lines, sheets):
-    """Raise ValueError for commas that part decimals or thousands, and no number tells which."""
-    if dialect.decimal == ".":
-        return
-    rows = (lines[number - 1] for sheet in sheets for number in sheet.lines)
-    if doubtful := thousands([cell for line in rows for cell in dialect.cells(line) if dialect.kind(cell) == NUMBER]):
-        raise ValueError(
-            f"{name}: {doubtful!r} and all numbers like it may have a decimal comma or one between thousands: write "
-            "points, or another number of decimals"
-        )
+    """Raise ValueError where a comma may part columns, decimals or thousands, and no number tells."""
+
+    def rows(most=None):
+        places = (number - 1 for sheet in sheets for number in sheet.lines)
+        return (dialect.cells(lines[place]) for place in islice(places, most))
+
+    if dialect.decimal == ",":
+        numbers = (cell for row in rows() for cell in row if dialect.kind(cell) == NUMBER)
+        if doubtful := thousands(numbers):
+            raise ValueError(
+                f"{name}: {doubtful!r} and all numbers like it may have a decimal comma or one between thousands: "
+                "write points, or another number of decimals"
+            )
+    elif dialect.separator == "," and not any(sheet.names for sheet in sheets):
+        if decimals(list(rows(SHORT))) and decimals(list(rows())):
+            raise ValueError(
+                f"{name}, line {sheets[0].lines[0]}: commas may part columns or decimals: write decimal points, part "
+                "the columns by semicolons, or write a heading"
+            )
 
 
 @dataclass(eq=False)
@@ -193,82 +205,90 @@ class _Reading:
         """Whether a line of such cells is a row."""
         return kinds == self.form or (
             len(kinds) == len(self.form)
-            and NUMBER in kinds
+            and (NUMBER in kinds or kinds == EMPTY * len(kinds))
             and all(kind in (EMPTY, wanted) for kind, wanted in zip(kinds, self.form, strict=True))
         )
 
     def sheets(self) -> Iterator[Sheet]:
         """The blocks. Raises _Mistake for what is no row among them."""
-        form, gap, start = self.form, [], 0
-        total = 0
+        gap, start, stop, total = [], 0, 0, 0
         while start < len(self.lines):
-            end, numbers = self._block(start)
+            stop = self._stop(start) if start >= stop else stop
+            end, numbers = self._block(start, stop)
             if not len(numbers):
                 gap.append(start)
                 start += 1
                 continue
             total += len(numbers)
-            if total > self.most_rows:
-                raise ValueError(
-                    f"{self.name}: at least {self.most_rows + 1:,} rows: at most {self.most_rows:,} are read"
-                )
+            self._check_size(total)
             self._check_gap(gap)
-            yield self._sheet(gap, start, numbers[:, [kind == NUMBER for kind in form]], form)
+            yield self._sheet(gap, start, numbers)
             gap, start = [], end
         if self.whole:
             self._check_gap(gap, last=True)
+        if not total:
+            raise _Mistake(f"{self.name}: there is no row of numbers in it")
 
-    def _block(self, start):
-        """End of the run of rows that begins at a line, and their numbers."""
-        rows, number = [], start
-        values, fits, kinds_of, cells_of = self.dialect.value, self._fits, self.dialect.kinds, self.dialect.cells
-        width = len(self.form)
-        for number in range(start, len(self.lines)):
-            line = self.lines[number]
-            if not line.strip() or comment(line) is not None:
-                break
-            cells = cells_of(line)
-            row = self._plainly(line, cells, width)
-            if row is None:
-                if not fits(kinds_of(cells)) or not all(
-                    "," not in cell or self.dialect.fits(line, cell) for cell in cells if self.dialect.decimal == ","
-                ):
-                    break
-                row = list(map(values, cells))
-            rows.append(row)
-            if len(rows) > self.most_rows or (self.most_numbers and len(rows) * width > self.most_numbers):
-                number += 1
-                break
-        else:
-            number = len(self.lines)
-        return number, np.array(rows, float).reshape(len(rows), width)
+    def _stop(self, start):
+        """The next blank line or comment from a line on."""
+        places = range(start, len(self.lines))
+        blank = (k for k in places if not self.lines[k].strip() or comment(self.lines[k]) is not None)
+        return next(blank, len(self.lines))
 
-    def _plainly(self, line, cells, width):
-        """Numbers of a row that all are plain; None of any other."""
-        if len(cells) != width or "_" in line or WORD in self.form or self.dialect.separator == ",":
+    def _block(self, start, stop):
+        """End of the run of rows from one line on and before another, and their numbers."""
+        rows = []
+        for line in islice(self.lines, start, stop):
+            if len(rows) == SAMPLE and (numbers := self._at_once(self.lines[start:stop])) is not None:
+                return stop, numbers
+            cells = self.dialect.cells(line)
+            kinds = self.dialect.kinds(cells)
+            nothing = NUMBER not in kinds and not any(map(str.isalpha, line))
+            if nothing or not self._fits(kinds) or not self.dialect.fits(line, cells):
+                break
+            rows.append(list(map(self.dialect.value, cells)))
+            self._check_size(len(rows))
+        return start + len(rows), np.array(rows, float).reshape(len(rows), len(self.form))
+
+    def _at_once(self, lines):
+        """Numbers of many lines that hold nothing else, else None."""
+        self._check_size(len(lines))
+        text = "\n".join(lines)
+        if WORD in self.form or "_" in text or '"' in text or (self.dialect.decimal == "," and "." in text):
             return None
-        text = line if self.dialect.decimal == "." else None
-        if text is None:
-            if "." in line:
-                return None
-            cells = [cell.replace(",", ".") for cell in cells]
+        if self.dialect.decimal == ",":
+            text = text.replace(",", ".")
+        separator = None if self.dialect.separator == BLANK else self.dialect.separator
         try:
-            return list(map(float, cells))
+            numbers = np.loadtxt(text.split("\n"), delimiter=separator, comments=None, ndmin=2)
         except ValueError:
-            return None
+            return None  # line by line it is found where
+        return numbers if numbers.shape[1] == len(self.form) else None
 
-    def _sheet(self, gap, start, numbers, form):
-        heading, units, kept, commented, unread = self._heading(gap, start)
+    def _check_size(self, rows):
+        if rows > self.most_rows:
+            raise ValueError(f"{self.name}: at least {rows:,} rows: at most {self.most_rows:,} are read")
+        if self.most_numbers and rows * len(self.form) > self.most_numbers:
+            raise ValueError(f"{self.name}: more than {self.most_numbers:,} numbers: no more are read")
+
+    def _sheet(self, gap, start, numbers):
+        heading, units, before, commented, unread = self._heading(gap, start)
+        if WORD in self.form and not heading:
+            self._refuse(start)
+        # Columns of words are left out, and their headings with them; so is what follows a separator at the end of
+        # every line.
+        ends = self.dialect.separator != BLANK and all(
+            self.lines[k].rstrip().endswith(self.dialect.separator) for k in range(start, start + len(numbers))
+        )
+        form = self.form[:-1] if ends and np.isnan(numbers[:, -1]).all() else self.form
         wanted = [k for k, kind in enumerate(form) if kind == NUMBER]
-        # Columns of words are left out, and their headings with them.
-        names = tuple(heading[k] for k in wanted) if heading else ()
         return Sheet(
             self.name,
-            numbers,
+            numbers[:, wanted],
             range(start + 1, start + 1 + len(numbers)),
-            names,
+            tuple(heading[k] for k in wanted) if heading else (),
             tuple(units[k] for k in wanted) if heading else (),
-            tuple(kept),
+            tuple(before),
             commented,
             unread,
         )
@@ -302,7 +322,7 @@ class _Reading:
     def _names(self, line):
         """Whether a line may be a heading, or the units of one."""
         parts = self._parted(line)
-        stated = _STATEMENT.fullmatch(line) and (len(parts) == 1 or self.dialect.separator == BLANK)
+        stated = _STATEMENT.fullmatch(line) and (len(parts) == 1 or self.dialect.separator in (BLANK, ","))
         return parts and not stated and any(map(str.isalpha, line))
 
     def _parted(self, line):
@@ -348,7 +368,7 @@ class _Reading:
         """Raise _Mistake for a line, with the cell that is wrong."""
         cells, form, where = self.dialect.cells(self.lines[number]), self.form, f"{self.name}, line {number + 1}"
         kinds = self.dialect.kinds(cells)
-        wrong = next((k for k, (kind, wanted) in enumerate(zip(kinds, form)) if kind not in (EMPTY, wanted)), None)
+        wrong = next((k for k, kind in enumerate(kinds) if kind not in (EMPTY, NUMBER)), None)
         if wrong is not None and (len(cells) == len(form) or NUMBER not in kinds):
             raise _Mistake(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number")
         count = f"{len(cells)} column{'s' * (len(cells) != 1)}, and other rows have {len(form)}"
@@ -356,7 +376,7 @@ class _Reading:
 
 
 def _like_a_number(kind, cell):
-    return kind == NUMBER or (kind == BAD and not any(map(str.isalpha, cell)))
+    return kind == NUMBER or (kind == BAD and not set(filter(str.isalpha, cell)) - set("eEdD"))
 
 
 def _unit(cell):
