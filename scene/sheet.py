@@ -20,7 +20,7 @@ MOST = 20_000_000  # bytes of a file
 _STATEMENT = re.compile(r"[^\W\d][^:=;\t,|]{0,80}[:=].*")  # "Width: 20 µm", "T = 25 °C"
 # "F_N [mN]", "F_N (mN)", "F_N / mN", "F_N in mN", or a name alone.
 _NAMED = re.compile(
-    r"(?P<name>.*?)\s*(?:\[(?P<a>[^\[\]]*)\]|\((?P<b>[^()]*(?:\([^()]*\)[^()]*)*)\)|/\s*\(?(?P<c>[^()/]+)\)?"
+    r"(?P<name>.*?)\s*(?:\[(?P<a>[^\[\]]*)\]|\((?P<b>[^()]*(?:\([^()]*\)[^()]*)*)\)|/\s*\(?(?P<c>[^()]+)\)?"
     r"|\s+in\s+(?P<d>\S+))?"
 )
 _UNIT = re.compile(r"[\[(]?\s*(?P<unit>[^\[\]]*?)\s*[\])]?")
@@ -336,7 +336,8 @@ class _Reading:
             for cells in (plainly, Dialect(separator, ".").cells(line)):
                 if len(cells) == width and (width > 1 or not any(map(line.count, STRONG))):
                     return [self._as_point(each) for each in cells]
-        if self.dialect.separator == BLANK:
+        # Above cells that are parted otherwise, words with a unit in brackets are a heading, and no sentence.
+        if self.dialect.separator == BLANK or "[" in line:
             for cells in (*(blanks.split(line.strip()) for blanks in _BLANKS), self.dialect.cells(line)):
                 if len(cells) == width:
                     return [self._as_point(unquoted(each)) for each in cells]
