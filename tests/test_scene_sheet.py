@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from random_tables import CALLED, draw
 
-from scene.columns import Column, chosen, joined, sheet_of
+from scene.columns import Column, chosen, joined
 from scene.quantities import HERTZ, PASCAL
 from scene.sheet import read_sheets
 

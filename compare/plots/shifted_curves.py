@@ -109,7 +109,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
         _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
         if warm:
-            _warmth(row[0], own)
+            _warmth(row[1], own)
         row[0].set_title(literal(fit["curves"]))
         row[1].set_title(_verdict(fit))
         row[2].set_title("" if fit["decided"] else "exponent undecided")
@@ -122,7 +122,7 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
     shades.bar(drawing, panels, shades.SPEED, between, SLID if warm else "speed [m/s]", **place)
     lettered(panels.flat, 3)
-    clear(drawing, panels[:, ::2].ravel() if warm else panels[:, 2])
+    clear(drawing, panels[:, 2])
     return drawing
 
 

@@ -14,7 +14,7 @@ from ..statistics.shiftlaws import ShiftLaw
 from ..statistics.temperatureshifts import TemperatureShifts
 from . import shades, style
 from .curves import intervals
-from .lettering import Letter, clear, lettered, write
+from .lettering import clear, lettered
 
 NAME = "temperature-shifts"
 SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"
@@ -26,12 +26,11 @@ LINES = {"WLF": "-", "Arrhenius": "--"}
 
 def plot(pooled: Pooled, shifts: TemperatureShifts, law: ShiftLaw | None) -> Plot:
     """The plot of points at several temperatures, and of their shifts."""
-    tables = {NAME: _points(pooled, shifts), SHIFTS: _shifts(shifts), LAWS: _laws(shifts, law)}
+    tables = {NAME: _points(pooled, shifts), SHIFTS: shifts_table(shifts), LAWS: _laws(shifts, law)}
     how = "found" if shifts.found else "stated"
     caption = (
-        f"Friction against speed, a marker for each of at most {TEMPERATURES} temperatures, at up to {LOADS} of the "
-        f"loads; against the speed times a_T, shifts that are {how}; these shifts, and the laws that they allow. "
-        "Bars: 95 %."
+        f"Friction against speed at one load, a marker for each of at most {TEMPERATURES} temperatures; at up to "
+        f"{LOADS} loads against the speed times a_T, which is {how}; ln a_T, and the laws that it allows. Bars: 95 %."
     )
     return Plot(
         NAME, figure, tables, caption, "Friction at several temperatures, shifted onto a curve for each load."
@@ -39,7 +38,7 @@ def plot(pooled: Pooled, shifts: TemperatureShifts, law: ShiftLaw | None) -> Plo
 
 
 def figure(tables: Tables) -> Figure:
-    """Left: as measured. Middle: shifted along the speed. Right: the shifts."""
+    """Left: as measured, at one load. Middle: shifted along the speed. Right: the shifts."""
     points, shifts, laws = (tables[name] for name in (NAME, SHIFTS, LAWS))
     drawing = style.canvas("double", 2.7)
     left, middle, right = panels = drawing.subplots(1, 3)
@@ -48,32 +47,35 @@ def figure(tables: Tables) -> Figure:
     colours = dict(zip(warmth.tolist(), shades.SPEED(np.linspace(0, 1, warmth.size)), strict=True))
     shown = _few(warmth, TEMPERATURES)
     markers = dict(zip(shown.tolist(), style.SERIES_MARKERS, strict=False))
+    loads = np.unique(points["load"])
+    middling = loads[loads.size // 2]
     for axes, across in ((left, "speed"), (middle, "reduced_speed")):
-        for (_, at), own in points[points["temperature"].isin(shown)].groupby(["load", "temperature"]):
-            first = own["load"].iloc[0] == points["load"].min()
+        for (load, at), own in points[points["temperature"].isin(shown)].groupby(["load", "temperature"]):
+            if axes is left and load != middling:
+                continue
             look = {
                 "color": colours[at],
                 "marker": markers[at],
                 "markersize": style.mark(0.8),
                 "linewidth": style.width(0.5),
             }
-            label = f"{at:.4g} K" if first and axes is left else None
+            label = f"{at:.4g} K" if load == middling else None
             intervals(axes, own[across], own, "friction_coefficient", capsize=0, label=label, **look)
         axes.set(xscale="log", yscale="log")
     _law(right, shifts, laws, colours, dict(zip(warmth.tolist(), cycle(style.SERIES_MARKERS))) | markers)
-    left.set(xlabel="speed [m/s]", ylabel="friction coefficient [1]", title="as measured")
+    left.set(xlabel="speed [m/s]", ylabel="friction coefficient [1]", title=f"as measured, {middling:.3g} N")
     middle.set(xlabel="speed times $a_T$ [m/s]", title="shifted")
     right.set(xlabel="temperature [K]", ylabel="decades of $a_T$ [1]", title="shifts")
     left.legend(loc="best", fontsize=style.tiny(), handlelength=1.0)
+    middle.set_xlim(right=30 * points["reduced_speed"].max())
     style.decades(left, middle)
     left.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     lettered(panels)
     clear(drawing, panels)
     ends = points.loc[points.groupby("load")["reduced_speed"].idxmax()]
-    letters = [
-        Letter(f"{row.load:.3g} N", (row.reduced_speed, row.friction_coefficient)) for row in ends.itertuples()
-    ]
-    write(middle, letters, style.tiny())
+    for row in ends.itertuples():
+        place = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": style.tiny()}
+        middle.annotate(f"{row.load:.3g} N", (row.reduced_speed, row.friction_coefficient), **place)
     return drawing
 
 
@@ -112,7 +114,8 @@ def _points(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
     return frame[frame["press"].isin(chosen)].drop(columns="press").sort_values(["load", "temperature", "speed"])
 
 
-def _shifts(shifts: TemperatureShifts) -> DataFrame:
+def shifts_table(shifts: TemperatureShifts) -> DataFrame:
+    """Shift ln a_T of each temperature with its interval of 95 %."""
     low, high = shifts.shifts.interval()
     names = ("temperature", "log_time_shift", "log_time_shift_low", "log_time_shift_high")
     return DataFrame(dict(zip(names, (shifts.temperatures, shifts.shifts.value, low, high), strict=True)))

@@ -117,7 +117,7 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     c1s = Number(
         firsts[best], (firsts - margin)[allowed].min(), inf if allowed[-1] else (firsts + margin)[allowed].max()
     )
-    against = f"c2 of WLF is not T_r = {reference:.4g} K" if wrong or not c2.low <= reference <= c2.high else ""
+    against = f"it is the case c2 = {reference:.4g} K of WLF, which the shifts leave out" if wrong or not c2.low <= reference <= c2.high else ""
     if _unlikely(squares[best], len(above) - 2, freedom):
         reason = WRONG
     else:

@@ -210,8 +210,9 @@ class Mastercurve(Study):
         shifts = self.collapse.shifts(self.lead)
         if (warm := self._curves()) is not None:
             shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
-        tables = [Table("shifts", shifts, told)]
-        return [*plots, Findings(findings), *tables]
+            warmth = temperature_shifts.shifts_table(self.shifts)
+            return [*plots, Findings(findings), Table("time-shifts", warmth, told), Table("shifts", shifts, told)]
+        return [*plots, Findings(findings), Table("shifts", shifts, told)]
 
     def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
         """Number and range of the measurements, and what counts as one point."""
@@ -227,7 +228,7 @@ class Mastercurve(Study):
         warm = f", temperatures within {WARMTH:g} K" if "temperature" in self.data else ""
         return [
             Text(
-                f"{counts} Loads within {self.tolerance:.3g} of one another, relative, are one, and so are speeds"
+                f"{counts} Loads within {100 * self.tolerance:.3g} % of one another are one, and so are speeds"
                 f"{warm}: the mean of each point and its friction there count."
             )
         ]

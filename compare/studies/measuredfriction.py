@@ -192,7 +192,7 @@ def _spelled(sheet):
 
     def spelled(name, unit):
         if name == "t":
-            return "time"
+            return "t (time)"
         return "friction force" if name.lower() == "friction" and unit not in PURE else name
 
     return replace(sheet, names=tuple(map(spelled, sheet.names, sheet.units)))

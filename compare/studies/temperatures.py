@@ -18,6 +18,7 @@ from ..statistics.measuredcurves import isotherms
 from ..statistics.pooling import Pooled
 from ..statistics.shiftlaws import Number, ShiftLaw
 from ..statistics.temperatureshifts import TemperatureShifts, found, stated
+from .measuredfriction import COLDEST
 
 TOGETHER = Claim(
     id="mastercurve.temperatures",
@@ -56,12 +57,25 @@ class Constants:
         return np.array([self._at(float(each)).log_shift for each in temperatures])
 
     def _at(self, temperature):
-        content = {"type": "wlf", "temperature": temperature, **self.given}
+        content = {"type": "wlf", "temperature": temperature} | {
+            name: _bare(value) for name, value in self.given.items()
+        }
         adapter = TypeAdapter(WLF)
         try:
-            return adapter.validate_python(content)
+            law = adapter.validate_python(content)
         except ValidationError as error:
             raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+        if law.reference < COLDEST:
+            raise InvalidInput(f"reference = {law.reference:g} K: is degC meant? Write \"{law.reference:g} degC\"")
+        return law
+
+
+def _bare(value):
+    """A number out of a command line, where it has no unit; anything else as it is."""
+    try:
+        return float(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
 
 
 def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
