@@ -14,7 +14,9 @@ STRONG = "\t;|"
 _COMMENT = re.compile(r"\s*(?:#|%|//|!)+\s?")
 _NOT_MEASURED = re.compile(r"[+-]?(?:nan|na|n/a|n\.a\.|null|none|bad|no ?data|-+)?", re.IGNORECASE)
 # Marks of spreadsheets and of old compilers for what is no number; a # in them begins no comment.
-_SPREADSHEET = re.compile(r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])")
+_SPREADSHEET = re.compile(
+    r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])"
+)
 _CODE = re.compile(r"\s#.*")  # a comment after numbers
 _MOMENT = re.compile(
     r"(?:\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2}))(?:[ T]+\d{1,2}:.*)?"
@@ -28,7 +30,9 @@ _MINUS = str.maketrans("−‐‑–", "----")
 @lru_cache(maxsize=2)
 def _number(decimal):
     mark = re.escape(decimal)
-    return re.compile(rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:[eEdD][+-]?\d+)?|inf(?:inity)?)", re.IGNORECASE | re.ASCII)
+    return re.compile(
+        rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:[eEdD][+-]?\d+)?|inf(?:inity)?)", re.IGNORECASE | re.ASCII
+    )
 
 
 @dataclass(frozen=True)
@@ -43,9 +47,11 @@ class Dialect:
     decimal: str
 
     def cells(self, line: str) -> list[str]:
-        """Cells of a line, without the blanks around them; with a separator of one letter quotes hold one together."""
+        """Cells of a line, without the blanks around them; quotes hold one together."""
         if '"' not in line:
-            return line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
+            return (
+                line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
+            )
         if self.separator == BLANK:
             line = " ".join(line.split())
         return [each.strip() for each in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
@@ -97,7 +103,7 @@ def plain(line: str) -> str:
 def comment(line: str) -> str | None:
     """Text of a line that is a comment as a whole; None of any other."""
     found = _COMMENT.match(line)
-    return line[found.end() :].strip() if found else None
+    return line[found.end() :].strip(" ") if found else None
 
 
 def thousands(cells: Iterable[str]) -> str | None:
@@ -118,8 +124,10 @@ def decimals(rows: Sequence[Sequence[str]]) -> bool:
     rows = [[cell for cell in row if not _NOT_MEASURED.fullmatch(cell)] for row in rows]
     if any(len(row) % 2 for row in rows):
         return False
-    parts = [_DECIMALS.fullmatch(cell) for row in rows for cell in row[1::2]]
-    if not all(parts) or not all(_WHOLE.fullmatch(cell) for row in rows for cell in row[::2]):
+    parts = [found for row in rows for cell in row[1::2] if (found := _DECIMALS.fullmatch(cell))]
+    if len(parts) < sum(len(row) // 2 for row in rows) or not all(
+        _WHOLE.fullmatch(cell) for row in rows for cell in row[::2]
+    ):
         return False
     digits = [part[1] for part in parts]
     return len(set(map(len, digits))) == 1 or not any(each.endswith("0") for each in digits)
