@@ -184,7 +184,7 @@ def mastercurve(
         another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]. From
         Python also a DataFrame, a Dataset of xarray, or arrays by the names of the columns
     tolerance : loads that differ by less, relative, are one load, and so are speeds; their lines are repeats
-    c1 : constant of WLF, by which several temperatures are shifted along the speed. If absent, the shifts are found
+    c1 : constant of WLF, by which temperatures are shifted along the speed; if absent, the shifts are found
     c2 : constant of WLF, as "101.6 K"
     reference : temperature at which c1 and c2 are stated, as "20 degC"
     """

@@ -1,7 +1,7 @@
-"""Repeats within a tolerance, and shifts from temperature to temperature: what was planted is found, as often as stated."""
+"""Repeats within a tolerance, and shifts from temperature to temperature: what was planted is found."""
 
 from dataclasses import replace
-from itertools import groupby
+from itertools import groupby, pairwise
 
 import numpy as np
 import pytest
@@ -74,7 +74,7 @@ def test_loads_that_are_one_lie_within_the_tolerance_and_each_measurement_is_in_
         if load > end:
             stretches, end = stretches + 1, load * (1 + tolerance)
     assert len(points) >= stretches
-    for low, high in zip(points, points[1:], strict=False):
+    for low, high in pairwise(points):
         assert low.load < high.load
     for each in points:
         assert loads.min() <= each.load <= loads.max()

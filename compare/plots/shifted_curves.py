@@ -41,7 +41,7 @@ class ShiftedCurves:
     powers : other exponents, by name
     conditions : further columns of the points, in their order; where the column `holds` is false points are hollow
     lead : alignment of the collapse that is the answer; that along the load if None
-    warmth : temperature and speed as measured of each curve, where its own speed is one that its temperature shifts
+    warmth : temperature and measured speed of each curve, where its own speed is one that its temperature shifts
     """
 
     title: str
@@ -223,7 +223,7 @@ def _marked(table: DataFrame):
 
 def _warmth(axes: Axes, points: DataFrame) -> None:
     """Which marker is which temperature."""
-    look = {"linestyle": "none", "color": style.ink(), "markersize": style.mark(0.7)}
+    look: dict[str, Any] = {"linestyle": "none", "color": style.ink(), "markersize": style.mark(0.7)}
     for marker, where in _marked(points):
         axes.plot([], [], marker=marker, label=f"{points['temperature'].to_numpy()[where][0]:.4g} K", **look)
     axes.legend(loc="lower left", fontsize=style.tiny(), handlelength=1.0, labelspacing=0.2)

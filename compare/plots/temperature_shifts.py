@@ -1,6 +1,7 @@
-"""Friction against speed at several temperatures, shifted along the speed onto one curve a load, and the shifts."""
+"""Friction against speed at several temperatures, shifted along the speed onto a curve a load; the shifts."""
 
 from itertools import cycle
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -30,7 +31,8 @@ def plot(pooled: Pooled, shifts: TemperatureShifts, law: ShiftLaw | None) -> Plo
     how = "found" if shifts.found else "stated"
     caption = (
         f"Friction against speed at one load, a marker for each of at most {TEMPERATURES} temperatures; at up to "
-        f"{LOADS} loads against the speed times a_T, which is {how}; ln a_T, and the laws that it allows. Bars: 95 %."
+        f"{LOADS} loads against the speed times a_T, which is {how}; the decades of a_T, and the laws that they "
+        "allow. Bars: 95 %."
     )
     return Plot(
         NAME, figure, tables, caption, "Friction at several temperatures, shifted onto a curve for each load."
@@ -81,7 +83,7 @@ def figure(tables: Tables) -> Figure:
 
 def _law(axes: Axes, shifts: DataFrame, laws: DataFrame, colours, markers) -> None:
     for name, own in laws.groupby("law", sort=False):
-        look = {"color": style.grey(0.45), "linestyle": LINES[name], "linewidth": style.width(0.8)}
+        look: dict[str, Any] = {"color": style.grey(0.45), "linestyle": LINES[name], "linewidth": style.width(0.8)}
         axes.plot(own["temperature"], own["log_time_shift"] / LOG10, label=name, **look)
     for at, own in shifts.groupby("temperature"):
         look = {"color": colours[at], "fmt": markers[at], "markersize": style.mark(0.9), "capsize": 0}

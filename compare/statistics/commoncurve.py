@@ -43,7 +43,7 @@ class Common:
 class Projected:
     """Misfit of curves to a common function, linear in its coefficients, given the increments of their shifts.
 
-    Curves are shifted along x one against the next; the function is projected out, so that shifts alone are sought.
+    Curves are shifted along x one against the next. The function is projected out: shifts alone are sought.
 
     places, heights : x and y of each curve
     """

@@ -33,10 +33,11 @@ def isotherms(pooled: Pooled) -> tuple[Isotherm, ...]:
     if pooled.points[0].temperature is None:
         return ()
     warmth = np.array([each.temperature for each in pooled.points])
-    logs = np.log([(each.speed, each.load, each.friction) for each in pooled.points])
+    logs = np.log([[each.speed, each.load, each.friction] for each in pooled.points]).T
     errors = np.array([pooled.error(each) for each in pooled.points])
-    each = np.unique(warmth).tolist()
-    return tuple(Isotherm(at, *logs[warmth == at].T, errors[warmth == at]) for at in each)
+    speed, load, friction = logs
+    parts = ((at, warmth == at) for at in np.unique(warmth).tolist())
+    return tuple(Isotherm(at, speed[own], load[own], friction[own], errors[own]) for at, own in parts)
 
 
 def curves_of(pooled: Pooled, shifts: TemperatureShifts | None = None) -> MeasuredCurves:

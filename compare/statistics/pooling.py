@@ -1,4 +1,4 @@
-"""Measurements of friction that are repeats of one point, though loads, speeds and temperatures scatter a little."""
+"""Measurements of friction that repeat one point, though loads, speeds and temperatures scatter a little."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -66,7 +66,7 @@ def pooled(
     """Measurements (N,) as points.
 
     temperature : (N,) [K], or None
-    tolerance : relative; loads that lie within it of one another are one, and so are speeds. At 0 only equal ones are
+    tolerance : relative; loads within it of one another are one, and so are speeds. At 0 only equal ones are
     """
 
     def alike(low):
@@ -100,8 +100,8 @@ def mean(values: np.ndarray) -> float:
 def _groups(values: np.ndarray, reach: Callable[[float], float]) -> Iterator[np.ndarray]:
     """Places of values that are one, in their order.
 
-    reach : the largest value that is one with a smallest. What reaches farther is parted at a wide gap: of those at
-    least half as wide as the widest at that in the middle, so that a run without gaps is halved and never chained.
+    reach : the largest value that is one with a smallest. What reaches farther is parted at a wide gap: of those
+    at least half as wide as the widest, at that in the middle. So a run without gaps is halved, never chained.
     """
     order = np.argsort(values, kind="stable")
     ranked = values[order]

@@ -117,11 +117,10 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     c1s = Number(
         firsts[best], (firsts - margin)[allowed].min(), inf if allowed[-1] else (firsts + margin)[allowed].max()
     )
-    against = f"it is the case c2 = {reference:.4g} K of WLF, which the shifts leave out" if wrong or not c2.low <= reference <= c2.high else ""
-    if _unlikely(squares[best], len(above) - 2, freedom):
-        reason = WRONG
-    else:
-        reason = "" if c2.told else OPEN
+    out = wrong or not c2.low <= reference <= c2.high
+    against = f"it is the case c2 = {reference:.4g} K of WLF, which the shifts leave out" if out else ""
+    wrong = _unlikely(squares[best], len(above) - 2, freedom)
+    reason = WRONG if wrong else "" if c2.told else OPEN
     return ShiftLaw(reference, c1s, c2, energy, reason, against)
 
 

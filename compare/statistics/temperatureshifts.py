@@ -23,7 +23,7 @@ STARTS = np.linspace(-1.0, 1.0, 41)  # shares of the largest shift to either sid
 
 @dataclass(frozen=True)
 class Isotherm:
-    """Points of friction at one temperature [K]: ln v, ln F, ln mu and its standard error, NaN if unknown; (N,)."""
+    """Points at one temperature [K]: ln v, ln F, ln mu and its standard error, NaN if unknown, each (N,)."""
 
     temperature: float
     log_speed: np.ndarray
@@ -185,8 +185,8 @@ def _check_shared(isotherms):
     for each in isotherms:
         if not np.ptp(each.log_speed) > 0:
             raise ValueError(
-                f"{each.temperature:g} K has a single speed: shifts along the speed are found from several at each "
-                "temperature, or stated as c1, c2 and reference"
+                f"{each.temperature:g} K has a single speed: shifts along the speed are found from several at "
+                "each temperature, or stated as c1, c2 and reference"
             )
     for cold, warm in pairwise(isotherms):
         a, b = cold.log_load, warm.log_load
@@ -198,6 +198,6 @@ def _check_shared(isotherms):
 def _refuse(cold, warm, what):
     raise ValueError(
         f"{cold.temperature:g} K and {warm.temperature:g} K share less than {LEAST_OVERLAP:.0%} of their {what}: "
-        "their shift is not found from them; measure more speeds, loads or temperatures between, or state c1, c2 and "
-        "reference of the elastomer"
+        "their shift is not found from them; measure more speeds, loads or temperatures between, or state c1, c2 "
+        "and reference of the elastomer"
     )

@@ -113,8 +113,8 @@ class Mastercurve(Study):
         """Measurements as points."""
         data = self.data
         warmth = data["temperature"].values if "temperature" in data else None
-        columns = (data[name].values for name in ("friction_coefficient", "normal_force", "speed"))
-        found = pooled(*columns, warmth, self.tolerance)
+        friction, load, speed = (data[name].values for name in ("friction_coefficient", "normal_force", "speed"))
+        found = pooled(friction, load, speed, warmth, self.tolerance)
         check(found)
         return found
 
@@ -145,7 +145,7 @@ class Mastercurve(Study):
         return self.collapse.both if eq23.raised(self.collapse) else self.collapse.horizontal
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """Whether horizontal shifts suffice, whether vertical ones are needed, the exponents of both; temperatures."""
+        """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
         found, plots = self.collapse, (shifted_curves.NAME,) * 2
         warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
         raw = {
@@ -195,7 +195,7 @@ class Mastercurve(Study):
         return [each for each in plots if each]
 
     def _curves(self):
-        """Temperature and speed of each curve as measured, in the order of the collapse; None of one temperature."""
+        """Temperature and measured speed of each curve, in the order of the collapse; None of one temperature."""
         if self.shifts is None:
             return None
         first = [self.pooled.points[places[0]] for _, places in in_order(self.pooled, self.shifts)]
@@ -208,7 +208,7 @@ class Mastercurve(Study):
     ) -> Sequence[Block]:
         told = "Natural logarithms of the shifts, with intervals of 95 %."
         shifts = self.collapse.shifts(self.lead)
-        if (warm := self._curves()) is not None:
+        if self.shifts is not None and (warm := self._curves()) is not None:
             shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
             warmth = temperature_shifts.shifts_table(self.shifts)
             return [*plots, Findings(findings), Table("time-shifts", warmth, told), Table("shifts", shifts, told)]

@@ -1,6 +1,6 @@
 """Friction that a user measured, out of a file or from Python: a row a measurement, in SI."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -23,75 +23,31 @@ Measurements: TypeAlias = "str | Path | DataFrame | xarray.Dataset | Mapping[str
 
 MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 POSITIONAL = ("mu", "F_N", "v")
-COLUMNS = (
-    Column(
-        "mu",
-        ("mu", "µ", "friction", "friction coefficient", "coefficient of friction", "coeff. of friction", "cof")
-        + ("friction coeff", "kinetic friction coefficient", "dynamic friction coefficient", "sliding friction")
-        + ("kinetic coefficient of friction", "dynamic coefficient of friction", "mu k", "cof mean", "mean cof"),
-        optional=True,
-    ),
-    Column(
-        "F_T",
-        ("F_T", "FT", "F_F", "F_R", "friction force", "frictional force", "tangential force", "lateral force")
-        + ("shear force", "traction force", "drag", "drag force", "F_x", "Fx", "force x"),
-        (NEWTON,),
-        optional=True,
-    ),
-    Column(
-        "F_N",
-        (
-            "F_N",
-            "FN",
-            "load",
-            "normal force",
-            "normal load",
-            "applied load",
-            "applied force",
-            "force",
-            "vertical force",
-        )
-        + ("vertical load", "contact force", "F_z", "Fz", "force z"),
-        (NEWTON,),
-    ),
-    Column(
-        "v",
-        (
-            "v",
-            "speed",
-            "velocity",
-            "sliding speed",
-            "sliding velocity",
-            "slip speed",
-            "slip velocity",
-            "linear speed",
-        )
-        + ("track speed", "stage speed"),
-        (SPEED, RADIAN_PER_SECOND, HERTZ),
-        optional=True,
-    ),
-    Column(
-        "T",
-        ("T", "temperature", "temp", "test temperature", "sample temperature", "rubber temperature")
-        + ("ambient temperature", "chamber temperature"),
-        (KELVIN,),
-        optional=True,
-    ),
-    # Named to say what they lack, or what they are not.
-    Column(
-        "rotation",
-        (
-            "rpm",
-            "rotation",
-            "rotational speed",
-            "rotation speed",
-            "angular speed",
-            "angular velocity",
-            "revolutions",
-        ),
-        (RADIAN_PER_SECOND, HERTZ),
-        optional=True,
-    ),
+NAMES = {
+    "mu": "mu, µ, friction, friction coefficient, friction coeff, coefficient of friction, coeff. of "
+    "friction, cof, mean cof, cof mean, mu k, kinetic friction coefficient, dynamic friction "
+    "coefficient, kinetic coefficient of friction, dynamic coefficient of friction",
+    "F_T": "F_T, FT, friction force, frictional force, tangential force, lateral force, shear force, "
+    "traction force, drag, drag force, F_F, F_R, Fx, F_x, force x",
+    "F_N": "F_N, FN, load, normal force, normal load, force, applied force, applied load, vertical force, "
+    "vertical load, contact force, Fz, F_z, force z",
+    "v": "v, speed, velocity, sliding speed, sliding velocity, slip speed, slip velocity, linear speed, "
+    "track speed, stage speed",
+    "T": "T, temperature, temp, test temperature, sample temperature, rubber temperature, ambient "
+    "temperature, chamber temperature",
+    # Named to say what it lacks.
+    "rotation": "rpm, rotation, rotational speed, rotation speed, angular speed, angular velocity, revolutions",
+}
+UNITS = {
+    "F_T": (NEWTON,),
+    "F_N": (NEWTON,),
+    "v": (SPEED, RADIAN_PER_SECOND, HERTZ),
+    "T": (KELVIN,),
+    "rotation": (RADIAN_PER_SECOND, HERTZ),
+}
+COLUMNS = tuple(
+    Column(field, tuple(names.split(", ")), UNITS.get(field, ()), optional=field != "F_N")
+    for field, names in NAMES.items()
 )
 VARIABLES = {"mu": "friction_coefficient", "F_N": "normal_force", "v": "speed", "T": "temperature"}
 SPINS = (
@@ -123,13 +79,13 @@ class MeasuredFriction:
 
         Raises InvalidInput naming the place and what is allowed.
         """
-        path = isinstance(table, str | Path)
+        path = Path(table) if isinstance(table, str | Path) else None
         try:
-            sheet = joined(read_sheets(table, MOST_ROWS)) if path else sheet_of(_flat(table))
+            sheet = joined(read_sheets(path, MOST_ROWS)) if path else sheet_of(_flat(table))
             columns, notes = _columns(sheet)
         except ValueError as error:
             raise InvalidInput(str(error)) from error
-        named = Path(table).stem if path else sheet.name
+        named = path.stem if path else sheet.name
         count = len(columns["F_N"])
         source = str(table) if path else f"a {sheet.name} from Python, {count} rows"
         data = {
@@ -160,7 +116,7 @@ def _columns(sheet: Sheet) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
         raise ValueError(
             f"{sheet.name}: there is {found['rotation'].name} and no v: {SPINS}"
             if "rotation" in found
-            else f"{sheet.name}: there is no column for v, called {', '.join(_called('v'))}"
+            else f"{sheet.name}: there is no column for v, called {NAMES['v']}"
         )
     if found["v"].unit not in (None, SPEED):
         raise ValueError(f"{sheet.name}: v is no speed of sliding: {SPINS}")
@@ -168,8 +124,7 @@ def _columns(sheet: Sheet) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
         notes = (*notes, f"{sheet.name}: column {found.pop('rotation').name!r} is not used beside v")
     if not {"mu", "F_T"} & set(found):
         raise ValueError(
-            f"{sheet.name}: there is no column for mu, called {', '.join(_called('mu'))}; nor for F_T, called "
-            f"{', '.join(_called('F_T'))}"
+            f"{sheet.name}: there is no column for mu, called {NAMES['mu']}; nor for F_T, called {NAMES['F_T']}"
         )
     missing = np.any([np.isnan(each.numbers) for each in found.values()], axis=0)
     if missing.all():
@@ -195,11 +150,8 @@ def _spelled(sheet):
             return "t (time)"
         return "friction force" if name.lower() == "friction" and unit not in PURE else name
 
-    return replace(sheet, names=tuple(map(spelled, sheet.names, sheet.units)))
-
-
-def _called(field: str) -> Sequence[str]:
-    return next(each.called for each in COLUMNS if each.field == field)
+    names = tuple(map(spelled, sheet.names, sheet.units))
+    return replace(sheet, heading=replace(sheet.heading, names=names))
 
 
 def _check(sheet: Sheet, name: str, column: Chosen, missing: np.ndarray) -> None:
@@ -214,7 +166,8 @@ def _check(sheet: Sheet, name: str, column: Chosen, missing: np.ndarray) -> None
         )
     if wrong.any():
         raise ValueError(
-            f"{_row(sheet, int(np.argmax(wrong)))}: {name} = {numbers[wrong][0]:g} must be finite and greater than 0"
+            f"{_row(sheet, int(np.argmax(wrong)))}: {name} = {numbers[wrong][0]:g} must be finite and greater "
+            "than 0"
         )
 
 

@@ -25,8 +25,8 @@ TOGETHER = Claim(
     sentence="Shifts along the speed bring the temperatures together",
     expected=0.0,
     tolerance=eq23.TOLERANCE,
-    meaning="rms of ln mu about one function of load and shifted speed, without what scatter adds. Each temperature "
-    "has one shift along the logarithm of the speed.",
+    meaning="rms of ln mu about one function of load and shifted speed, without what scatter adds. Each "
+    "temperature has one shift along the logarithm of the speed.",
 )
 APART = Claim("mastercurve.temperatures-unshifted", "Misfit of the temperatures before shifting along the speed")
 C1 = Claim("mastercurve.c1", "Constant c1 of WLF that the shifts ask for")
@@ -66,7 +66,7 @@ class Constants:
         except ValidationError as error:
             raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
         if law.reference < COLDEST:
-            raise InvalidInput(f"reference = {law.reference:g} K: is degC meant? Write \"{law.reference:g} degC\"")
+            raise InvalidInput(f'reference = {law.reference:g} K: is degC meant? Write "{law.reference:g} degC"')
         return law
 
 
@@ -92,7 +92,7 @@ def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
 def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Iterator[Finding]:
     """Whether the temperatures come together, and the constants of the laws of shifts that were found."""
     sentence = TOGETHER.sentence if shifts.found else "The stated shifts of WLF bring the temperatures together"
-    place = {"where": where, "plot": temperature_shifts.NAME}
+    place: dict[str, Any] = {"where": where, "plot": temperature_shifts.NAME}
     for claim, missed in ((replace(TOGETHER, sentence=sentence), shifts.misfit), (APART, shifts.unshifted)):
         yield replace(eq23.finding(claim, missed), dimension="measured", **place)
     if law is None:
