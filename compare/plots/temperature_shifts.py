@@ -69,6 +69,9 @@ def figure(tables: Tables) -> Figure:
     middle.set(xlabel="speed times $a_T$ [m/s]", title="shifted")
     right.set(xlabel="temperature [K]", ylabel="decades of $a_T$ [1]", title="shifts")
     left.legend(loc="best", fontsize=style.tiny(), handlelength=1.0)
+    low, high = left.get_xlim()
+    if 10 < high / low < 100:  # too many ticks for a narrow panel, but for two decades and more
+        left.set_xlim(np.sqrt(low * high) / 10, np.sqrt(low * high) * 10)
     middle.set_xlim(right=30 * points["reduced_speed"].max())
     style.decades(left, middle)
     left.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
