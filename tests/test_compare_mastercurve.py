@@ -420,7 +420,7 @@ def test_one_temperature_is_told_and_changes_nothing(tmp_path):
     assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
 
 
-def warmed(c1=8.86, c2=101.6, seed=2):
+def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
     """Friction at three temperatures, on one curve of load and of the speed that WLF at 20 degC shifts."""
     rng, rows = np.random.default_rng(seed), ["T [degC],v [mm/s],F_N,F_T [N]"]
     for celsius in (12, 20, 28):
@@ -429,7 +429,7 @@ def warmed(c1=8.86, c2=101.6, seed=2):
             for load in np.geomspace(1, 30, 4):
                 for noise, *jitter in rng.normal(size=(2, 3)):
                     v, f = (each * (1 + 0.003 * off) for each, off in zip((speed, load), jitter, strict=True))
-                    mu = (1 + 3 * f * (by * v / 30) ** -0.5) ** -0.6 * (1 + 0.02 * noise)
+                    mu = law(f * (by * v / 30) ** -0.5) * (1 + 0.02 * noise)
                     rows.append(f"{celsius},{v},{f},{mu * f}")
     return "\n".join(rows)
 
@@ -477,6 +477,14 @@ def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent(tmp_path):
     assert "temperatures together" in wrong["exponent"].reason
     # Whether the curves are one does not depend on the speed that they have.
     assert wrong["horizontal"].value == pytest.approx(told["horizontal"].value, abs=1e-3)
+
+
+def test_where_friction_is_a_power_no_temperature_is_shifted_and_no_exponent_told(tmp_path):
+    told = found(study(tmp_path, warmed(law=lambda x: (3 * x) ** -0.6)))
+    assert told["temperatures"].verdict == UNDECIDED
+    for name in ("exponent", "c1", "c2", "activation-energy"):
+        assert np.isnan(told[name].value)
+        assert "cannot be told from one along friction" in told[name].reason
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from compare.statistics import shiftlaws
 from compare.statistics.frictioncurves import MeasuredCurves
 from compare.statistics.measuredcurves import curves_of, isotherms
 from compare.statistics.pooling import pooled
-from compare.statistics.temperatureshifts import found, stated
+from compare.statistics.temperatureshifts import POWERS, found, stated
 
 C1, C2, REFERENCE = 8.86, 101.6, 293.15
 KELVINS = np.array([273.15, 283.15, 293.15, 303.15, 313.15])
@@ -186,6 +186,12 @@ def test_temperatures_too_far_apart_are_refused_by_name():
         shifts(friction, np.where(warm > 300, 100 * load, load), speed, warm)
     with pytest.raises(ValueError, match="single speed"):
         shifts(*(each[speed < 1.2e-3] for each in (friction, load, speed, warm)))
+
+
+def test_of_powers_of_speed_and_load_no_shift_is_told():
+    told = shifts(*measured(lambda x: -0.3 * x))
+    assert told.inseparable == POWERS
+    assert not shifts(*measured()).inseparable
 
 
 def test_stated_shifts_are_judged_and_wrong_ones_fail():

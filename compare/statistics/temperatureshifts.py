@@ -12,12 +12,17 @@ from math import log, sqrt
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from .collapse import STRAIGHT
 from .commoncurve import LEAST_OVERLAP, Common, Projected, inside, near, scaled_to_one, within
 from .intervals import Estimated, RmsMisfit
 from .jackknife import Replicates
 
 # Degrees of the polynomial, of which the least information criterion has one; a third of the points stays free.
 DEGREES = range(1, 11)
+POWERS = (
+    "friction is one power of speed and load at all temperatures: a shift along the speed cannot be told from one "
+    "along friction"
+)
 STARTS = np.linspace(-1.0, 1.0, 41)  # shares of the largest shift to either side from which shifts are sought
 
 
@@ -42,6 +47,7 @@ class TemperatureShifts:
     levers : change of ln a_T with ln mu of each point (K, N)
     misfit : of ln mu about the one function, without what scatter adds
     unshifted : the same with no shift
+    straight : of parallel planes, one a temperature, to ln mu of ln v and ln F
     degree : of the polynomial
     found : whether the shifts are those that data ask for
     """
@@ -52,6 +58,7 @@ class TemperatureShifts:
     levers: np.ndarray = field(repr=False)
     misfit: RmsMisfit
     unshifted: RmsMisfit
+    straight: RmsMisfit
     degree: int
     found: bool
 
@@ -59,6 +66,11 @@ class TemperatureShifts:
     def temperatures(self) -> np.ndarray:
         """(K,) [K], ascending."""
         return np.array([each.temperature for each in self.isotherms])
+
+    @property
+    def inseparable(self) -> str:
+        """Reason why found shifts cannot be told from shifts along friction; empty where they can."""
+        return POWERS if self.found and self.straight.interval()[0] <= STRAIGHT else ""
 
     @property
     def reference(self) -> float:
@@ -139,6 +151,7 @@ def _shifted(surface, increments, shifts, covariance, levers, freedom, found):
         levers,
         _missed(surface, increments, freedom, surface.tangent(increments) if found else None),
         _missed(surface, unmoved, freedom),
+        _straight(surface, freedom),
         surface.degree,
         found,
     )
@@ -147,11 +160,27 @@ def _shifted(surface, increments, shifts, covariance, levers, freedom, found):
 def _missed(surface, increments, freedom, tangent=None):
     """Misfit of a surface; tangent : of what is fitted, the coefficients alone if None."""
     basis = surface.common(increments).basis if tangent is None else tangent
-    left, sizes, _ = np.linalg.svd(basis, full_matrices=False)
-    left = left[:, sizes > 1e-12 * sizes[0]]
+    return _misfit(surface, freedom, _orthonormal(basis), surface.residuals(increments))
+
+
+def _straight(surface, freedom):
+    """Misfit of parallel planes, one a temperature."""
+    levels = surface.owner[:, None] == np.arange(len(surface.isotherms))
+    loads = np.concatenate([each.log_load for each in surface.isotherms])
+    planes = _orthonormal(np.column_stack([levels, surface.x, loads]))
+    return _misfit(surface, freedom, planes, surface.y - planes @ (planes.T @ surface.y))
+
+
+def _misfit(surface, freedom, fitted, missed):
+    """Misfit of what is missed, where an orthonormal basis of what is fitted takes scatter away."""
     errors = np.concatenate([each.error for each in surface.isotherms])
-    deviations = np.diag(errors) - errors[:, None] * left @ left.T
-    return Replicates(surface.residuals(increments), sqrt(len(errors)) * deviations, freedom).rms
+    deviations = np.diag(errors) - errors[:, None] * fitted @ fitted.T
+    return Replicates(missed, sqrt(len(errors)) * deviations, freedom).rms
+
+
+def _orthonormal(basis):
+    left, sizes, _ = np.linalg.svd(basis, full_matrices=False)
+    return left[:, sizes > 1e-12 * sizes[0]]
 
 
 def _freest(isotherms, loads, sought):

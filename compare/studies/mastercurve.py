@@ -158,8 +158,8 @@ class Mastercurve(Study):
             found, None, MEASURED, where=self.friction.name, draws=0, plots=plots, every=True
         ):
             name, sentence = CLAIMS[each.claim.id]
-            if each.claim.id in EXPONENTS and not temperatures.come_together(warm):
-                each = replace(each, value=nan, scatter=(nan, nan), reason=temperatures.NOT_TOGETHER)
+            if each.claim.id in EXPONENTS and (why := temperatures.unshifted(self.shifts, warm)):
+                each = replace(each, value=nan, scatter=(nan, nan), reason=why)
             elif not isfinite(found.scatter):
                 known = each.value if each.claim is eq23.ALONE else raw.get(each.claim.id, nan)
                 each = replace(each, value=known, reason=NOT_REPEATED)

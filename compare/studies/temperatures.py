@@ -1,8 +1,7 @@
 """What measured friction at several temperatures says of their shifts along the speed."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from math import nan
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from ..plots import temperature_shifts
 from ..statistics import eq23
 from ..statistics.measuredcurves import isotherms
 from ..statistics.pooling import Pooled
-from ..statistics.shiftlaws import Number, ShiftLaw
+from ..statistics.shiftlaws import NONE, ShiftLaw
 from ..statistics.temperatureshifts import TemperatureShifts, found, stated
 from .measuredfriction import COLDEST
 
@@ -93,8 +92,9 @@ def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Ite
     """Whether the temperatures come together, and the constants of the laws of shifts that were found."""
     sentence = TOGETHER.sentence if shifts.found else "The stated shifts of WLF bring the temperatures together"
     place: dict[str, Any] = {"where": where, "plot": temperature_shifts.NAME}
-    for claim, missed in ((replace(TOGETHER, sentence=sentence), shifts.misfit), (APART, shifts.unshifted)):
-        yield replace(eq23.finding(claim, missed), dimension="measured", **place)
+    together = eq23.finding(replace(TOGETHER, sentence=sentence), shifts.misfit, reason=shifts.inseparable)
+    for each in (together, eq23.finding(APART, shifts.unshifted)):
+        yield replace(each, dimension="measured", **place)
     if law is None:
         return
     reference = f"reference {law.reference:.5g} K"
@@ -103,7 +103,9 @@ def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Ite
         (C2, law.c2, law.reason),
         (ENERGY, law.activation_energy, law.against),
     ):
-        number = Number(nan, nan, nan) if why and claim is not ENERGY else number
+        why = shifts.inseparable or why
+        if why and (claim is not ENERGY or shifts.inseparable):
+            number = NONE
         yield Finding(
             claim,
             number.value,
@@ -117,16 +119,18 @@ def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Ite
         )
 
 
-def come_together(findings: Iterable[Finding]) -> bool:
-    """Whether nothing says that shifts along the speed leave the temperatures apart."""
-    return not any(each.claim.id == TOGETHER.id and each.verdict == FAILS for each in findings)
+def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> str:
+    """Reason why no speed is one that its temperature shifts, and no exponent is told; empty where it is."""
+    if any(each.claim.id == TOGETHER.id and each.verdict == FAILS for each in findings):
+        return NOT_TOGETHER
+    return shifts.inseparable if shifts else ""
 
 
-def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Iterable[Finding]) -> list[str]:
+def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Sequence[Finding]) -> list[str]:
     """Whether the temperatures come together, and by which law of their shifts."""
     named = {each.claim.id: each for each in findings}
     told = sentences([named[TOGETHER.id]])
-    if law is None or not come_together(named.values()):
+    if law is None or unshifted(shifts, findings):
         return told
     c1, c2, energy = (named[claim.id].found(3) for claim in (C1, C2, ENERGY))
     at = f"at {law.reference:.5g} K"
