@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from .planning import Plans
     from .quantity import Quantity
     from .report import Report
+    from .studies.measuredfriction import Measurements
     from .studies.topography import Surface
     from .studies.trust.verdict import Trust
 
@@ -169,15 +170,29 @@ def regress(
     return report
 
 
-def mastercurve(table: str | Path, output: str | Path = "mastercurve", **options: Unpack[Options]) -> Report:
+def mastercurve(
+    table: Measurements,
+    output: str | Path = "mastercurve",
+    tolerance: float = 0.05,
+    c1: float | None = None,
+    c2: str | float | None = None,
+    reference: str | float | None = None,
+    **options: Unpack[Options],
+) -> Report:
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load.
 
     table : CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give
-        another order and other units, as F_N [mN]. Lines of equal load and speed are repeats
+        another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]. From
+        Python also a DataFrame, a Dataset of xarray, or arrays by the names of the columns
+    tolerance : loads that differ by less, relative, are one load, and so are speeds; their lines are repeats
+    c1 : constant of WLF, by which temperatures are shifted along the speed; if absent, the shifts are found
+    c2 : constant of WLF, as "101.6 K"
+    reference : temperature at which c1 and c2 are stated, as "20 degC"
     """
     from .studies.mastercurve import Mastercurve
 
-    return solve(Mastercurve.of(table), output, **options)
+    stated = {"c1": c1, "c2": c2, "reference": reference}
+    return solve(Mastercurve.of(table, tolerance, **stated), output, **options)
 
 
 def topography(

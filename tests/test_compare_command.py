@@ -142,7 +142,7 @@ def test_a_users_table_is_shifted(folder):
     assert (status, complained) == (0, "")
     assert "undecided" in said  # single measurements have no scatter
     assert list((folder / "mastercurve").glob("*.png"))
-    (folder / "ball.csv").write_text("1,2\n")
+    (folder / "ball.csv").write_text("1 2\n")
     status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
     assert status == 2
     assert "ball.csv, line 1: 2 columns" in complained
