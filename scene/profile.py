@@ -10,16 +10,16 @@ from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from . import linescan, stylus
-from .heightfile import UNITS
-from .heightline import HeightLine, Heights
-from .heightmap import LONGEST, QUOTIENT, ROUNDING, SHORTEST
+from .form import DEGREES, ROUNDING
+from .heightline import HeightLine, Heights, filled
+from .heightmap import LONGEST, SHORTEST
 from .linescan import Interval, LineLaw
 from .periodogram import taken_off
 from .printable import brief
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Whole, by_name, takes
+from .scan import UNITS
+from .scanned import QUOTIENT
 from .selfaffine import SelfAffine
-
-DEGREES = {"mean": 0, "tilt": 1, "curvature": 2, "cubic": 3}
 
 
 def _or_file(schema: dict[str, Any]) -> None:
@@ -90,13 +90,12 @@ class Profile:
             heights, spacing, notes = stylus.line_of(stated["heights"], spacing, unit)
             said = ""
         try:
-            if heights.ndim == 1 and heights.dtype.kind == "f":
-                heights, filled = stylus.filled(heights, fill == "fill")
-                notes += filled
-            line = HeightLine(heights)
+            if fill == "fill" and heights.ndim == 1 and heights.dtype.kind == "f":
+                heights, done = filled(heights)
+                notes += done
+            line = HeightLine(heights, notes)
         except ValueError as error:
             raise ValueError(f"{said}{error}") from None
-        object.__setattr__(line, "notes", notes)
         if spacing is None and said:
             raise ValueError(f'{said}it has no places: give the spacing of its points, as spacing = "0.5 um"')
         return stated | {"heights": line} | ({} if spacing is None else {"spacing": spacing})

@@ -11,11 +11,13 @@ import numpy as np
 from .arrayfile import array_in
 from .columns import Chosen, Column, chosen, sheet_of
 from .files import checked, content
-from .heightfile import UNITS
+from .heightmap import unmasked
 from .labelled import is_labelled
+from .lattice import OFF
 from .linescan import MOST
 from .printable import brief
 from .quantities import METRE, argument
+from .scan import EVEN, UNITS, metres
 from .sheet import Sheet, read_sheets
 
 X_NAMES = (
@@ -28,9 +30,6 @@ Z_NAMES = (
 )
 X = Column("x", (*X_NAMES.partition(",")[0].split(), *X_NAMES.split(",")[1:]), (METRE,), optional=True)
 Z = Column("heights", (*Z_NAMES.partition(",")[0].split(), *Z_NAMES.split(",")[1:]), (METRE,))
-MOST_FILLED = 0.05  # of all points
-OFF = 0.05  # of a spacing, by which a point may lie off an even lattice
-EVEN = 1e-3  # relative, between a spacing that is stated and that of the places
 MOST_BYTES = 2**26
 NEEDED = 'the unit of its heights: write it into the heading, as "z [um]", or give unit, one of ' + ", ".join(
     UNITS
@@ -72,35 +71,13 @@ def line_of(heights: Any, spacing: Any = None, unit: str | None = None) -> Line:
         raise ValueError(
             f"unit = {briefly(unit)}: of a file, or of a table; give heights with their unit, or in metres"
         )
-    if isinstance(heights, np.ma.MaskedArray):
-        heights = np.ma.filled(heights.astype(float), np.nan)
+    heights = unmasked(heights)
     places = _coordinates(heights) if is_labelled(heights) else None
     if places is not None:
         step, rising = _even("heights", places)
         spacing = _agreeing("heights", spacing, step)
         heights = heights if rising else heights[::-1]
     return np.asarray(METRE.values(heights)), spacing, ()
-
-
-def filled(heights: np.ndarray, fill: bool) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Heights (N,) with missing ones filled in on straight lines between their neighbours, and what was done.
-
-    Raises ValueError where heights are missing and not to be filled in, or too many are.
-    """
-    holes = np.isnan(heights)
-    count = int(np.count_nonzero(holes))
-    if not count:
-        return heights, ()
-    share = f"{count} of {len(heights)} points, {100 * count / len(heights):.3g} %,"
-    if count > MOST_FILLED * len(heights):
-        raise ValueError(f"{share} have no height: at most {100 * MOST_FILLED:g} % are filled in")
-    if not fill:
-        raise ValueError(
-            f'{share} have no height, the first is point {int(holes.argmax()) + 1}: missing = "fill" fills them in'
-        )
-    places = np.arange(len(heights))
-    whole = np.interp(places, places[~holes], heights[~holes])
-    return whole, (f"{share} had no height and were filled in on straight lines",)
 
 
 def _of_sheet(sheet: Sheet, spacing, unit) -> Line:
@@ -127,17 +104,14 @@ def _of_sheet(sheet: Sheet, spacing, unit) -> Line:
 
 
 def _in_metres(name, numbers, unit, column: Chosen | None = None, written: str = ""):
-    if unit is not None:
-        plain = unit.replace("µ", "u").replace("μ", "u") if isinstance(unit, str) else unit
-        if not (isinstance(plain, str) and plain in UNITS):
-            raise ValueError(f"unit = {briefly(unit)}: one of {', '.join(UNITS)}")
+    metre = None if unit is None else metres(unit)
     if column is not None and column.unit is not None:
-        if unit is not None and METRE.scale(written)[0] != METRE.scale(plain)[0]:
+        if metre is not None and abs(float(METRE.scale(written)[0]) - metre) > 1e-9 * metre:
             raise ValueError(f"unit = {unit!r}: {name} states its own, {brief(written)}, leave unit out")
         return numbers
-    if unit is None:
+    if metre is None:
         raise ValueError(f"{name} does not state {NEEDED}")
-    return numbers * UNITS[plain]
+    return numbers * metre
 
 
 def _even(name, places, sheet: Sheet | None = None):
