@@ -85,7 +85,7 @@ def named(cell: str) -> tuple[str, str]:
 def parted(line: str, width: int, dialect: Dialect) -> list[str]:
     """Cells of a heading, as many as columns; none where it has not as many.
 
-    A heading may be parted otherwise than the numbers, commas above blanks for one. A number in it, an axis for one,
+    A heading may be parted otherwise than the numbers, as by commas above blanks. A number in it, say of an axis,
     gets a decimal point.
     """
     ways = []
