@@ -86,7 +86,7 @@ class Names:
             if not isinstance(kind, str) or kind not in mapping:
                 return {"type": "object"}
             return self._node({"$ref": mapping[kind]}, content)
-        if choices := node.get("anyOf") or node.get("oneOf"):
+        if "properties" not in node and (choices := node.get("anyOf") or node.get("oneOf")):
             wanted = "object" if isinstance(content, dict) else "array" if isinstance(content, list) else None
             every = [self._node(each, content) for each in choices]
             return next((each for each in every if each.get("type") == wanted), every[0])

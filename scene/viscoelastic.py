@@ -12,6 +12,7 @@ from .modes import Relaxation, Retardation
 from .quantities import RADIAN_PER_SECOND, SECOND, Finite, takes
 
 PoissonRatio = Annotated[Finite, Field(gt=-1, le=0.5)]
+INCOMPRESSIBLE = 0.5  # Poisson ratio of a solid that states none
 
 
 class Linear:
