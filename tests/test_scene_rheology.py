@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 from solids import OF_EACH_TYPE
-
 from strategies import examples
 
 from scene import Elastic, Fractional, Kelvin, KelvinChain, Prony, Scene, StandardLinearSolid
@@ -447,4 +446,5 @@ def test_the_schema_knows_young_s_moduli_and_normalised_terms():
         assert stretched(solid, 0.5).keys() | stated.keys() <= kinds[solid.__name__]["properties"].keys()
         needed = {name for name in kinds[solid.__name__].get("required", ())}
         assert not any("modul" in name or "compliance" in name for name in needed)
-    assert {"g", "tau", "instantaneous_modulus", "instantaneous_youngs_modulus"} <= kinds["Prony"]["properties"].keys()
+    ways = {"g", "tau", "instantaneous_modulus", "instantaneous_youngs_modulus"}
+    assert ways <= kinds["Prony"]["properties"].keys()
