@@ -6,6 +6,7 @@ from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
 from .interface import Coulomb
 from .layer import Layer
 from .measured import Measured
+from .moduli import read_table
 from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
 from .protocol import EmptyContact, OutOfMemory, Refused, SolveError, Solver
@@ -14,7 +15,7 @@ from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import CrossedWaves, SelfAffine, Wave
 from .scene import Scene
-from .table import Table, read_table
+from .table import CreepTable, RelaxationTable, Table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius
 from .topography import Topography
@@ -24,6 +25,7 @@ __all__ = [
     "Arrhenius",
     "Cone",
     "Coulomb",
+    "CreepTable",
     "CrossedWaves",
     "Cylinder",
     "Elastic",
@@ -43,6 +45,7 @@ __all__ = [
     "Prony",
     "Refused",
     "Regime",
+    "RelaxationTable",
     "Result",
     "Scene",
     "SelfAffine",
