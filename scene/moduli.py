@@ -6,16 +6,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import ValidationError
 
 from . import modulinames as names
 from .columns import Chosen, chosen, joined, sheet_of
 from .files import once
+from .mistakes import said
 from .modulinames import KINDS, OPEN
 from .quantities import HERTZ
 from .sheet import Sheet, read_sheets
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
 
 UNITS = ("rad/s", "Hz")
+_FREQUENCIES = names.FREQUENCY, names.ANGULAR, names.REDUCED, names.REDUCED_ANGULAR
 # In brackets behind a name: what the number depends on, and no unit.
 _ARGUMENTS = ("t", "ω", "omega", "w", "f", "δ", "delta", "φ", "d", "phi", "aT", "a_T", "T")
 _IDLE = ("(ω)", "(omega)", "(w)", "(f)", "(iω)")
@@ -73,7 +76,8 @@ def _spelt(sheet: Sheet) -> Sheet:
         for idle in _IDLE:
             name = name.removesuffix(idle).strip()
         exact = any(name in each.called for each in names.COLUMNS)
-        called[k] = name if exact or len(name) > 1 else f"column {name}"  # "F" is a force, and "d" a thickness
+        other = len(name) == 1 and not exact and any(_is(name, each) for each in names.COLUMNS)
+        called[k] = f"column {name}" if other else name  # "F" is a force, and "d" a thickness
         if units[k] in _PER_SECOND:
             angular = any(_is(name, each) for each in (names.ANGULAR, names.REDUCED_ANGULAR))
             units[k] = "rad/s" if angular else "" if _is(name, names.FREQUENCY) else units[k]
@@ -96,7 +100,9 @@ class _Columns:
     used: set[str] = field(default_factory=set)
 
     def read(self) -> Read:
-        over_frequency = any(self._has(each) for each in ("storage", "loss", "magnitude"))
+        over_frequency = any(self._has(each) for each in ("storage", "loss", "magnitude")) or (
+            names.TIME.field not in self.found and any(each.field in self.found for each in _FREQUENCIES)
+        )
         quantities = ("storage", "loss", "magnitude") if over_frequency else ("relaxation", "creep")
         kind = self._kind([each for each in quantities if self._has(each)])
         made = self._moduli(kind) if over_frequency else self._over_time(kind)
@@ -139,9 +145,13 @@ class _Columns:
         kind = {"storage": Table, "modulus": RelaxationTable, "compliance": CreepTable}
         made_of: Any = next(kind[each] for each in made if each in kind)
         columns: dict[str, Any] = {each: tuple(values.tolist()) for each, values in made.items()}
+        try:
+            table = made_of(**columns)
+        except ValidationError as error:
+            raise ValueError(f"{self.sheet.name}: {said(error)}") from None
         unused = [column for field, column in self.found.items() if field not in self.used]
         beside = [f"{self.sheet.name}: column {each.name!r} is not used" for each in unused]
-        return made_of(**columns).noted((*self.notes, *beside))
+        return table.noted((*self.notes, *beside))
 
     # Columns
 

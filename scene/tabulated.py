@@ -11,8 +11,9 @@ from pydantic import ConfigDict, Field, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
 from .fit import Creep, Measured, Modes, Oscillation, Stress, fitted, rms
+from .mistakes import said
 from .moduli import read_moduli
-from .printable import brief
+from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
 from .temperature import Law
@@ -72,13 +73,11 @@ class Tabulated(Solid):
         if not _is_plain(table):
             try:
                 read = read_moduli(table, stated.get("frequency_unit"), stated.get("kind"))
-            except ValidationError as error:
-                raise _of_the_table(table, error.errors(include_url=False)[0]["msg"]) from error
             except ValueError as error:
                 raise _of_the_table(table, error) from error
             found["table"] = table = read.table
-            said = {"frequency_unit": read.frequency_unit, "kind": read.kind}
-            found = {name: value for name, value in said.items() if value is not None} | found
+            told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
+            found = {name: value for name, value in told.items() if value is not None} | found
         over_time = isinstance(table, RelaxationTable | CreepTable) or (
             isinstance(table, Mapping) and "time" in table
         )
@@ -187,14 +186,16 @@ class Tabulated(Solid):
 
 def _is_plain(table):
     """Whether a table stands there by the names of our fields."""
-    known = [set(each.__dataclass_fields__) for each in _TABLES]
-    return isinstance(table, _TABLES) or (isinstance(table, Mapping) and any(set(table) <= each for each in known))
+    if not isinstance(table, Mapping):
+        return isinstance(table, _TABLES)
+    known = any(set(table) <= set(each.__dataclass_fields__) for each in _TABLES)
+    return known and all(bare(each)[1] is None for each in table.values())
 
 
 def _of_the_table(table, reason):
     """A mistake of the field `table`."""
-    said = {"type": "value_error", "loc": ("table",), "input": table, "ctx": {"error": ValueError(str(reason))}}
-    return ValidationError.from_exception_data("Tabulated", [said])  # type: ignore[list-item]
+    line = {"type": "value_error", "loc": ("table",), "input": table, "ctx": {"error": ValueError(str(reason))}}
+    return ValidationError.from_exception_data("Tabulated", [line])  # type: ignore[list-item]
 
 
 def _no_law(table):
@@ -220,8 +221,8 @@ def _reduced(solid: Tabulated, law: Law) -> Tabulated:
     try:
         longer = {each: replace(law, temperature=each).shift for each in set(solid.table.temperature)}
     except ValueError as error:
-        reason = error.errors(include_url=False)[0]["msg"] if isinstance(error, ValidationError) else error
-        raise ValueError(f"elastomer.table: a row at {brief(str(reason))}") from error
+        reason = said(error) if isinstance(error, ValidationError) else error
+        raise ValueError(f"elastomer.table: a row at {reason}") from error
     return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in solid.table.temperature])))
 
 
