@@ -237,4 +237,3 @@ def _heading(sheet):
 
 def _allowed(column):
     return f"{column.field}, called {', '.join(column.called)}"
-

@@ -14,7 +14,9 @@ STRONG = "\t;|"
 _COMMENT = re.compile(r"\s*(?:#|%|//|!)+\s?")
 _NOT_MEASURED = re.compile(r"[+-]?(?:nan|na|n/a|n\.a\.|null|none|bad|no ?data|-+)?", re.IGNORECASE)
 # Marks of spreadsheets and of old compilers for what is no number; a # in them begins no comment.
-_SPREADSHEET = re.compile(r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])")
+_SPREADSHEET = re.compile(
+    r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])"
+)
 _CODE = re.compile(r"\s#.*")  # a comment after numbers
 _MOMENT = re.compile(
     r"(?:\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2}))(?:[ T]+\d{1,2}:.*)?"
@@ -27,7 +29,9 @@ _MINUS = str.maketrans("−‐‑–", "----")
 @lru_cache(maxsize=2)
 def _number(decimal):
     mark = re.escape(decimal)
-    return re.compile(rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:[eEdD][+-]?\d+)?|inf(?:inity)?)", re.IGNORECASE | re.ASCII)
+    return re.compile(
+        rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:[eEdD][+-]?\d+)?|inf(?:inity)?)", re.IGNORECASE | re.ASCII
+    )
 
 
 @dataclass(frozen=True)
@@ -44,7 +48,9 @@ class Dialect:
     def cells(self, line: str) -> list[str]:
         """Cells of a line, without the blanks around them; with a separator of one letter quotes hold one together."""
         if '"' not in line:
-            return line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
+            return (
+                line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
+            )
         if self.separator == BLANK:
             line = " ".join(line.split())
         return [each.strip() for each in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]

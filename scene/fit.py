@@ -24,11 +24,15 @@ class Measured:
     """What is followed: measured numbers (M,), each to the same share of itself.
 
     measured : the numbers
-    ends : shortest and longest time seen [s]
+    times : shortest and longest time seen [s]
     """
 
     measured: np.ndarray
-    ends: tuple[float, float]
+    times: tuple[float, float]
+
+    def ends(self, rest: float | None) -> tuple[float, float]:
+        """Shortest and longest time of a mode [s]; rest : modulus at rest [Pa] if it is known"""
+        return self.times[0] / _MARGIN, self.times[1] * _MARGIN
 
     def of(self, modes: Modes) -> np.ndarray:
         """The same numbers of a solid (M,)."""
@@ -62,7 +66,7 @@ class Oscillation(Measured):
 
     def __init__(self, omega, modulus):
         self.omega, self.measured = omega, np.append(modulus.real, modulus.imag)
-        self.ends = 1 / omega[-1], 1 / omega[0]
+        self.times = 1 / omega[-1], 1 / omega[0]
 
     def of(self, modes):
         found = modes.complex_modulus(self.omega)
@@ -79,7 +83,7 @@ class Stress(Measured):
 
     def __init__(self, time, modulus):
         self.time, self.measured = time, modulus
-        self.ends = time[0], time[-1]
+        self.times = time[0], time[-1]
 
     def of(self, modes):
         return modes.modulus(self.time)
@@ -93,7 +97,12 @@ class Creep(Measured):
 
     def __init__(self, time, compliance):
         self.time, self.measured = time, compliance
-        self.ends = time[0], time[-1]
+        self.times = time[0], time[-1]
+
+    def ends(self, rest):
+        fast, slow = super().ends(rest)
+        # A compliance that is not reached yet grows at most as the time.
+        return fast, slow * (1.0 if rest is None else max(1.0, 1 / (rest * self.measured[-1])))
 
     def of(self, modes):
         return modes.compliance(self.time)
@@ -128,7 +137,7 @@ def fitted(rows: Measured, rest: float | None) -> tuple[Modes, float]:
     """
 
     def times(density):
-        fast, slow = rows.ends[0] / _MARGIN, rows.ends[1] * _MARGIN
+        fast, slow = rows.ends(rest)
         return np.geomspace(fast, slow, int(np.ceil(np.log10(slow / fast) * density)) + 1)
 
     def misfit(modes):

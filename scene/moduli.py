@@ -126,7 +126,9 @@ class _Columns:
         for each in (*made.values(), *([] if factors is None else [factors])):
             everywhere &= ~np.isnan(each)
         if count := int((~everywhere).sum()):
-            self.notes.append(f"{self.sheet.name}: {count} of {everywhere.size} rows lack a number, and are left out")
+            self.notes.append(
+                f"{self.sheet.name}: {count} of {everywhere.size} rows lack a number, and are left out"
+            )
         if not everywhere.any():
             raise ValueError(f"{self.sheet.name}: no row has all of {', '.join(made)}")
         made = {each: values[everywhere] for each, values in made.items()}
@@ -190,7 +192,9 @@ class _Columns:
                 )
             return self.kind
         if len(told) > 1:
-            raise ValueError(f"{self._heading()} names moduli of both kinds: state kind, {' or '.join(map(repr, told))}")
+            raise ValueError(
+                f"{self._heading()} names moduli of both kinds: state kind, {' or '.join(map(repr, told))}"
+            )
         return told[0] if told else self.kind
 
     def _heading(self):
@@ -201,7 +205,10 @@ class _Columns:
     def _moduli(self, kind):
         """Storage and loss modulus, however they are stated."""
         storage, loss = self._modulus("storage", kind), self._modulus("loss", kind)
-        tangent, size = self._tangent(whole=storage is not None and loss is not None), self._modulus("magnitude", kind)
+        tangent, size = (
+            self._tangent(whole=storage is not None and loss is not None),
+            self._modulus("magnitude", kind),
+        )
         if storage is not None and loss is not None:
             self._check_tangent(loss / storage, tangent)
             return {"storage": storage, "loss": loss}
@@ -251,7 +258,9 @@ class _Columns:
         columns = {each.field: self.found[each.field] for each in wanted if each.field in self.found}
         if not columns:
             several = "a sweep of temperature is " if names.TEMPERATURE.field in self.found else ""
-            raise ValueError(f"{self._heading()}: {several}no table of frequencies: it has no column of the frequency")
+            raise ValueError(
+                f"{self._heading()}: {several}no table of frequencies: it has no column of the frequency"
+            )
         units = {field: self._unit_of(field, column) for field, column in columns.items()}
         self._check_both(columns, units)
         stated = self.frequency_unit if self.frequency_unit in UNITS else None
@@ -274,7 +283,9 @@ class _Columns:
     def _check_both(self, columns, units):
         if len(columns) < 2 or None in units.values():
             return
-        one, other = (column.numbers * (2 * np.pi if units[field] == "Hz" else 1) for field, column in columns.items())
+        one, other = (
+            column.numbers * (2 * np.pi if units[field] == "Hz" else 1) for field, column in columns.items()
+        )
         if (np.abs(one - other) > _AGREE * np.abs(one)).any():
             both = " and ".join(repr(column.name) for column in columns.values())
             raise ValueError(f"{self._heading()}: {both} contradict one another, 1 Hz is 2 pi rad/s: keep one")
@@ -284,9 +295,13 @@ class _Columns:
     def _over_time(self, kind):
         relaxation, creep = self._modulus("relaxation", kind), self._modulus("creep", kind)
         if (relaxation is None) == (creep is None):
-            lack = "both a relaxation modulus and a creep compliance: keep one" if creep is not None else (
-                "no modulus: give storage and loss modulus over the frequency, or a relaxation modulus or creep "
-                "compliance over the time"
+            lack = (
+                "both a relaxation modulus and a creep compliance: keep one"
+                if creep is not None
+                else (
+                    "no modulus: give storage and loss modulus over the frequency, or a relaxation modulus or creep "
+                    "compliance over the time"
+                )
             )
             raise ValueError(f"{self._heading()} has {lack}")
         if names.TIME.field not in self.found:

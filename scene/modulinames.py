@@ -14,14 +14,35 @@ OPEN = ""
 MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "storage": (
         (
-            *("{M}'", "{M}p", "{M} p", "{M}1", "{M} 1", "{M} prime", "{M}prime", "{M} storage", "{M} stor", "{M} real"),
+            *(
+                "{M}'",
+                "{M}p",
+                "{M} p",
+                "{M}1",
+                "{M} 1",
+                "{M} prime",
+                "{M}prime",
+                "{M} storage",
+                "{M} stor",
+                "{M} real",
+            ),
             *("storage modulus {M}'", "{M}' storage modulus", "{kind} storage modulus", "storage {kind} modulus"),
         ),
         ("storage modulus", "storage", "elastic modulus", "real modulus"),
     ),
     "loss": (
         (
-            *("{M}''", "{M}pp", "{M} pp", "{M}2", "{M} 2", "{M} double prime", "{M} dprime", "{M} loss", "{M} imag"),
+            *(
+                "{M}''",
+                "{M}pp",
+                "{M} pp",
+                "{M}2",
+                "{M} 2",
+                "{M} double prime",
+                "{M} dprime",
+                "{M} loss",
+                "{M} imag",
+            ),
             *("loss modulus {M}''", "{M}'' loss modulus", "{kind} loss modulus", "loss {kind} modulus"),
         ),
         ("loss modulus", "loss", "viscous modulus", "imaginary modulus"),
@@ -36,7 +57,16 @@ MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "relaxation": (
         (
-            *("{M}(t)", "{M}", "{M}r", "{M} r", "{M} rel", "{M} relax", "relaxation modulus {M}(t)", "{kind} modulus"),
+            *(
+                "{M}(t)",
+                "{M}",
+                "{M}r",
+                "{M} r",
+                "{M} rel",
+                "{M} relax",
+                "relaxation modulus {M}(t)",
+                "{kind} modulus",
+            ),
             *("relaxation modulus {M}", "{kind} relaxation modulus"),
         ),
         ("relaxation modulus", "stress relaxation modulus", "modulus"),
@@ -49,12 +79,16 @@ MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("creep compliance", "compliance"),
     ),
 }
-_TIMES_SHIFT = tuple(form.replace("a", name) for name in ("aT", "a_T", "a(T)") for form in ("a {}", "{} a", "a*{}"))
+_TIMES_SHIFT = tuple(
+    form.replace("a", name) for name in ("aT", "a_T", "a(T)") for form in ("a {}", "{} a", "a*{}")
+)
 _SHIFT = (*("aT", "a_T", "a(T)", "shift factor", "shift", "shift factor aT", "shift factor a_T"),)
 
 
 def _reduced(*names):
-    return tuple(form.format(name) for name in names for form in (*_TIMES_SHIFT, "reduced {}", "shifted {}", "{} red"))
+    return tuple(
+        form.format(name) for name in names for form in (*_TIMES_SHIFT, "reduced {}", "shifted {}", "{} red")
+    )
 
 
 def _log(*logs):
@@ -83,7 +117,18 @@ LN_SHIFT = Column("ln of the shift factor", _log("ln"), optional=True)
 TAN = Column(
     "tan delta",
     (
-        *("tan delta", "tandelta", "tan δ", "tanδ", "tan(δ)", "tan(delta)", "tan d", "tan(d)", "tan phi", "tan(φ)"),
+        *(
+            "tan delta",
+            "tandelta",
+            "tan δ",
+            "tanδ",
+            "tan(δ)",
+            "tan(delta)",
+            "tan d",
+            "tan(d)",
+            "tan phi",
+            "tan(φ)",
+        ),
         *("tan", "damping factor", "loss factor", "loss tangent", "damping", "loss factor tan delta"),
     ),
     optional=True,

@@ -10,7 +10,20 @@ from pathlib import Path
 import numpy as np
 
 from . import files
-from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, plain, thousands, unquoted
+from .dialect import (
+    BAD,
+    BLANK,
+    DIALECTS,
+    EMPTY,
+    NUMBER,
+    STRONG,
+    WORD,
+    Dialect,
+    comment,
+    plain,
+    thousands,
+    unquoted,
+)
 from .printable import brief
 
 SAMPLE = 300  # lines from which the dialect of a long file is found; the others have to be in it too
@@ -145,7 +158,9 @@ def _check_commas(name, dialect, lines, sheets):
     if dialect.decimal == ".":
         return
     rows = (lines[number - 1] for sheet in sheets for number in sheet.lines)
-    if doubtful := thousands([cell for line in rows for cell in dialect.cells(line) if dialect.kind(cell) == NUMBER]):
+    if doubtful := thousands(
+        [cell for line in rows for cell in dialect.cells(line) if dialect.kind(cell) == NUMBER]
+    ):
         raise ValueError(
             f"{name}: {doubtful!r} and all numbers like it may have a decimal comma or one between thousands: write "
             "points, or another number of decimals"
@@ -231,7 +246,9 @@ class _Reading:
             row = self._plainly(line, cells, width)
             if row is None:
                 if not fits(kinds_of(cells)) or not all(
-                    "," not in cell or self.dialect.fits(line, cell) for cell in cells if self.dialect.decimal == ","
+                    "," not in cell or self.dialect.fits(line, cell)
+                    for cell in cells
+                    if self.dialect.decimal == ","
                 ):
                     break
                 row = list(map(values, cells))
@@ -275,9 +292,11 @@ class _Reading:
 
     def _heading(self, gap, start):
         """Names and units of the columns, the other lines above them, whether they are a comment, and what is unread."""
-        said = [each for each in gap if self.lines[each].strip(" \t;,|\"")]
+        said = [each for each in gap if self.lines[each].strip(' \t;,|"')]
         texts = [comment(self.lines[each]) for each in said]
-        whole = [self.lines[each].strip() if text is None else text for each, text in zip(said, texts, strict=True)]
+        whole = [
+            self.lines[each].strip() if text is None else text for each, text in zip(said, texts, strict=True)
+        ]
         if not said:
             return (), (), [], False, ""
         # The lowest line of as many cells as columns; below it there may be rulers and remarks.
@@ -291,7 +310,10 @@ class _Reading:
         remark = texts[place] is not None
         last = "" if all(text is not None for text in texts[place + 1 :]) else unread[0]
         if len(places) > 1 and places[-2] == place - 1 and _are_units(parts):
-            pairs, units = [named(each) for each in self._parted(whole[place - 1])], [_unit(each) for each in parts]
+            pairs, units = (
+                [named(each) for each in self._parted(whole[place - 1])],
+                [_unit(each) for each in parts],
+            )
             if any(own and unit not in ("", "-", own) for (_, own), unit in zip(pairs, units, strict=True)):
                 where = f"{self.name}, line {said[place] + 1}"
                 raise _Mistake(f"{where}: units beside those of the heading: state them once")

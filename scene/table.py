@@ -140,7 +140,9 @@ class CreepTable(_Rows):
 
 def _kind(given):
     """Which of them is given, by the name of its numbers."""
-    held = given if isinstance(given, Mapping) else {name: 0 for name in getattr(given, "__dataclass_fields__", ())}
+    held = (
+        given if isinstance(given, Mapping) else {name: 0 for name in getattr(given, "__dataclass_fields__", ())}
+    )
     named = (each for each in (CreepTable, RelaxationTable) if fields(each)[1].name in held)
     return CHOICE + next(named, Table).__name__
 

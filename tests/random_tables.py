@@ -16,7 +16,14 @@ CALLED = {
 }
 STRANGERS = ("Temp. set", "Status", "Torque", "n°", "Strain (%)", "date")
 WORDS = ("ok", "12.03.2024", "2024-03-12 10:15", "10:15:07", "n. b.", "A 1")
-METADATA = ("Sample: rubber 7", "Operator;A. Ruiz", "T = 25 °C", "Instrument\tRheo 5", "Probekörper µ-7", "Created 2024-11-02")
+METADATA = (
+    "Sample: rubber 7",
+    "Operator;A. Ruiz",
+    "T = 25 °C",
+    "Instrument\tRheo 5",
+    "Probekörper µ-7",
+    "Created 2024-11-02",
+)
 
 
 @dataclass(frozen=True)
@@ -59,7 +66,9 @@ def draw(seed: int) -> Drawn:
         numbers = np.array([np.nan if gone else float(text) for text, gone in zip(written, empty, strict=True)])
         columns[str(field)] = numbers, UNITS[field][unit] if unit_line or in_heading else 1.0
         gaps = "", "nan", "-", "NaN", "n/a"
-        cells.append([one(*gaps) if gone else text.replace(".", decimal) for text, gone in zip(written, empty, strict=True)])
+        cells.append(
+            [one(*gaps) if gone else text.replace(".", decimal) for text, gone in zip(written, empty, strict=True)]
+        )
         headings.append(one(*CALLED[field]))
         units.append(unit)
     own = [*cells]
@@ -80,7 +89,13 @@ def draw(seed: int) -> Drawn:
     lines = [one("", "# ", "") + one(*METADATA) for _ in range(int(rng.integers(0, 4)))]
     lines += [""] * (len(lines) > 0 and often(0.5))
     if heads:
-        lines.append(mark + separator.join(f"{quote}{name.replace(chr(34), doubled) if quote else name}{quote}" for name in headings) + tail)
+        lines.append(
+            mark
+            + separator.join(
+                f"{quote}{name.replace(chr(34), doubled) if quote else name}{quote}" for name in headings
+            )
+            + tail
+        )
     if unit_line:
         said = [one(unit, f"[{unit}]") if unit else one("-", "") for unit in units]
         lines.append(mark + separator.join(said) + tail)
@@ -88,14 +103,22 @@ def draw(seed: int) -> Drawn:
     between = one("", "# a pause", "   ")
 
     def written(columns):
-        body = [separator.join(f"{quote}{cell}{quote}".rjust(align) for cell in row) + tail for row in zip(*columns, strict=True)]
+        body = [
+            separator.join(f"{quote}{cell}{quote}".rjust(align) for cell in row) + tail
+            for row in zip(*columns, strict=True)
+        ]
         if pause is not None:
             body.insert(pause, between)
         return newline.join([*lines, *body, ""]).encode(encoding, errors="replace")
 
     hurt, row = one(*own), int(rng.integers(0, rows))
     spoilt = [
-        [one("1.2.3", "x", "1e", "12,5,1") if column is hurt and k == row else cell for k, cell in enumerate(column)]
+        [
+            one("1.2.3", "x", "1e", "12,5,1") if column is hurt and k == row else cell
+            for k, cell in enumerate(column)
+        ]
         for column in cells
     ]
-    return Drawn(written(cells), {name: numbers * unit for name, (numbers, unit) in columns.items()}, written(spoilt))
+    return Drawn(
+        written(cells), {name: numbers * unit for name, (numbers, unit) in columns.items()}, written(spoilt)
+    )

@@ -9,7 +9,8 @@ from scene.quantities import HERTZ, PASCAL
 from scene.sheet import read_sheets
 
 WANTED = [
-    Column(name, CALLED[name], (HERTZ,) if name == "frequency" else (PASCAL,)) for name in ("frequency", "storage", "loss")
+    Column(name, CALLED[name], (HERTZ,) if name == "frequency" else (PASCAL,))
+    for name in ("frequency", "storage", "loss")
 ]
 ROUNDING = 4e-16  # of one product
 
