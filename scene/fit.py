@@ -1,6 +1,5 @@
 """Prony series that follow measurements: nonnegative least squares over times a fraction of a decade apart."""
 
-from dataclasses import dataclass
 from math import inf, sqrt
 
 import numpy as np

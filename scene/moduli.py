@@ -1,6 +1,5 @@
-"""Tables of moduli as people have them, in a file or in Python: their columns found by name, and made one table."""
+"""Tables of moduli as people have them: columns found by their names, in a file or in Python, made one table."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -68,7 +67,7 @@ def _sheet(path):
 
 
 def _spelt(sheet: Sheet) -> Sheet:
-    """The sheet with arguments as parts of the names, as of G(t), and without those that say nothing."""
+    """The sheet with arguments as parts of names such as G(t), and without those that say nothing."""
     called, units = list(sheet.names), list(sheet.units)
     for k, (name, unit) in enumerate(zip(called, units, strict=True)):
         if unit in _ARGUMENTS:
@@ -161,7 +160,7 @@ class _Columns:
         return any(names.modulus(quantity, each).field in self.found for each in (*KINDS, OPEN))
 
     def _of(self, field):
-        """Positive numbers of a column; NaN where nothing was measured. Raises ValueError with the place of others."""
+        """Numbers of a column, > 0 or, where nothing was measured, NaN. Raises ValueError with the place of others."""
         column = self.found[field]
         wrong = ~(np.isnan(column.numbers) | ((column.numbers > 0) & np.isfinite(column.numbers)))
         if wrong.any():
@@ -295,14 +294,12 @@ class _Columns:
     def _over_time(self, kind):
         relaxation, creep = self._modulus("relaxation", kind), self._modulus("creep", kind)
         if (relaxation is None) == (creep is None):
-            lack = (
-                "both a relaxation modulus and a creep compliance: keep one"
-                if creep is not None
-                else (
-                    "no modulus: give storage and loss modulus over the frequency, or a relaxation modulus or creep "
-                    "compliance over the time"
+            lack = "both a relaxation modulus and a creep compliance: keep one"
+            if creep is None:
+                lack = (
+                    "no modulus: give storage and loss modulus over the frequency, or a relaxation modulus or "
+                    "creep compliance over time"
                 )
-            )
             raise ValueError(f"{self._heading()} has {lack}")
         if names.TIME.field not in self.found:
             raise ValueError(f"{self._heading()} has no column of the time")
@@ -323,13 +320,13 @@ class _Columns:
             return None, temperature if known else None
         if names.SHIFT.field in self.found:
             return self._of(names.SHIFT.field), temperature
-        for field, base in ((names.LOG_SHIFT.field, 10.0), (names.LN_SHIFT.field, np.e)):
-            if field in self.found:
-                self.used.add(field)
+        for log, base in ((names.LOG_SHIFT.field, 10.0), (names.LN_SHIFT.field, np.e)):
+            if log in self.found:
+                self.used.add(log)
                 with np.errstate(over="ignore"):
-                    factors = base ** self.found[field].numbers
+                    factors = base ** self.found[log].numbers
                 if not ((factors > 0) & np.isfinite(factors) | np.isnan(factors)).all():
-                    raise ValueError(f"{self._heading()}: {self.found[field].name!r} leaves the range of numbers")
+                    raise ValueError(f"{self._heading()}: {self.found[log].name!r} leaves the range of numbers")
                 return factors, temperature
         return None, temperature
 

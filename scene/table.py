@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from math import isfinite
 from pathlib import Path
-from typing import Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import numpy as np
 from pydantic import Discriminator, Tag, model_validator
@@ -40,6 +40,9 @@ class _Rows:
     PLACE: ClassVar[tuple[str, str]]  # its field, and more of them
     notes: Sequence[str] = ()
 
+    if TYPE_CHECKING:
+        temperature: tuple[float, ...] | None
+
     @property
     def places(self) -> np.ndarray:
         """Frequencies or times (rows,)."""
@@ -60,7 +63,8 @@ class _Rows:
         """The rows at one temperature, at which times are shorter by these factors (rows,)."""
         name = self.PLACE[0]
         places = self.places / longer if name == "time" else self.places * longer
-        return replace(self, **{name: tuple(places.tolist())}, temperature=None).noted(self.notes)
+        changed: dict[str, Any] = {name: tuple(places.tolist()), "temperature": None}
+        return replace(self, **changed).noted(self.notes)  # type: ignore[type-var]
 
     def _check(self):
         name, many = self.PLACE

@@ -16,7 +16,7 @@ from .moduli import read_moduli
 from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
-from .temperature import Law
+from .temperature import WLF, Arrhenius
 from .viscoelastic import PoissonRatio, Solid
 from .youngs import in_shear, or_in_tension
 
@@ -36,8 +36,8 @@ def _or_file(schema: dict[str, Any]) -> None:
 class Tabulated(Solid):
     """Solid of measured moduli, fitted with a Prony series by nonnegative least squares.
 
-    table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over the time;
-        or the path of a text or CSV file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may
+    table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over time; or
+        the path of a text or CSV file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may
         have. It is read once and kept as numbers; a relative path starts at the working directory
     frequency_unit : "rad/s" or "Hz" (cycles per second), where no heading says so; None over the time
     kind : "shear" for G', G'', G(t), J(t); "tensile" for E', E'', E(t), D(t), where no heading says so;
@@ -46,11 +46,11 @@ class Tabulated(Solid):
         times the longest time of the table, 1/(lowest angular frequency) or the last
     tolerance : largest root mean square of the relative misfits of all numbers that is accepted
 
-    `error` and `rms_error` say how well the series follows the table. Raises ValueError where a heading contradicts
-    a field, if no passive solid follows the table to within the tolerance (in one, G' never falls with the
-    frequency and G'' belongs to it), or if the table leaves the modulus at rest open: fitted, it has to be three
-    times its standard error, `equilibrium_error`. A table at several temperatures has modes once the law of the
-    shift is known, as in a Scene: see `at_reference`.
+    `error` and `rms_error` say how well the series follows the table. Raises ValueError where a heading
+    contradicts a field, if no passive solid follows the table to within the tolerance (in one, G' never falls with
+    the frequency and G'' belongs to it), or if the table leaves the modulus at rest open: fitted, it has to be
+    three times its standard error, `equilibrium_error`. A table at several temperatures has modes once the law of
+    the shift is known, as in a Scene: see `at_reference`.
     """
 
     table: AnyTable
@@ -103,8 +103,8 @@ class Tabulated(Solid):
                 wrong = "that the modulus falls, or the compliance grows, with the time"
             raise ValueError(
                 f"{self.table!r}: the best passive solid is off by {self.rms_error:.2g} (relative, root mean "
-                f"square), more than tolerance = {self.tolerance:g}: check units and columns, and {wrong}; if this "
-                "is the scatter, raise tolerance"
+                f"square), more than tolerance = {self.tolerance:g}: check units and columns, and {wrong}; if "
+                "this is the scatter, raise tolerance"
             )
         if self.static_modulus < _TOLD * self.equilibrium_error:
             further = "for longer times" if over_time else "at lower frequencies"
@@ -170,7 +170,7 @@ class Tabulated(Solid):
             raise ValueError(_no_law(self.table))
         return _fit(self)[0]
 
-    def at_reference(self, law: Law | None) -> "Tabulated":
+    def at_reference(self, law: WLF | Arrhenius | None) -> "Tabulated":
         """The solid at the reference of the law, by which rows at other temperatures are shifted.
 
         Raises ValueError of several temperatures without a law, and of one that is not the reference of the law.
@@ -181,7 +181,7 @@ class Tabulated(Solid):
             if self.table.several:
                 raise ValueError(_no_law(self.table))
             return self
-        return _reduced(self, replace(law, temperature=law.reference))
+        return _reduced(self, replace(law, temperature=law.reference))  # which alone tells one law from another
 
 
 def _is_plain(table):
@@ -195,7 +195,7 @@ def _is_plain(table):
 def _of_the_table(table, reason):
     """A mistake of the field `table`."""
     line = {"type": "value_error", "loc": ("table",), "input": table, "ctx": {"error": ValueError(str(reason))}}
-    return ValidationError.from_exception_data("Tabulated", [line])  # type: ignore[list-item]
+    return ValidationError.from_exception_data("Tabulated", [line])
 
 
 def _no_law(table):
@@ -207,23 +207,23 @@ def _no_law(table):
 
 
 @lru_cache(maxsize=16)
-def _reduced(solid: Tabulated, law: Law) -> Tabulated:
+def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
     """The solid at the temperature of a law, its reference."""
     temperature = np.array(solid.table.temperature)
     mean = float(temperature.mean())
     if not solid.table.several and abs(mean - law.reference) > SCATTER:
         raise ValueError(
-            f"elastomer.table was measured at {mean:g} K, and temperature.reference = {law.reference:g} K: the law "
-            "shifts from the temperature at which the elastomer is stated, make it the reference"
+            f"elastomer.table was measured at {mean:g} K, and temperature.reference = {law.reference:g} K: the "
+            "law shifts from the temperature at which the elastomer is stated, make it the reference"
         )
     if not solid.table.several and mean == law.reference:
         return solid
     try:
-        longer = {each: replace(law, temperature=each).shift for each in set(solid.table.temperature)}
+        longer = {each: replace(law, temperature=each).shift for each in temperature.tolist()}
     except ValueError as error:
         reason = said(error) if isinstance(error, ValidationError) else error
         raise ValueError(f"elastomer.table: a row at {reason}") from error
-    return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in solid.table.temperature])))
+    return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in temperature.tolist()])))
 
 
 @lru_cache(maxsize=64)

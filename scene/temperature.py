@@ -30,8 +30,8 @@ def _within_range(law):
     return law
 
 
-class Law:
-    """A law of the shift, `WLF` or `Arrhenius`."""
+class _Law:
+    """A law of the shift."""
 
     @property
     def log_shift(self) -> float:
@@ -45,7 +45,7 @@ class Law:
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class WLF(Law):
+class WLF(_Law):
     """Williams, Landel and Ferry: log10 a_T = -c1 (T - T_r) / (c2 + T - T_r); J. Am. Chem. Soc. 77, 3701 (1955).
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
@@ -79,7 +79,7 @@ class WLF(Law):
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class Arrhenius(Law):
+class Arrhenius(_Law):
     """ln a_T = (activation_energy / R) (1/T - 1/T_r).
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]

@@ -10,7 +10,7 @@ import xarray
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
-from strategies import decades, evenly, examples
+from strategies import decades, examples
 
 from scene import WLF, Arrhenius, CreepTable, Indent, Prony, RelaxationTable, Scene, Sphere, Table, Tabulated
 from scene.moduli import read_moduli, read_table
@@ -166,7 +166,7 @@ def test_a_column_of_shift_factors_shifts_the_rows_to_where_it_is_one(heading):
     assert deviation(table, omega=OMEGA[8:42]) < FITTED
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, temperature=310.0))
     assert scene.solid.static_modulus == table.static_modulus
-    with pytest.raises(ValidationError, match="measured at 300 K, and temperature.reference = 310 K"):
+    with pytest.raises(ValidationError, match=r"measured at 300 K, and temperature\.reference = 310 K"):
         replace(scene, temperature=replace(LAW, reference=310.0))
 
 
@@ -183,7 +183,7 @@ def test_one_temperature_is_that_of_the_table_and_the_law_has_to_begin_there():
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0))
     assert scene.solid is table
     assert replace(scene, temperature=replace(LAW, temperature=310.0)).solid.solid is table
-    with pytest.raises(ValidationError, match="measured at 300 K, and temperature.reference = 280 K"):
+    with pytest.raises(ValidationError, match=r"measured at 300 K, and temperature\.reference = 280 K"):
         replace(scene, temperature=replace(LAW, reference=280.0))
 
 
@@ -282,7 +282,7 @@ def test_two_columns_of_the_frequency_have_to_agree():
 
 def test_a_sweep_of_temperature_at_one_frequency_is_no_table_of_frequencies():
     table = {"T [C]": np.linspace(0, 50, 9), "f [Hz]": np.full(9, 1.01), "E'": np.ones(9), "E''": np.ones(9)}
-    with pytest.raises(ValidationError, match="a sweep of temperature at one frequency, 1.01, is no table"):
+    with pytest.raises(ValidationError, match=r"a sweep of temperature at one frequency, 1\.01, is no table"):
         Tabulated(table=table)
 
 
