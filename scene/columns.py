@@ -7,10 +7,11 @@ from unicodedata import normalize
 
 import numpy as np
 
+from .heading import Heading, named
 from .plain import NotPlain, bare, in_unit
 from .printable import brief
 from .quantities import KELVIN, Unit
-from .sheet import Sheet, named
+from .sheet import Sheet
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
 _MARKS = str.maketrans(',;|"[]()/\t', " " * 10)
@@ -58,14 +59,14 @@ def chosen(
 
     positional : fields of the columns of a sheet without a heading, in their order
 
-    Raises ValueError for a unit that is unknown or of something else, for a column that is missing or there twice, and
-    for a text above the numbers that may be the heading of them.
+    Raises ValueError for a unit that is unknown or of something else, for a column that is missing or there twice,
+    and for a text above the numbers that may be the heading of them.
     """
     fields = {column.field: column for column in wanted}
     if sheet.names and sheet.unread:
         raise ValueError(
-            f"{sheet.name}: {brief(repr(sheet.unread))} between heading and numbers is neither: leave it out, or begin "
-            "it with #"
+            f"{sheet.name}: {brief(repr(sheet.unread))} between heading and numbers is neither: leave it out, or "
+            "begin it with #"
         )
     if not sheet.names or (sheet.commented and not any(_meant(name, wanted) for name in sheet.names)):
         places = _by_place(sheet, wanted, positional)
@@ -86,7 +87,8 @@ def joined(sheets: Sequence[Sheet]) -> Sheet:
     for each in others:
         if each.names and (each.names, each.units) != (first.names, first.units):
             raise ValueError(
-                f"{first.name} has two tables, from line {first.lines[0]} and from line {each.lines[0]} on: keep one"
+                f"{first.name} has two tables, from line {first.lines[0]} and from line {each.lines[0]} on: keep "
+                "one"
             )
         if each.unread and not each.commented:
             raise ValueError(
@@ -99,8 +101,8 @@ def joined(sheets: Sequence[Sheet]) -> Sheet:
 def sheet_of(table: Any) -> Sheet:
     """A table of another library as a sheet: a DataFrame, a Dataset of xarray, or arrays by their names.
 
-    Units are those that the arrays carry, as attribute or as quantity, or those of the names, as "F_N [mN]". Raises
-    ValueError for what is no table of numbers.
+    Units are those that the arrays carry, as attribute or as quantity, or those of the names, as "F_N [mN]".
+    Raises ValueError for what is no table of numbers.
     """
     names, units, columns = [], [], []
     for name, held in _items(table):
@@ -120,7 +122,7 @@ def sheet_of(table: Any) -> Sheet:
     if len({len(each) for each in columns}) != 1:
         raise ValueError(f"a {type(table).__name__} with columns of {sorted({len(c) for c in columns})} numbers")
     numbers = np.column_stack(columns)
-    return Sheet(type(table).__name__, numbers, (), tuple(names), tuple(units))
+    return Sheet(type(table).__name__, numbers, heading=Heading(tuple(names), tuple(units)))
 
 
 def _items(table):
@@ -135,7 +137,13 @@ def _items(table):
 
 def _plain(name):
     """A name in one spelling; letters stay as large as they are."""
-    name = normalize("NFKC", name).translate(_SIGNS).replace("''", '"').replace("_", " ").replace("-", " ")
+    name = (
+        normalize("NFKC", name.translate(_SIGNS))
+        .translate(_SIGNS)
+        .replace("''", '"')
+        .replace("_", " ")
+        .replace("-", " ")
+    )
     return " ".join(name.strip(" .:").split())
 
 
@@ -158,7 +166,8 @@ def _by_name(sheet, wanted):
         if meant and meant[0].field in places:
             twice = sheet.names[places[meant[0].field]]
             raise ValueError(
-                f"{_heading(sheet)}: {brief(repr(twice))} and {brief(repr(name))} are both {meant[0].field}: keep one"
+                f"{_heading(sheet)}: {brief(repr(twice))} and {brief(repr(name))} are both {meant[0].field}: keep "
+                "one"
             )
         if meant:
             places[meant[0].field] = index
@@ -173,8 +182,8 @@ def _by_place(sheet, wanted, positional):
     for text in filter(None, (*sheet.before, sheet.unread)):
         if sum(any(_speaks_of(text, name) for name in each.called) for each in wanted) > 1:
             raise ValueError(
-                f"{sheet.name}: {brief(repr(text))} above the numbers is no heading of {len(positional)} columns: part "
-                "its names by semicolons or tabs"
+                f"{sheet.name}: {brief(repr(text))} above the numbers is no heading of {len(positional)} columns: "
+                "part its names by semicolons or tabs"
             )
     return {field: index for index, field in enumerate(positional)}
 
@@ -186,15 +195,15 @@ def _speaks_of(text, name):
 
 def _refuse_spoken_units(sheet, wanted):
     """Raise ValueError for a text above the numbers with a unit that may be one of a column without any."""
-    named = sheet.names if sheet.commented else ()
-    words = " ".join((*sheet.before, sheet.unread, *named)).translate(_MARKS).split()
     units = {unit for each in wanted for unit in each.units}
-    for before, word in zip(["", *words], words, strict=False):
-        if not before[-1:].isdigit() and any(_of_another_size(unit, word) for unit in units):
-            raise ValueError(
-                f"{sheet.name} speaks of {brief(word)} above its numbers, and no heading says of which column: write "
-                "units into the heading"
-            )
+    for text in (*sheet.before, sheet.unread, *(sheet.names if sheet.commented else ())):
+        words = text.translate(_MARKS).split()
+        for before, word in zip(["", *words], words, strict=False):
+            if not before[-1:].isdigit() and any(_of_another_size(unit, word) for unit in units):
+                raise ValueError(
+                    f"{sheet.name} speaks of {brief(word)} above its numbers, and no heading says of which "
+                    "column: write units into the heading"
+                )
 
 
 def _of_another_size(unit, word):
@@ -220,8 +229,8 @@ def _converted(sheet, index, column):
             reason = str(error)
     needed = " or ".join(f"that of {unit.kind}, as {unit.symbol}" for unit in column.units) or "none"
     raise ValueError(
-        f"{_heading(sheet)} gives {column.field} in {brief(repr(stated))}{f' ({reason})' if reason else ''}: the unit "
-        f"needed is {needed}"
+        f"{_heading(sheet)} gives {column.field} in {brief(repr(stated))}{f' ({reason})' if reason else ''}: the "
+        f"unit needed is {needed}"
     )
 
 

@@ -2,7 +2,7 @@
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import nan
@@ -22,6 +22,7 @@ _MOMENT = re.compile(
     r"(?:\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}[-/.]\d{1,2}[-/.](?:\d{4}|\d{2}))(?:[ T]+\d{1,2}:.*)?"
     r"|\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?"
 )
+_DECIMALS, _WHOLE = re.compile(r"(\d+)(?:[eE][+-]?\d+)?"), re.compile(r"[+-]?\d+")
 _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _MINUS = str.maketrans("−‐‑–", "----")
 
@@ -46,7 +47,7 @@ class Dialect:
     decimal: str
 
     def cells(self, line: str) -> list[str]:
-        """Cells of a line, without the blanks around them; with a separator of one letter quotes hold one together."""
+        """Cells of a line, without the blanks around them; quotes hold one together."""
         if '"' not in line:
             return (
                 line.split() if self.separator == BLANK else [each.strip() for each in line.split(self.separator)]
@@ -55,15 +56,16 @@ class Dialect:
             line = " ".join(line.split())
         return [each.strip() for each in next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))]
 
-    def fits(self, line: str, cell: str) -> bool:
-        """Whether a decimal comma in a cell is no separator: it stands in quotes, or another letter separates."""
-        return self.separator != "," or f'"{cell}"' in line
+    def fits(self, line: str, cells: Sequence[str]) -> bool:
+        """Whether no decimal comma of a line is a separator: it stands in quotes, or another letter separates."""
+        both = self.separator == self.decimal
+        return not both or all(f'"{cell}"' in line for cell in cells if "," in cell)
 
     def kind(self, cell: str) -> str:
         """Whether a cell is a number, says that there is none, is a word, or begins as a number and is none."""
         if _number(self.decimal).fullmatch(cell):
             # No program writes 05; where a decimal comma is taken for a separator it stands.
-            zero = self.separator == "," and self.decimal == "." and re.fullmatch(r"[+-]?0\d+", cell)
+            zero = self.separator == "," and re.fullmatch(r"[+-]?0\d+", cell)
             return BAD if zero else NUMBER
         if _NOT_MEASURED.fullmatch(cell):
             return EMPTY
@@ -101,13 +103,34 @@ def plain(line: str) -> str:
 def comment(line: str) -> str | None:
     """Text of a line that is a comment as a whole; None of any other."""
     found = _COMMENT.match(line)
-    return line[found.end() :].strip() if found else None
+    return line[found.end() :].strip(" ") if found else None
 
 
-def thousands(cells: Sequence[str]) -> str | None:
-    """A number whose comma may part thousands as well as decimals, where no other number of the file tells; else None."""
-    commas = [each for each in cells if "," in each]
-    return commas[0] if commas and all(map(_THOUSAND.fullmatch, commas)) else None
+def thousands(cells: Iterable[str]) -> str | None:
+    """A number whose comma may part thousands as well as decimals where none of the others tells; else None."""
+    first = None
+    for cell in filter(lambda each: "," in each, cells):
+        if not _THOUSAND.fullmatch(cell):
+            return None
+        first = first or cell
+    return first
+
+
+def decimals(rows: Sequence[Sequence[str]]) -> bool:
+    """Whether every second cell may be the decimals of the one before it, parted by a comma.
+
+    Decimals are digits, as many in all, or without a zero at the end.
+    """
+    rows = [[cell for cell in row if not _NOT_MEASURED.fullmatch(cell)] for row in rows]
+    if any(len(row) % 2 for row in rows):
+        return False
+    parts = [found for row in rows for cell in row[1::2] if (found := _DECIMALS.fullmatch(cell))]
+    if len(parts) < sum(len(row) // 2 for row in rows) or not all(
+        _WHOLE.fullmatch(cell) for row in rows for cell in row[::2]
+    ):
+        return False
+    digits = [part[1] for part in parts]
+    return len(set(map(len, digits))) == 1 or not any(each.endswith("0") for each in digits)
 
 
 def unquoted(cell: str) -> str:

@@ -195,7 +195,7 @@ def _known(read, text, unit, difference, own):
         raise NotPlain(str(error) or f"this one has the unit {brief(own)}") from None
 
 
-def in_unit(held: Any, own: str, unit: str, difference: bool = True) -> Any:
+def in_unit(held: Any, own: str, unit: str | None, difference: bool = True) -> Any:
     """Numbers of one unit in another, of SI. Raises NotPlain, or Unreadable of a unit."""
     from .units import scale
 

@@ -1,42 +1,22 @@
 """Sheets of numbers in text files: read in the one dialect that fits the whole file, or refused with the place."""
 
-import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import islice
+from itertools import accumulate, islice
 from pathlib import Path
 
 import numpy as np
 
 from . import files
-from .dialect import (
-    BAD,
-    BLANK,
-    DIALECTS,
-    EMPTY,
-    NUMBER,
-    STRONG,
-    WORD,
-    Dialect,
-    comment,
-    plain,
-    thousands,
-    unquoted,
-)
+from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, WORD, Dialect, comment, decimals, plain, thousands
+from .heading import Heading, is_statement
 from .printable import brief
 
-SAMPLE = 300  # lines from which the dialect of a long file is found; the others have to be in it too
+# Lines, and letters in them, from which the dialect of a long file is found; the others have to be in it too.
+SAMPLE, SHORT, LETTERS = 300, 20, 50_000
 LINES, LINE = 2**20, 2**20  # lines of a file, and letters in one of them
 MOST = 20_000_000  # bytes of a file
-_STATEMENT = re.compile(r"[^\W\d][^:=;\t,|]{0,80}[:=].*")  # "Width: 20 µm", "T = 25 °C"
-# "F_N [mN]", "F_N (mN)", "F_N / mN", "F_N in mN", or a name alone.
-_NAMED = re.compile(
-    r"(?P<name>.*?)\s*(?:\[(?P<a>[^\[\]]*)\]|\((?P<b>[^()]*(?:\([^()]*\)[^()]*)*)\)|/\s*\(?(?P<c>[^()/]+)\)?"
-    r"|\s+in\s+(?P<d>\S+))?"
-)
-_UNIT = re.compile(r"[\[(]?\s*(?P<unit>[^\[\]]*?)\s*[\])]?")
-_BLANKS = re.compile(r"\s{2,}|\t"), re.compile(r"\s+(?![\[(/])(?<!/\s)(?![^\[(]*[\])])")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,21 +26,38 @@ class Sheet:
     name : of the file, for messages
     numbers : (rows, columns), NaN where a cell is empty or says that nothing was measured
     lines : (rows,) line of each row in the file
-    names : headings of the columns without their units; none without a heading
-    units : of the columns as they are written, "" where none is
-    before : lines of text above the block, since the block before
-    commented : whether the heading stands in a comment
-    unread : text right above the numbers that is no heading of as many columns; else ""
+    heading : of the columns; empty without one
     """
 
     name: str
     numbers: np.ndarray
-    lines: Sequence[int]
-    names: tuple[str, ...] = ()
-    units: tuple[str, ...] = ()
-    before: tuple[str, ...] = ()
-    commented: bool = False
-    unread: str = ""
+    lines: Sequence[int] = ()
+    heading: Heading = field(default_factory=Heading)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Headings of the columns without their units; none without a heading."""
+        return self.heading.names
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Units of the columns as they are written, "" where none is; none without a heading."""
+        return self.heading.units
+
+    @property
+    def before(self) -> tuple[str, ...]:
+        """Lines of text above the block, since the block before."""
+        return self.heading.before
+
+    @property
+    def commented(self) -> bool:
+        """Whether the heading stands in a comment."""
+        return self.heading.commented
+
+    @property
+    def unread(self) -> str:
+        """Text right above the numbers that is neither a heading of them nor a comment."""
+        return self.heading.unread
 
     def place(self, row: int, column: int) -> str:
         """Where a number stands, for messages."""
@@ -75,8 +72,8 @@ def read_sheets(
     """The blocks of numbers of a text file, at least one, all of as many columns.
 
     A block ends at a blank line, a comment or text. Cells are parted by tabs, semicolons, bars, commas or blanks,
-    one of them in the whole file; a comma within cells parted otherwise, or in quotes, is a decimal comma. A text is
-    one in UTF-8, UTF-16 or Latin-1. What can be read in two ways is refused.
+    one of them in the whole file; a comma within cells parted otherwise, or in quotes, is a decimal comma. A text
+    is one in UTF-8, UTF-16 or Latin-1. What can be read in two ways is refused.
 
     most_rows, most_bytes, most_numbers : that are read
 
@@ -96,28 +93,15 @@ def read_sheets(
     return sheets
 
 
-def named(cell: str) -> tuple[str, str]:
-    """Name and unit of a heading, as "F_N [mN]" has them; an empty unit where it has none."""
-    found = _NAMED.fullmatch(" ".join(cell.split()))
-    unit = next(filter(None, found.group("a", "b", "c", "d")), "").strip() if found else ""
-    if not found or not found["name"]:
-        return cell.strip(), ""
-    # |E*| (f) names an argument and no unit.
-    return found["name"].strip(), unit
-
-
-class _Mistake(ValueError):
-    """A text is no table in a dialect."""
-
-
 def _found(name, lines):
-    """The dialect in which the beginning of a file can be read. Raises ValueError with no such, or with several."""
-    sample, reasons, fitting = lines[:SAMPLE], {}, []
+    """The dialect in which the beginning of a file can be read. Raises ValueError with none, or with several."""
+    count = next((k for k, letters in enumerate(accumulate(map(len, lines)), 1) if letters > LETTERS), len(lines))
+    sample, reasons, fitting = lines[: min(max(count, SHORT), SAMPLE)], {}, []
     for dialect in DIALECTS:
-        reading = _Reading(name, dialect, sample, whole=len(lines) <= SAMPLE)
+        reading = _Reading(name, dialect, sample, whole=len(sample) == len(lines))
         try:
             fitting.append((dialect, tuple(reading.sheets())))
-        except _Mistake as mistake:
+        except ValueError as mistake:
             reasons[reading.weight] = mistake
     if not fitting:
         raise ValueError(str(reasons[max(reasons)]))
@@ -135,7 +119,7 @@ def _alike(one, other):
 
 
 def _clearer(name, one, other):
-    """The reading of two whose numbers have headings, as many names as columns. Raises ValueError if both or none do."""
+    """The reading of two whose columns have headings, else the wider one. Raises ValueError if none has any."""
     told = [bool(sheets[0].names) and not sheets[0].unread for _, sheets in (one, other)]
     wide = [sheets[0].numbers.shape[1] for _, sheets in (one, other)]
     if told[0] != told[1]:
@@ -144,8 +128,8 @@ def _clearer(name, one, other):
         return one if wide[0] > wide[1] else other
     (first, *_), (second, *_) = one[1], other[1]
     raise ValueError(
-        f"{name}, line {first.lines[0]}: can be read as {_shown(first)} and as {_shown(second)}: part the columns by "
-        "semicolons or tabs, write decimal points, or write a heading"
+        f"{name}, line {first.lines[0]}: can be read as {_shown(first)} and as {_shown(second)}: part the columns "
+        "by semicolons or tabs, write decimal points, or write a heading"
     )
 
 
@@ -154,16 +138,25 @@ def _shown(sheet):
 
 
 def _check_commas(name, dialect, lines, sheets):
-    """Raise ValueError for commas that part decimals or thousands, and no number tells which."""
-    if dialect.decimal == ".":
+    """Raise ValueError where a comma may part columns, decimals or thousands, and no number tells."""
+
+    def rows(most=None):
+        places = (number - 1 for sheet in sheets for number in sheet.lines)
+        return (dialect.cells(lines[place]) for place in islice(places, most))
+
+    if dialect.decimal == ",":
+        numbers = (cell for row in rows() for cell in row if dialect.kind(cell) == NUMBER)
+        if doubtful := thousands(numbers):
+            raise ValueError(
+                f"{name}: {doubtful!r} and all numbers like it may have a decimal comma or one between thousands: "
+                "write points, or another number of decimals"
+            )
+    elif dialect.separator != "," or any(sheet.names for sheet in sheets):
         return
-    rows = (lines[number - 1] for sheet in sheets for number in sheet.lines)
-    if doubtful := thousands(
-        [cell for line in rows for cell in dialect.cells(line) if dialect.kind(cell) == NUMBER]
-    ):
+    elif decimals(list(rows(SHORT))) and decimals(list(rows())):
         raise ValueError(
-            f"{name}: {doubtful!r} and all numbers like it may have a decimal comma or one between thousands: write "
-            "points, or another number of decimals"
+            f"{name}, line {sheets[0].lines[0]}: commas may part columns or decimals: write decimal points, part "
+            "the columns by semicolons, or write a heading"
         )
 
 
@@ -185,7 +178,7 @@ class _Reading:
 
     @cached_property
     def form(self) -> str:
-        """Kinds of the columns, by the lines in which numbers stand. Raises _Mistake without any."""
+        """Kinds of the columns, by the lines in which numbers stand. Raises ValueError without any."""
         counted: dict[int, list[str]] = {}
         texts = (line for line in self.lines if line.strip() and comment(line) is None)
         tabs = True
@@ -195,12 +188,12 @@ class _Reading:
                 counted.setdefault(len(kinds), []).append(kinds)
                 tabs &= "\t" in line.strip()
         if not counted:
-            raise _Mistake(f"{self.name}: there is no row of numbers in it")
+            raise ValueError(f"{self.name}: there is no row of numbers in it")
         sound = {width: sum(BAD not in each for each in rows) for width, rows in counted.items()}
         width = max(sound, key=lambda each: (sound[each], each))
         self.weight = sound[width], width
         if tabs and self.dialect.separator == BLANK:
-            raise _Mistake(f"{self.name}: a tab stands in every row, and blanks beside it part no cells")
+            raise ValueError(f"{self.name}: a tab stands in every row, and blanks beside it part no cells")
         columns = zip(*counted[width], strict=True)
         return "".join(NUMBER if each.count(NUMBER) >= each.count(WORD) else WORD for each in columns)
 
@@ -208,148 +201,89 @@ class _Reading:
         """Whether a line of such cells is a row."""
         return kinds == self.form or (
             len(kinds) == len(self.form)
-            and NUMBER in kinds
+            and (NUMBER in kinds or kinds == EMPTY * len(kinds))
             and all(kind in (EMPTY, wanted) for kind, wanted in zip(kinds, self.form, strict=True))
         )
 
     def sheets(self) -> Iterator[Sheet]:
-        """The blocks. Raises _Mistake for what is no row among them."""
-        form, gap, start = self.form, [], 0
-        total = 0
+        """The blocks. Raises ValueError for what is no row among them."""
+        gap, start, stop, total = [], 0, 0, 0
         while start < len(self.lines):
-            end, numbers = self._block(start)
+            stop = self._stop(start) if start >= stop else stop
+            end, numbers = self._block(start, stop)
             if not len(numbers):
                 gap.append(start)
                 start += 1
                 continue
             total += len(numbers)
-            if total > self.most_rows:
-                raise ValueError(
-                    f"{self.name}: at least {self.most_rows + 1:,} rows: at most {self.most_rows:,} are read"
-                )
+            self._check_size(total)
             self._check_gap(gap)
-            yield self._sheet(gap, start, numbers[:, [kind == NUMBER for kind in form]], form)
+            yield self._sheet(gap, start, numbers)
             gap, start = [], end
         if self.whole:
             self._check_gap(gap, last=True)
+        if not total:
+            raise ValueError(f"{self.name}: there is no row of numbers in it")
 
-    def _block(self, start):
-        """End of the run of rows that begins at a line, and their numbers."""
-        rows, number = [], start
-        values, fits, kinds_of, cells_of = self.dialect.value, self._fits, self.dialect.kinds, self.dialect.cells
-        width = len(self.form)
-        for number in range(start, len(self.lines)):
-            line = self.lines[number]
-            if not line.strip() or comment(line) is not None:
-                break
-            cells = cells_of(line)
-            row = self._plainly(line, cells, width)
-            if row is None:
-                if not fits(kinds_of(cells)) or not all(
-                    "," not in cell or self.dialect.fits(line, cell)
-                    for cell in cells
-                    if self.dialect.decimal == ","
-                ):
-                    break
-                row = list(map(values, cells))
-            rows.append(row)
-            if len(rows) > self.most_rows or (self.most_numbers and len(rows) * width > self.most_numbers):
-                number += 1
-                break
-        else:
-            number = len(self.lines)
-        return number, np.array(rows, float).reshape(len(rows), width)
+    def _stop(self, start):
+        """The next blank line or comment from a line on."""
+        places = range(start, len(self.lines))
+        blank = (k for k in places if not self.lines[k].strip() or comment(self.lines[k]) is not None)
+        return next(blank, len(self.lines))
 
-    def _plainly(self, line, cells, width):
-        """Numbers of a row that all are plain; None of any other."""
-        if len(cells) != width or "_" in line or WORD in self.form or self.dialect.separator == ",":
+    def _block(self, start, stop):
+        """End of the run of rows from one line on and before another, and their numbers."""
+        rows = []
+        for line in map(self.lines.__getitem__, range(start, stop)):
+            if len(rows) == SHORT and (numbers := self._at_once(self.lines[start:stop])) is not None:
+                return stop, numbers
+            cells = self.dialect.cells(line)
+            kinds = self.dialect.kinds(cells)
+            nothing = NUMBER not in kinds and not any(map(str.isalpha, line))
+            if nothing or not self._fits(kinds) or not self.dialect.fits(line, cells):
+                break
+            rows.append(list(map(self.dialect.value, cells)))
+            self._check_size(len(rows))
+        return start + len(rows), np.array(rows, float).reshape(len(rows), len(self.form))
+
+    def _at_once(self, lines):
+        """Numbers of many lines that hold nothing else, else None."""
+        self._check_size(len(lines))
+        text = "\n".join(lines)
+        if WORD in self.form or "_" in text or '"' in text or (self.dialect.decimal == "," and "." in text):
             return None
-        text = line if self.dialect.decimal == "." else None
-        if text is None:
-            if "." in line:
-                return None
-            cells = [cell.replace(",", ".") for cell in cells]
+        if self.dialect.decimal == ",":
+            text = text.replace(",", ".")
+        separator = None if self.dialect.separator == BLANK else self.dialect.separator
         try:
-            return list(map(float, cells))
+            numbers = np.loadtxt(text.split("\n"), delimiter=separator, comments=None, ndmin=2)
         except ValueError:
-            return None
+            return None  # line by line it is found where
+        return numbers if numbers.shape[1] == len(self.form) else None
 
-    def _sheet(self, gap, start, numbers, form):
-        heading, units, kept, commented, unread = self._heading(gap, start)
-        wanted = [k for k, kind in enumerate(form) if kind == NUMBER]
-        # Columns of words are left out, and their headings with them.
-        names = tuple(heading[k] for k in wanted) if heading else ()
+    def _check_size(self, rows):
+        if rows > self.most_rows:
+            raise ValueError(f"{self.name}: at least {rows:,} rows: at most {self.most_rows:,} are read")
+        if self.most_numbers and rows * len(self.form) > self.most_numbers:
+            raise ValueError(f"{self.name}: more than {self.most_numbers:,} numbers: no more are read")
+
+    def _sheet(self, gap, start, numbers):
+        heading = Heading.of([self.lines[each] for each in gap], len(self.form), self.dialect)
+        if WORD in self.form and not heading.names:
+            self._refuse(start)
+        # Columns of words are left out, and their headings with them; so is what follows a separator at the end
+        # of every line.
+        ends = self.dialect.separator != BLANK and all(
+            self.lines[k].rstrip().endswith(self.dialect.separator) for k in range(start, start + len(numbers))
+        )
+        form = self.form[:-1] if ends and np.isnan(numbers[:, -1]).all() else self.form
+        kept = [k for k, kind in enumerate(form) if kind == NUMBER]
         return Sheet(
-            self.name,
-            numbers,
-            range(start + 1, start + 1 + len(numbers)),
-            names,
-            tuple(units[k] for k in wanted) if heading else (),
-            tuple(kept),
-            commented,
-            unread,
+            self.name, numbers[:, kept], range(start + 1, start + 1 + len(numbers)), heading.of_columns(kept)
         )
 
-    def _heading(self, gap, start):
-        """Names and units of the columns, the other lines above them, whether they are a comment, and what is unread."""
-        said = [each for each in gap if self.lines[each].strip(' \t;,|"')]
-        texts = [comment(self.lines[each]) for each in said]
-        whole = [
-            self.lines[each].strip() if text is None else text for each, text in zip(said, texts, strict=True)
-        ]
-        if not said:
-            return (), (), [], False, ""
-        # The lowest line of as many cells as columns; below it there may be rulers and remarks.
-        places = [k for k, text in enumerate(whole) if self._names(text)]
-        unread = [text for text, remark in zip(whole, texts, strict=True) if remark is None][-1:]
-        if not places:
-            stated = not unread or _STATEMENT.fullmatch(unread[0])
-            return (), (), whole, texts[-1] is not None, "" if stated else unread[0]
-        place = places[-1]
-        parts, below = self._parted(whole[place]), whole[place + 1 :]
-        remark = texts[place] is not None
-        last = "" if all(text is not None for text in texts[place + 1 :]) else unread[0]
-        if len(places) > 1 and places[-2] == place - 1 and _are_units(parts):
-            pairs, units = (
-                [named(each) for each in self._parted(whole[place - 1])],
-                [_unit(each) for each in parts],
-            )
-            if any(own and unit not in ("", "-", own) for (_, own), unit in zip(pairs, units, strict=True)):
-                where = f"{self.name}, line {said[place] + 1}"
-                raise _Mistake(f"{where}: units beside those of the heading: state them once")
-            units = [own or unit for (_, own), unit in zip(pairs, units, strict=True)]
-            return tuple(name for name, _ in pairs), tuple(units), whole[: place - 1] + below, remark, last
-        return (*zip(*map(named, parts), strict=True), whole[:place] + below, remark, last)
-
-    def _names(self, line):
-        """Whether a line may be a heading, or the units of one."""
-        parts = self._parted(line)
-        stated = _STATEMENT.fullmatch(line) and (len(parts) == 1 or self.dialect.separator == BLANK)
-        return parts and not stated and any(map(str.isalpha, line))
-
-    def _parted(self, line):
-        """Cells of a heading, as many as columns; none where it has not as many."""
-        width = len(self.form)
-        for separator in dict.fromkeys((self.dialect.separator, *STRONG, ",")):
-            if separator == BLANK:
-                continue
-            # Quotes within quotes, as of G", are not doubled by every program.
-            plainly = [unquoted(each.strip()) for each in line.split(separator)]
-            for cells in (plainly, Dialect(separator, ".").cells(line)):
-                if len(cells) == width and (width > 1 or not any(map(line.count, STRONG))):
-                    return [self._as_point(each) for each in cells]
-        if self.dialect.separator == BLANK:
-            for cells in (*(blanks.split(line.strip()) for blanks in _BLANKS), self.dialect.cells(line)):
-                if len(cells) == width:
-                    return [self._as_point(unquoted(each)) for each in cells]
-        return []
-
-    def _as_point(self, cell):
-        """A number among headings, as of axes, with a decimal point."""
-        return cell.replace(",", ".") if self.dialect.kind(cell) == NUMBER else cell
-
     def _check_gap(self, gap, last=False):
-        """Raise _Mistake where lines between blocks may be rows that went wrong."""
+        """Raise ValueError where lines between blocks may be rows that went wrong."""
         said = [each for each in gap if self.lines[each].strip()]
         for each in said:
             line = self.lines[each].strip()
@@ -359,7 +293,7 @@ class _Reading:
                 self._refuse(each)  # no blank line parts it from the rows above
             cells = self.dialect.cells(line)
             kinds = self.dialect.kinds(cells)
-            if not any(map(_like_a_number, kinds, cells)) or _STATEMENT.fullmatch(line):
+            if not any(map(_like_a_number, kinds, cells)) or is_statement(line):
                 continue
             axes = len(kinds) == len(self.form) and set(kinds[1:]) == {NUMBER}
             lowest = each == said[-1]
@@ -367,38 +301,15 @@ class _Reading:
                 self._refuse(each)
 
     def _refuse(self, number):
-        """Raise _Mistake for a line, with the cell that is wrong."""
+        """Raise ValueError for a line, with the cell that is wrong."""
         cells, form, where = self.dialect.cells(self.lines[number]), self.form, f"{self.name}, line {number + 1}"
         kinds = self.dialect.kinds(cells)
-        wrong = next((k for k, (kind, wanted) in enumerate(zip(kinds, form)) if kind not in (EMPTY, wanted)), None)
+        wrong = next((k for k, kind in enumerate(kinds) if kind not in (EMPTY, NUMBER)), None)
         if wrong is not None and (len(cells) == len(form) or NUMBER not in kinds):
-            raise _Mistake(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number")
+            raise ValueError(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number")
         count = f"{len(cells)} column{'s' * (len(cells) != 1)}, and other rows have {len(form)}"
-        raise _Mistake(f"{where}: {count}: {brief(repr(self.lines[number].strip()))}")
+        raise ValueError(f"{where}: {count}: {brief(repr(self.lines[number].strip()))}")
 
 
 def _like_a_number(kind, cell):
-    return kind == NUMBER or (kind == BAD and not any(map(str.isalpha, cell)))
-
-
-def _unit(cell):
-    found = _UNIT.fullmatch(cell.strip())
-    return found["unit"] if found else cell.strip()
-
-
-def _are_units(cells):
-    """Whether every cell of a line is a unit, says that there is none, or is empty; and one at least is a unit."""
-    found = [_is_unit(_unit(each)) for each in cells]
-    return all(found) and any(_unit(each) not in ("", "-", "1") for each in cells)
-
-
-def _is_unit(text):
-    if text in ("", "-", "1", "%"):
-        return True
-    # Units take time to load, and only what has them needs them.
-    from .units import Unreadable, known
-
-    try:
-        return known(text)
-    except Unreadable:
-        return False
+    return kind == NUMBER or (kind == BAD and not set(filter(str.isalpha, cell)) - set("eEdD"))

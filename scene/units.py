@@ -28,7 +28,8 @@ _UNITS = (
     *("gram = 1e-3 * kilogram = g", "minute = 60 * second = min", "hour = 3600 * second = h = hr"),
     *("micron = 1e-6 * meter", "angstrom = 1e-10 * meter = Å"),
     *("inch = 0.0254 * meter = in = inches", "foot = 0.3048 * meter = ft = feet"),
-    *("mil = 1e-3 * inch = _ = thou", "mile = 1609.344 * meter", "mph = mile / hour"),
+    *("mil = 1e-3 * inch = _ = thou", "mile = 1609.344 * meter", "day = 24 * hour"),
+    *("mph = mile / hour", "kph = kilometer / hour = _ = kmh = kmph"),  # not thousands of mph
     "degree = 0.01745329251994329576923690768488612713442871888541725 * radian = deg = °",
     "turn = 6.283185307179586476925286766559005768394338798750211642 * radian = _ = revolution",
     *("hertz = 1 / second = Hz", "revolution_per_minute = turn / minute = rpm"),
@@ -56,9 +57,10 @@ _CONFUSED = (
     ("1/s", "rad/s", "an angle counts: of f cycles a second give 2 pi f, in rad/s"),
     ("rad/s", "1/s", "cycles are counted: of omega in rad/s give omega / (2 pi), in Hz"),
     ("1/m", "rad/m", "an angle counts: of a wavelength give 2 pi / wavelength, in rad/m"),
-    ("kg", "N", "this is a mass: its weight is in kgf, 9.80665 N each"),
-    ("Pa s", "s", "this is a viscosity: a time is viscosity / modulus"),
+    ("kg", "N", "this is a mass: the weight of 1 kg is 1 kgf"),
+    ("Pa s", "s", "this is a viscosity: a time is viscosity / shear modulus"),
     ("N", "N/m", "this is a whole force: divide it by the length of the line"),
+    ("W/K", "W/(m K)", "mK is a millikelvin: write W/(m K)"),
 )
 
 _NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(.*)", re.DOTALL)
@@ -69,8 +71,16 @@ _TOKEN = re.compile(
 )
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 # Letters as a keyboard has them; "m²" is m^2.
-_PLAIN = (("−", "-"), ("\N{KELVIN SIGN}", "K"), ("\N{ANGSTROM SIGN}", "Å"), ("℃", "°C"), ("℉", "°F"))
-_DEGREES = re.compile("(?:deg\\.?|[°º˚])\\s*([CF])(?!\\w)")
+_PLAIN = (
+    ("−", "-"),
+    ("\N{KELVIN SIGN}", "K"),
+    ("\N{ANGSTROM SIGN}", "Å"),
+    ("℃", "°C"),
+    ("℉", "°F"),
+    ("º", "°"),
+    ("˚", "°"),
+)
+_DEGREES = re.compile(r"(?:\bdeg\.?\s+|°\s+)([CF])(?!\w)")  # as in "deg C"
 _SUPERSCRIPT = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
 
 PATTERN = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-−]?[0-9]+)?\s*[^\s0-9.,].*$"  # of a quantity, roughly
@@ -169,8 +179,7 @@ def _factors(text):
     while text[position:].strip():
         token = _TOKEN.match(text, position)
         if token is None:
-            why = next((why for begins, why in _NO_NUMBER if begins.match(text)), "")
-            raise Unreadable(f"{text.strip()!r} is no unit{why}")
+            raise _no_unit(text)
         name, glued, raised, power, mark, one = token.groups()
         position = token.end()
         outer = closing[-1] if closing else 1
@@ -190,10 +199,15 @@ def _factors(text):
         elif mark == "/" and sign > 0:
             sign = -1
         elif not one and (mark is None or mark in "()/"):
-            raise Unreadable(f"{text.strip()!r} is no unit")
+            raise _no_unit(text)
     if closing or sign < 0:
-        raise Unreadable(f"{text.strip()!r} is no unit")
+        raise _no_unit(text)
     return found
+
+
+def _no_unit(text):
+    why = next((why for begins, why in _NO_NUMBER if begins.match(text)), "")
+    return Unreadable(f"{text.strip()!r} is no unit{why}")
 
 
 def _product(factors):
@@ -224,10 +238,10 @@ def _meant(given, name, unit, difference):
     # Only a mistake needs it.
     from difflib import get_close_matches
 
-    alike = [known for known in KNOWN if known.casefold() == name.casefold()]
+    alike = [each for each in KNOWN if each.casefold() == name.casefold()]
     said = []
-    for known in alike or get_close_matches(name, KNOWN, n=9):
-        meant = re.sub(rf"(?<![^\W\d_]){re.escape(name)}(?![^\W\d_])", known, given.strip())
+    for each in alike or get_close_matches(name, KNOWN, n=9):
+        meant = re.sub(rf"(?<![^\W\d_]){re.escape(name)}(?![^\W\d_])", each, given.strip())
         try:
             one, zero = scale(meant, unit, difference)
         except Unreadable:

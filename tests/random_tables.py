@@ -1,4 +1,4 @@
-"""Tables in dialects of text files, drawn at random: what spreadsheets, instruments and people write."""
+"""Tables and maps in dialects drawn at random: what spreadsheets, instruments and people write."""
 
 from dataclasses import dataclass
 
@@ -14,111 +14,136 @@ CALLED = {
     "storage": ("G'", "Storage modulus", "storage_modulus"),
     "loss": ("G''", 'G"', "Loss Modulus", "loss modulus"),
 }
-STRANGERS = ("Temp. set", "Status", "Torque", "n°", "Strain (%)", "date")
-WORDS = ("ok", "12.03.2024", "2024-03-12 10:15", "10:15:07", "n. b.", "A 1")
-METADATA = (
+STRANGERS = "Temp. set", "Status", "Torque", "n°", "Strain (%)", "date"
+WORDS = "ok", "12.03.2024", "2024-03-12 10:15", "10:15:07", "n. b.", "A 1"
+REMARKS = (
     "Sample: rubber 7",
     "Operator;A. Ruiz",
     "T = 25 °C",
     "Instrument\tRheo 5",
     "Probekörper µ-7",
-    "Created 2024-11-02",
+    "Of 2024-11-02",
 )
+GAPS = "", "nan", "-", "NaN", "n/a"
+FORMS = "%.3f", "%.6g", "%.4e", "%.2f", "%d", "%.1f", "%g", "%.17g"
+SPOILT = "1.2.3", "x", "1e", "12,5,1"
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """A table as it was written.
+    """A file as it was written, and what it holds.
 
     content : of the file
-    columns : numbers in SI by field, NaN where a cell was left empty
-    damaged : the same file with one cell of those columns made unreadable
+    held : numbers, NaN where a cell was left empty; of a table in SI by field
+    damaged : the same file with one cell made unreadable; of a table one of its fields
     """
 
     content: bytes
-    columns: dict[str, np.ndarray]
+    held: dict[str, np.ndarray]
     damaged: bytes
 
 
-def draw(seed: int) -> Drawn:
-    """A table of the seed."""
-    rng = np.random.default_rng(seed)
+class Writer:
+    """Dialect and habits of one program."""
 
-    def one(*choices):
-        return choices[rng.integers(len(choices))]
+    def __init__(self, rng: np.random.Generator) -> None:
+        self.rng = rng
+        self.separator = self.one(",", ";", "\t", " ", "|", ", ", " ; ", "  ")
+        self.decimal, self.newline = self.one(".", ","), self.one("\n", "\r\n")
+        self.encoding = self.one("utf-8", "utf-8-sig", "utf-16", "utf-16-le", "cp1252")
+        self.quote, self.doubled = self.one("", "", "", '"'), self.one('"', '""')
+        self.form, self.align = self.one(*FORMS), self.one(0, 0, 0, 14)
+        self.mark = self.one("", "", "", "# ", "#", "% ")
+        self.tail = self.separator if self.often(0.1) and self.separator.strip() else ""
+        self.remarks = [self.one("", "# ", "") + self.one(*REMARKS) for _ in range(int(rng.integers(0, 4)))]
+        self.remarks += [""] * (len(self.remarks) > 0 and self.often(0.5))
 
-    def often(share):
-        return rng.random() < share
+    def one(self, *choices):
+        """One of some choices."""
+        return choices[self.rng.integers(len(choices))]
 
-    separator = one(",", ";", "\t", " ", "|", ", ", " ; ", "  ")
-    decimal, newline = one(".", ","), one("\n", "\r\n")
-    encoding = one("utf-8", "utf-8-sig", "utf-16", "utf-16-le", "cp1252")
-    heads, quote, align = often(0.85), one("", "", "", '"'), one(0, 0, 0, 14)
-    unit_line = heads and often(0.3)
-    in_heading = heads and not unit_line and often(0.8)
-    rows = int(rng.integers(1, 40))
-    form = one("%.3f", "%.6g", "%.4e", "%.2f", "%d", "%.1f", "%g", "%.17g")
-    columns, cells, headings, units = {}, [], [], []
-    for field in rng.permutation(list(UNITS)) if heads else UNITS:
-        written = [form % each for each in 10 ** rng.uniform(-3, 6, rows) * rng.choice([1.0, 1.0, -1.0], rows)]
-        empty = rng.random(rows) < (0.1 if often(0.2) else 0.0)
-        unit = one(*UNITS[field])
-        numbers = np.array([np.nan if gone else float(text) for text, gone in zip(written, empty, strict=True)])
-        columns[str(field)] = numbers, UNITS[field][unit] if unit_line or in_heading else 1.0
-        gaps = "", "nan", "-", "NaN", "n/a"
-        cells.append(
-            [one(*gaps) if gone else text.replace(".", decimal) for text, gone in zip(written, empty, strict=True)]
-        )
-        headings.append(one(*CALLED[field]))
-        units.append(unit)
-    own = [*cells]
+    def often(self, share):
+        """Whether something happens that does so in a share of cases."""
+        return self.rng.random() < share
+
+    def column(self, values, holes=0.0):
+        """Numbers as they are read, and cells as they are written."""
+        texts, gone = [self.form % each for each in values], self.rng.random(len(values)) < holes
+        numbers = np.where(gone, np.nan, np.array(texts, float))
+        cells = zip(texts, gone, strict=True)
+        return numbers, [self.one(*GAPS) if lost else text.replace(".", self.decimal) for text, lost in cells]
+
+    def heading(self, cells):
+        """A line of names or units."""
+        inside = [each.replace('"', self.doubled) if self.quote else each for each in cells]
+        return self.mark + self.separator.join(f"{self.quote}{each}{self.quote}" for each in inside) + self.tail
+
+    def rows(self, columns):
+        """Lines of cells."""
+        quoted = [[f"{self.quote}{cell}{self.quote}".rjust(self.align) for cell in each] for each in columns]
+        return [self.separator.join(row) + self.tail for row in zip(*quoted, strict=True)]
+
+    def file(self, *lines):
+        """Bytes of lines."""
+        return self.newline.join([*self.remarks, *lines, ""]).encode(self.encoding, errors="replace")
+
+    def spoil(self, columns, place):
+        """Columns with one unreadable cell in one of them."""
+        spoilt, row = [list(each) for each in columns], int(self.rng.integers(0, len(columns[0])))
+        spoilt[place][row] = self.one(*SPOILT)
+        return spoilt
+
+
+def draw_table(seed: int) -> Drawn:
+    """A table of frequencies and moduli, maybe with strange columns among them."""
+    writer = Writer(rng := np.random.default_rng(seed))
+    heads, rows, holes = writer.often(0.85), int(rng.integers(1, 40)), 0.1 if writer.often(0.2) else 0.0
+    told = writer.one("in heading", "in heading", "below", "nowhere") if heads else "nowhere"
+    held, columns, names, units = {}, [], [], []
+    fields = list(map(str, rng.permutation(list(UNITS)))) if heads else list(UNITS)
+    for field in fields:
+        values = 10 ** rng.uniform(-3, 6, rows) * rng.choice([1.0, 1.0, -1.0], rows)
+        numbers, cells = writer.column(values, holes)
+        unit = writer.one(*UNITS[field])
+        held[field] = numbers * (1.0 if told == "nowhere" else UNITS[field][unit])
+        for each, own in ((columns, cells), (names, writer.one(*CALLED[field])), (units, unit)):
+            each.append(own)
+    own = [*fields]
     for _ in range(int(rng.integers(0, 3)) if heads else 0):
-        place, strange = int(rng.integers(0, len(cells) + 1)), rng.normal(size=rows)
-        words = often(0.5)
-        cells.insert(place, [one(*WORDS) if words else (form % each).replace(".", decimal) for each in strange])
-        headings.insert(place, one(*STRANGERS))
-        units.insert(place, "")
-    if in_heading:
-        headings = [
-            one(f"{name} [{unit}]", f"{name} ({unit})", f"{name} / {unit}", f"{name} in {unit}") if unit else name
-            for name, unit in zip(headings, units, strict=True)
+        place = int(rng.integers(0, len(columns) + 1))
+        words = [writer.one(*WORDS) for _ in range(rows)]
+        columns.insert(place, words if writer.often(0.5) else writer.column(rng.normal(size=rows))[1])
+        for each, stranger in ((names, writer.one(*STRANGERS)), (units, ""), (own, "")):
+            each.insert(place, stranger)
+    if told == "in heading":
+        ways = "{} [{}]", "{} ({})", "{} / {}", "{} in {}"
+        names = [
+            writer.one(*ways).format(*each) if each[1] else each[0] for each in zip(names, units, strict=True)
         ]
-    doubled = one('"', '""')
-    mark = one("", "", "", "# ", "#", "% ")
-    tail = separator if often(0.1) and separator.strip() else ""
-    lines = [one("", "# ", "") + one(*METADATA) for _ in range(int(rng.integers(0, 4)))]
-    lines += [""] * (len(lines) > 0 and often(0.5))
-    if heads:
-        lines.append(
-            mark
-            + separator.join(
-                f"{quote}{name.replace(chr(34), doubled) if quote else name}{quote}" for name in headings
-            )
-            + tail
-        )
-    if unit_line:
-        said = [one(unit, f"[{unit}]") if unit else one("-", "") for unit in units]
-        lines.append(mark + separator.join(said) + tail)
-    pause = int(rng.integers(0, rows + 1)) if often(0.1) else None
-    between = one("", "# a pause", "   ")
+    lines = [writer.heading(names)] if heads else []
+    if told == "below":
+        lines.append(writer.heading([writer.one(each, f"[{each}]") if each else "-" for each in units]))
+    pause, between = (
+        int(rng.integers(0, rows + 1)) if writer.often(0.1) else rows,
+        writer.one("", "# a pause", "  "),
+    )
 
     def written(columns):
-        body = [
-            separator.join(f"{quote}{cell}{quote}".rjust(align) for cell in row) + tail
-            for row in zip(*columns, strict=True)
-        ]
-        if pause is not None:
-            body.insert(pause, between)
-        return newline.join([*lines, *body, ""]).encode(encoding, errors="replace")
+        body = writer.rows(columns)
+        return writer.file(*lines, *body[:pause], *([between] if pause < rows else []), *body[pause:])
 
-    hurt, row = one(*own), int(rng.integers(0, rows))
-    spoilt = [
-        [
-            one("1.2.3", "x", "1e", "12,5,1") if column is hurt and k == row else cell
-            for k, cell in enumerate(column)
-        ]
-        for column in cells
-    ]
-    return Drawn(
-        written(cells), {name: numbers * unit for name, (numbers, unit) in columns.items()}, written(spoilt)
+    spoilt = writer.spoil(columns, own.index(writer.one(*fields)))
+    return Drawn(written(columns), held, written(spoilt))
+
+
+def draw_map(seed: int) -> Drawn:
+    """Heights in rows and columns, without a word on them."""
+    writer = Writer(rng := np.random.default_rng(seed))
+    rows, count = rng.integers(4, 14, 2)
+    scale, holes = 10 ** rng.uniform(-3, 4), 0.1 if writer.often(0.3) else 0.0
+    numbers, columns = zip(
+        *(writer.column(scale * rng.normal(size=rows), holes) for _ in range(count)), strict=True
     )
+    held = {"heights": np.column_stack(numbers)}
+    spoilt = writer.spoil(columns, int(rng.integers(0, count)))
+    return Drawn(writer.file(*writer.rows(columns)), held, writer.file(*writer.rows(spoilt)))
