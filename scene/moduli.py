@@ -20,6 +20,7 @@ UNITS = ("rad/s", "Hz")
 _FREQUENCIES = names.FREQUENCY, names.ANGULAR, names.REDUCED, names.REDUCED_ANGULAR
 # In brackets behind a name: what the number depends on, and no unit.
 _ARGUMENTS = ("t", "ω", "omega", "w", "f", "δ", "delta", "φ", "d", "phi", "aT", "a_T", "T")
+_OTHER = "another "  # before a letter that is no name of ours in this size
 _IDLE = ("(ω)", "(omega)", "(w)", "(f)", "(iω)")
 _PER_SECOND = ("1/s", "s^-1", "s-1", "s⁻¹", "1/sec", "sec^-1")
 _ONE_FREQUENCY = 1.05  # frequencies within this factor are one
@@ -51,6 +52,7 @@ def read_moduli(table: Any, frequency_unit: str | None = None, kind: str | None 
     sheet = once(_sheet, table) if isinstance(table, str | Path) else sheet_of(table)
     sheet = _spelt(sheet)
     found, notes = chosen(sheet, names.COLUMNS, ("frequency", "storage", "loss"))
+    notes = tuple(each.replace(f"'{_OTHER}", "'") for each in notes)
     return _Columns(sheet, found, list(notes), frequency_unit, kind).read()
 
 
@@ -76,11 +78,11 @@ def _spelt(sheet: Sheet) -> Sheet:
             name = name.removesuffix(idle).strip()
         exact = any(name in each.called for each in names.COLUMNS)
         other = len(name) == 1 and not exact and any(_is(name, each) for each in names.COLUMNS)
-        called[k] = f"column {name}" if other else name  # "F" is a force, and "d" a thickness
+        called[k] = f"{_OTHER}{name}" if other else name  # "F" is a force, and "d" a thickness
         if units[k] in _PER_SECOND:
             angular = any(_is(name, each) for each in (names.ANGULAR, names.REDUCED_ANGULAR))
             units[k] = "rad/s" if angular else "" if _is(name, names.FREQUENCY) else units[k]
-    return replace(sheet, names=tuple(called), units=tuple(units))
+    return replace(sheet, heading=replace(sheet.heading, names=tuple(called), units=tuple(units)))
 
 
 def _is(name, column):

@@ -395,10 +395,10 @@ def test_every_name_is_that_of_one_column():
 
 
 def test_the_page_lists_names_that_people_give(pytestconfig):
-    page = (pytestconfig.rootpath / "docs" / "scenes.md").read_text(encoding="utf-8")
+    page = (pytestconfig.rootpath / "docs" / "scenes.md").read_text(encoding="utf-8").replace(r"\|", "|")
     for column in COLUMNS:
-        if "," not in column.field and "reduced" not in column.field:
-            assert f"`{column.called[0]}`" in page, column.field
+        if not any(word in column.field for word in ("tensile", "reduced", "log", "ln")):
+            assert [name for name in column.called if f"`{name}`" not in page] == [], column.field
 
 
 def test_a_file_is_read_as_the_same_numbers(tmp_path):

@@ -274,7 +274,7 @@ def test_text_in_any_usual_form_is_the_same_table(tmp_path, text):
         ("f,G',G''\n0,5,6", r"line 2, column 1 \(f\): frequency = 0 must be finite and greater than 0"),
         ("1,2,3\n-4,5,6", r"line 2, column 1: frequency = -4 must be finite and greater than 0"),
         ("f,G,H\n1,5,6", r"the heading \(f, G, H\) has no complete modulus"),
-        ("1,2,3,4", r"line 1: 4 columns without a heading"),
+        ("1;2;3;4", r"line 1: 4 columns without a heading"),
         ("1,2,3\n2,3,4\nthe end", r"line 3, column 1: 'the end' is not a number"),
         ("1,2,3\n2,2,3", "2 frequencies: at least 4"),
         ("1,2,3\n4,5,nan", "1 frequencies: at least 4"),
