@@ -1,6 +1,7 @@
 """Tables of moduli as people have them: columns found by their names, in a file or in Python, made one table."""
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -8,24 +9,23 @@ import numpy as np
 from pydantic import ValidationError
 
 from . import modulinames as names
-from .columns import Chosen, chosen, joined, sheet_of
+from .columns import chosen, joined, sheet_of
 from .files import once
+from .heading import is_statement
 from .mistakes import said
-from .modulinames import KINDS, OPEN
-from .quantities import HERTZ
+from .modulicolumns import Columns
+from .moduliplaces import FREQUENCIES, factors, frequencies, reference, temperatures, times
+from .printable import brief
 from .sheet import Sheet, read_sheets
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
 
-UNITS = ("rad/s", "Hz")
-_FREQUENCIES = names.FREQUENCY, names.ANGULAR, names.REDUCED, names.REDUCED_ANGULAR
 # In brackets behind a name: what the number depends on, and no unit.
 _ARGUMENTS = ("t", "ω", "omega", "w", "f", "δ", "delta", "φ", "d", "phi", "aT", "a_T", "T")
-_OTHER = "another "  # before a letter that is no name of ours in this size
 _IDLE = ("(ω)", "(omega)", "(w)", "(f)", "(iω)")
+_OTHER = "another "  # before a letter that is no name of ours in this size
 _PER_SECOND = ("1/s", "s^-1", "s-1", "s⁻¹", "1/sec", "sec^-1")
 _ONE_FREQUENCY = 1.05  # frequencies within this factor are one
-_SAME = 0.1  # of the logarithm, of what columns state twice
-_AGREE = 0.01  # relative, of a frequency and an angular one beside it
+_OVER_FREQUENCY, _OVER_TIME = ("storage", "loss", "magnitude"), ("relaxation", "creep")
 
 
 @dataclass(frozen=True)
@@ -49,11 +49,26 @@ def read_moduli(table: Any, frequency_unit: str | None = None, kind: str | None 
 
     Raises ValueError that names file, line and column, and where what is stated contradicts a heading.
     """
-    sheet = once(_sheet, table) if isinstance(table, str | Path) else sheet_of(table)
-    sheet = _spelt(sheet)
+    if not _is_table(table):
+        raise ValueError(
+            "Input should be the path of a text file, numbers by the names of their columns, a DataFrame or a "
+            "Dataset of xarray"
+        )
+    sheet = _spelt(once(_sheet, table) if isinstance(table, str | Path) else sheet_of(table))
     found, notes = chosen(sheet, names.COLUMNS, ("frequency", "storage", "loss"))
-    notes = tuple(each.replace(f"'{_OTHER}", "'") for each in notes)
-    return _Columns(sheet, found, list(notes), frequency_unit, kind).read()
+    columns = Columns(sheet, found, [each.replace(f"'{_OTHER}", "'") for each in notes])
+    over_frequency = any(map(columns.has, _OVER_FREQUENCY)) or (
+        names.TIME.field not in columns and any(each in columns for each in FREQUENCIES)
+    )
+    kind = columns.kind(_OVER_FREQUENCY if over_frequency else _OVER_TIME, kind)
+    if over_frequency:
+        moduli = columns.complex_modulus(kind)
+        place, frequency_unit, reduced = frequencies(columns, frequency_unit)
+        return Read(_table(columns, {"frequency": place} | moduli, reduced), frequency_unit, kind)
+    if frequency_unit is not None:
+        raise ValueError(f"{sheet.name} is a table over time: leave frequency_unit = {frequency_unit!r} out")
+    moduli = _over_time(columns, kind)
+    return Read(_table(columns, {"time": times(columns)} | moduli), None, kind)
 
 
 def read_table(path: str | Path) -> Table | RelaxationTable | CreepTable:
@@ -64,8 +79,22 @@ def read_table(path: str | Path) -> Table | RelaxationTable | CreepTable:
     return read_moduli(path).table
 
 
+def _is_table(given):
+    """Whether something is a path, or a table of some library."""
+    return isinstance(given, str | Path | Mapping) or any(
+        hasattr(given, each) for each in ("columns", "variables")
+    )
+
+
 def _sheet(path):
-    return joined(read_sheets(path, MOST_ROWS))
+    sheets = read_sheets(path, MOST_ROWS)
+    for each in sheets[1:]:
+        if statement := next(filter(is_statement, each.before), None):
+            raise ValueError(
+                f"{each.name}: {brief(repr(statement))} above line {each.lines[0]} tells one block from another: "
+                "give what it says, a temperature for one, as a column"
+            )
+    return joined(sheets)
 
 
 def _spelt(sheet: Sheet) -> Sheet:
@@ -89,255 +118,53 @@ def _is(name, column):
     return name.casefold() in map(str.casefold, column.called)
 
 
-@dataclass
-class _Columns:
-    """The columns of one sheet, and what is stated beside it."""
-
-    sheet: Sheet
-    found: dict[str, Chosen]
-    notes: list[str]
-    frequency_unit: str | None
-    kind: str | None
-    used: set[str] = field(default_factory=set)
-
-    def read(self) -> Read:
-        over_frequency = any(self._has(each) for each in ("storage", "loss", "magnitude")) or (
-            names.TIME.field not in self.found and any(each.field in self.found for each in _FREQUENCIES)
+def _over_time(columns, kind):
+    """The relaxation modulus, or the creep compliance."""
+    relaxation, creep = (columns.modulus(each, kind) for each in _OVER_TIME)
+    if relaxation is None and creep is None:
+        raise ValueError(
+            f"{columns.heading} has no modulus: give storage and loss modulus over the frequency, or a relaxation "
+            "modulus or creep compliance over time"
         )
-        quantities = ("storage", "loss", "magnitude") if over_frequency else ("relaxation", "creep")
-        kind = self._kind([each for each in quantities if self._has(each)])
-        made = self._moduli(kind) if over_frequency else self._over_time(kind)
-        unit = self.frequency_unit
-        if over_frequency:
-            place, unit, reduced = self._frequency()
-            made = {"frequency": place} | made
-        else:
-            reduced = False
-            if unit is not None:
-                raise ValueError(f"{self.sheet.name} is a table over time: leave frequency_unit = {unit!r} out")
-        return Read(self._table(made, reduced), unit, kind)
+    if relaxation is not None and creep is not None:
+        raise ValueError(f"{columns.heading} has both a relaxation modulus and a creep compliance: keep one")
+    return {"modulus": relaxation} if creep is None else {"compliance": creep}
 
-    def _table(self, made, reduced):
-        """The table of rows in which nothing is missing."""
-        name = next(iter(made))
-        factors, temperature = self._shifts(reduced)
-        if temperature is not None:
-            made["temperature"] = temperature
-        everywhere = np.ones(len(self.sheet.numbers), bool)
-        for each in (*made.values(), *([] if factors is None else [factors])):
-            everywhere &= ~np.isnan(each)
-        if count := int((~everywhere).sum()):
-            self.notes.append(
-                f"{self.sheet.name}: {count} of {everywhere.size} rows lack a number, and are left out"
-            )
-        if not everywhere.any():
-            raise ValueError(f"{self.sheet.name}: no row has all of {', '.join(made)}")
-        made = {each: values[everywhere] for each, values in made.items()}
-        places = made[name]
-        several = temperature is not None and np.ptp(made["temperature"]) > SCATTER
-        if several and name == "frequency" and places.max() < _ONE_FREQUENCY * places.min():
-            raise ValueError(
-                f"{self.sheet.name}: a sweep of temperature at one frequency, {places[0]:g}, is no table of "
-                "frequencies: measure at several frequencies, at one temperature or at each"
-            )
-        if factors is not None:
-            made[name] = places / factors[everywhere] if name == "time" else places * factors[everywhere]
-            made.pop("temperature", None)
-            if (reference := self._reference(factors)) is not None:
-                made["temperature"] = np.full(int(everywhere.sum()), reference)
-        kind = {"storage": Table, "modulus": RelaxationTable, "compliance": CreepTable}
-        made_of: Any = next(kind[each] for each in made if each in kind)
-        columns: dict[str, Any] = {each: tuple(values.tolist()) for each, values in made.items()}
-        try:
-            table = made_of(**columns)
-        except ValidationError as error:
-            raise ValueError(f"{self.sheet.name}: {said(error)}") from None
-        unused = [column for field, column in self.found.items() if field not in self.used]
-        beside = [f"{self.sheet.name}: column {each.name!r} is not used" for each in unused]
-        return table.noted((*self.notes, *beside))
 
-    # Columns
+def _table(columns, made, reduced=False):
+    """The table of rows in which nothing is missing, at one temperature where a column shifts them there."""
+    sheet, place = columns.sheet, next(iter(made))
+    longer = None if reduced else factors(columns)
+    beside = {"temperature": temperatures(columns, reduced), "factor": longer}
+    made = made | {name: values for name, values in beside.items() if values is not None}
+    whole = ~np.isnan(np.column_stack(list(made.values()))).any(axis=1)
+    if count := int((~whole).sum()):
+        columns.notes.append(f"{sheet.name}: {count} of {whole.size} rows lack a number, and are left out")
+    if not whole.any():
+        raise ValueError(f"{sheet.name}: no row has all of {', '.join(made)}")
+    made = {name: values[whole] for name, values in made.items()}
+    _refuse_sweep(sheet, made)
+    if (longer := made.pop("factor", None)) is not None:
+        made[place] = made[place] / longer if place == "time" else made[place] * longer
+        if (temperature := made.pop("temperature", None)) is not None:
+            at = reference(columns, longer, temperature)
+            made |= {} if at is None else {"temperature": np.full(len(longer), at)}
+    kinds = {"storage": Table, "modulus": RelaxationTable, "compliance": CreepTable}
+    kind: Any = next(kinds[name] for name in made if name in kinds)
+    try:
+        table = kind(**{name: tuple(values.tolist()) for name, values in made.items()})
+    except ValidationError as error:
+        raise ValueError(f"{sheet.name}: {said(error)}") from None
+    return table.noted((*columns.notes, *columns.unused()))
 
-    def _has(self, quantity):
-        return any(names.modulus(quantity, each).field in self.found for each in (*KINDS, OPEN))
 
-    def _of(self, field):
-        """Numbers of a column, > 0 or, where nothing was measured, NaN. Raises ValueError with the place of others."""
-        column = self.found[field]
-        wrong = ~(np.isnan(column.numbers) | ((column.numbers > 0) & np.isfinite(column.numbers)))
-        if wrong.any():
-            row = int(np.argmax(wrong))
-            given, where = self.sheet.numbers[row, column.index], self.sheet.place(row, column.index)
-            raise ValueError(f"{where}: {field} = {given:g} must be finite and greater than 0")
-        self.used.add(field)
-        return column.numbers
-
-    def _modulus(self, quantity, kind):
-        """Numbers of a quantity; None where it has no column."""
-        for each in (kind, OPEN):
-            if each is not None and (name := names.modulus(quantity, each).field) in self.found:
-                return self._of(name)
-        return None
-
-    def _kind(self, quantities):
-        told = [
-            kind
-            for kind in KINDS
-            if any(names.modulus(quantity, kind).field in self.found for quantity in quantities)
-        ]
-        if self.kind in KINDS:
-            if told and self.kind not in told:
-                raise ValueError(
-                    f"{self._heading()} names moduli of kind {told[0]!r}, and kind = {self.kind!r} is stated: "
-                    "leave kind out, or correct the heading"
-                )
-            return self.kind
-        if len(told) > 1:
-            raise ValueError(
-                f"{self._heading()} names moduli of both kinds: state kind, {' or '.join(map(repr, told))}"
-            )
-        return told[0] if told else self.kind
-
-    def _heading(self):
-        return f"{self.sheet.name}: the heading ({', '.join(self.sheet.names)})"
-
-    # Over the frequency
-
-    def _moduli(self, kind):
-        """Storage and loss modulus, however they are stated."""
-        storage, loss = self._modulus("storage", kind), self._modulus("loss", kind)
-        tangent, size = (
-            self._tangent(whole=storage is not None and loss is not None),
-            self._modulus("magnitude", kind),
+def _refuse_sweep(sheet, made):
+    """Raise ValueError for a sweep of temperature at one frequency."""
+    frequency, temperature = made.get("frequency"), made.get("temperature")
+    if frequency is None or temperature is None or np.ptp(temperature) <= SCATTER:
+        return
+    if frequency.max() < _ONE_FREQUENCY * frequency.min():
+        raise ValueError(
+            f"{sheet.name}: a sweep of temperature at one frequency, {frequency[0]:g}, is no table of "
+            "frequencies: measure at several frequencies, at one temperature or at each"
         )
-        if storage is not None and loss is not None:
-            self._check_tangent(loss / storage, tangent)
-            return {"storage": storage, "loss": loss}
-        if tangent is None or (storage is None and loss is None and size is None):
-            raise ValueError(
-                f"{self._heading()} has no complete modulus: give storage and loss modulus, or one of them or the "
-                "complex modulus with tan delta or a phase"
-            )
-        if storage is not None:
-            return {"storage": storage, "loss": storage * tangent}
-        if loss is not None:
-            return {"storage": loss / tangent, "loss": loss}
-        along = size / np.hypot(1.0, tangent)
-        return {"storage": along, "loss": along * tangent}
-
-    def _tangent(self, whole):
-        """Loss over storage modulus as a column states it; None without one. whole : whether both are there"""
-        if names.TAN.field in self.found:
-            return self._of(names.TAN.field)
-        if names.PHASE.field not in self.found:
-            return None
-        phase, column = self._of(names.PHASE.field), self.found[names.PHASE.field]
-        if column.unit is None and whole:
-            return None
-        if column.unit is None:
-            raise ValueError(f"{self._heading()} states no unit of {column.name!r}: write deg or rad behind it")
-        if (phase >= np.pi / 2).any():
-            row = int(np.argmax(phase >= np.pi / 2))
-            where, given = self.sheet.place(row, column.index), self.sheet.numbers[row, column.index]
-            raise ValueError(f"{where}: phase = {given:g} must be below 90 deg")
-        return np.tan(phase)
-
-    def _check_tangent(self, found, stated):
-        if stated is None:
-            return
-        apart = float(np.nanmedian(np.abs(np.log(found / stated))))
-        if apart > _SAME:
-            raise ValueError(
-                f"{self._heading()}: loss over storage modulus is {np.exp(apart):.2g} times off tan delta or the "
-                "phase beside them: correct their units, or keep two of them"
-            )
-
-    def _frequency(self):
-        """Frequencies, their unit or None, and whether they are reduced to one temperature already."""
-        reduced = any(each.field in self.found for each in (names.REDUCED, names.REDUCED_ANGULAR))
-        wanted = (names.REDUCED_ANGULAR, names.REDUCED) if reduced else (names.ANGULAR, names.FREQUENCY)
-        columns = {each.field: self.found[each.field] for each in wanted if each.field in self.found}
-        if not columns:
-            several = "a sweep of temperature is " if names.TEMPERATURE.field in self.found else ""
-            raise ValueError(
-                f"{self._heading()}: {several}no table of frequencies: it has no column of the frequency"
-            )
-        units = {field: self._unit_of(field, column) for field, column in columns.items()}
-        self._check_both(columns, units)
-        stated = self.frequency_unit if self.frequency_unit in UNITS else None
-        fitting = [field for field, unit in units.items() if stated in (None, unit)]
-        fitting += [field for field, unit in units.items() if unit is None]
-        if not fitting:
-            field, unit = next(iter(units.items()))
-            raise ValueError(
-                f"{self._heading()} gives {columns[field].name!r} in {unit}, and frequency_unit = {stated!r} is "
-                "stated: leave frequency_unit out, or correct the heading"
-            )
-        self.used |= columns.keys()
-        return self._of(fitting[0]), units[fitting[0]] or self.frequency_unit, reduced
-
-    def _unit_of(self, field, column):
-        if column.unit is None:
-            return "rad/s" if field in (names.ANGULAR.field, names.REDUCED_ANGULAR.field) else None
-        return "Hz" if column.unit is HERTZ else "rad/s"
-
-    def _check_both(self, columns, units):
-        if len(columns) < 2 or None in units.values():
-            return
-        one, other = (
-            column.numbers * (2 * np.pi if units[field] == "Hz" else 1) for field, column in columns.items()
-        )
-        if (np.abs(one - other) > _AGREE * np.abs(one)).any():
-            both = " and ".join(repr(column.name) for column in columns.values())
-            raise ValueError(f"{self._heading()}: {both} contradict one another, 1 Hz is 2 pi rad/s: keep one")
-
-    # Over the time
-
-    def _over_time(self, kind):
-        relaxation, creep = self._modulus("relaxation", kind), self._modulus("creep", kind)
-        if (relaxation is None) == (creep is None):
-            lack = "both a relaxation modulus and a creep compliance: keep one"
-            if creep is None:
-                lack = (
-                    "no modulus: give storage and loss modulus over the frequency, or a relaxation modulus or "
-                    "creep compliance over time"
-                )
-            raise ValueError(f"{self._heading()} has {lack}")
-        if names.TIME.field not in self.found:
-            raise ValueError(f"{self._heading()} has no column of the time")
-        time = self._of(names.TIME.field)
-        return {"time": time} | ({"modulus": relaxation} if creep is None else {"compliance": creep})
-
-    # Temperatures
-
-    def _shifts(self, reduced):
-        """Factors by which times are longer than at the reference, and temperatures [K]; None where not known."""
-        temperature = None
-        if (column := self.found.get(names.TEMPERATURE.field)) is not None:
-            if column.unit is None:
-                raise ValueError(f"{self._heading()} states no unit of {column.name!r}: write degC or K behind it")
-            temperature = self._of(names.TEMPERATURE.field)
-        if reduced:
-            known = temperature is not None and np.ptp(temperature[~np.isnan(temperature)]) <= SCATTER
-            return None, temperature if known else None
-        if names.SHIFT.field in self.found:
-            return self._of(names.SHIFT.field), temperature
-        for log, base in ((names.LOG_SHIFT.field, 10.0), (names.LN_SHIFT.field, np.e)):
-            if log in self.found:
-                self.used.add(log)
-                with np.errstate(over="ignore"):
-                    factors = base ** self.found[log].numbers
-                if not ((factors > 0) & np.isfinite(factors) | np.isnan(factors)).all():
-                    raise ValueError(f"{self._heading()}: {self.found[log].name!r} leaves the range of numbers")
-                return factors, temperature
-        return None, temperature
-
-    def _reference(self, factors):
-        """Temperature at which the factor is 1; None where the table has it not between its rows."""
-        if names.TEMPERATURE.field not in self.found:
-            return None
-        temperature = self.found[names.TEMPERATURE.field].numbers
-        known = ~(np.isnan(temperature) | np.isnan(factors))
-        order = np.argsort(factors[known])
-        logs, temperature = np.log(factors[known][order]), temperature[known][order]
-        return float(np.interp(0.0, logs, temperature)) if logs[0] <= 0 <= logs[-1] else None

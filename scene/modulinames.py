@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from .columns import Column
-from .quantities import HERTZ, KELVIN, PASCAL, PER_PASCAL, RADIAN, RADIAN_PER_SECOND, SECOND
+from .quantities import COMPLIANCE, HERTZ, KELVIN, MODULUS, RADIAN, RADIAN_PER_SECOND, SECOND
 
 # A modulus by its symbols and words in shear and in tension, {M} and {kind}, and names that leave this open.
 KINDS: Mapping[str, tuple[str, str, tuple[str, ...]]] = {
@@ -147,7 +147,7 @@ PHASE = Column(
 def modulus(quantity: str, kind: str) -> Column:
     """The column of a quantity of `MODULI`, in shear, in tension, or OPEN."""
     told, left_open = MODULI[quantity]
-    units = (PER_PASCAL if quantity == "creep" else PASCAL,)
+    units = (COMPLIANCE if quantity == "creep" else MODULUS,)
     if kind == OPEN:
         return Column(quantity, left_open, units, optional=True)
     symbol, compliance, words = KINDS[kind]

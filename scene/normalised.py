@@ -61,7 +61,7 @@ def _or_normalised(schema: dict[str, Any]) -> None:
     properties |= {
         "g": {"type": "array", "items": {"type": "number"}, "description": f"moduli over {INSTANT}"},
         "tau": times | {"description": "relaxation times that belong to g"},
-        INSTANT: number | {"description": "shear modulus at t = 0, with g"},
+        INSTANT: number | {"title": "Instantaneous Modulus", "description": "shear modulus at t = 0, with g"},
     }
     or_in_tension(schema)
     # Which of so many stand together is checked where they are read.

@@ -14,10 +14,10 @@ from pydantic.dataclasses import dataclass
 from . import files
 from .mistakes import CHOICE
 from .printable import brief
-from .quantities import CLOSED, PASCAL, PER_PASCAL, ROW, SECOND, AbsoluteTemperature, Positive, UnitOfOthers
+from .quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, UnitOfOthers
 
 MOST_ROWS = 5_000
-_LEAST_PLACES, _WIDEST = 4, 1e40
+_LEAST, _LEAST_OF_SEVERAL, _WIDEST = 4, 2, 1e40
 MOST = 20_000_000  # bytes of a file
 _SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
 # Of a heading: a unit in brackets, as in "F_N [mN]", stays with its name, and only commas and the like part words.
@@ -25,8 +25,8 @@ _MARKS, _BLANKS = re.compile(r"\s*[,;\t]\s*"), re.compile(r"\s+(?![\[(])(?![^\[(
 _NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 SCATTER = 1.0  # [K] within which temperatures are one
 Frequencies = Annotated[tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...], ROW]
-Moduli = Annotated[tuple[Annotated[Positive, PASCAL], ...], ROW]
-Compliances = Annotated[tuple[Annotated[Positive, PER_PASCAL], ...], ROW]
+Moduli = Annotated[tuple[Annotated[Positive, MODULUS], ...], ROW]
+Compliances = Annotated[tuple[Annotated[Positive, COMPLIANCE], ...], ROW]
 Times = Annotated[tuple[Annotated[Positive, SECOND], ...], ROW]
 Temperatures = Annotated[tuple[AbsoluteTemperature, ...], ROW]
 
@@ -80,8 +80,9 @@ class _Rows:
         places = getattr(self, name)
         if max(places, default=0.0) > _WIDEST * min(places, default=0.0):
             raise ValueError(f"{many} lie farther apart than by a factor of {_WIDEST:g}")
-        if (count := len(set(places))) < _LEAST_PLACES:
-            raise ValueError(f"{count} {many}: at least {_LEAST_PLACES} are needed")
+        least = _LEAST_OF_SEVERAL if self.several else _LEAST  # temperatures, which spread them
+        if (count := len(set(places))) < least:
+            raise ValueError(f"{count} {many}: at least {least} are needed")
         return self
 
     def __repr__(self):

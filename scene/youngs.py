@@ -61,13 +61,22 @@ def or_in_tension(schema: dict[str, Any]) -> None:
     properties, needed = schema["properties"], schema.get("required", [])
     for name in _both_ways(list(properties)):
         other = in_tension(name)
-        properties[other] = {**properties.get(name, {}), "description": f"in tension, in place of {name}"}
+        properties[other] = _bare(properties[name]) | {"description": f"in tension, in place of {name}"}
         if name in needed:
             needed.remove(name)
             schema.setdefault("allOf", []).append({"oneOf": [{"required": [name]}, {"required": [other]}]})
 
 
 STATED = ConfigDict(**CLOSED, json_schema_extra=or_in_tension)
+
+
+def _bare(schema):
+    """A schema without what is said of its parts."""
+    if isinstance(schema, list):
+        return [_bare(each) for each in schema]
+    if not isinstance(schema, dict):
+        return schema
+    return {name: _bare(each) for name, each in schema.items() if name not in ("description", "examples", "title")}
 
 
 @lru_cache(maxsize=16)

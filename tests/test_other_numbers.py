@@ -229,7 +229,7 @@ METHODS = {
     "lower": (1e4, "rad/m"),
 }
 NOT_NUMBERS = {
-    *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures"),
+    *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures", "figure"),
     *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
     *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
     *("level", "repeat", "peaks", "kind", "journal", "style", "to", "interactive", "progress", "dataset", "study"),

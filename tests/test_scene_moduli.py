@@ -233,7 +233,7 @@ def test_arrays_tables_and_datasets_are_read_by_the_same_names():
     for table in (stated, frame, labelled, held, bare):
         assert Tabulated(table=table) == expected
     assert Tabulated(table=ours, kind="shear") == expected
-    with pytest.raises(ValidationError, match=r"table\n.*a path, a DataFrame"):
+    with pytest.raises(ValidationError, match=r"table\n.*the path of a text file"):
         Tabulated(table=3.0)
 
 
@@ -405,3 +405,36 @@ def test_a_file_is_read_as_the_same_numbers(tmp_path):
     table = some(columns_of(SOLID, OMEGA), "omega", "G'")
     for separator in (",", ";", "\t"):
         assert read_table(written(tmp_path / "rubber.csv", table, separator)) == read_moduli(table).table
+
+
+def test_the_step_itself_is_left_out_of_relaxation_and_that_is_said():
+    modulus = np.append(7.7e6, SOLID.relaxation_modulus(TIME))
+    found = Tabulated(table={"t [s]": np.append(0.0, TIME), "G(t)": modulus})
+    assert found == Tabulated(table={"t [s]": TIME, "G(t)": modulus[1:]})
+    assert "1 rows at time 0 are left out" in found.table.notes[0]
+
+
+def test_few_frequencies_at_many_temperatures_are_enough():
+    temperatures = np.repeat(np.linspace(285.0, 330.0, 16), 3)
+    factors = np.array([replace(LAW, temperature=each).shift for each in temperatures])
+    omega = np.tile([1e1, 1e2, 1e3], 16)
+    law = SOLID.complex_modulus(omega * factors)
+    table = Tabulated(table={"omega": omega, "T [K]": temperatures, "G'": law.real, "G''": law.imag})
+    scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=LAW)
+    assert deviation(scene.solid, omega=np.geomspace(1e0, 1e5, 30)) < DRAWN
+
+
+def test_shift_factors_the_other_way_round_are_refused():
+    stated, factors = tables(290.0, 300.0, 320.0)
+    with pytest.raises(ValidationError, match="shift factor grows with the temperature"):
+        Tabulated(table=stated | {"aT": 1 / factors})
+
+
+def test_blocks_that_a_line_tells_apart_are_no_one_table(tmp_path):
+    rows = "\n".join(f"{f:g};{1e6 + f:g};1e4" for f in (1, 2, 4, 8, 16))
+    path = tmp_path / "rubber.csv"
+    path.write_text(f"omega;G';G''\n{rows}\n\n{rows}\n")
+    assert len(read_table(path).frequency) == 10
+    path.write_text(f"omega;G';G''\nT = 20 °C\n{rows}\n\nT = 60 °C\n{rows}\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"tells one block from another|parts two tables|neither"):
+        read_table(path)

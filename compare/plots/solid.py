@@ -1,5 +1,7 @@
 """Moduli of the solid of a scene against the frequency, beside what was measured of it."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -76,7 +78,12 @@ def moduli(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: fl
         axes.plot(table["omega"][seen], up * table[name][seen], line, color=style.ink(), label=label)
         if measured is not None:
             filled = style.ink() if name == "storage" else style.paper()
-            look = {"marker": marker, "markersize": style.mark(0.8), "markerfacecolor": filled, "linestyle": ""}
+            look: dict[str, Any] = {
+                "marker": marker,
+                "markersize": style.mark(0.8),
+                "markerfacecolor": filled,
+                "linestyle": "",
+            }
             axes.plot(measured["omega"], up * measured[name], color=style.ink(), label="measured", **look)
     axes.set(xscale="log", yscale="log", xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
     axes.set_xlim(table["omega"].iloc[0], table["omega"].iloc[-1])
