@@ -149,7 +149,11 @@ def files_with_mistakes(size):
     files = {
         "a scene with five mistakes": (scene, FILE, five),
         "a scene cut off": (scene, "[indenter\n", "scene.toml | not valid TOML"),
-        "a table of words": (table, "frequency storage loss\n1 2 x\n", "line 2 | column 3 | 'x' is not a number"),
+        "a table of words": (
+            table,
+            "frequency storage loss\n1 2 3\n1 2 x\n",
+            "line 3 | column 3 | 'x' is not a number",
+        ),
         "a table with decimal commas": (table, "1,5;2,5;3,5\n", "1 frequencies | at least 4"),
         "a table with zero": (table, "1 1 1\n2 0 1\n", "line 2 | storage = 0 | greater than 0"),
         "a table with nan": (table, "1 1 1\n2 nan 1\n", "1 frequencies | at least 4"),
