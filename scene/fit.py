@@ -23,15 +23,13 @@ class Measured:
     """What is followed: measured numbers (M,), each to the same share of itself.
 
     measured : the numbers
-    times : shortest and longest time seen [s]
     """
 
     measured: np.ndarray
-    times: tuple[float, float]
 
     def ends(self, rest: float | None) -> tuple[float, float]:
         """Shortest and longest time of a mode [s]; rest : modulus at rest [Pa] if it is known"""
-        return self.times[0] / _MARGIN, self.times[1] * _MARGIN
+        raise NotImplementedError
 
     def of(self, modes: Modes) -> np.ndarray:
         """The same numbers of a solid (M,)."""
@@ -65,7 +63,9 @@ class Oscillation(Measured):
 
     def __init__(self, omega, modulus):
         self.omega, self.measured = omega, np.append(modulus.real, modulus.imag)
-        self.times = 1 / omega[-1], 1 / omega[0]
+
+    def ends(self, rest):
+        return 1 / (self.omega[-1] * _MARGIN), _MARGIN / self.omega[0]
 
     def of(self, modes):
         found = modes.complex_modulus(self.omega)
@@ -82,7 +82,9 @@ class Stress(Measured):
 
     def __init__(self, time, modulus):
         self.time, self.measured = time, modulus
-        self.times = time[0], time[-1]
+
+    def ends(self, rest):
+        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN
 
     def of(self, modes):
         return modes.modulus(self.time)
@@ -96,12 +98,11 @@ class Creep(Measured):
 
     def __init__(self, time, compliance):
         self.time, self.measured = time, compliance
-        self.times = time[0], time[-1]
 
     def ends(self, rest):
-        fast, slow = super().ends(rest)
-        # A compliance that is not reached yet grows at most as the time.
-        return fast, slow * (1.0 if rest is None else max(1.0, 1 / (rest * self.measured[-1])))
+        # A compliance that is known and not reached yet grows at most as the time.
+        further = 1.0 if rest is None else max(1.0, 1 / (rest * self.measured[-1]))
+        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN * further
 
     def of(self, modes):
         return modes.compliance(self.time)
