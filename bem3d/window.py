@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from scene import Cylinder, EmptyContact, Measured, Plane, Scene, SolveError
-from scene.heightmap import Scanned
 from scene.scales import elastic_contact
+from scene.scanned import Scanned
 
 from . import layer
 from .grid import Box, Grid

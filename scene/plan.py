@@ -6,9 +6,9 @@ from math import prod
 from typing import Any
 
 from .costs import Expected
-from .heightmap import Scanned
 from .markup import table
 from .motion import UNITS, Program
+from .scanned import Scanned
 from .scene import Scene
 
 WIDTH = 36  # of the first column of a plan, at least

@@ -1,28 +1,18 @@
 """Measured moduli as numbers: over the frequency, or over the time of relaxation or creep."""
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
-from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import numpy as np
 from pydantic import Discriminator, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
-from . import files
 from .mistakes import CHOICE
-from .printable import brief
 from .quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, UnitOfOthers
 
 MOST_ROWS = 5_000
 _LEAST, _LEAST_OF_SEVERAL, _WIDEST = 4, 2, 1e40
-MOST = 20_000_000  # bytes of a file
-_SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
-# Of a heading: a unit in brackets, as in "F_N [mN]", stays with its name, and only commas and the like part words.
-_MARKS, _BLANKS = re.compile(r"\s*[,;\t]\s*"), re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")
-_NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
 SCATTER = 1.0  # [K] within which temperatures are one
 Frequencies = Annotated[tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...], ROW]
 Moduli = Annotated[tuple[Annotated[Positive, MODULUS], ...], ROW]
@@ -158,42 +148,3 @@ AnyTable = Annotated[
     | Annotated[CreepTable, Tag(f"{CHOICE}CreepTable")],
     Discriminator(_kind),
 ]
-
-
-def read_rows(path: str | Path, names: Sequence[str], most: int) -> tuple[list[str], list[tuple[float, ...]]]:
-    """The cells of the heading, if there is one, and the rows of such a file, a number > 0 for each name.
-
-    most : rows that are read. Raises ValueError naming file and line, also of more of them.
-    """
-    text = files.text(path, MOST)
-    heading: list[str] = []
-    rows: list[tuple[float, ...]] = []
-    for number, line in enumerate(text.split("\n"), start=1):
-        line = line.partition("#")[0].strip()
-        cells, named = _SEPARATOR.split(line), (_MARKS if _MARKS.search(line) else _BLANKS).split(line)
-        if cells == [""]:
-            continue
-        if not rows and not any(_is_number(cell) for cell in (cells[0], *named)):
-            heading = named
-        else:
-            if len(rows) == most:
-                raise ValueError(f"{brief(str(path))}: at least {most + 1:,} rows: at most {most:,} are read")
-            rows.append(_row(cells, names, f"{brief(str(path))}, line {number}"))
-    return heading, rows
-
-
-def _is_number(cell):
-    return _NUMBER.fullmatch(cell) is not None
-
-
-def _row(cells, names, where):
-    if len(cells) != len(names):
-        needed = ", ".join(names[:-1]) + f" and {names[-1]}"
-        hint = "; commas separate columns, numbers have decimal points" if len(cells) > len(names) else ""
-        raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others{hint}")
-    for name, cell in zip(names, cells, strict=True):
-        if not _is_number(cell):
-            raise ValueError(f"{where}: {name} = {brief(repr(cell))} is not a number")
-        if not (isfinite(float(cell)) and float(cell) > 0):
-            raise ValueError(f"{where}: {name} = {brief(cell)} must be finite and greater than 0")
-    return tuple(float(cell) for cell in cells)
