@@ -65,9 +65,9 @@ def read_moduli(table: Any, frequency_unit: str | None = None, kind: str | None 
         moduli = columns.complex_modulus(kind)
         place, frequency_unit, reduced = frequencies(columns, frequency_unit)
         return Read(_table(columns, {"frequency": place} | moduli, reduced), frequency_unit, kind)
+    moduli = _over_time(columns, kind)
     if frequency_unit is not None:
         raise ValueError(f"{sheet.name} is a table over time: leave frequency_unit = {frequency_unit!r} out")
-    moduli = _over_time(columns, kind)
     return Read(_table(columns, {"time": times(columns)} | moduli), None, kind)
 
 

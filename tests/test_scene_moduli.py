@@ -219,6 +219,16 @@ def test_a_scene_of_several_temperatures_is_stored_and_read_back():
         assert whole.validate_json(whole.dump_json(solid)) == solid
 
 
+@pytest.mark.parametrize(
+    "primes", ["G',G''", "G',G\"", "G′,G″", "G′,G′′", "G’,G’’", "g',g''", "G_prime,G_double_prime"]
+)
+def test_every_kind_of_prime_is_one(primes):
+    law = SOLID.complex_modulus(OMEGA)
+    storage, loss = primes.split(",")
+    found = Tabulated(table={"ω [1/s]": OMEGA, f"{storage} [Pa]": law.real, f"{loss}(ω) [Pa]": law.imag})
+    assert deviation(found) < FITTED
+
+
 def test_arrays_tables_and_datasets_are_read_by_the_same_names():
     stated = some(columns_of(SOLID, OMEGA), "omega", "G'")
     expected = Tabulated(table=Table(*stated.values()), frequency_unit="rad/s", kind="shear")
@@ -259,6 +269,7 @@ def test_arrays_tables_and_datasets_are_read_by_the_same_names():
         ("T [C],G',G''", {}, "a sweep of temperature is no table of frequencies"),
         ("t,G(t),J(t)", {}, "both a relaxation modulus and a creep compliance"),
         ("x,G(t),y", {}, "no column of the time"),
+        ("a,b,c", {"frequency_unit": "Hz"}, "has no modulus"),
         ("t [s],G(t),y", {"frequency_unit": "Hz"}, "table over time: leave frequency_unit = 'Hz' out"),
         ("t [s],G(t) [1/Pa],y", {}, "relaxation, shear in '1/Pa'"),
         ("t [s],J(t) [Pa],y", {}, "creep, shear in 'Pa'"),
