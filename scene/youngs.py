@@ -23,7 +23,8 @@ _RATIO = TypeAdapter(PoissonRatio)
 
 def in_tension(field: str) -> str:
     """Name under which a modulus or compliance in shear may be stated in tension, as rubbery_youngs_modulus."""
-    return field.replace("modul", "youngs_modul").replace("compliance", "tensile_compliance")
+    named = field.replace("modulus", "youngs_modulus").replace("moduli", "youngs_moduli")
+    return named.replace("compliance", "tensile_compliance")
 
 
 def shear_modulus(modulus: float, poisson_ratio: float) -> float:
@@ -92,7 +93,7 @@ def _both_ways(names: Iterable[str]) -> list[str]:
 def _each(name, value, ratio):
     if isinstance(value, tuple):
         return tuple(_each(name, each, ratio) for each in value)
-    return shear_modulus(value, ratio) if "modul" in name else _shortest(value * 2 * (1 + ratio))
+    return shear_modulus(value, ratio) if "youngs" in name else _shortest(value * 2 * (1 + ratio))
 
 
 def _shortest(found):
