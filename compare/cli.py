@@ -40,7 +40,6 @@ TYPES = {
     "str | Path": Path,
     "str | Path | None": Path | None,
     "Surface": Path,
-    "float | None": float | None,
     "str | float | None": str | None,
     "str | float | Sequence[str | float] | None": list[str] | None,
     "Sequence[str | float] | None": list[str] | None,
