@@ -30,6 +30,13 @@ def duration(seconds: float | None) -> str:
     return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
 
 
+def pascals(value: float) -> str:
+    """A modulus in three digits, with the prefix in which it reads well."""
+    units = ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"))
+    one, unit = next((each for each in units if value >= 0.9995 * each[0]), (1.0, "Pa"))
+    return f"{value / one:.3g} {unit}"
+
+
 def share(value: float) -> str:
     """A relative error, per cent while they are readable."""
     if not isfinite(value):

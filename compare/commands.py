@@ -282,14 +282,18 @@ def trust(scene: Asked) -> Trust:
     return trust(case_of(scene).scene)
 
 
-def plan(scene: Asked) -> Plans:
+def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
+    figure : file (.png, .pdf or .svg) into which the shear moduli G', G'' of the solid are drawn; if absent, none
     """
     from .planning import plans
 
-    return plans(scene)
+    found = plans(scene)
+    if figure is not None:
+        found.draw(figure)
+    return found
 
 
 def load(folder: str | Path) -> xarray.DataTree:

@@ -1,6 +1,8 @@
 """Plan of a scene: what both solvers would simulate, what that costs, and what the 1D answer would be worth."""
 
 from collections.abc import Callable, Iterator, Mapping
+from math import isinf
+from pathlib import Path
 from textwrap import fill
 
 from pydantic import ValidationError
@@ -10,8 +12,10 @@ from mdr1d import MDR
 from scene import Refused, Scene, SolveError, markup
 from scene.costs import two_digits
 from scene.plan import Plan, size
+from scene.printable import brief
+from scene.reading import InvalidInput
 
-from .amounts import duration, seconds
+from .amounts import duration, pascals, seconds
 from .cases import Case
 from .cost import Cost
 from .inputs import Asked, case_of
@@ -20,11 +24,11 @@ from .studies.trust.verdict import Trust, trust
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
-INDENT = 11  # of the five lines, after their names
+INDENT = 11  # of the lines, after their names
 
 
 class Plans(dict[str, Plan | str | Trust]):
-    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, five lines.
+    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, six lines.
 
     scene : the scene that is planned
     cost : what all contacts of `crosscheck run` take; the reason where it cannot compare this scene
@@ -33,6 +37,24 @@ class Plans(dict[str, Plan | str | Trust]):
     def __init__(self, plans: Mapping[str, Plan | str | Trust], scene: Scene, cost: Cost | str) -> None:
         super().__init__(plans)
         self.scene, self.cost = scene, cost
+
+    def draw(self, file: str | Path) -> Path:
+        """Draw G', G'' of the solid into a .png, .pdf or .svg file; returns its path.
+
+        Raises InvalidInput for other files, and OSError.
+        """
+        # Only figures need what draws them.
+        from .plots import solid
+        from .plots.rendering import FORMS, picture
+        from .store import write
+
+        path = Path(file)
+        form = path.suffix.lower().lstrip(".")
+        if form not in FORMS:
+            raise InvalidInput(f"figure = {brief(str(file))}: a file that ends in .{', .'.join(FORMS)}")
+        content = picture(solid.plot(self.scene), (form,)).files[form]
+        write(path, lambda held: held.write(content))
+        return path
 
     @property
     def feasible(self) -> bool:
@@ -58,7 +80,7 @@ class Plans(dict[str, Plan | str | Trust]):
         return {name: each for name, each in self.items() if isinstance(each, Plan)}
 
     def _summary(self) -> Iterator[tuple[str, str]]:
-        """Names and texts of the five lines; then the reasons of a solver that refuses, and doubts."""
+        """Names and texts of the lines; then the reasons of a solver that refuses, and doubts."""
         if plans := self._plans:
             contacts, time = "1, from Python: crosscheck run does not compare this scene", ""
             if isinstance(self.cost, Cost):
@@ -70,6 +92,7 @@ class Plans(dict[str, Plan | str | Trust]):
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
+        yield "modulus", _stiffness(self.scene)
         for name, each in self.items():
             if isinstance(each, str):
                 yield "refused", each
@@ -78,6 +101,18 @@ class Plans(dict[str, Plan | str | Trust]):
 
     def _by_dimension(self, told: Callable[[Plan], str]) -> str:
         return ", ".join(f"{told(plan)} in {DIMENSIONS[name]}" for name, plan in self._plans.items())
+
+
+def _stiffness(scene):
+    """Shear and Young's modulus of the solid at rest and at the instant, in words."""
+    rest, instant = scene.solid.static_modulus, scene.solid.glassy_modulus
+    stiffer = 2 * (1 + scene.solid.poisson_ratio)
+    at_rest = f"shear G = {pascals(rest)}, Young's E = {pascals(stiffer * rest)} at rest"
+    if isinf(instant):
+        return f"{at_rest}; infinite at the instant, by a dashpot"
+    if instant == rest:
+        return f"{at_rest} and at the instant"
+    return f"{at_rest}; {pascals(instant)}, {pascals(stiffer * instant)} at the instant"
 
 
 def plans(asked: Asked) -> Plans:

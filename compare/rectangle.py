@@ -237,7 +237,7 @@ def work_of(solver, scene):
     """Cost of a contact in passes over a point of a grid, roughly."""
     if isinstance(solver, MDR):
         # As measured: a mode costs a tenth of all else.
-        each = solver.points * 5.0 * (1 + scene.elastomer.relaxation()[2].size / 10)
+        each = solver.points * 5.0 * (1 + scene.solid.relaxation()[2].size / 10)
     elif isinstance(solver, BEM):
         each = solver.points**2.2 * 50.0
     else:

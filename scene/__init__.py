@@ -6,6 +6,7 @@ from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
 from .interface import Coulomb
 from .layer import Layer
 from .measured import Measured
+from .moduli import read_table
 from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
 from .profile import Profile
@@ -16,7 +17,7 @@ from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import CrossedWaves, Wave
 from .scene import Scene
 from .selfaffine import SelfAffine
-from .table import Table, read_table
+from .table import CreepTable, RelaxationTable, Table, read_table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius
 from .topography import Topography
@@ -26,6 +27,7 @@ __all__ = [
     "Arrhenius",
     "Cone",
     "Coulomb",
+    "CreepTable",
     "CrossedWaves",
     "Cylinder",
     "Elastic",
@@ -46,6 +48,7 @@ __all__ = [
     "Prony",
     "Refused",
     "Regime",
+    "RelaxationTable",
     "Result",
     "Scene",
     "SelfAffine",

@@ -15,7 +15,7 @@ from .sheet import Sheet
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
 _MARKS = str.maketrans(',;|"[]()/\t', " " * 10)
-_SIGNS = str.maketrans("’‘′`´″”“", "''''''\"\"")
+_SIGNS = str.maketrans("’‘′`´″”“", "'" * 5 + '"' * 3)
 # As they stand in headings of temperatures alone: elsewhere they are other units.
 _DEGREES = {"C": "degC", "c": "degC", "F": "degF", "deg. C": "degC", "deg C": "degC", "º C": "degC", "ºC": "degC"}
 

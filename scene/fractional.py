@@ -10,8 +10,9 @@ from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
 from .modes import Relaxation
-from .quantities import CLOSED, RADIAN_PER_SECOND, AngularFrequency, Finite, Pressure, Time, takes
+from .quantities import RADIAN_PER_SECOND, AngularFrequency, Finite, ShearModulus, Time, takes
 from .viscoelastic import PoissonRatio, Solid
+from .youngs import STATED, in_shear
 
 _MOST_DECADES = 30
 _REFINEMENTS = 40
@@ -21,7 +22,7 @@ _SAMPLES = 32
 _ELLIPSE = 4.61
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
+@dataclass(frozen=True, config=STATED, kw_only=True)
 class Fractional(Solid):
     """Fractional Kelvin-Voigt solid, a spring beside a springpot: G(omega) = modulus (1 + (i omega tau)^exponent).
 
@@ -36,7 +37,7 @@ class Fractional(Solid):
     the range G'' soon falls as omega and G' tends to the static modulus; above it G' tends to a finite glassy one.
     """
 
-    modulus: Pressure
+    modulus: ShearModulus
     relaxation_time: Time
     exponent: Annotated[Finite, Field(gt=0, lt=1)]
     lowest_frequency: AngularFrequency
@@ -44,6 +45,8 @@ class Fractional(Solid):
     tolerance: Annotated[Finite, Field(ge=1e-10, le=0.1)] = 1e-3
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["fractional"] = Field(default="fractional", repr=False)
+
+    _in_tension = model_validator(mode="before")(in_shear)
 
     @model_validator(mode="after")
     def _range_in_order(self):

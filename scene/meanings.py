@@ -4,12 +4,16 @@ from collections import defaultdict
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-_SHEAR = "moduli are shear moduli, G = E / (2 (1 + poisson_ratio)): a third of E at poisson_ratio = 0.5"
+_SHEAR = (
+    "moduli are shear moduli, G = E / (2 (1 + poisson_ratio)): a third of E at poisson_ratio = 0.5; fields with "
+    "youngs_ in their names take E"
+)
 _FLANK = "angle is the one between the flank and the flat surface"
 
 # A field, and other names of the same quantity.
 _SAME = {
     "modulus": "G shear_modulus",
+    "youngs_modulus": "E E0 E_0 young youngs young_modulus elastic_modulus tensile_modulus e_modulus",
     "poisson_ratio": "nu poisson poissons_ratio",
     "relaxation_time": "tau relax_time retardation_time",
     "relaxation_times": "tau taus tau_i tau_k times",
@@ -49,7 +53,7 @@ _SAME = {
 # A field, other quantities from which it follows or with which it is confused, and what to do with them.
 _OTHER = (
     (
-        "modulus rubbery_modulus equilibrium_modulus",
+        "rubbery_modulus equilibrium_modulus",
         "E E0 E_0 E_inf young youngs youngs_modulus young_modulus elastic_modulus tensile_modulus e_modulus",
         _SHEAR,
     ),

@@ -40,6 +40,11 @@ class Mistake:
     mended: bool = True
 
 
+def said(error: ValidationError) -> str:
+    """The first mistake of what is no file, in words."""
+    return error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
+
+
 def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> list[str]:
     """One line a mistake: where it is, what stands there, what is allowed; in the order of the file.
 

@@ -72,6 +72,11 @@ class Retardation:
         """Modes from elements in any order; those of equal times are one."""
         return cls(instantaneous, *_distinct(compliances, times))
 
+    @property
+    def equilibrium(self) -> float:
+        """Modulus at rest [Pa]."""
+        return 1 / (self.instantaneous + float(self.compliances.sum()))
+
     def compliance(self, t):
         """J(t) [1/Pa] for t >= 0 [s]."""
         return self.instantaneous + _decay(np.asarray(t, float), self.times, rise=True) @ self.compliances
@@ -90,10 +95,9 @@ class Retardation:
         if self.instantaneous:
             poles, weights = np.append(0.0, poles), np.append(self.instantaneous, weights)
         times, fluidity = zeros(poles, weights, 0.0)
-        equilibrium = 1 / (self.instantaneous + float(self.compliances.sum()))
         viscosity = 0.0 if self.instantaneous else 1 / float((self.compliances / self.times).sum())
         moduli, times = _fixed(1 / (times * fluidity), times)
-        return Relaxation(equilibrium, moduli, times, viscosity)
+        return Relaxation(self.equilibrium, moduli, times, viscosity)
 
 
 def _decay(t, times, rise=False):

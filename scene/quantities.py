@@ -4,7 +4,7 @@ A quantity is given as a number in SI or, in Python and in a file alike, as a st
 In Python it may also be what other libraries hold, see `plain`. What is held is always the number in SI.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import wraps
@@ -12,7 +12,7 @@ from inspect import signature
 from numbers import Integral
 from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_type_hints
 
-from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, create_model
 from pydantic_core import ArgsKwargs, CoreSchema, core_schema
 
 from .plain import NotPlain, number, numbers, one_by_one, relabelled
@@ -211,8 +211,13 @@ def _or_written(number, examples):
 
 
 METRE = Unit("m", "a length", "5 mm", 5e-3)
-PASCAL = Unit("Pa", "a pressure or modulus", "1.2 MPa", 1.2e6)
-PER_PASCAL = Unit("1/Pa", "a compliance", "1/MPa", 1e-6)
+PASCAL = Unit("Pa", "a pressure", "1.2 MPa", 1.2e6)
+SHEAR = Unit("Pa", "a shear modulus G", "1.2 MPa", 1.2e6)
+MODULUS = Unit("Pa", "a modulus", "1.2 MPa", 1.2e6)
+YOUNGS = Unit("Pa", "a Young's modulus E", "3 MPa", 3e6)
+PER_PASCAL = Unit("1/Pa", "a compliance in shear", "1/MPa", 1e-6)
+COMPLIANCE = Unit("1/Pa", "a compliance", "1/MPa", 1e-6)
+TENSILE_COMPLIANCE = Unit("1/Pa", "a compliance in tension", "0.3/MPa", 3e-7)
 SECOND = Unit("s", "a time", "1 ms", 1e-3)
 SPEED = Unit("m/s", "a speed", "20 mm/s", 0.02)
 NEWTON = Unit("N", "a force", "10 mN", 0.01)
@@ -231,6 +236,7 @@ Length = Annotated[Positive, METRE]
 LengthOrZero = Annotated[NonNegative, METRE]
 Pressure = Annotated[Positive, PASCAL]
 PressureOrZero = Annotated[NonNegative, PASCAL]
+ShearModulus = Annotated[Positive, SHEAR]
 Compliance = Annotated[Positive, PER_PASCAL]
 ComplianceOrZero = Annotated[NonNegative, PER_PASCAL]
 Time = Annotated[Positive, SECOND]
@@ -257,6 +263,16 @@ def unit_of(cls: type, field: str) -> str | None:
     """
     hints = get_type_hints(cls, include_extras=True)
     return next((unit.symbol for unit in _units(hints[field])), None)
+
+
+def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of what is stated that have one of these names, each as its type.
+
+    Raises ValidationError, in which a value has its name, as one of a field has.
+    """
+    found = {name: stated[name] for name in types if name in stated}
+    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
+    return dict(whole(**found))
 
 
 def by_name(given: Any) -> dict[str, Any] | None:

@@ -7,30 +7,34 @@ from pydantic.dataclasses import dataclass
 
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
-from .quantities import CLOSED, ROW, Compliance, ComplianceOrZero, Pressure, Time
+from .normalised import NORMALISED, absolute
+from .quantities import ROW, Compliance, ComplianceOrZero, ShearModulus, Time
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
+from .youngs import STATED, in_shear
 
 MOST_MODES = 200  # of a solid: no measurement tells more apart
 _SOME = Field(min_length=1, max_length=MOST_MODES)
-Pressures = Annotated[tuple[Pressure, ...], ROW, _SOME]
+ShearModuli = Annotated[tuple[ShearModulus, ...], ROW, _SOME]
 Compliances = Annotated[tuple[Compliance, ...], ROW, _SOME]
 Times = Annotated[tuple[Time, ...], ROW, _SOME]
 
 
-@dataclass(frozen=True, config=CLOSED)
+@dataclass(frozen=True, config=STATED)
 class Elastic(Solid):
     """Elastic solid. modulus: shear modulus [Pa]."""
 
-    modulus: Pressure
+    modulus: ShearModulus
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["elastic"] = Field(default="elastic", repr=False)
+
+    _in_tension = model_validator(mode="before")(in_shear)
 
     def modes(self) -> Relaxation:
         return Relaxation.of(self.modulus)
 
 
-@dataclass(frozen=True, config=CLOSED)
+@dataclass(frozen=True, config=STATED)
 class Kelvin(Solid):
     """Kelvin-Voigt solid, G(omega) = modulus * (1 + i omega relaxation_time).
 
@@ -38,16 +42,18 @@ class Kelvin(Solid):
     relaxation_time : viscosity over modulus [s]
     """
 
-    modulus: Pressure
+    modulus: ShearModulus
     relaxation_time: Time
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin"] = Field(default="kelvin", repr=False)
+
+    _in_tension = model_validator(mode="before")(in_shear)
 
     def modes(self) -> Retardation:
         return Retardation.of(0.0, (1 / self.modulus,), (self.relaxation_time,))
 
 
-@dataclass(frozen=True, config=CLOSED)
+@dataclass(frozen=True, config=STATED)
 class StandardLinearSolid(Linear):
     """Standard linear solid, G(t) = rubbery + (glassy - rubbery) exp(-t / relaxation_time).
 
@@ -60,11 +66,13 @@ class StandardLinearSolid(Linear):
     5.50e+06+4.50e+06j Pa
     """
 
-    rubbery_modulus: Pressure
-    glassy_modulus: Pressure
+    rubbery_modulus: ShearModulus
+    glassy_modulus: ShearModulus
     relaxation_time: Time
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["standard-linear-solid"] = Field(default="standard-linear-solid", repr=False)
+
+    _in_tension = model_validator(mode="before")(in_shear)
 
     @model_validator(mode="after")
     def _stiffens_with_frequency(self):
@@ -79,7 +87,7 @@ class StandardLinearSolid(Linear):
         return Relaxation.of(rubbery, (self.glassy_modulus - rubbery,), (self.relaxation_time,))
 
 
-@dataclass(frozen=True, config=CLOSED)
+@dataclass(frozen=True, config=NORMALISED)
 class Prony(Solid):
     """Generalized Maxwell solid, G(t) = equilibrium_modulus + sum_k moduli[k] exp(-t / relaxation_times[k]).
 
@@ -87,11 +95,13 @@ class Prony(Solid):
     moduli, relaxation_times : of each Maxwell branch [Pa], [s]; 1 to 200, equally many
     """
 
-    equilibrium_modulus: Pressure
-    moduli: Pressures
+    equilibrium_modulus: ShearModulus
+    moduli: ShearModuli
     relaxation_times: Times
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["prony"] = Field(default="prony", repr=False)
+
+    _stated_otherwise = model_validator(mode="before")(absolute)
 
     @model_validator(mode="after")
     def _one_time_a_modulus(self):
@@ -102,7 +112,7 @@ class Prony(Solid):
         return Relaxation.of(self.equilibrium_modulus, self.moduli, self.relaxation_times)
 
 
-@dataclass(frozen=True, config=CLOSED)
+@dataclass(frozen=True, config=STATED)
 class KelvinChain(Solid):
     """Kelvin elements in series with a spring: a Prony series in retardation form,
 
@@ -117,6 +127,8 @@ class KelvinChain(Solid):
     retardation_times: Times
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin-chain"] = Field(default="kelvin-chain", repr=False)
+
+    _in_tension = model_validator(mode="before")(in_shear)
 
     @model_validator(mode="after")
     def _one_time_a_compliance(self):

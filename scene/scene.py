@@ -37,6 +37,7 @@ def fit_together(parts):
             f"heating.feedback = {parts.heating.feedback!r} shifts the times of the elastomer: give temperature, "
             "or leave feedback out"
         )
+    parts.elastomer.at_reference(parts.temperature)
     return parts
 
 
@@ -84,4 +85,5 @@ class Scene:
     @property
     def solid(self) -> Linear:
         """The elastomer at the temperature of the scene."""
-        return self.elastomer if self.temperature is None else Shifted(self.elastomer, self.temperature.shift)
+        solid = self.elastomer.at_reference(self.temperature)
+        return solid if self.temperature is None else Shifted(solid, self.temperature.shift)

@@ -1,109 +1,150 @@
-"""Measured storage and loss moduli, in Python or in a text file."""
+"""Measured moduli as numbers: over the frequency, or over the time of relaxation or creep."""
 
-import re
-from collections.abc import Sequence
-from math import isfinite
-from pathlib import Path
-from typing import Annotated
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
-from pydantic import model_validator
+import numpy as np
+from pydantic import Discriminator, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
-from . import files
-from .printable import brief
-from .quantities import CLOSED, ROW, Positive, Pressure, UnitOfOthers
+from .mistakes import CHOICE
+from .quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, UnitOfOthers
 
-COLUMNS = ("frequency", "storage", "loss")
 MOST_ROWS = 5_000
-_LEAST_FREQUENCIES, _WIDEST = 4, 1e40
-MOST = 20_000_000  # bytes of a file
-_SEPARATOR = re.compile(r"\s*[,;\t]\s*|\s+")
-# Of a heading: a unit in brackets, as in "F_N [mN]", stays with its name, and only commas and the like part words.
-_MARKS, _BLANKS = re.compile(r"\s*[,;\t]\s*"), re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")
-_NUMBER = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|nan|inf(?:inity)?)", re.IGNORECASE)
+_LEAST, _LEAST_OF_SEVERAL, _WIDEST = 4, 2, 1e40
+SCATTER = 1.0  # [K] within which temperatures are one
 Frequencies = Annotated[tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...], ROW]
-Moduli = Annotated[tuple[Pressure, ...], ROW]
+Moduli = Annotated[tuple[Annotated[Positive, MODULUS], ...], ROW]
+Compliances = Annotated[tuple[Annotated[Positive, COMPLIANCE], ...], ROW]
+Times = Annotated[tuple[Annotated[Positive, SECOND], ...], ROW]
+Temperatures = Annotated[tuple[AbsoluteTemperature, ...], ROW]
+
+
+class _Rows:
+    """Rows of numbers, the first of which says where.
+
+    notes : what was read beside them and is not used; no field, and no part of what is compared or stored
+    """
+
+    PLACE: ClassVar[tuple[str, str]]  # its field, and more of them
+    notes: Sequence[str] = ()
+
+    if TYPE_CHECKING:
+        temperature: tuple[float, ...] | None
+
+    @property
+    def places(self) -> np.ndarray:
+        """Frequencies or times (rows,)."""
+        return np.array(getattr(self, self.PLACE[0]))
+
+    @property
+    def several(self) -> bool:
+        """Whether there are several temperatures: they lie farther apart than an oven scatters, 1 K."""
+        given = self.temperature
+        return given is not None and max(given) - min(given) > SCATTER
+
+    def noted(self, notes: Sequence[str]) -> Self:
+        """The table with such notes."""
+        object.__setattr__(self, "notes", tuple(notes))
+        return self
+
+    def shifted(self, longer: np.ndarray) -> Self:
+        """The rows at one temperature, at which times are shorter by these factors (rows,)."""
+        name = self.PLACE[0]
+        places = self.places / longer if name == "time" else self.places * longer
+        changed: dict[str, Any] = {name: tuple(places.tolist()), "temperature": None}
+        return replace(self, **changed).noted(self.notes)  # type: ignore[type-var]
+
+    def _check(self):
+        name, many = self.PLACE
+        columns = [each.name for each in fields(self) if each.name != "temperature"]
+        lengths = [len(getattr(self, each)) for each in columns]
+        if len(set(lengths)) > 1:
+            named = f"{', '.join(columns[:-1])} and {columns[-1]}"
+            raise ValueError(f"{named} have {lengths} values: they must be equally many")
+        if self.temperature is not None and len(self.temperature) != lengths[0]:
+            raise ValueError(f"temperature has {len(self.temperature)} values, {name} has {lengths[0]}: one each")
+        if lengths[0] > MOST_ROWS:
+            raise ValueError(f"{lengths[0]:,} rows: at most {MOST_ROWS:,} are fitted")
+        places = getattr(self, name)
+        if max(places, default=0.0) > _WIDEST * min(places, default=0.0):
+            raise ValueError(f"{many} lie farther apart than by a factor of {_WIDEST:g}")
+        least = _LEAST_OF_SEVERAL if self.several else _LEAST  # temperatures, which spread them
+        if (count := len(set(places))) < least:
+            raise ValueError(f"{count} {many}: at least {least} are needed")
+        return self
+
+    def __repr__(self):
+        places = getattr(self, self.PLACE[0])
+        return f"{type(self).__name__}({len(places)} rows from {min(places):g} to {max(places):g})"
 
 
 @dataclass(frozen=True, config=CLOSED, repr=False)
-class Table:
+class Table(_Rows):
     """Measured moduli: frequency, storage and loss modulus, equally many, all > 0; at least 4 frequencies.
 
     At most 5,000 rows, over 40 decades of the frequency.
 
     In any order; a frequency may stand there more than once, and then each of its rows counts.
+
+    temperature : of each row [K]; absent where it is not known
     """
+
+    PLACE = "frequency", "frequencies"
 
     frequency: Frequencies
     storage: Moduli
     loss: Moduli
+    temperature: Temperatures | None = None
 
-    @model_validator(mode="after")
-    def _rows(self):
-        lengths = [len(getattr(self, name)) for name in COLUMNS]
-        if len(set(lengths)) > 1:
-            raise ValueError(f"frequency, storage and loss have {lengths} values: they must be equally many")
-        if lengths[0] > MOST_ROWS:
-            raise ValueError(f"{lengths[0]:,} rows: at most {MOST_ROWS:,} are fitted")
-        if max(self.frequency, default=0.0) > _WIDEST * min(self.frequency, default=0.0):
-            raise ValueError(f"frequencies lie farther apart than by a factor of {_WIDEST:g}")
-        if len(set(self.frequency)) < _LEAST_FREQUENCIES:
-            raise ValueError(f"{len(set(self.frequency))} frequencies: at least {_LEAST_FREQUENCIES} are needed")
-        return self
-
-    def __repr__(self):
-        return f"Table({len(self.frequency)} rows from {min(self.frequency):g} to {max(self.frequency):g})"
+    _sound = model_validator(mode="after")(_Rows._check)
 
 
-def read_table(path: str | Path) -> Table:
-    """A table from a text or CSV file: a row of frequency, storage and loss modulus a line.
+@dataclass(frozen=True, config=CLOSED, repr=False)
+class RelaxationTable(_Rows):
+    """Measured relaxation modulus: time [s] after a sudden strain and modulus [Pa], as many as in `Table`.
 
-    Cells are separated by commas, semicolons, tabs or blanks, with decimal points. Lines without a number before
-    the first row, empty lines, and what follows a # are skipped. Raises ValueError naming file and line.
+    temperature : of each row [K]; absent where it is not known
     """
-    return Table(**columns(path))
+
+    PLACE = "time", "times"
+
+    time: Times
+    modulus: Moduli
+    temperature: Temperatures | None = None
+
+    _sound = model_validator(mode="after")(_Rows._check)
 
 
-def columns(path: str | Path) -> dict[str, tuple[float, ...]]:
-    """The columns of such a file by their names, not yet checked as a whole."""
-    _, rows = read_rows(path, COLUMNS, MOST_ROWS)
-    return dict(zip(COLUMNS, zip(*rows, strict=True) if rows else ((), (), ()), strict=True))
+@dataclass(frozen=True, config=CLOSED, repr=False)
+class CreepTable(_Rows):
+    """Measured creep compliance: time [s] after a sudden stress and compliance [1/Pa], as many as in `Table`.
 
-
-def read_rows(path: str | Path, names: Sequence[str], most: int) -> tuple[list[str], list[tuple[float, ...]]]:
-    """The cells of the heading, if there is one, and the rows of such a file, a number > 0 for each name.
-
-    most : rows that are read. Raises ValueError naming file and line, also of more of them.
+    temperature : of each row [K]; absent where it is not known
     """
-    text = files.text(path, MOST)
-    heading: list[str] = []
-    rows: list[tuple[float, ...]] = []
-    for number, line in enumerate(text.split("\n"), start=1):
-        line = line.partition("#")[0].strip()
-        cells, named = _SEPARATOR.split(line), (_MARKS if _MARKS.search(line) else _BLANKS).split(line)
-        if cells == [""]:
-            continue
-        if not rows and not any(_is_number(cell) for cell in (cells[0], *named)):
-            heading = named
-        else:
-            if len(rows) == most:
-                raise ValueError(f"{brief(str(path))}: at least {most + 1:,} rows: at most {most:,} are read")
-            rows.append(_row(cells, names, f"{brief(str(path))}, line {number}"))
-    return heading, rows
+
+    PLACE = "time", "times"
+
+    time: Times
+    compliance: Compliances
+    temperature: Temperatures | None = None
+
+    _sound = model_validator(mode="after")(_Rows._check)
 
 
-def _is_number(cell):
-    return _NUMBER.fullmatch(cell) is not None
+def _kind(given):
+    """Which of them is given, by the name of its numbers."""
+    held = (
+        given if isinstance(given, Mapping) else {name: 0 for name in getattr(given, "__dataclass_fields__", ())}
+    )
+    named = (each for each in (CreepTable, RelaxationTable) if fields(each)[1].name in held)
+    return CHOICE + next(named, Table).__name__
 
 
-def _row(cells, names, where):
-    if len(cells) != len(names):
-        needed = ", ".join(names[:-1]) + f" and {names[-1]}"
-        hint = "; commas separate columns, numbers have decimal points" if len(cells) > len(names) else ""
-        raise ValueError(f"{where}: {len(cells)} columns; {needed} are needed, and no others{hint}")
-    for name, cell in zip(names, cells, strict=True):
-        if not _is_number(cell):
-            raise ValueError(f"{where}: {name} = {brief(repr(cell))} is not a number")
-        if not (isfinite(float(cell)) and float(cell) > 0):
-            raise ValueError(f"{where}: {name} = {brief(cell)} must be finite and greater than 0")
-    return tuple(float(cell) for cell in cells)
+AnyTable = Annotated[
+    Annotated[Table, Tag(f"{CHOICE}Table")]
+    | Annotated[RelaxationTable, Tag(f"{CHOICE}RelaxationTable")]
+    | Annotated[CreepTable, Tag(f"{CHOICE}CreepTable")],
+    Discriminator(_kind),
+]

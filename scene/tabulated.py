@@ -1,62 +1,96 @@
-"""A solid measured as G', G'' against frequency: the passive solid with few modes that follows the table best."""
+"""A measured solid: the passive one with few modes that follows a table of its moduli best."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
-from math import inf, pi, sqrt
-from pathlib import Path
-from typing import Annotated, Literal
+from math import inf, pi
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import ConfigDict, Field, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
-from .files import once
-from .modes import Relaxation
-from .quantities import CLOSED, Finite, Pressure
-from .table import COLUMNS, Table, columns
+from .fit import Creep, Measured, Modes, Oscillation, Stress, fitted, rms
+from .mistakes import said
+from .moduli import read_moduli
+from .plain import bare
+from .quantities import CLOSED, Finite, ShearModulus, by_name
+from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
+from .temperature import WLF, Arrhenius
 from .viscoelastic import PoissonRatio, Solid
+from .youngs import in_shear, or_in_tension
 
-# Times further beyond the inverse frequencies of a table than this cannot be told from its ends.
-_MARGIN = 10**0.5
-_TIMES_A_DECADE = (1, 1.5, 2, 3, 5, 10, 30)
-# No measurement is worth modes for a smaller misfit.
-_NEGLIGIBLE = 1e-3
-# Largest relative contribution of a mode that is left out.
-_INVISIBLE = 1e-7
+_TABLES = (Table, RelaxationTable, CreepTable)
 # Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.
 _TOLD = 3
 
 
-def _read_if_path(value):
-    return once(columns, value) if isinstance(value, str | Path) else value
+def _or_file(schema: dict[str, Any]) -> None:
+    """In JSON schema: a file in place of the numbers, whose headings may say what fields say."""
+    or_in_tension(schema)
+    schema["properties"]["table"] = {"anyOf": [{"type": "string"}, schema["properties"]["table"]]}
+    schema["required"] = ["table"]
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
+@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
 class Tabulated(Solid):
-    """Solid of measured storage and loss modulus, fitted with a Prony series by nonnegative least squares.
+    """Solid of measured moduli, fitted with a Prony series by nonnegative least squares.
 
-    table : a Table, or the path of a text or CSV file with its three columns, read once and kept as numbers; a
-        relative path starts at the working directory
-    frequency_unit : "rad/s" or "Hz" (cycles per second)
-    kind : "shear" for G', G''; "tensile" for E', E'' = 2 (1 + poisson_ratio) G', G''; both in Pa
+    table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over time; or
+        the path of a text or CSV file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may
+        have. It is read once and kept as numbers; a relative path starts at the working directory
+    frequency_unit : "rad/s" or "Hz" (cycles per second), where no heading says so; None over the time
+    kind : "shear" for G', G'', G(t), J(t); "tensile" for E', E'', E(t), D(t), where no heading says so;
+        E = 2 (1 + poisson_ratio) G, and moduli are in Pa where no heading has another unit
     equilibrium_modulus : shear modulus at rest [Pa] if it is known, else fitted: what does not relax within three
-        times the longest time of the table, 1/(lowest angular frequency)
-    tolerance : largest root mean square of the relative misfits of G' and G'' that is accepted
+        times the longest time of the table, 1/(lowest angular frequency) or the last
+    tolerance : largest root mean square of the relative misfits of all numbers that is accepted
 
-    `error` and `rms_error` say how well the series follows the table. Raises ValueError if no passive solid does
-    to within the tolerance (in one, G' never falls with the frequency and G'' belongs to it), or if the table
-    leaves the modulus at rest open: fitted, it has to be three times its standard error, `equilibrium_error`.
+    `error` and `rms_error` say how well the series follows the table. Raises ValueError where a heading
+    contradicts a field, if no passive solid follows the table to within the tolerance (in one, G' never falls with
+    the frequency and G'' belongs to it), or if the table leaves the modulus at rest open: fitted, it has to be
+    three times its standard error, `equilibrium_error`. A table at several temperatures has modes once the law of
+    the shift is known, as in a Scene: see `at_reference`.
     """
 
-    table: Annotated[Table, BeforeValidator(_read_if_path, json_schema_input_type=str | Table)]
-    frequency_unit: Literal["rad/s", "Hz"]
+    table: AnyTable
+    frequency_unit: Literal["rad/s", "Hz"] | None
     kind: Literal["shear", "tensile"]
-    equilibrium_modulus: Pressure | None = None
+    equilibrium_modulus: ShearModulus | None = None
     tolerance: Annotated[Finite, Field(gt=0, lt=1)] = 0.1
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["tabulated"] = Field(default="tabulated", repr=False)
 
+    _in_tension = model_validator(mode="before")(in_shear)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, given: Any) -> Any:
+        stated = by_name(given)
+        if stated is None or "table" not in stated:
+            return given
+        table, found = stated["table"], dict(stated)
+        if not _is_plain(table):
+            try:
+                read = read_moduli(table, stated.get("frequency_unit"), stated.get("kind"))
+            except ValueError as error:
+                raise _of_the_table(table, error) from error
+            found["table"] = table = read.table
+            told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
+            found = {name: value for name, value in told.items() if value is not None} | found
+        over_time = isinstance(table, RelaxationTable | CreepTable) or (
+            isinstance(table, Mapping) and "time" in table
+        )
+        return {"frequency_unit": None} | found if over_time else found
+
     @model_validator(mode="after")
     def _can_be_fitted(self):
+        over_time = not isinstance(self.table, Table)
+        if over_time != (self.frequency_unit is None):
+            where = "the time: leave frequency_unit out" if over_time else "the frequency: state frequency_unit"
+            raise ValueError(f"{self.table!r} is a table over {where}")
+        if self.table.several:
+            return self
         try:
             with np.errstate(over="raise", divide="raise", invalid="raise"):
                 self.modes()
@@ -64,115 +98,140 @@ class Tabulated(Solid):
             why = f"{self.table!r}: no solid can be fitted ({error}): check units and columns"
             raise ValueError(why) from error
         if self.rms_error > self.tolerance:
+            wrong = "that G' does not fall with the frequency"
+            if over_time:
+                wrong = "that the modulus falls, or the compliance grows, with the time"
             raise ValueError(
                 f"{self.table!r}: the best passive solid is off by {self.rms_error:.2g} (relative, root mean "
-                f"square), more than tolerance = {self.tolerance:g}: check units and columns, and that G' does "
-                "not fall with the frequency; if this is the scatter, raise tolerance"
+                f"square), more than tolerance = {self.tolerance:g}: check units and columns, and {wrong}; if "
+                "this is the scatter, raise tolerance"
             )
-        if self.modes().equilibrium < _TOLD * self.equilibrium_error:
+        if self.static_modulus < _TOLD * self.equilibrium_error:
+            further = "for longer times" if over_time else "at lower frequencies"
             raise ValueError(
                 f"{self.table!r} leaves the modulus at rest open: {self._seen_at_rest()}; state "
-                "equilibrium_modulus, or measure at lower frequencies"
+                f"equilibrium_modulus, or measure {further}"
             )
         return self
 
     def _seen_at_rest(self):
         """What the table shows of the modulus at rest, in words."""
-        rest, lowest = self.modes().equilibrium, self.measured()[0][0]
-        low, next_octave = self.modes().complex_modulus(lowest * np.array([1.0, 2.0]))
-        liquid = "it shows a liquid, " if low.imag > low.real else ""
+        modes, rest = self.modes(), self.static_modulus
         fitted = f"is {rest:.2g} Pa with a standard error of {self.equilibrium_error:.2g} Pa"
-        return (
-            f"{liquid}as at its lowest frequency, {min(self.table.frequency):g} {self.frequency_unit}, G'' is "
-            f"{low.imag / low.real:.2g} G' and G' grows as frequency^{np.log2(next_octave.real / low.real):.2g}, "
-            f"and what is fitted {fitted if 0 < self.equilibrium_error < inf else 'is none'}"
-        )
+        fitted = f"and what is fitted {fitted if 0 < self.equilibrium_error < inf else 'is none'}"
+        place = self.measured()[0]
+        if isinstance(self.table, Table):
+            low, octave = modes.complex_modulus(place[0] * np.array([1.0, 2.0]))
+            liquid = "it shows a liquid, " if low.imag > low.real else ""
+            return (
+                f"{liquid}as at its lowest frequency, {min(self.table.frequency):g} {self.frequency_unit}, G'' is "
+                f"{low.imag / low.real:.2g} G' and G' grows as frequency^{np.log2(octave.real / low.real):.2g}, "
+                f"{fitted}"
+            )
+        half = place[-1] * np.array([0.5, 1.0])
+        creeps = isinstance(self.table, CreepTable)
+        early, late = modes.compliance(half) if creeps else modes.modulus(half)
+        does = "the compliance grows" if creeps else "the modulus falls"
+        return f"at its end, {place[-1]:g} s, {does} as time^{np.log2(late / early):.2g}, {fitted}"
 
-    def measured(self):
-        """Angular frequencies (N,) [rad/s] ascending, and complex shear moduli (N,) [Pa]."""
-        frequency, storage, loss = (np.array(getattr(self.table, name)) for name in COLUMNS)
-        order = np.argsort(frequency, kind="stable")
-        cycle = 2 * pi if self.frequency_unit == "Hz" else 1.0
+    def measured(self) -> tuple[np.ndarray, np.ndarray]:
+        """The table in shear: angular frequencies (N,) [rad/s] ascending, and complex moduli (N,) [Pa].
+
+        Over the time, times (N,) [s] ascending, and moduli [Pa] or compliances [1/Pa].
+        """
+        table, places = self.table, self.table.places
+        order = np.argsort(places, kind="stable")
         stiffer = 2 * (1 + self.poisson_ratio) if self.kind == "tensile" else 1.0
-        return cycle * frequency[order], (storage + 1j * loss)[order] / stiffer
+        if isinstance(table, RelaxationTable):
+            return places[order], np.array(table.modulus)[order] / stiffer
+        if isinstance(table, CreepTable):
+            return places[order], np.array(table.compliance)[order] * stiffer
+        cycle = 2 * pi if self.frequency_unit == "Hz" else 1.0
+        return cycle * places[order], (np.array(table.storage) + 1j * np.array(table.loss))[order] / stiffer
 
     @property
     def error(self) -> float:
-        """Largest relative misfit of G' or G'' at a row of the table."""
-        return float(np.abs(_misfit(self.modes(), *self.measured())).max())
+        """Largest relative misfit of a number of the table."""
+        return float(np.abs(_rows(self).misfit(self.modes())).max())
 
     @property
     def rms_error(self) -> float:
-        """Root mean square of the relative misfits of G' and G'' at the rows of the table."""
-        return _rms(_misfit(self.modes(), *self.measured()))
+        """Root mean square of the relative misfits of the numbers of the table."""
+        return rms(_rows(self).misfit(self.modes()))
 
     @property
     def equilibrium_error(self) -> float:
         """Standard error of a fitted modulus at rest [Pa]; zero of a known one, infinite where none is seen."""
         return _fit(self)[1]
 
-    def modes(self) -> Relaxation:
+    def modes(self) -> Modes:
+        """Modes of the fit. Raises ValueError of a table at several temperatures."""
+        if self.table.several:
+            raise ValueError(_no_law(self.table))
         return _fit(self)[0]
+
+    def at_reference(self, law: WLF | Arrhenius | None) -> "Tabulated":
+        """The solid at the reference of the law, by which rows at other temperatures are shifted.
+
+        Raises ValueError of several temperatures without a law, and of one that is not the reference of the law.
+        """
+        if self.table.temperature is None:
+            return self
+        if law is None:
+            if self.table.several:
+                raise ValueError(_no_law(self.table))
+            return self
+        return _reduced(self, replace(law, temperature=law.reference))  # which alone tells one law from another
+
+
+def _is_plain(table):
+    """Whether a table stands there by the names of our fields."""
+    if not isinstance(table, Mapping):
+        return isinstance(table, _TABLES)
+    known = any(set(table) <= set(each.__dataclass_fields__) for each in _TABLES)
+    return known and all(bare(each)[1] is None for each in table.values())
+
+
+def _of_the_table(table, reason):
+    """A mistake of the field `table`."""
+    line = {"type": "value_error", "loc": ("table",), "input": table, "ctx": {"error": ValueError(str(reason))}}
+    return ValidationError.from_exception_data("Tabulated", [line])
+
+
+def _no_law(table):
+    low, high = min(table.temperature), max(table.temperature)
+    return (
+        f"elastomer.table has several temperatures, from {low:g} to {high:g} K: state [temperature], the law that "
+        "shifts them to its reference, or give the table a column of shift factors"
+    )
+
+
+@lru_cache(maxsize=16)
+def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
+    """The solid at the temperature of a law, its reference."""
+    temperature = np.array(solid.table.temperature)
+    mean = float(temperature.mean())
+    if not solid.table.several and abs(mean - law.reference) > SCATTER:
+        raise ValueError(
+            f"elastomer.table was measured at {mean:g} K, and temperature.reference = {law.reference:g} K: the "
+            "law shifts from the temperature at which the elastomer is stated, make it the reference"
+        )
+    if not solid.table.several and mean == law.reference:
+        return solid
+    try:
+        longer = {each: replace(law, temperature=each).shift for each in temperature.tolist()}
+    except ValueError as error:
+        reason = said(error) if isinstance(error, ValidationError) else error
+        raise ValueError(f"elastomer.table: a row at {reason}") from error
+    return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in temperature.tolist()])))
 
 
 @lru_cache(maxsize=64)
-def _fit(solid: Tabulated) -> tuple[Relaxation, float]:
-    """Fit with as few times a decade as follow the table about as well as many do, and the error at rest [Pa]."""
-    omega, measured = solid.measured()
-
-    def at(density, rest=solid.equilibrium_modulus):
-        fast, slow = 1 / (omega[-1] * _MARGIN), _MARGIN / omega[0]
-        times = np.geomspace(fast, slow, int(np.ceil(np.log10(slow / fast) * density)) + 1)
-        return _nonnegative(omega, measured, times, rest)
-
-    def misfit(series):
-        return _rms(_misfit(series, omega, measured))
-
-    *coarser, finest = _TIMES_A_DECADE
-    best = at(finest)
-    enough = max(1.1 * misfit(best), _NEGLIGIBLE)
-    series = next((series for series in map(at, coarser) if misfit(series) <= enough), best)
-    if solid.equilibrium_modulus is not None:
-        return series, 0.0
-    # With the most times, as slow modes else leave room for a modulus at rest.
-    told = _standard_errors(2 * len(omega), len(best.times) + 1, misfit(best), misfit(at(finest, rest=0.0)))
-    return series, series.equilibrium / told if told and series.equilibrium else inf
+def _fit(solid: Tabulated) -> tuple[Modes, float]:
+    """Modes, and the error of the modulus at rest [Pa]."""
+    return fitted(_rows(solid), solid.equilibrium_modulus)
 
 
-def _standard_errors(rows, fitted, misfit, without):
-    """Standard errors by which a fitted amount differs from zero.
-
-    rows, fitted : numbers of misfits, and of amounts that were fitted
-    misfit, without : root mean square of the misfits with that amount, and without it
-    """
-    noise = max(rows * misfit**2 / max(rows - fitted, 1), _NEGLIGIBLE**2)
-    # The sum of squares is least at the fitted amount, and grows as the square of the distance from it.
-    return sqrt(max(rows * (without**2 - misfit**2), 0.0) / noise)
-
-
-def _nonnegative(omega, measured, times, equilibrium):
-    """The series of given times, moduli >= 0, and given or fitted equilibrium, with the least relative misfit."""
-    # Only tables need it.
-    from scipy.optimize import nnls
-
-    phase = 1j * omega[:, None] * times
-    parts = np.hstack([np.ones((len(omega), 1)), phase / (1 + phase)])
-    matrix = np.vstack([parts.real / measured.real[:, None], parts.imag / measured.imag[:, None]])
-    target = np.ones(len(matrix))
-    if equilibrium is not None:
-        target -= equilibrium * matrix[:, 0]
-        matrix[:, 0] = 0.0
-    size = np.linalg.norm(matrix, axis=0) + (matrix[0] == 0)
-    amounts = nnls(matrix / size, target, maxiter=100 * len(size))[0] / size
-    rest, moduli = amounts[0] if equilibrium is None else equilibrium, amounts[1:]
-    kept = moduli * matrix[:, 1:].max(axis=0) > _INVISIBLE
-    return Relaxation.of(float(rest), moduli[kept], times[kept])
-
-
-def _misfit(series, omega, measured):
-    found = series.complex_modulus(omega)
-    return np.append(found.real / measured.real, found.imag / measured.imag) - 1
-
-
-def _rms(values):
-    return float(np.sqrt(np.mean(values**2)))
+def _rows(solid: Tabulated) -> Measured:
+    kinds = {Table: Oscillation, RelaxationTable: Stress, CreepTable: Creep}
+    return kinds[type(solid.table)](*solid.measured())

@@ -4,7 +4,7 @@ Time convention exp(i omega t): G(omega) = G'(omega) + i G''(omega), both >= 0 f
 """
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
@@ -12,6 +12,7 @@ from .modes import Relaxation, Retardation
 from .quantities import RADIAN_PER_SECOND, SECOND, Finite, takes
 
 PoissonRatio = Annotated[Finite, Field(gt=-1, le=0.5)]
+INCOMPRESSIBLE = 0.5  # Poisson ratio of a solid that states none
 
 
 class Linear:
@@ -31,6 +32,10 @@ class Linear:
     def modes(self) -> Relaxation | Retardation:
         """The one statement from which everything else is derived."""
         raise NotImplementedError
+
+    def at_reference(self, law: Any) -> "Linear":
+        """The solid at the reference of a law of temperature, where its table has several; else itself."""
+        return self
 
     def relaxation(self):
         """Maxwell modes: equilibrium modulus [Pa], moduli (K,) [Pa], times (K,) [s] ascending.

@@ -2,6 +2,7 @@
 
 import tracemalloc
 
+import numpy as np
 import pytest
 from test_compare_cases import SCENE
 from typer.testing import CliRunner
@@ -10,12 +11,13 @@ from bem3d import BEM
 from compare import run
 from compare.cli import app
 from compare.planning import plans
+from compare.plots import solid, style
 from compare.rectangle import contacts_of
 from compare.studies.trust.verdict import trust
 from mdr1d import MDR
-from scene import Scene
+from scene import WLF, Indent, Prony, Scene, Sphere, Tabulated
 from scene.plan import Plan
-from scene.reading import read
+from scene.reading import made, read
 
 TINY = """
 [study]
@@ -62,11 +64,18 @@ def told(path, *options):
     return CliRunner().invoke(app, ["plan", str(path), *options])
 
 
-def test_a_plan_is_five_lines(written):
+def test_a_plan_is_six_lines(written):
     answer = told(written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n"))
     assert answer.exit_code == 0
     lines = answer.output.splitlines()
-    assert [each[:9].rstrip() for each in lines] == ["contacts", "time", "memory", "simulated", "left out"]
+    assert [each[:9].rstrip() for each in lines] == [
+        "contacts",
+        "time",
+        "memory",
+        "simulated",
+        "left out",
+        "modulus",
+    ]
     assert max(map(len, lines)) <= 100
 
 
@@ -132,3 +141,80 @@ def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
         tracemalloc.stop()
     assert found["BEM"].memory > 2e9
     assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
+
+
+@pytest.mark.parametrize(
+    ("elastomer", "said"),
+    [
+        (
+            {"type": "kelvin", "modulus": 1e6, "relaxation_time": 1e-3, "poisson_ratio": 0.5},
+            "shear G = 1 MPa, Young's E = 3 MPa at rest; infinite at the instant, by a dashpot",
+        ),
+        (
+            {
+                "type": "standard-linear-solid",
+                "rubbery_modulus": 670e3,
+                "glassy_youngs_modulus": 26e6,
+                "relaxation_time": 1e-3,
+            },
+            "shear G = 670 kPa, Young's E = 1.74 MPa at rest; 10 MPa, 26 MPa at the instant",
+        ),
+        ({"type": "elastic", "modulus": 1e9}, "shear G = 1 GPa, Young's E = 2.6 GPa at rest and at the instant"),
+    ],
+)
+def test_a_plan_says_how_stiff_the_solid_is_at_rest_and_at_the_instant(elastomer, said):
+    stated = {"poisson_ratio": 0.3} | elastomer
+    scene = {"indenter": {"type": "sphere", "radius": 1e-2}, "motion": {"type": "indent", "load": 1.0}}
+    found = plans(made(scene | {"elastomer": stated}, Scene, "scene"))
+    assert f"modulus    {said}" in str(found).splitlines()
+
+
+TIME = np.geomspace(1e-5, 1e1, 30)
+LAW = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6)
+SERIES = Prony(1e6, (1e6, 3e6), (1e-1, 1e-3))
+
+
+def moduli_drawn(table):
+    scene = Scene(Sphere(1e-2), Tabulated(table=table, poisson_ratio=0.3), Indent(load=1.0), temperature=LAW)
+    drawn = solid.plot(scene)
+    with style.applied():
+        return drawn, drawn.figure().axes
+
+
+def test_measured_moduli_are_drawn_as_points_on_their_fit_at_the_temperature_of_the_scene():
+    omega = np.geomspace(1e-1, 1e5, 20)
+    law = SERIES.complex_modulus(omega)
+    drawn, (axes, right) = moduli_drawn({"omega": omega, "G'": law.real, "G''": law.imag})
+    points = [line for line in axes.lines if line.get_label() == "measured"]
+    for line, part in zip(points, (law.real, law.imag), strict=True):
+        np.testing.assert_allclose(line.get_xdata(), omega / LAW.shift)
+        np.testing.assert_allclose(1e6 * np.asarray(line.get_ydata()), part)
+    fit = drawn.tables[solid.NAME]
+    at_points = np.interp(np.log(omega / LAW.shift), np.log(fit["omega"]), np.log(fit["storage"]))
+    np.testing.assert_allclose(np.exp(at_points), law.real, rtol=5e-3)
+    np.testing.assert_allclose(right.get_ylim(), np.multiply(2.6, axes.get_ylim()))
+    assert "at 310 K" in drawn.caption
+
+
+@pytest.mark.parametrize("name", ["G(t)", "J(t)"])
+def test_relaxation_and_creep_are_drawn_beside_the_moduli(name):
+    law = SERIES.relaxation_modulus(TIME) if name == "G(t)" else SERIES.creep_compliance(TIME)
+    _, (_, axes, _) = moduli_drawn({"t": TIME, name: law})
+    (points,) = (line for line in axes.lines if line.get_label() == "measured")
+    np.testing.assert_allclose(points.get_xdata(), TIME * LAW.shift)
+    assert axes.get_ylabel().endswith("[MPa]" if name == "G(t)" else "[1/MPa]")
+
+
+@pytest.mark.parametrize("form", ["png", "pdf", "svg"])
+def test_a_plan_draws_the_solid_into_a_file(written, tmp_path, form):
+    path = tmp_path / f"solid.{form}"
+    answer = told(written(SCENE), "--figure", str(path))
+    assert answer.exit_code == 0
+    assert path.stat().st_size > 1000
+
+
+def test_a_figure_of_another_form_is_refused(written, tmp_path):
+    answer = told(written(SCENE), "--figure", str(tmp_path / "solid.jpg"))
+    assert answer.exit_code == 2
+    assert "a file that ends in .png, .pdf, .svg" in answer.output
+    assert not (tmp_path / "solid.jpg").exists()

@@ -29,6 +29,7 @@ from scene import (
     Arrhenius,
     Cone,
     Coulomb,
+    CreepTable,
     CrossedWaves,
     Cylinder,
     Elastic,
@@ -43,6 +44,7 @@ from scene import (
     PowerLaw,
     Program,
     Prony,
+    RelaxationTable,
     Scene,
     SelfAffine,
     Shear,
@@ -81,7 +83,8 @@ FREQUENCY, STORAGE, LOSS = (1.0, 10.0, 100.0, 1e3), (1e6, 1.1e6, 2e6, 3e6), (5e4
 PRESSED = {"load": 1.0, "depth": 1e-3, "line_load": 10.0, "pressure": 1e4, "gap": 1e-6}
 SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 ROUGH = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-3, shortest=1e-4, rolloff=5e-4, seed=2)
-TABLE = Table(FREQUENCY, STORAGE, LOSS)
+WARM = (300.0, 300.0, 300.0, 300.0)
+TABLE = Table(FREQUENCY, STORAGE, LOSS, temperature=WARM)
 RECTANGLE = compare.Rectangle(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
 # Valid objects, in which each field that takes a number has one.
 OBJECTS = [
@@ -101,6 +104,8 @@ OBJECTS = [
     Fractional(modulus=1e6, relaxation_time=1e-3, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e3),
     Tabulated(table=TABLE, frequency_unit="Hz", kind="shear", equilibrium_modulus=9e5, tolerance=0.5),
     TABLE,
+    RelaxationTable(FREQUENCY, STORAGE[::-1], temperature=WARM),
+    CreepTable(FREQUENCY, (1e-6, 2e-6, 3e-6, 4e-6), temperature=WARM),
     Heating(conductivity=20.0),
     Layer(thickness=1e-2),
     *(Indent(**{name: value}) for name, value in PRESSED.items()),
@@ -224,7 +229,7 @@ METHODS = {
     "lower": (1e4, "rad/m"),
 }
 NOT_NUMBERS = {
-    *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures"),
+    *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures", "figure"),
     *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
     *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
     *("level", "repeat", "peaks", "kind", "journal", "style", "to", "interactive", "progress", "dataset", "study"),

@@ -67,6 +67,9 @@ def test_no_meaning_overrides_a_name_that_a_table_has():
     [
         ("elastomer", "G", "1 MPa", "modulus", {}),
         ("elastomer", "shear_modulus", "1 MPa", "modulus", {}),
+        ("elastomer", "E", "3 MPa", "youngs_modulus", {}),
+        ("elastomer", "elastic_modulus", "3 MPa", "youngs_modulus", {}),
+        ("elastomer", "Young's modulus", "3 MPa", "youngs_modulus", {}),
         ("elastomer", "nu", 0.5, "poisson_ratio", {}),
         ("elastomer", "poisson", 0.5, "poisson_ratio", {}),
         ("elastomer", "tau", "1 ms", "relaxation_time", {}),
@@ -103,10 +106,8 @@ def test_another_name_of_a_field_is_said_as_the_field_and_its_value_is_checked_t
 @pytest.mark.parametrize(
     ("table", "name", "value", "field", "said", "parts"),
     [
-        ("elastomer", "E", "3 MPa", "modulus", "a third of E", {}),
-        ("elastomer", "youngs_modulus", "3 MPa", "modulus", "a third of E", {}),
-        ("elastomer", "elastic_modulus", "3 MPa", "modulus", "a third of E", {}),
-        ("elastomer", "Young's modulus", "3 MPa", "modulus", "a third of E", {}),
+        ("elastomer", "E", "3 MPa", "rubbery_modulus", "a third of E", {"elastomer": STANDARD}),
+        ("elastomer", "youngs_modulus", "3 MPa", "equilibrium_modulus", "a third of E", {"elastomer": PRONY}),
         ("elastomer", "E_star", "3 MPa", "modulus", "a fourth of E*", {}),
         ("elastomer", "stiffness", "3 N/m", "modulus", "shear modulus [Pa]", {}),
         ("elastomer", "viscosity", "1 kPa s", "relaxation_time", "relaxation_time = viscosity / modulus", {}),

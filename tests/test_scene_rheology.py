@@ -5,10 +5,13 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import TypeAdapter, ValidationError
 from solids import OF_EACH_TYPE
+from strategies import examples
 
-from scene import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
+from scene import Elastic, Fractional, Kelvin, KelvinChain, Prony, Scene, StandardLinearSolid
 from scene.modes import Relaxation, Retardation
 
 ROUNDING = 1e-13  # some tens of roundings; sums of terms of one sign
@@ -328,3 +331,120 @@ def test_the_modes_of_a_solid_have_a_bound_that_is_said(make):
     assert make((1.0,) * 200)
     with pytest.raises(ValueError, match="at most 200 items"):
         make((1.0,) * 201)
+
+
+IN_SHEAR = {
+    Elastic: {"modulus": 1e6},
+    Kelvin: {"modulus": 1e6, "relaxation_time": 1e-3},
+    StandardLinearSolid: {"rubbery_modulus": 1e6, "glassy_modulus": 7e8, "relaxation_time": 1e-3},
+    Prony: {"equilibrium_modulus": 1e6, "moduli": (2e6, 3e7), "relaxation_times": (1.0, 1e-3)},
+    KelvinChain: {
+        "instantaneous_compliance": 1e-9,
+        "compliances": (1e-6, 2e-6),
+        "retardation_times": (1.0, 1e-3),
+    },
+    Fractional: {
+        "modulus": 1e6,
+        "relaxation_time": 1e-3,
+        "exponent": 0.5,
+        "lowest_frequency": 1.0,
+        "highest_frequency": 1e3,
+    },
+}
+each_in_shear = pytest.mark.parametrize("solid", IN_SHEAR, ids=lambda each: each.__name__)
+
+
+def stretched(solid, ratio):
+    """The fields of a solid with E in place of G, or D in place of J."""
+    found = {"poisson_ratio": ratio}
+    for name, value in IN_SHEAR[solid].items():
+        times = 2 * (1 + ratio) if "modul" in name else 1 / (2 * (1 + ratio)) if "compliance" in name else 1
+        other = name.replace("modul", "youngs_modul").replace("compliance", "tensile_compliance")
+        found[other] = tuple(times * each for each in value) if isinstance(value, tuple) else times * value
+    return found
+
+
+@each_in_shear
+@pytest.mark.parametrize("ratio", [0.5, 0.49, 0.3, 0.0, -0.5])
+def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus_to_the_last_digit(solid, ratio):
+    assert solid(**stretched(solid, ratio)) == solid(**IN_SHEAR[solid], poisson_ratio=ratio)
+    half = {name: value for name, value in stretched(solid, 0.5).items() if name != "poisson_ratio"}
+    assert solid(**half) == solid(**IN_SHEAR[solid])
+
+
+@given(st.floats(1e-3, 1e12), st.integers(-99, 50))
+@examples(100)
+def test_any_young_s_modulus_is_converted_to_within_a_rounding(modulus, hundredths):
+    ratio = hundredths / 100
+    found = Elastic(youngs_modulus=modulus, poisson_ratio=ratio).modulus
+    assert found == pytest.approx(modulus / (2 * (1 + ratio)), rel=4e-16)
+
+
+@pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"youngs_modulus": "3 MPa", "modulus": "1 MPa"}, "youngs_modulus beside modulus: give one"),
+        ({"youngs_modulus": "3 mm"}, "youngs_modulus\n.*a Young's modulus E, as 3 MPa"),
+        ({"youngs_modulus": 0.0}, "youngs_modulus\n.*greater than 0"),
+        ({"youngs_modulus": [1e6]}, "youngs_modulus\n"),
+        ({"youngs_modulus": 3e6, "poisson_ratio": 0.6}, "poisson_ratio\n.*0.5"),
+        ({"youngs_modulus": 3e6, "poisson_ratio": -1.0}, "poisson_ratio\n"),
+        ({"youngs_modulus": 5e-324}, "modulus\n.*greater than 0"),
+        ({}, "modulus\n.*required"),
+    ],
+)
+def test_a_wrong_young_s_modulus_is_refused_by_its_name(stated, said):
+    with pytest.raises(ValidationError, match=said):
+        Elastic(**stated)
+
+
+SHARES, TAU = (0.2, 0.3, 0.25), (0.1, 1.0, 10.0)
+TERMS = Prony(2.5e6, (2e6, 3e6, 2.5e6), TAU)
+
+
+@pytest.mark.parametrize(
+    "modulus",
+    [
+        {"instantaneous_modulus": "10 MPa"},
+        {"equilibrium_modulus": 2.5e6},
+        {"instantaneous_youngs_modulus": "30 MPa"},
+        {"equilibrium_youngs_modulus": 7.5e6},
+        {"instantaneous_youngs_modulus": 26e6, "poisson_ratio": 0.3},
+    ],
+)
+@pytest.mark.parametrize("time", ["tau", "relaxation_times"])
+def test_normalised_terms_are_the_plain_series(modulus, time):
+    found = Prony(g=SHARES, **modulus, **{time: TAU})
+    assert found == replace(TERMS, poisson_ratio=found.poisson_ratio)
+    assert Prony(equilibrium_modulus=2.5e6, moduli=TERMS.moduli, tau=TAU) == TERMS
+
+
+@pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"g": SHARES, "tau": TAU}, "give one of instantaneous_modulus and equilibrium_modulus"),
+        ({"g": SHARES, "tau": TAU, "instantaneous_modulus": 1e6, "equilibrium_modulus": 1e5}, "give one of"),
+        ({"g": SHARES, "tau": TAU[:2], "instantaneous_modulus": 1e6}, "tau has 2 values, g has 3"),
+        ({"g": (0.5, 0.5), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "the sum 1 leaves no modulus at rest"),
+        ({"g": (0.5, 0.7), "tau": TAU[:2], "equilibrium_modulus": 1e6}, "the sum 1.2 leaves no modulus at rest"),
+        ({"g": (0.5, -0.1), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "g.1\n.*greater than 0"),
+        ({"g": SHARES, "tau": (1.0, "1 m", 2.0), "instantaneous_modulus": 1e6}, "tau.1\n.*a time"),
+        ({"g": SHARES, "moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "g beside moduli"),
+        ({"moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "instantaneous_modulus goes with g"),
+        ({"g": 0.5, "tau": 1.0, "instantaneous_modulus": 1e6}, "g\n"),
+        ({"g": (), "tau": (), "instantaneous_modulus": 1e6}, "moduli\n.*at least 1"),
+    ],
+)
+def test_normalised_terms_that_are_no_solid_are_refused(stated, said):
+    with pytest.raises(ValidationError, match=said):
+        Prony(**stated)
+
+
+def test_the_schema_knows_young_s_moduli_and_normalised_terms():
+    kinds = TypeAdapter(Scene).json_schema()["$defs"]
+    for solid, stated in IN_SHEAR.items():
+        assert stretched(solid, 0.5).keys() | stated.keys() <= kinds[solid.__name__]["properties"].keys()
+        needed = {name for name in kinds[solid.__name__].get("required", ())}
+        assert not any("modul" in name or "compliance" in name for name in needed)
+    ways = {"g", "tau", "instantaneous_modulus", "instantaneous_youngs_modulus"}
+    assert ways <= kinds["Prony"]["properties"].keys()

@@ -149,11 +149,15 @@ def files_with_mistakes(size):
     files = {
         "a scene with five mistakes": (scene, FILE, five),
         "a scene cut off": (scene, "[indenter\n", "scene.toml | not valid TOML"),
-        "a table of words": (table, "frequency storage loss\n1 2 none\n", "line 2 | loss = 'none' | not a number"),
-        "a table with decimal commas": (table, "1,5;2,5;3,5\n", "line 1 | 6 columns | decimal points"),
+        "a table of words": (
+            table,
+            "frequency storage loss\n1 2 3\n1 2 x\n",
+            "line 3 | column 3 | 'x' is not a number",
+        ),
+        "a table with decimal commas": (table, "1,5;2,5;3,5\n", "1 frequencies | at least 4"),
         "a table with zero": (table, "1 1 1\n2 0 1\n", "line 2 | storage = 0 | greater than 0"),
-        "a table with nan": (table, "1 1 1\n2 nan 1\n", "line 2 | storage = nan | finite"),
-        "an empty table": (table, "# nothing\n", "0 frequencies | at least 4"),
+        "a table with nan": (table, "1 1 1\n2 nan 1\n", "1 frequencies | at least 4"),
+        "an empty table": (table, "# nothing\n", "no row of numbers"),
     }
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"

@@ -1,0 +1,118 @@
+"""Moduli of the solid of a scene against the frequency, beside what was measured of it."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from scene import CreepTable, Scene, Table, Tabulated
+
+from ..page import Plot, Tables
+from . import style
+from .lettering import letter
+from .prefixes import prefixed
+
+NAME = "solid"
+MEASURED, TIMES, MEASURED_TIMES = f"{NAME}-measured", f"{NAME}-times", f"{NAME}-times-measured"
+PLACES = 400
+ROOM = 30.0  # beyond the shortest and the longest time of the solid
+ELASTIC = np.geomspace(1.0, 1e3, PLACES)  # angular frequencies [rad/s] for a solid without times
+DECADES = 4.0  # of moduli below the one at rest that are shown
+PARTS = {"storage": ("-", "o", "storage modulus $G'$"), "loss": ("--", "s", "loss modulus $G''$")}
+OVER_TIME = {"modulus": "relaxation modulus $G(t)$", "compliance": "creep compliance $J(t)$"}
+
+
+def plot(scene: Scene) -> Plot:
+    """The plot of the solid of a scene, at its temperature."""
+    solid, tables = scene.solid, {}
+    times = np.concatenate([solid.relaxation()[2], solid.retardation()[2]])
+    omega = np.geomspace(1 / (ROOM * times.max()), ROOM / times.min(), PLACES) if len(times) else ELASTIC
+    tables[NAME] = _moduli(omega, solid.complex_modulus(omega))
+    shown = "Shear moduli of the solid"
+    if isinstance(scene.elastomer, Tabulated):
+        stated = scene.elastomer.at_reference(scene.temperature)
+        place, numbers = stated.measured()
+        longer = 1.0 if scene.temperature is None else scene.temperature.shift
+        if isinstance(stated.table, Table):
+            tables[MEASURED] = _moduli(place / longer, numbers)
+        else:
+            creeps = isinstance(stated.table, CreepTable)
+            name, law = ("compliance", solid.creep_compliance) if creeps else ("modulus", solid.relaxation_modulus)
+            time = np.geomspace(place[0], place[-1], PLACES) * longer
+            tables[TIMES] = DataFrame({"time": time, name: law(time)})
+            tables[MEASURED_TIMES] = DataFrame({"time": place * longer, name: numbers})
+        shown += ": lines of the fit, grey beyond the table, points of the table"
+    warm = "" if scene.temperature is None else f", at {scene.temperature.temperature:g} K"
+    caption = f"{shown}{warm}. Right axis: Young's moduli, by its Poisson ratio of {solid.poisson_ratio:g}."
+    alternative = "Storage and loss modulus as two curves against the angular frequency."
+    return Plot(NAME, figure, tables, caption, alternative, {"stiffer": 2 * (1 + solid.poisson_ratio)})
+
+
+def figure(tables: Tables, stiffer: float = 3.0) -> Figure:
+    """(a) Storage and loss modulus. (b) The relaxation modulus or creep compliance, where that was measured.
+
+    stiffer : Young's modulus over shear modulus
+    """
+    over_time = TIMES in tables
+    drawing = style.canvas("double" if over_time else "single", 2.6)
+    panels = drawing.subplots(1, 1 + over_time, squeeze=False)[0]
+    moduli(panels[0], tables[NAME], tables.get(MEASURED), stiffer)
+    if over_time:
+        in_time(panels[1], tables[TIMES], tables[MEASURED_TIMES])
+        for k, axes in enumerate(panels):
+            axes.set_title(f"({letter(k)}) {('moduli of the fit', 'as measured')[k]}")
+    return drawing
+
+
+def moduli(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: float) -> None:
+    """Panel of both moduli; a modulus that is zero is left out."""
+    up, unit = prefixed(table["storage"].iloc[0], "Pa")
+    seen = np.ones(len(table), bool) if measured is None else table["omega"].between(*_ends(measured["omega"]))
+    for name, (line, marker, label) in PARTS.items():
+        if not (table[name] > 0).any():
+            continue
+        if measured is not None:  # beyond it the fit is a guess
+            axes.plot(table["omega"], up * table[name], line, **style.line(0.55, 0.8))
+        axes.plot(table["omega"][seen], up * table[name][seen], line, color=style.ink(), label=label)
+        if measured is not None:
+            filled = style.ink() if name == "storage" else style.paper()
+            look: dict[str, Any] = {
+                "marker": marker,
+                "markersize": style.mark(0.8),
+                "markerfacecolor": filled,
+                "linestyle": "",
+            }
+            axes.plot(measured["omega"], up * measured[name], color=style.ink(), label="measured", **look)
+    axes.set(xscale="log", yscale="log", xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
+    axes.set_xlim(table["omega"].iloc[0], table["omega"].iloc[-1])
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], up * table["storage"].iloc[0] * 10**-DECADES))
+    right = axes.twinx()
+    right.spines["right"].set_visible(True)
+    right.set(yscale="log", ylim=[stiffer * end for end in axes.get_ylim()], ylabel=f"Young's modulus [{unit}]")
+    style.decades(axes, right)
+    axes.legend()
+
+
+def in_time(axes: Axes, table: DataFrame, measured: DataFrame) -> None:
+    """Panel of what was measured over time, and of the fit."""
+    name = next(each for each in OVER_TIME if each in table)
+    up, unit = prefixed(measured[name] if name == "modulus" else 1 / measured[name], "Pa")
+    if name == "compliance":
+        up, unit = 1 / up, f"1/{unit}"
+    axes.plot(table["time"], up * table[name], "-", color=style.ink(), label="fit")
+    axes.plot(
+        measured["time"], up * measured[name], "o", color=style.ink(), markersize=style.mark(0.8), label="measured"
+    )
+    axes.set(xscale="log", yscale="log", xlabel="time [s]", ylabel=f"{OVER_TIME[name]} [{unit}]")
+    style.decades(axes)
+    axes.legend()
+
+
+def _ends(values):
+    return values.min(), values.max()
+
+
+def _moduli(omega, modulus):
+    return DataFrame({"omega": omega, "storage": modulus.real, "loss": modulus.imag})

@@ -1,0 +1,180 @@
+"""Prony series that follow measurements: nonnegative least squares over times a fraction of a decade apart."""
+
+from math import inf, sqrt
+
+import numpy as np
+
+from .modes import Relaxation, Retardation
+
+# Times further beyond the ends of what was measured than this cannot be told from its ends.
+_MARGIN = 10**0.5
+_TIMES_A_DECADE = (1, 1.5, 2, 3, 5, 10, 30)
+# No measurement is worth modes for a smaller misfit.
+_NEGLIGIBLE = 1e-3
+# Largest relative contribution of a mode that is left out.
+_INVISIBLE = 1e-7
+# Weight of what is known beside rows that are measured.
+_KNOWN = 1e6
+
+Modes = Relaxation | Retardation
+
+
+class Measured:
+    """What is followed: measured numbers (M,), each to the same share of itself.
+
+    measured : the numbers
+    """
+
+    measured: np.ndarray
+
+    def ends(self, rest: float | None) -> tuple[float, float]:
+        """Shortest and longest time of a mode [s]; rest : modulus at rest [Pa] if it is known"""
+        raise NotImplementedError
+
+    def of(self, modes: Modes) -> np.ndarray:
+        """The same numbers of a solid (M,)."""
+        raise NotImplementedError
+
+    def parts(self, times: np.ndarray) -> np.ndarray:
+        """The same (M, 1 + K) of a spring of one, and of a mode of one for each time."""
+        raise NotImplementedError
+
+    def series(self, times: np.ndarray, rest: float | None) -> Modes:
+        """The modes of given times, amounts >= 0, and given or fitted modulus at rest, with the least misfit."""
+        matrix, target = self.parts(times) / self.measured[:, None], np.ones(len(self.measured))
+        if rest is not None:
+            target -= rest * matrix[:, 0]
+            matrix[:, 0] = 0.0
+        amounts = _nonnegative(matrix, target)
+        kept = amounts[1:] * matrix[:, 1:].max(axis=0) > _INVISIBLE
+        return Relaxation.of(float(amounts[0]) if rest is None else rest, amounts[1:][kept], times[kept])
+
+    def misfit(self, modes: Modes) -> np.ndarray:
+        """Relative misfits (M,)."""
+        return self.of(modes) / self.measured - 1
+
+    def liquid(self, times: np.ndarray) -> float:
+        """Root mean square of the misfits of the best liquid of such times."""
+        return rms(self.misfit(self.series(times, 0.0)))
+
+
+class Oscillation(Measured):
+    """Complex moduli (N,) [Pa] at angular frequencies (N,) [rad/s], ascending."""
+
+    def __init__(self, omega, modulus):
+        self.omega, self.measured = omega, np.append(modulus.real, modulus.imag)
+
+    def ends(self, rest):
+        return 1 / (self.omega[-1] * _MARGIN), _MARGIN / self.omega[0]
+
+    def of(self, modes):
+        found = modes.complex_modulus(self.omega)
+        return np.append(found.real, found.imag)
+
+    def parts(self, times):
+        phase = 1j * self.omega[:, None] * times
+        parts = np.hstack([np.ones((len(self.omega), 1)), phase / (1 + phase)])
+        return np.vstack([parts.real, parts.imag])
+
+
+class Stress(Measured):
+    """Relaxation moduli (N,) [Pa] at times (N,) [s], ascending."""
+
+    def __init__(self, time, modulus):
+        self.time, self.measured = time, modulus
+
+    def ends(self, rest):
+        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN
+
+    def of(self, modes):
+        return modes.modulus(self.time)
+
+    def parts(self, times):
+        return np.hstack([np.ones((len(self.time), 1)), np.exp(-self.time[:, None] / times)])
+
+
+class Creep(Measured):
+    """Creep compliances (N,) [1/Pa] at times (N,) [s], ascending."""
+
+    def __init__(self, time, compliance):
+        self.time, self.measured = time, compliance
+
+    def ends(self, rest):
+        # A compliance that is known and not reached yet grows at most as the time.
+        further = 1.0 if rest is None else max(1.0, 1 / (rest * self.measured[-1]))
+        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN * further
+
+    def of(self, modes):
+        return modes.compliance(self.time)
+
+    def parts(self, times):
+        return np.hstack([np.ones((len(self.time), 1)), -np.expm1(-self.time[:, None] / times)])
+
+    def series(self, times, rest):
+        matrix, target = self.parts(times) / self.measured[:, None], np.ones(len(self.measured))
+        scale = 1.0 if rest is None else 1 / rest
+        if rest is not None:  # the sum of all compliances is known
+            matrix = np.vstack([matrix, np.full(len(times) + 1, _KNOWN / scale)])
+            target = np.append(target, _KNOWN)
+        amounts = _nonnegative(matrix, target)
+        kept = amounts[1:] * matrix[: len(self.time), 1:].max(axis=0) > _INVISIBLE
+        amounts[1:] *= kept
+        if rest is not None:
+            amounts *= scale / amounts.sum()
+        return Retardation.of(float(amounts[0]), amounts[1:][kept], times[kept])
+
+    def liquid(self, times):
+        # Its slowest relaxation, about recoverable compliance times viscosity, is no slower than that of a solid.
+        flow = self.time[:, None] / times.max()
+        matrix = np.hstack([self.parts(times) + flow, flow]) / self.measured[:, None]
+        return rms(matrix @ _nonnegative(matrix, np.ones(len(matrix))) - 1)
+
+
+def fitted(rows: Measured, rest: float | None) -> tuple[Modes, float]:
+    """Modes at as few times a decade as follow the rows about as well as many do, and the error at rest [Pa].
+
+    rest : modulus at rest [Pa] if it is known
+    """
+
+    def times(density):
+        fast, slow = rows.ends(rest)
+        return np.geomspace(fast, slow, int(np.ceil(np.log10(slow / fast) * density)) + 1)
+
+    def misfit(modes):
+        return rms(rows.misfit(modes))
+
+    *coarser, finest = _TIMES_A_DECADE
+    best = rows.series(times(finest), rest)
+    enough = max(1.1 * misfit(best), _NEGLIGIBLE)
+    tried = (rows.series(times(density), rest) for density in coarser)
+    found = next((series for series in tried if misfit(series) <= enough), best)
+    if rest is not None:
+        return found, 0.0
+    # With the most times, as slow modes else leave room for a modulus at rest.
+    told = _standard_errors(len(rows.measured), len(best.times) + 1, misfit(best), rows.liquid(times(finest)))
+    return found, found.equilibrium / told if told and found.equilibrium else inf
+
+
+def rms(values: np.ndarray) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _standard_errors(count, fitted, misfit, without):
+    """Standard errors by which a fitted modulus at rest differs from zero.
+
+    count, fitted : numbers of misfits, and of amounts that were fitted
+    misfit, without : root mean square of the misfits with that modulus, and without it
+    """
+    noise = max(count * misfit**2 / max(count - fitted, 1), _NEGLIGIBLE**2)
+    # The sum of squares is least at the fitted amount, and grows as the square of the distance from it.
+    return sqrt(max(count * (without**2 - misfit**2), 0.0) / noise)
+
+
+def _nonnegative(matrix, target):
+    """Amounts >= 0 of the columns of a matrix that come closest to a target."""
+    # Only tables need it.
+    from scipy.optimize import nnls
+
+    size = np.linalg.norm(matrix, axis=0) + (matrix[0] == 0)
+    return nnls(matrix / size, target, maxiter=100 * len(size))[0] / size
