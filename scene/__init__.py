@@ -17,7 +17,7 @@ from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import CrossedWaves, Wave
 from .scene import Scene
 from .selfaffine import SelfAffine
-from .table import CreepTable, RelaxationTable, Table, read_table
+from .table import CreepTable, RelaxationTable, Table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius
 from .topography import Topography
