@@ -3,6 +3,8 @@
 import inspect
 import json
 import os
+import re
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -107,16 +109,22 @@ class Command:
     def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
         """Do the command, print what came of it, and end with its status."""
         with said_to_people(f"--output {given.get('output')}", solves=self.solves):
-            if self.tells and not (quiet or json):
-                with Preparing(lines=verbose) as given["progress"]:
+            # What Python is warned of stands at the top of what is printed.
+            with warnings.catch_warnings():
+                warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
+                if self.tells and not (quiet or json):
+                    with Preparing(lines=verbose) as given["progress"]:
+                        found = self.function(**given)
+                else:
                     found = self.function(**given)
-            else:
-                found = self.function(**given)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
             say(f"0 tasks solved, {swept.reused} reused")
         for line in getattr(found, "faults", ()):
             say(f"crosscheck: {line}", error=True)
+        if quiet or json:
+            for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
+                say(f"crosscheck: {line}", error=True)
         if json:
             say(_as_json(found))
         elif not quiet:
@@ -158,7 +166,9 @@ def _keyword(name, annotation, default=False):
 def _as_json(found: Any) -> str:
     if hasattr(found, "findings"):
         rows = json.loads(found.findings.to_json(orient="records", double_precision=15))
-        return json.dumps({"page": str(found.path) if found.path else None, "findings": rows}, indent=1)
+        page = str(found.path) if found.path else None
+        told = {"page": page, "doubts": list(found.page.first), "findings": rows}
+        return json.dumps(told, indent=1)
     return json.dumps({name: str(each) for name, each in dict(found).items()}, indent=1)
 
 

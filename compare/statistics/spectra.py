@@ -10,6 +10,7 @@ from math import hypot, log10, pi
 import numpy as np
 
 from scene import Topography
+from scene.doubt import LOPSIDED
 
 from .powerlaw import LEAST, SelfAffineLaw, fit
 
