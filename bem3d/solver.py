@@ -12,7 +12,7 @@ from pydantic.dataclasses import dataclass
 from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, doubts
 from scene.machine import shortage
 from scene.plan import Plan
-from scene.protocol import foresee, refuse, trusted
+from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Positive, UnitOfOthers, Whole, takes
 from scene.terms import Table, surrounded, terms_of
 
@@ -192,10 +192,10 @@ class BEM:
     def plan(self, scene: Scene) -> Plan:
         """Plan of a scene: the parts that would be simulated, and their costs; nothing is solved.
 
-        Raises Refused as `solve` does, and for what is `foreseen`; SolveError for a program of too many steps or
-        lengths beyond the range of numbers. Other reasons for which a solve may fail it does not see.
+        Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
+        of numbers. For which other reasons a solve would fail, as far as that shows beforehand, `foreseen` says.
         """
-        foresee(self, scene)
+        refuse(self, scene)
         with trusted():
             return replace(plan_of(self, scene), doubts=self.doubts(scene))
 

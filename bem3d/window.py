@@ -217,7 +217,7 @@ def foreseen(problem: Problem, points: int, extent: float | None) -> list[str]:
     A coarse contact is sought, as by `fitted`, where the widest window that there can be does not settle it.
     extent : as stated [m]; None where the window is fitted
     """
-    scene, width, most = problem.scene, problem.width, 2 * surroundings(problem).right
+    scene, width, most = problem.scene, problem.width, _widest(problem)
     carries = not _missed(scene, Grid(points, most if extent is None else extent, width=width))
     if carries and (extent is None or most <= extent):
         return []
@@ -235,6 +235,14 @@ def foreseen(problem: Problem, points: int, extent: float | None) -> list[str]:
         f"the contact reaches the edge of extent = {extent:g} m: extent = {enough:.3g} holds it, with points = "
         f"{ceil(points * enough / extent)} on the same pixel; without an extent the window is fitted"
     ]
+
+
+def _widest(problem):
+    """Side of a square around the axis that no contact leaves [m]: of a smooth body that of the contact at rest."""
+    scene = problem.scene
+    if scene.layer is None and scene.roughness is None and not isinstance(scene.indenter, Measured):
+        return 2 * elastic_contact(scene).radius
+    return 2 * surroundings(problem).right
 
 
 def _reach(start):

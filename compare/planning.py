@@ -8,6 +8,7 @@ from mdr1d import MDR
 from scene import Refused, Scene, SolveError, markup, notes
 from scene.costs import two_digits
 from scene.plan import Plan, size
+from scene.protocol import foresee
 
 from .amounts import duration, seconds
 from .cases import Case, NotCompared, doubted
@@ -110,6 +111,7 @@ def plans(asked: Asked) -> Plans:
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
     """The plan of a solver, or its reasons against the scene."""
     try:
+        foresee(solver, scene)
         return solver.plan(scene)
     except Refused as reasons:
         return str(reasons)

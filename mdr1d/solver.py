@@ -13,7 +13,7 @@ from scene import Doubt, EmptyContact, Program, Result, Scene, SolveError, doubt
 from scene.heightmap import Scanned
 from scene.machine import shortage
 from scene.plan import Plan
-from scene.protocol import foresee, refuse, trusted
+from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Whole
 from scene.roughness import Roughness
 from scene.terms import Table, surrounded, terms_of
@@ -134,11 +134,11 @@ class MDR:
     def plan(self, scene: Scene) -> Plan:
         """Plan of a scene: the parts that would be simulated, and their costs; nothing is solved.
 
-        Raises Refused as `solve` does, and for what is `foreseen`; SolveError for a program of too many steps or
-        lengths beyond the range of numbers. Other reasons for which a solve may fail it does not see.
+        Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
+        of numbers. For which other reasons a solve would fail, as far as that shows beforehand, `foreseen` says.
         """
         with trusted():
-            foresee(self, scene)
+            refuse(self, scene)
             return replace(plan_of(self, scene, self._laid_out(scene)), doubts=self.doubts(scene))
 
     def solve(self, scene: Scene) -> Result:

@@ -179,12 +179,10 @@ def test_what_is_elastic_has_no_friction():
         ({"roughness": Wave(amplitude=1e-5, wavelength=1e-3)}, "roughness = Wave"),
         ({"roughness": replace(ROUGH, shortest=None)}, "roughness.shortest"),
         ({"roughness": replace(ROUGH, amplitudes="gaussian")}, "roughness.amplitudes"),
-        ({"roughness": replace(ROUGH, shortest=5e-6)}, "a/λ_s = 2"),
-        ({"roughness": replace(ROUGH, rms_height=1e-3)}, "h0/d = "),
+        ({"roughness": replace(ROUGH, hurst=0.8, shortest=5e-6)}, "a/λ_s = 2"),
+        ({"roughness": replace(ROUGH, rms_height=2e-4)}, "h0/d = "),
         ({"motion": Slide(speed=1e9, load=1.0)}, "G''(v q_s)/G0 = "),
-        ({"indenter": PowerLaw(1e300, 60.0)}, ""),
         ({"motion": Slide(speed=0.1, load=1e-250)}, ""),
-        ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
     ],
 )
 def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing(changed, said):
