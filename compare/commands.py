@@ -82,7 +82,7 @@ def _warn(sentences: Sequence[str]) -> None:
     from scene import Doubtful
 
     level, frame = 1, sys._getframe()
-    while frame is not None and frame.f_globals["__name__"] == __name__:
+    while frame is not None and frame.f_globals.get("__name__") == __name__:
         level, frame = level + 1, frame.f_back
     for each in sentences:
         warnings.warn(each, Doubtful, stacklevel=level)
