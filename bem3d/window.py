@@ -261,7 +261,9 @@ def doubts(scene: Scene, grid: Grid) -> tuple[Doubt, ...]:
         found.append(Doubt("pixels in 3D on the shortest wave", shortest / grid.pixel, RESOLVED, "", why))
     if reasons := _falsified(scene, grid):
         share = layer.falsified(scene, grid)
-        found.append(Doubt("share of the force that pixels falsify", share, layer.FALSIFIED, "", "; ".join(reasons)))
+        found.append(
+            Doubt("share of the force that pixels falsify", share, layer.FALSIFIED, "", "; ".join(reasons))
+        )
     return tuple(found)
 
 

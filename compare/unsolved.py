@@ -56,7 +56,8 @@ class Unsolved:
         if not self.failed:
             return ()
         by_solver = ", ".join(
-            f"{count} of {self.contacts[name]} in {DIMENSIONS.get(name, name)}" for name, count in self.failed.items()
+            f"{count} of {self.contacts[name]} in {DIMENSIONS.get(name, name)}"
+            for name, count in self.failed.items()
         )
         own = ", the scene's own among them" if self.own else ""
         whole = f"{sum(self.failed.values())} of {sum(self.contacts.values())}"

@@ -178,7 +178,14 @@ LIMITS = (
     Limit("depth", "depth of the contact", 1e-10, "m", ATOM, False),
     Limit("edge_slope", "slope of the body at the edge of the contact", SMALL_SLOPE, "", LINEAR, beside=_size),
     Limit(
-        "edge_slope", "slope of the body at the edge of the contact", 1e-5, "", "flatter than any body", False, (), _size
+        "edge_slope",
+        "slope of the body at the edge of the contact",
+        1e-5,
+        "",
+        "flatter than any body",
+        False,
+        (),
+        _size,
     ),
     Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR),
     Limit("rms_slope", "rms slope of the roughness", 1e-4, "", "smoother than polished glass: check units", False),

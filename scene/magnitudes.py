@@ -33,7 +33,9 @@ class Magnitudes:
     def contact(self) -> ElasticContact:
         """Smooth relaxed contact."""
         motion = self.scene.motion
-        return elastic_contact(replace(self.scene, motion=motion.held) if isinstance(motion, Program) else self.scene)
+        return elastic_contact(
+            replace(self.scene, motion=motion.held) if isinstance(motion, Program) else self.scene
+        )
 
     @property
     def body_radius(self) -> float:
@@ -153,7 +155,9 @@ class Magnitudes:
     @cached_property
     def frequencies(self) -> np.ndarray:
         """Frequencies that a steadily sliding contact sees [rad/s]: of its length, its shortest wave, and around."""
-        if not (isinstance(self.scene.motion, Slide) and self.speed > 0 and len(self.scene.solid.retardation()[2])):
+        if not (
+            isinstance(self.scene.motion, Slide) and self.speed > 0 and len(self.scene.solid.retardation()[2])
+        ):
             raise AttributeError("nothing that relaxes slides steadily")
         lowest = highest = self.speed / self.length
         if (rough := self.scene.roughness) is not None and not rough.flat and rough.shortest is not None:

@@ -15,7 +15,20 @@ from compare.cli import app
 from compare.plots import draw, relief, style
 from compare.studies.draw import APART
 from mdr1d import MDR
-from scene import WLF, Cylinder, Doubtful, Heating, Indent, Kelvin, Layer, Refused, SelfAffine, Slide, SolveError, Sphere
+from scene import (
+    WLF,
+    Cylinder,
+    Doubtful,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Refused,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+)
 from scene.reading import InvalidInput
 
 R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0

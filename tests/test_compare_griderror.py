@@ -66,7 +66,10 @@ def test_a_sweep_states_the_error_of_every_contact_and_warns_of_a_great_one(tmp_
     )
     assert (fine["friction_error"].sel(grid="fine") < griderror.MUCH).all()
     steep = pytest.warns(Doubtful, match="slope of the body at the edge of the contact")
-    with steep, pytest.warns(compare.UncertainFriction, match="Friction in 3D may be wrong by up to .* by the grid"):
+    with (
+        steep,
+        pytest.warns(compare.UncertainFriction, match="Friction in 3D may be wrong by up to .* by the grid"),
+    ):
         compare.sweep(case(BLUNT, 0.3), speed=[0.3], workers=1, report=False, output=tmp_path / "b")
 
 

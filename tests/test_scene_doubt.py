@@ -159,9 +159,9 @@ def test_temperatures_in_degrees_celsius_are_not_doubted():
 def test_slopes_of_every_roughness_are_those_of_its_surface():
     grid = np.linspace(0, 1e-3, 64, endpoint=False)
     q, amplitude = 2 * np.pi / 1e-3, 1e-4
-    crossed = np.hypot(
-        *np.gradient(amplitude * np.cos(q * grid)[:, None] * np.cos(q * grid)[None, :], grid[1])
-    )[1:-1, 1:-1]
+    crossed = np.hypot(*np.gradient(amplitude * np.cos(q * grid)[:, None] * np.cos(q * grid)[None, :], grid[1]))[
+        1:-1, 1:-1
+    ]
     for rough, slope in (
         (Wave(amplitude=amplitude, wavelength=1e-3), amplitude * q / np.sqrt(2)),
         (CrossedWaves(amplitude=amplitude, wavelength=1e-3), np.sqrt(np.mean(crossed**2))),

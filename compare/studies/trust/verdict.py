@@ -180,7 +180,9 @@ def trust(scene: Scene) -> Trust:
 
 def _advised(scene):
     if (steep := beyond_linear(scene)) is not None:
-        why = f"This advice is about linear contacts, and this is none: {steep.name} = {steep.number:.3g}, above 1."
+        why = (
+            f"This advice is about linear contacts, and this is none: {steep.name} = {steep.number:.3g}, above 1."
+        )
         return _unknown(scene, f"{why} 3D is as linear as 1D.", NONE)
     if reasons := unmeasured(scene):
         return _unknown(scene, f"Off the map: {'; '.join(reasons)}.")
