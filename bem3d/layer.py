@@ -106,7 +106,10 @@ def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[st
 
 def falsified(scene: Scene, grid: Grid, radius: float | None = None) -> float:
     """Relative error of the force that the pixels of a grid make on a layer; radius : see `unresolved`."""
-    return Layered.of(scene.layer, scene.solid.poisson_ratio).falsified(grid.pixel, _radius(grid, radius))
+    layer = scene.layer
+    if layer is None:
+        return 0.0
+    return Layered.of(layer, scene.solid.poisson_ratio).falsified(grid.pixel, _radius(grid, radius))
 
 
 def _radius(grid, radius):

@@ -173,16 +173,16 @@ class BEM:
         return reasons or shortage(memory_of(self, scene), self.engine.memory)
 
     def foreseen(self, scene: Scene) -> list[str]:
-        """Reasons why a solve of what is not refused would fail all the same, as far as a coarse contact shows them.
+        """Reasons why a solve of what is not refused would fail all the same, as far as a coarse contact shows.
 
-        That is solved only where the widest window there can be leaves a doubt, and not for a Program.
+        One is solved only where the widest window there can be leaves a doubt, and not for a Program.
         """
         if isinstance(scene.indenter, Plane) or isinstance(scene.motion, Program):
             return []
         return window.foreseen(Problem(scene, self.engine, self.terms), self.points, self.extent)
 
     def doubts(self, scene: Scene) -> tuple[Doubt, ...]:
-        """Doubts about a scene, and about how well the grid shows it; its window is an estimate. Nothing is solved."""
+        """Doubts about a scene, and about how well a grid of the window that is likely shows it; nothing is solved."""
         try:
             grid = likely_grid(self, scene)
             return *doubts(scene, grid.pixel), *window.doubts(scene, grid)

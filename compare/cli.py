@@ -108,15 +108,15 @@ class Command:
 
     def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
         """Do the command, print what came of it, and end with its status."""
-        with said_to_people(f"--output {given.get('output')}", solves=self.solves):
+        output = f"--output {given.get('output')}"
+        with warnings.catch_warnings(), said_to_people(output, solves=self.solves):
             # What Python is warned of stands at the top of what is printed.
-            with warnings.catch_warnings():
-                warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
-                if self.tells and not (quiet or json):
-                    with Preparing(lines=verbose) as given["progress"]:
-                        found = self.function(**given)
-                else:
+            warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
+            if self.tells and not (quiet or json):
+                with Preparing(lines=verbose) as given["progress"]:
                     found = self.function(**given)
+            else:
+                found = self.function(**given)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
             say(f"0 tasks solved, {swept.reused} reused")

@@ -32,6 +32,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     import xarray
     from matplotlib.figure import Figure
 
@@ -81,7 +83,8 @@ def _warn(sentences: Sequence[str]) -> None:
     """Warn Doubtful of each sentence, as from the line that called a function of this module."""
     from scene import Doubtful
 
-    level, frame = 1, sys._getframe()
+    frame: FrameType | None = sys._getframe()
+    level = 1
     while frame is not None and frame.f_globals.get("__name__") == __name__:
         level, frame = level + 1, frame.f_back
     for each in sentences:

@@ -27,7 +27,7 @@ class Plans(dict[str, Plan | str | Trust]):
 
     scene : the scene that is planned
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
-    refused : whether that is a refusal of the numbers of a scene of a kind that it compares
+    refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
     """
 

@@ -18,7 +18,7 @@ from .page import Page, Plot
 from .plots import style
 from .runner import SweepResult
 from .store import TRACE
-from .unsolved import Unsolved
+from .unsolved import NONE_UNSOLVED, Unsolved
 
 SOLVED = "solved"  # folder of what has been solved, below that of the page
 SHOWN = 3  # reasons that are said of tasks that broke
@@ -46,7 +46,7 @@ class Report:
     swept: SweepResult
     output: Path
     path: Path | None = None
-    unsolved: Unsolved = Unsolved({}, {}, {})
+    unsolved: Unsolved = NONE_UNSOLVED
 
     @property
     def findings(self) -> DataFrame:

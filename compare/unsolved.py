@@ -63,3 +63,6 @@ class Unsolved:
         whole = f"{sum(self.failed.values())} of {sum(self.contacts.values())}"
         told = [f"{count} of them: {reason}" for reason, count in [*self.reasons.items()][:SHOWN]]
         return (f"{whole} contacts have no answer{own}: {by_solver}; they are left out.", *told)
+
+
+NONE_UNSOLVED = Unsolved({}, {}, {})

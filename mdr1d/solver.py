@@ -30,7 +30,6 @@ from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, u
 from .surface import MOST_NODES, Band, Spectrum, band_of
 from .terms import TERMS
 
-
 SPARE = 1.25  # of an extent, for the contacts of other draws
 FULLER = 1.01  # of two pixels, so that they are carried with few digits too
 
@@ -109,7 +108,8 @@ class MDR:
         reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if not reasons and scene.roughness is not None:
             band = band_of(scene.roughness, self.spectrum)
-            reasons += _too_broad(band) or _unresolved(scene.roughness, band, self._laid_out(scene), self.points)
+            rough, layout = scene.roughness, self._laid_out(scene)
+            reasons += _too_broad(band) or _unresolved(rough, band, layout, self.points)
         return reasons or shortage(plan_of(self, scene, self._laid_out(scene)).memory)
 
     def foreseen(self, scene: Scene) -> list[str]:

@@ -154,7 +154,7 @@ class Magnitudes:
 
     @cached_property
     def frequencies(self) -> np.ndarray:
-        """Frequencies that a steadily sliding contact sees [rad/s]: of its length, its shortest wave, and around."""
+        """Frequencies that a sliding contact sees [rad/s]: of its length, its shortest wave, and around."""
         if not (
             isinstance(self.scene.motion, Slide) and self.speed > 0 and len(self.scene.solid.retardation()[2])
         ):

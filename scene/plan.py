@@ -121,7 +121,7 @@ class Plan:
         return "\n".join([f"{self.solver}, {self.settings}", *self._lines()])
 
     def _repr_html_(self) -> str:
-        groups = {
+        groups: dict[str, Mapping[Any, Any]] = {
             "doubtful": dict.fromkeys(self.doubts, ""),
             "simulated": self.terms,
             "method": {"": self.method},

@@ -69,7 +69,7 @@ def refuse(solver: Solver, scene: Scene) -> None:
 
 
 def foresee(solver: Solver, scene: Scene) -> None:
-    """Raise Refused as `refuse`, and where it is known beforehand that a solve would fail; SolveError as `trusted`."""
+    """Raise Refused and SolveError as `refuse`, and Refused where it shows beforehand that a solve would fail."""
     with trusted():
         reasons = why_not(solver, scene)
     _raise(solver, reasons)

@@ -183,6 +183,7 @@ def test_what_is_elastic_has_no_friction():
         ({"roughness": replace(ROUGH, rms_height=2e-4)}, "h0/d = "),
         ({"motion": Slide(speed=1e9, load=1.0)}, "G''(v q_s)/G0 = "),
         ({"motion": Slide(speed=0.1, load=1e-250)}, ""),
+        ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
     ],
 )
 def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing(changed, said):
@@ -199,7 +200,7 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
     [
         ({"motion": Slide(speed=0.1, load=1e5)}, "slope of the body"),
         ({"indenter": PowerLaw(1e300, 60.0)}, "slope of the body"),
-        ({"motion": Slide(speed=0.1, depth=1e250)}, "slope of the body"),
+        ({"motion": Slide(speed=0.1, depth=1e25)}, "slope of the body"),
         ({"roughness": replace(ROUGH, shortest=1e-6)}, "rms slope of the roughness"),
         ({"roughness": None, "motion": Slide(speed=0.1, load=1e5)}, "slope of the body"),
         ({"roughness": None, "motion": Slide(speed=0.1, load=1e5), "layer": Layer(thickness=1e-3)}, "slope"),

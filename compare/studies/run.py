@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray
 from pandas import DataFrame
+
 from scene import Refused, Scene, notes
 from scene.vocabulary import FIELDS as DEFINED
 

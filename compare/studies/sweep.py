@@ -90,7 +90,7 @@ class Sweep(Study):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Doubts about the contacts at the corners of the sweep, each number where it is first beyond its limit."""
+        """Doubts about the contacts at the corners of the sweep, each number and limit once."""
         scenes = [each for rectangle in self.rectangles().values() for each in rectangle.corners]
         return doubted(*(replace(self.case, motion=each.motion) for each in scenes))
 

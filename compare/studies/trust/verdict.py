@@ -201,7 +201,7 @@ def _advised(scene):
     place = np.clip(place, *limits())
     asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
     worths = {name: _foretold(name, place, groups) for name in asked}
-    return Trust(**_all(worths), groups=named, nearest=tuple(_nearest(asked[0], place)))
+    return _of(worths, named, tuple(_nearest(asked[0], place)))
 
 
 def unmeasured(scene: Scene) -> list[str]:
@@ -227,11 +227,14 @@ def unmeasured(scene: Scene) -> list[str]:
 def _unknown(scene, reason, advice=SOLVE):
     worth = Worth(nan, nan, nan, nan, nan, advice, reason)
     asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else QUANTITIES
-    return Trust(**_all(dict.fromkeys(asked, worth)), groups={}, nearest=())
+    return _of(dict.fromkeys(asked, worth))
 
 
-def _all(worths: Mapping[str, Worth]) -> dict[str, Worth | None]:
-    return {name: worths.get(name) for name in QUANTITIES}
+def _of(
+    worths: Mapping[str, Worth], groups: Mapping[str, float] | None = None, nearest: tuple[Neighbour, ...] = ()
+) -> Trust:
+    friction, depth, force = (worths.get(name) for name in QUANTITIES)
+    return Trust(friction, depth, force, groups or {}, nearest)
 
 
 def _smooth(scene) -> Trust:
@@ -248,7 +251,7 @@ def _smooth(scene) -> Trust:
         ratio, other = getattr(fine, name), getattr(coarse, name)
         error = abs(log(ratio / other)) / NORMAL
         worths[name] = _worth(ratio, error, 0.0, "the body is smooth, and both solvers answered it")
-    return Trust(**_all(worths), groups={}, nearest=())
+    return _of(worths)
 
 
 def _foretold(name, place, groups):
