@@ -182,7 +182,7 @@ class BEM:
         return window.foreseen(Problem(scene, self.engine, self.terms), self.points, self.extent)
 
     def doubts(self, scene: Scene) -> tuple[Doubt, ...]:
-        """Doubts about a scene, and about how well a grid of the window that is likely shows it; nothing is solved."""
+        """Doubts about a scene, and how well a grid of the likely window shows it; nothing is solved."""
         try:
             grid = likely_grid(self, scene)
             return *doubts(scene, grid.pixel), *window.doubts(scene, grid)

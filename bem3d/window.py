@@ -238,7 +238,7 @@ def foreseen(problem: Problem, points: int, extent: float | None) -> list[str]:
 
 
 def _widest(problem):
-    """Side of a square around the axis that no contact leaves [m]: of a smooth body that of the contact at rest."""
+    """Side of a square around the axis that no contact leaves [m]: of smooth bodies the contact at rest."""
     scene = problem.scene
     if scene.layer is None and scene.roughness is None and not isinstance(scene.indenter, Measured):
         return 2 * elastic_contact(scene).radius
@@ -281,7 +281,7 @@ def _shortest(scene):
 
 
 def _missed(scene, grid, spare=1.0):
-    """Whether waves are shorter than two pixels, and what would do. spare : of a window that other draws may need"""
+    """Whether waves are shorter than two pixels, and the values that would do; spare : factor on the window."""
     field, shortest = _shortest(scene)
     if shortest is None or 2 * grid.pixel <= shortest:
         return []

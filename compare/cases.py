@@ -137,7 +137,7 @@ class Case:
         return isinstance(self.motion, Slide) and len(self.scene.solid.retardation()[2]) > 0
 
     def refuse(self) -> None:
-        """Raise NotCompared, with the reasons, if a solver lacks what the scene asks for, or nothing compares it."""
+        """Raise NotCompared, with the reasons, if a solver lacks a part of the scene, or nothing compares it."""
         if not isinstance(self.motion, Indent | Slide):
             raise NotCompared(
                 f"motion = {type(self.motion).__name__}: crosscheck compares bodies that are pressed in (Indent) "

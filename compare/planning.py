@@ -44,7 +44,7 @@ class Plans(dict[str, Plan | str | Trust]):
 
     @property
     def feasible(self) -> bool:
-        """Whether any solver would solve it, and `crosscheck run` all of its contacts, if it compares such scenes."""
+        """Whether any solver would solve it, and `crosscheck run` would not refuse it for its numbers."""
         return bool(self._plans) and not self.refused
 
     @property

@@ -113,7 +113,7 @@ class MDR:
         return reasons or shortage(plan_of(self, scene, self._laid_out(scene)).memory)
 
     def foreseen(self, scene: Scene) -> list[str]:
-        """Reasons why a solve of what is not refused would fail all the same: by a stated extent, that is tried."""
+        """Reasons why a solve that is not refused would fail all the same: by a stated extent, which is tried."""
         if self.extent is None or isinstance(scene.motion, Program):
             return []
         try:

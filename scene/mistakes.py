@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from .meanings import meaning, type_meant
 from .names import CLOSE, Names, nearest
 from .printable import brief
 
@@ -103,11 +104,17 @@ def _unknown_name(where, content, names, suggests):
     line, meant = f"{_written(where, value)}unknown here", None
     if suggests:
         known, meant = names.at(where[:-1], content), names.meant(where, value, content)
+        here = meaning(name, known)
+        like = here.field(known) if here else nearest(name, known, CLOSE)
         if meant:
             line += f"; did you mean {_dotted(meant[len(where) - 1 :] if meant[:-1] == where[:-1] else meant)}?"
             _home(meant[:-1], content).setdefault(meant[-1], value)
-        elif (like := nearest(name, known, CLOSE)) is not None:
-            line += f"; did you mean {like}?"
+        elif here and here.says:
+            line += f"; {here.says}"
+        elif like in table:
+            line += f"; did you mean {like}? It has a value already"
+        elif like:
+            line += f"; {like} takes {names.takes((*where[:-1], like), content)}"
         if known:
             line += f"{' Known' if line.endswith('?') else '; known'} are {', '.join(known)}"
     yield Mistake(where, line, meant is not None)
@@ -123,7 +130,9 @@ def _home(where, content):
 def _unknown_type(where, content, mistake):
     table, one_of = _at(where, content), mistake["ctx"]["expected_tags"]
     given = table.get("type") if isinstance(table, dict) else None
-    if not (isinstance(given, str) and (meant := _literal(given, one_of))):
+    if not isinstance(given, str):
+        return
+    if (meant := type_meant(given, _quoted(one_of)) or _literal(given, one_of)) is None:
         return
     table["type"] = meant
     yield Mistake((*where, "type"), f"{_written((*where, 'type'), given)}one of {one_of}; did you mean {meant!r}?")
@@ -168,7 +177,11 @@ def _remaining(error, content, left_out, order) -> Iterator[Mistake]:
 
 
 def _literal(value, expected):
-    return nearest(value, re.findall(r"'([^']*)'", expected)) if isinstance(value, str) else None
+    return nearest(value, _quoted(expected)) if isinstance(value, str) else None
+
+
+def _quoted(text):
+    return re.findall(r"'([^']*)'", text)
 
 
 def _written(where, value):

@@ -8,8 +8,19 @@ from typing import Any, Self
 from pydantic import TypeAdapter
 from pydantic.errors import PydanticInvalidForJsonSchema
 
+from .meanings import meaning, meanings
+
 CLOSE, _LIKE, _CLOSER = 0.75, 0.6, 0.8  # as of difflib: 1 is equal
 LONGEST = 100  # letters of a name that are compared: no known one has half as many
+
+_KINDS = (
+    *((bool, ("boolean",)), (int, ("integer", "number")), (float, ("number",))),
+    *((str, ("string",)), (list, ("array",)), (dict, ("object",))),
+)
+_WORDS = {
+    **{"object": "a table", "array": "a list", "string": "a text", "boolean": "true or false"},
+    **{"number": "a number", "integer": "a whole number"},
+}
 
 Place = tuple[str | int, ...]
 
@@ -36,29 +47,41 @@ class Names:
     def meant(self, where: Place, value: Any, content: Any) -> Place | None:
         """The place that a name at a place was probably meant for; None where nothing is like it.
 
-        Looked for among what is not stated yet: in the same table, then in others.
+        Looked for among what is not stated yet and may have such a value: in the same table, then in others; by
+        its meaning, then by its letters.
         """
         inside, name = list(where[:-1]), str(where[-1])
         stated, table = _of(content, inside), self._table(tuple(inside), content)
-        fitting = {
-            name: _fits(self._node(child, value), value) for name, child in table.items() if name not in stated
-        }
-        fit = [name for name, fits in fitting.items() if fits]
+        fit = [
+            known
+            for known, child in table.items()
+            if known not in stated and _fits(self._node(child, value), value)
+        ]
         away = [
             place
             for place, node in self._unstated((), self.schema, content)
-            if list(place[:-1]) != inside and _fits(node, value)
+            if list(place[:-1]) != inside and _fits(self._node(node, value), value)
         ]
-        if nearest(name, table, CLOSE) in stated:
+        if (here := meaning(name, table)) is not None:
+            field = here.field(fit)
+            return None if here.says or field is None else (*inside, field)
+        if (close := nearest(name, table, CLOSE)) in stated:
             return None
         called = {str(place[-1]): place for place in reversed(away)}
-        if (close := nearest(name, fit or fitting, CLOSE)) is not None:
+        if close in fit:
             return (*inside, close)
         if name in called:
             return called[name]
-        if (like := nearest(name, fit, _LIKE)) is not None:
+        if there := [field for each in meanings(name) if not each.says and (field := each.field(called))]:
+            return called[there[0]]
+        if close is None and (like := nearest(name, fit, _LIKE)) is not None:
             return (*inside, like)
         return called.get(nearest(name, called, _CLOSER) or "")
+
+    def takes(self, where: Place, content: Any) -> str:
+        """What a name at a place takes, in words."""
+        node = self._node(self._table(where[:-1], content)[str(where[-1])], {})
+        return _WORDS.get(str(node.get("type")), "other values")
 
     def _table(self, where: Place, content) -> Mapping[str, Any]:
         node = self._node(self.schema, content)
@@ -73,7 +96,7 @@ class Names:
             value = _part(content, name)
             if value is None:
                 # Of a table that is not there, one without types: it would be one name in it.
-                yield (*where, name), self._node(child, {})
+                yield (*where, name), child
             if value is None or isinstance(value, dict):
                 yield from self._unstated((*where, name), child, value or {})
 
@@ -86,10 +109,10 @@ class Names:
             if not isinstance(kind, str) or kind not in mapping:
                 return {"type": "object"}
             return self._node({"$ref": mapping[kind]}, content)
-        if choices := node.get("anyOf") or node.get("oneOf"):
-            wanted = "object" if isinstance(content, dict) else "array" if isinstance(content, list) else None
+        # Choices beside names say which of them go together.
+        if "properties" not in node and (choices := node.get("anyOf") or node.get("oneOf")):
             every = [self._node(each, content) for each in choices]
-            return next((each for each in every if each.get("type") == wanted), every[0])
+            return next((each for each in every if each.get("type") in _kinds(content)), every[0])
         return node
 
 
@@ -104,9 +127,13 @@ def nearest(name: str, known: Iterable[str], cutoff: float = _LIKE) -> str | Non
 
 
 def _fits(node, value):
-    """Whether a table is where there may be one, and a list where there may be one."""
-    wanted = {"object": dict, "array": list}.get(node.get("type"))
-    return isinstance(value, wanted) if wanted else not isinstance(value, dict | list)
+    """Whether a table, a list, a text or a number is where there may be one."""
+    return node["type"] in _kinds(value) if "type" in node else not isinstance(value, dict | list)
+
+
+def _kinds(value):
+    """What JSON calls a value."""
+    return next((kinds for kind, kinds in _KINDS if isinstance(value, kind)), ())
 
 
 def _child(node, part):

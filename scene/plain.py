@@ -90,7 +90,7 @@ def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
     if type(held) is np.ndarray and held.ndim == 0:
         held = held[()]
     _check_unit(own, unit)
-    return _in_si(held, own, unit, difference) if own else held
+    return in_unit(held, own, unit, difference) if own else held
 
 
 def one_by_one(given: Any) -> Any:
@@ -195,7 +195,8 @@ def _known(read, text, unit, difference, own):
         raise NotPlain(str(error) or f"this one has the unit {brief(own)}") from None
 
 
-def _in_si(held, own, unit, difference):
+def in_unit(held: Any, own: str, unit: str | None, difference: bool = True) -> Any:
+    """Numbers of one unit in another, of SI. Raises NotPlain, or Unreadable of a unit."""
     from .units import scale
 
     factor, zero = _known(scale, own, unit, difference, own)

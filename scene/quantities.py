@@ -6,6 +6,7 @@ In Python it may also be what other libraries hold, see `plain`. What is held is
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import wraps
 from inspect import signature
 from numbers import Integral
@@ -122,6 +123,13 @@ class Unit(_Numbers):
     @property
     def _unit(self) -> tuple[str | None, bool]:
         return self.symbol, self.difference
+
+    def scale(self, given: str) -> tuple[Fraction, Fraction]:
+        """One of another unit, and its zero, in this one. Raises ValueError for a unit of anything else."""
+        # Units take time to load, and only what has them needs them.
+        from .units import scale
+
+        return scale(given, self.symbol, self.difference)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return _or_written(handler(schema), (self.example,)) | {"description": self.allowed}

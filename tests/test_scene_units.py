@@ -1,5 +1,6 @@
 """Quantities with units: the number in SI that they are, to the last digit, or a mistake that says why not."""
 
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -127,13 +128,113 @@ def test_a_difference_of_temperatures_has_none_and_a_temperature_is_no_differenc
         ("5 (m", "no unit"),
         ("5 m)", "no unit"),
         ("5 " + "m" * 1000, "letters"),
-        ("3 Mpa", "did you mean 'MPa'"),
-        ("3 Pas", "did you mean 'Pa'"),
+        ("1 000 mm", "nothing parts the digits"),
+        ("1'000 mm", "nothing parts the digits"),
+        ("1,000 mm", "nothing parts their thousands"),
+        ("1 ± 0.1 mm", "without its uncertainty"),
+        ("1*10^3 mm", "powers of ten are written as 1e6"),
+        ("10^3 mm", "powers of ten are written as 1e6"),
+        ("5 mm10", "no unit"),
+        ("5 mm1", "no unit"),
+        ("5 mm2.5", "no unit"),
+        ("5 mm2^2", "no unit"),
+        ("5 m2K", "no unit"),
     ],
 )
 def test_what_is_no_length_is_refused_with_a_reason(text, said):
     with pytest.raises(Unreadable) as raised:
         in_si(text, "m")
+    assert said in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("written", "plain", "unit"),
+    [
+        ("3 N/mm2", "3 MPa", "Pa"),
+        ("3 N mm-2", "3 MPa", "Pa"),
+        ("3e5 N/m2", "3e5 Pa", "Pa"),
+        ("2 kgf/cm2", "2*98066.5 Pa", "Pa"),
+        ("2 lbf/in2", "2 psi", "Pa"),
+        ("2 ksi", "2000 psi", "Pa"),
+        ("20 dyn/cm2", "2 Pa", "Pa"),
+        ("2 Pa-1", "2 1/Pa", "1/Pa"),
+        ("2 mil", "50.8 um", "m"),
+        ("20 uin", "508 nm", "m"),
+        ("5 mm/sec", "5 mm/s", "m/s"),
+        ("5 m s-1", "5 m/s", "m/s"),
+        ("6 m/min", "0.1 m/s", "m/s"),
+        ("36 kmh", "36 km/h", "m/s"),
+        ("36 kmph", "36 km/h", "m/s"),
+        ("10 mph", "4.4704 m/s", "m/s"),
+        ("500 gf", "0.5 kgf", "N"),
+        ("2 hr", "120 min", "s"),
+        ("2 rad s-1", "2 rad/s", "rad/s"),
+        ("5 s-1", "5 Hz", "Hz"),
+    ],
+)
+def test_units_of_workshops_and_spreadsheets_are_what_they_say(written, plain, unit):
+    number, _, rest = plain.partition(" ")
+    expected = float(np.prod([float(each) for each in number.split("*")])) * in_si(f"1 {rest}", unit)
+    assert in_si(written, unit) == pytest.approx(expected, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize("degrees", ["25 C", "25 ºC", "25 ° C", "25 deg C", "25 deg. C", "77 F", "77 deg F"])
+def test_degrees_are_read_as_people_write_them(degrees):
+    assert in_si(degrees, "K", difference=False) == 298.15
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "said"),
+    [
+        ("1 mpa", "Pa", "did you mean 'MPa' (1e+06 Pa) or 'mPa' (0.001 Pa)?"),
+        ("3 Mpa", "Pa", "did you mean 'MPa' (1e+06 Pa) or 'mPa' (0.001 Pa)?"),
+        ("1 1/mpa", "1/Pa", "did you mean '1/MPa' (1e-06 1/Pa) or '1/mPa' (1000 1/Pa)?"),
+        ("1 Mn/m2", "Pa", "did you mean 'mN/m2' (0.001 Pa) or 'MN/m2' (1e+06 Pa)?"),
+        ("5 mhz", "Hz", "did you mean 'MHz' (1e+06 Hz) or 'mHz' (0.001 Hz)?"),
+        ("10 MM", "m", "did you mean 'mm' (0.001 m)?"),
+        ("10 MS", "s", "did you mean 'ms' (0.001 s)?"),
+        ("5 MM/s", "m/s", "did you mean 'mm/s' (0.001 m/s)?"),
+        ("5 lb/in2", "Pa", "did you mean 'lbf/in2' (6894.76 Pa)?"),
+        ("5 Newton", "N", "did you mean 'newton'?"),
+        ("25 degc", "K", "did you mean 'degC'?"),
+        ("3 Pas", "Pa", "did you mean 'Pa'?"),
+    ],
+)
+def test_a_hint_shows_every_unit_that_letters_leave_open_and_its_magnitude(text, unit, said):
+    with pytest.raises(Unreadable) as raised:
+        in_si(text, unit, difference=unit != "K")
+    assert str(raised.value).endswith(said)
+
+
+@settings(deadline=None)
+@given(
+    st.sampled_from(UNITS), st.sampled_from(KNOWN), st.sampled_from(["{}", "{}s", "{}2", "1/{}", "{}/s", "N/{}"])
+)
+def test_no_unit_is_suggested_that_would_be_refused(unit, name, written):
+    for misspelt in (name.upper(), name.lower(), name.swapcase(), name + "x"):
+        try:
+            in_si(f"2 {written.format(misspelt)}", unit.symbol, unit.difference)
+        except Unreadable as refused:
+            for meant in re.findall(r"'([^']*)'", str(refused).partition("did you mean")[2]):
+                in_si(f"2 {meant}", unit.symbol, unit.difference)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "said"),
+    [
+        ("10 1/s", "rad/s", "2 pi f"),
+        ("10 Hz", "rad/s", "2 pi f"),
+        ("10 rad/s", "Hz", "omega / (2 pi)"),
+        ("10 1/mm", "rad/m", "2 pi / wavelength"),
+        ("10 kg", "N", "the weight of 1 kg is 1 kgf"),
+        ("10 N", "N/m", "divide it by the length"),
+        ("10 kPa s", "s", "viscosity / shear modulus"),
+        ("0.2 W/mK", "W/(m K)", "W/(m K)"),
+    ],
+)
+def test_a_quantity_that_is_often_taken_for_another_is_refused_with_the_way_to_it(text, unit, said):
+    with pytest.raises(Unreadable) as raised:
+        in_si(text, unit)
     assert said in str(raised.value)
 
 

@@ -1,0 +1,198 @@
+"""Sheets of numbers: whatever their dialect, they are read as they were written, or refused."""
+
+import numpy as np
+import pandas
+import pytest
+import xarray
+from random_tables import CALLED, draw_map, draw_table
+
+from scene.columns import Column, chosen, joined, sheet_of
+from scene.quantities import HERTZ, KELVIN, PASCAL, SECOND
+from scene.sheet import read_sheets
+
+FIELDS = "frequency", "storage", "loss"
+WANTED = [Column(name, CALLED[name], (HERTZ if name == "frequency" else PASCAL,)) for name in FIELDS]
+ROUNDING = 4e-16  # of one product
+HEADED = "f [Hz];G' [MPa];G'' [kPa]"
+ROWS = "1;2;3", "2;3;4", "3;4;5"
+
+
+def read_table(path):
+    found, _ = chosen(joined(read_sheets(path)), WANTED, FIELDS)
+    return {name: each.numbers for name, each in found.items()}
+
+
+def read_map(path):
+    (sheet,) = read_sheets(path)
+    if sheet.names:
+        raise ValueError("these may be axes: whoever reads a map asks them to be even")
+    return {"heights": sheet.numbers}
+
+
+def outcomes(path, draw, read, seeds):
+    """How many files were read, and how many although a cell was unreadable. Fails for other numbers."""
+    sound, damaged = 0, 0
+    for seed in seeds:
+        drawn = draw(seed)
+        path.write_bytes(drawn.content)
+        try:
+            found = read(path)
+        except ValueError:
+            continue
+        sound += 1
+        for name, numbers in drawn.held.items():
+            assert found[name].shape == numbers.shape, (seed, name)
+            np.testing.assert_allclose(found[name], numbers, rtol=ROUNDING, err_msg=f"seed {seed}, {name}")
+        path.write_bytes(drawn.damaged)
+        try:
+            read(path)
+        except ValueError:
+            continue
+        damaged += 1
+    return sound, damaged
+
+
+# Of tables and maps in random dialects so many can be read: others have decimal commas between commas, cells that
+# are empty between blanks, or names of several words parted by one blank.
+@pytest.mark.parametrize(("draw", "read", "share"), [(draw_table, read_table, 0.7), (draw_map, read_map, 0.75)])
+def test_a_file_in_any_dialect_is_read_as_it_was_written_or_refused(tmp_path, draw, read, share):
+    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, range(200))
+    assert sound > share * 200
+    assert damaged == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("draw", "read", "share", "count"), [(draw_table, read_table, 0.7, 5000), (draw_map, read_map, 0.75, 1000)]
+)
+def test_thousands_of_files_in_any_dialect_are_read_as_written_or_refused(tmp_path, draw, read, share, count):
+    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, range(1000, 1000 + count))
+    assert sound > share * count
+    assert damaged == 0
+
+
+def written(tmp_path, text, encoding="utf-8"):
+    path = tmp_path / "table.csv"
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1"])
+def test_the_encoding_does_not_matter(tmp_path, encoding):
+    text = "\r\n".join(["Maßstab 1, 25 °C", "", HEADED, *ROWS])
+    found = read_table(written(tmp_path, text, encoding))
+    np.testing.assert_array_equal(found["storage"], [2e6, 3e6, 4e6])
+    np.testing.assert_array_equal(found["loss"], [3e3, 4e3, 5e3])
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        [HEADED],
+        ["f;G';G''", "Hz;MPa;kPa"],
+        ["f;G';G''", "[Hz];[MPa];[kPa]"],
+        ["# " + HEADED],
+        ["% f, Hz", '"f / Hz";"G\' / MPa";"G"" / kPa"'],
+        ["# f [Hz], G' [MPa], G'' [kPa]"],
+        [HEADED, "# " + "-" * 20],
+        ["sample;7;;", ";;;", HEADED],
+        ["Speed: 3 mm/s", HEADED, ""],
+    ],
+)
+def test_units_are_those_of_the_heading_wherever_it_stands(tmp_path, above):
+    found = read_table(written(tmp_path, "\n".join([*above, *ROWS])))
+    np.testing.assert_array_equal(found["frequency"], [1, 2, 3])
+    np.testing.assert_array_equal(found["storage"], [2e6, 3e6, 4e6])
+    np.testing.assert_array_equal(found["loss"], [3e3, 4e3, 5e3])
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (["f [Hz];G' [MPa];G'' [kPx]", *ROWS], "kPx"),
+        (["f [s];G' [MPa];G'' [kPa]", *ROWS], "a frequency, as Hz"),
+        (["f;G';G''", "Hz;MPa", *ROWS], "neither"),
+        (["f [Hz];G' [MPa];G'' [kPa]", "Hz;Pa;Pa", *ROWS], "state one"),
+        (["f;G';G'';loss modulus", *(row + ";1" for row in ROWS)], "both loss"),
+        (["f;G'", "1;2", "2;3"], "no column for loss"),
+        (["# storage modulus and loss modulus in MPa", *ROWS], "above the numbers is no heading"),
+        (["# all moduli in MPa", *ROWS], "speaks of MPa"),
+        ([HEADED, "1;2;3", "2;x;4", "3;4;5"], r"line 3, column 2: 'x' is not a number"),
+        ([HEADED, "1;x;3", "2;3;4", "3;4;5"], r"line 2, column 2: 'x' is not a number"),
+        ([HEADED, "1;2;3", "2;3", "3;4;5"], "line 3: 2 columns, and other rows have 3"),
+        ([HEADED, "1;2;3", "2;3;4;5", "3;4;5"], "line 3: 4 columns, and other rows have 3"),
+        ([HEADED, *ROWS, "the end"], "line 5"),
+        ([HEADED, *ROWS, "", "f [Hz];G' [Pa];G'' [Pa]", *ROWS], "two tables, from line 2 and from line 7"),
+        (["1,234;2,345;3,456", "4,567;5,678;6,789"], "between thousands"),
+        (["1.234,5;2;3", "2;3;4"], "1.234,5"),
+        (["1,5", "2,5", "3,5"], "can be read as 1 and 5 and as 1.5"),
+        (["1,5,2,5,3,5", "4,5,5,5,6,5"], "commas may part columns or decimals"),
+        (["1 2;3", "2 3;4"], "is not a number"),
+        (["only words"], "no row of numbers"),
+        ([""], "no row of numbers"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_its_place_and_what_stands_there(tmp_path, lines, said):
+    with pytest.raises(ValueError, match=said):
+        read_table(written(tmp_path, "\n".join(lines)))
+
+
+def test_an_empty_cell_is_missing_and_closes_no_gap(tmp_path):
+    (sheet,) = read_sheets(written(tmp_path, "1;2;;4\n;2;3;4\n1;nan;3;#N/A\n1;2;3;-1.#IND"))
+    expected = [[1, 2, np.nan, 4], [np.nan, 2, 3, 4], [1, np.nan, 3, np.nan], [1, 2, 3, np.nan]]
+    np.testing.assert_array_equal(sheet.numbers, expected)
+
+
+def test_a_blank_line_a_comment_or_a_text_ends_a_block(tmp_path):
+    one, two, three = read_sheets(written(tmp_path, "Height\n1 2\n3 4\n\nPhase\n5 6\n# Error\n7 8\n"))
+    assert [each.before for each in (one, two, three)] == [("Height",), ("Phase",), ("Error",)]
+    assert [each.numbers[0, 0] for each in (one, two, three)] == [1, 5, 7]
+
+
+def test_a_column_that_is_not_known_is_named(tmp_path):
+    text = "f [Hz];status;G' [MPa];strain [%];G'' [kPa]\n1;ok;2;0,1;3\n2;ok;3;0,1;4\n"
+    _, notes = chosen(*read_sheets(written(tmp_path, text)), WANTED)
+    assert [each.rpartition(": ")[2] for each in notes] == ["column 'strain' is not used"]
+
+
+def test_capital_letters_tell_names_apart_only_where_two_columns_need_it(tmp_path):
+    wanted = [Column("temperature", ("T",), (KELVIN,)), Column("time", ("t",), (SECOND,))]
+    found, _ = chosen(*read_sheets(written(tmp_path, "t [ms],T [C]\n1,20\n2,30\n")), wanted)
+    np.testing.assert_allclose(found["time"].numbers, [1e-3, 2e-3], rtol=ROUNDING)
+    np.testing.assert_allclose(found["temperature"].numbers, [293.15, 303.15], rtol=ROUNDING)
+    with pytest.raises(ValueError, match="write it out"):
+        chosen(
+            *read_sheets(written(tmp_path, "TIME,t\n1,20\n2,30\n")),
+            [Column("a", ("Time", "T")), Column("b", ("tIme",))],
+        )
+
+
+@pytest.mark.parametrize("kind", ["frame", "dataset", "dict"])
+def test_a_table_of_another_library_is_read_by_the_same_names_and_units(kind):
+    columns = {"f [kHz]": [1.0, 2.0], "G'": [2.0, 3.0], "G'' [kPa]": [3.0, 4.0], "remark": ["a", "b"]}
+    if kind == "frame":
+        table = pandas.DataFrame(columns)
+        table["G'"].attrs["units"] = "MPa"
+        expected = [2.0, 3.0]  # a frame keeps no attributes of its columns
+    else:
+        arrays = {name: ("row", each) for name, each in columns.items()}
+        arrays["G'"] = ("row", columns["G'"], {"units": "MPa"})
+        dataset = xarray.Dataset(arrays)
+        table = dataset if kind == "dataset" else {name: dataset[name] for name in dataset}
+        expected = [2e6, 3e6]
+    found, _ = chosen(sheet_of(table), WANTED)
+    np.testing.assert_array_equal(found["frequency"].numbers, [1e3, 2e3])
+    np.testing.assert_array_equal(found["storage"].numbers, expected)
+    np.testing.assert_array_equal(found["loss"].numbers, [3e3, 4e3])
+
+
+def test_many_rows_are_read_at_once_as_they_are_one_by_one(tmp_path):
+    numbers = np.random.default_rng(5).normal(size=(400, 6))
+    text = "\n".join(";".join(f"{each:.6e}".replace(".", ",") for each in row) for row in numbers)
+    (fast,) = read_sheets(written(tmp_path, text))
+    (slow,) = read_sheets(written(tmp_path, text.replace("e", "d", 1)))  # numpy does not know this exponent
+    np.testing.assert_array_equal(fast.numbers, slow.numbers)
+    with pytest.raises(ValueError, match="at most 300 are read"):
+        read_sheets(written(tmp_path, text), most_rows=300)
+    with pytest.raises(ValueError, match=r"line 401: 5 columns"):
+        read_sheets(written(tmp_path, text + "\n1;2;3;4;5"))
