@@ -128,6 +128,7 @@ STRAINS = "both models are linear and hold for strains that are small against 1"
 ATOM, ATOMS = "less than an atom is wide", "a few atoms, where no solid is continuous"
 SOFT, HARD = "softer than a gel", "stiffer than steel"
 COLD, HOT = "every elastomer is a glass there", "no elastomer stands that"
+POLYMERS = "polymers have some 5 to 30, and 20 to 200 K"
 LARGE = "larger than tyres and wheels"
 
 
@@ -152,6 +153,10 @@ LIMITS = (
     Limit("reference", "reference temperature", 1000.0, "K", HOT),
     Limit("activation_energy", "activation energy", 1e3, "J/mol", "less than heat itself gives", False, (KJ,)),
     Limit("activation_energy", "activation energy", 1e6, "J/mol", "more than a chemical bond takes"),
+    Limit("c1", "c1", 1.0, "", POLYMERS, False),
+    Limit("c1", "c1", 100.0, "", POLYMERS),
+    Limit("c2", "c2", 5.0, "K", POLYMERS, False),
+    Limit("c2", "c2", 1000.0, "K", POLYMERS),
     Limit("modulus_at_rest", "shear modulus at rest", 1e3, "Pa", SOFT, False, (MPA,)),
     Limit("modulus_at_rest", "shear modulus at rest", 1e11, "Pa", HARD),
     Limit("modulus_at_the_instant", "shear modulus at the instant", 1e11, "Pa", HARD),
@@ -216,7 +221,7 @@ LIMITS = (
     Limit(
         "loss",
         "greatest loss tangent that the contact sees",
-        1e-3,
+        1e-2,
         "",
         "the elastomer loses next to nothing: check times, speed and temperature",
         False,

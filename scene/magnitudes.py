@@ -188,6 +188,16 @@ class Magnitudes:
         return self.scene.temperature.reference
 
     @property
+    def c1(self) -> float:
+        """First constant of the law of Williams, Landel and Ferry."""
+        return self.scene.temperature.c1
+
+    @property
+    def c2(self) -> float:
+        """Second constant [K]."""
+        return self.scene.temperature.c2
+
+    @property
     def activation_energy(self) -> float:
         """Activation energy [J/mol]."""
         return self.scene.temperature.activation_energy

@@ -46,6 +46,7 @@ LIMITS_PAGE = Path(__file__).parent.parent / "docs" / "limits.md"
 RUBBER = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-5, longest=1e-2, shortest=1e-3)
 LAW = Arrhenius(temperature=300, reference=290, activation_energy=6e4)
+WILLIAMS = WLF(temperature=300, reference=299.99, c1=17.44, c2=51.6)
 BASE = Scene(
     Sphere(radius=1e-2),
     RUBBER,
@@ -66,6 +67,10 @@ BEYOND = {
     ("reference", True): {"temperature": replace(LAW, reference=3e4)},
     ("activation_energy", False): {"temperature": replace(LAW, activation_energy=60)},
     ("activation_energy", True): {"temperature": replace(LAW, activation_energy=6e6)},
+    ("c1", False): {"temperature": replace(WILLIAMS, c1=0.0174)},
+    ("c1", True): {"temperature": replace(WILLIAMS, c1=1744.0)},
+    ("c2", False): {"temperature": replace(WILLIAMS, c2=0.0516)},
+    ("c2", True): {"temperature": replace(WILLIAMS, c2=51.6e3)},
     ("modulus_at_rest", False): {"elastomer": Kelvin(1.0, 1e-3)},
     ("modulus_at_rest", True): {"elastomer": Elastic(1e12)},
     ("modulus_at_the_instant", True): {"elastomer": replace(RUBBER, glassy_modulus=1e12)},
