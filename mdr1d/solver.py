@@ -107,9 +107,8 @@ class MDR:
         """Reasons why the scene cannot be solved, one sentence each; empty when it can."""
         reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if not reasons and scene.roughness is not None:
-            band = band_of(scene.roughness, self.spectrum)
-            rough, layout = scene.roughness, self._laid_out(scene)
-            reasons += _too_broad(band) or _unresolved(rough, band, layout, self.points)
+            rough, band = scene.roughness, band_of(scene.roughness, self.spectrum)
+            reasons += _too_broad(band) or _unresolved(rough, band, self._laid_out(scene), self.points)
         return reasons or shortage(plan_of(self, scene, self._laid_out(scene)).memory)
 
     def foreseen(self, scene: Scene) -> list[str]:
