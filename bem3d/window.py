@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from scene import Cylinder, Doubt, EmptyContact, Measured, Plane, Scene, SelfAffine, SolveError
-from scene.heightmap import Scanned
 from scene.scales import elastic_contact
+from scene.scanned import Scanned
 
 from . import layer
 from .grid import Box, Grid

@@ -36,9 +36,15 @@ TYPES = {
     "bool": bool,
     "Asked": str,
     "Asked | Mapping[str, Asked] | None": str | None,
+    "float | None": float | None,
+    "str | float | None": str | None,
+    "Measurements": Path,
     "str | Path": Path,
     "str | Path | None": Path | None,
+    "Surface": Path,
+    "str | float | None": str | None,
     "str | float | Sequence[str | float] | None": list[str] | None,
+    "Sequence[str | float] | None": list[str] | None,
     "Any": str | None,
 }
 # Arguments by their place, though they may be absent.
@@ -153,7 +159,12 @@ def _parameter(
     elif kind is bool and default:
         told = typer.Option(f"--{name}/--no-{name}", help=text)
     else:
-        told = typer.Option(f"--{name}", help=text, min=1 if name == "workers" else None, autocompletion=completed)
+        told = typer.Option(
+            f"--{name.replace('_', '-')}",
+            help=text,
+            min=1 if name == "workers" else None,
+            autocompletion=completed,
+        )
     if isinstance(default, str) and kind in (Path, Path | None):
         default = Path(default)
     return _keyword(name, Annotated[kind, told], default)

@@ -44,6 +44,8 @@ if TYPE_CHECKING:
     from .planning import Plans
     from .quantity import Quantity
     from .report import Report
+    from .studies.measuredfriction import Measurements
+    from .studies.topography import Surface
     from .studies.trust.verdict import Trust
 
 
@@ -191,22 +193,41 @@ def regress(
     return report
 
 
-def mastercurve(table: str | Path, output: str | Path = "mastercurve", **options: Unpack[Options]) -> Report:
+def mastercurve(
+    table: Measurements,
+    output: str | Path = "mastercurve",
+    tolerance: float = 0.05,
+    c1: float | None = None,
+    c2: str | float | None = None,
+    reference: str | float | None = None,
+    **options: Unpack[Options],
+) -> Report:
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load.
 
     table : CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give
-        another order and other units, as F_N [mN]. Lines of equal load and speed are repeats
+        another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]. From
+        Python also a DataFrame, a Dataset of xarray, or arrays by the names of the columns
+    tolerance : loads that differ by less, relative, are one load, and so are speeds; their lines are repeats
+    c1 : constant of WLF, by which temperatures are shifted along the speed; if absent, the shifts are found
+    c2 : constant of WLF, as "101.6 K"
+    reference : temperature at which c1 and c2 are stated, as "20 degC"
     """
     from .studies.mastercurve import Mastercurve
 
-    return solve(Mastercurve.of(table), output, **options)
+    stated = {"c1": c1, "c2": c2, "reference": reference}
+    return solve(Mastercurve.of(table, tolerance, **stated), output, **options)
 
 
 def topography(
-    file: str | Path,
+    file: Surface,
     pixel: str | float | Sequence[str | float] | None = None,
     unit: str | None = None,
+    channel: str | None = None,
+    crop: Sequence[str | float] | None = None,
+    outliers: float | None = None,
+    missing: str = "refuse",
     level: str | None = None,
+    shortest_kept: str | float | None = None,
     repeat: str = "mirror",
     peaks: str = "up",
     output: str | Path = "topography",
@@ -214,18 +235,26 @@ def topography(
 ) -> Report:
     """Describe a measured surface: slopes, spectra, exponent H.
 
-    file : map of heights: .npy, .npz, .csv, .txt, or any format that SurfaceTopography reads
+    file : map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads. From
+        Python also heights [m] as rows, an array, a DataFrame or an object of xarray
     pixel : side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.
         Needed if the file states none. From Python also a number [m]
     unit : unit of the heights: m, mm, um or nm. Needed if the file states none
-    level : what is subtracted first: mean, tilt (a plane) or curvature (a paraboloid); if absent, tilt, and mean
-        of a periodic map
+    channel : name of the map to take, of a file that holds several
+    crop : part to keep: give it four times, x from, x to, y from, y to, as "10 um", from the corner of the map
+    outliers : heights so many robust standard deviations off the median around them are filled in, 3 or more
+    missing : fill fills in missing heights, at most 5 % of the pixels; refuse, the default, makes them an error
+    level : what is subtracted first: mean, tilt (a plane), curvature (a form of second degree) or cubic (of
+        third); if absent, tilt, and mean of a periodic map
+    shortest_kept : leave out waves shorter than this, as "5 um"
     repeat : how the map continues beyond its sides: mirror or periodic
     peaks : up if the heights grow towards the elastomer, down if they grow away from it
     """
     from .studies.topography import Map
 
-    return solve(Map.of(file, pixel=pixel, unit=unit, level=level, repeat=repeat, peaks=peaks), output, **options)
+    asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
+    done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
+    return solve(Map.of(file, pixel=pixel, **asked, **done), output, **options)
 
 
 def sweep(

@@ -59,7 +59,9 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
                 raise InvalidInput(f"{name}: is a folder, and no {kind}") from error
             if lexists(path):
                 raise InvalidInput(str(error)) from error
-            missing = error
+            # A name is sought among the ready ones too, and in no folder.
+            nowhere = isinstance(error.__cause__, FileNotFoundError)
+            missing = f"{name}: no such file" if nowhere else str(error)
         else:
             if (other := _other_kind(path, kind)) is not None:
                 raise InvalidInput(f"{name}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {name}")

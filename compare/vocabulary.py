@@ -136,6 +136,10 @@ friction_spread : Friction by traction less friction by energy lost, over the fr
     [1] | \lvert F_\mathrm{traction} - F_\mathrm{loss}\rvert/\lvert F_x\rvert | theory, Eq. 5d
 log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1] |  | Popov et al. 2014, Eq. 23
 log_lift : Shift of a curve along ln mu, beside that along ln F_N, onto the common curve. [1]
+log_time_shift : Shift ln a_T of a temperature along ln v, by which its friction is that of the reference. [1] |
+    \ln a_T | theory, Eq. 21
+reduced_speed : Speed times a_T, the shift of its temperature. [m/s] | v\,a_T | theory, Eq. 21
+law : Law of the shifts with the temperature: WLF or Arrhenius.
 shifted_force : Normal force times the shift of its curve. [N]
 shifted_friction : Friction coefficient times the shift of its curve along friction. [1]
 curves : Set of curves that are shifted onto one.

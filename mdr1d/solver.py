@@ -10,12 +10,12 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from scene import Doubt, EmptyContact, Program, Result, Scene, SolveError, doubts
-from scene.heightmap import Scanned
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Whole
 from scene.roughness import Roughness
+from scene.scanned import Scanned
 from scene.terms import Table, surrounded, terms_of
 
 from .accuracy import friction_error

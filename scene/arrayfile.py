@@ -25,16 +25,20 @@ def array_in(content: bytes, check: Check) -> np.ndarray:
     return _array(BytesIO(content), len(content), check)
 
 
+def names_in(content: bytes) -> list[str]:
+    """Names of the arrays of an .npz archive. Raises ValueError, and whatever a damaged archive raises."""
+    with _opened(content) as archive:
+        return [_name(member) for member in archive.infolist()]
+
+
 def arrays_in(content: bytes, checks: Mapping[str, Check]) -> dict[str, np.ndarray]:
     """Arrays of an .npz archive by their names, of those that have a check.
 
-    Raises ValueError where the archive has none of these names, and whatever a damaged archive raises.
+    Raises ValueError, and whatever a damaged archive raises.
     """
-    if content.count(_LISTED) > _MEMBERS:
-        raise ValueError(f"an archive of more than {_MEMBERS} files")
-    with ZipFile(BytesIO(content)) as archive:
+    with _opened(content) as archive:
         members = archive.infolist()
-        held = [member.filename.removesuffix(".npy") for member in members]
+        held = [_name(member) for member in members]
         if doubled := [name for name in checks if held.count(name) > 1]:
             raise ValueError(f"it has {held.count(doubled[0])} arrays {doubled[0]}")
         found = {}
@@ -46,9 +50,17 @@ def arrays_in(content: bytes, checks: Mapping[str, Check]) -> dict[str, np.ndarr
                 raise ValueError(f"{member.filename} is compressed otherwise than by deflate, as numpy does")
             with archive.open(member) as file:
                 found[name] = _array(file, member.file_size, checks[name])
-    if not found:
-        raise ValueError(f"it holds {', '.join(held) or 'nothing'}, and no array {next(iter(checks))}")
     return found
+
+
+def _opened(content):
+    if content.count(_LISTED) > _MEMBERS:
+        raise ValueError(f"an archive of more than {_MEMBERS} files")
+    return ZipFile(BytesIO(content))
+
+
+def _name(member):
+    return member.filename.removesuffix(".npy")
 
 
 def _array(file, size, check):

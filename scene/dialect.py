@@ -23,6 +23,7 @@ _MOMENT = re.compile(
     r"|\d{1,2}:\d{2}(?::\d{2}(?:[.,]\d+)?)?"
 )
 _DECIMALS, _WHOLE = re.compile(r"(\d+)(?:[eE][+-]?\d+)?"), re.compile(r"[+-]?\d+")
+_ZERO = re.compile(r"[+-]?0\d+")
 _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _MINUS = str.maketrans("−‐‑–", "----")
 
@@ -65,7 +66,7 @@ class Dialect:
         """Whether a cell is a number, says that there is none, is a word, or begins as a number and is none."""
         if _number(self.decimal).fullmatch(cell):
             # No program writes 05; where a decimal comma is taken for a separator it stands.
-            zero = self.separator == "," and re.fullmatch(r"[+-]?0\d+", cell)
+            zero = self.separator == "," and _ZERO.fullmatch(cell)
             return BAD if zero else NUMBER
         if _NOT_MEASURED.fullmatch(cell):
             return EMPTY

@@ -16,6 +16,8 @@ from .printable import brief
 # Of encodings, by the mark at the beginning of a file.
 _MARKS = {"utf-8-sig": b"\xef\xbb\xbf", "utf-16": (b"\xff\xfe", b"\xfe\xff")}
 _BEGINNING = 1000  # bytes in which zeros are sought
+# What a name of a file has if "C:\\new" stood in double quotes.
+_ESCAPED = "\n\t\r\b\f"
 PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
 
 
@@ -62,17 +64,20 @@ def reading_once() -> Iterator[None]:
         _read.reset(token)
 
 
-def once(read: Callable[[str | Path], Any], path: str | Path) -> Any:
-    """What a reader makes of a path, or the ValueError that it raises; within `reading_once` found once."""
-    known = _read.get()
+def once(read: Callable[..., Any], path: str | Path, *asked: Any) -> Any:
+    """What a reader makes of a path, or the ValueError that it raises; within `reading_once` found once.
+
+    asked : other arguments of the reader
+    """
+    known, key = _read.get(), (read, path, *asked)
     if known is None:
-        return read(path)
-    if (read, path) not in known:
+        return read(path, *asked)
+    if key not in known:
         try:
-            known[read, path] = read(path), None
+            known[key] = read(path, *asked), None
         except ValueError as error:
-            known[read, path] = None, error
-    found, refused = known[read, path]
+            known[key] = None, error
+    found, refused = known[key]
     if refused is not None:
         raise refused
     return found
@@ -121,11 +126,26 @@ def _asked(path, system, *arguments):
     try:
         return system(*arguments)
     except FileNotFoundError as error:
-        raise _unreadable(path, "no such file") from error
+        raise _unreadable(path, _not_found(path)) from error
     except OSError as error:
         raise _unreadable(path, error.strerror or str(error)) from error
     except ValueError as error:  # of zero bytes, and of letters that no file system has
         raise _unreadable(path, "is a name that no file can have") from error
+
+
+def _not_found(path):
+    """Where a path that leads nowhere was sought, and what became of a backslash that was none."""
+    if any(mark in str(path) for mark in _ESCAPED):
+        return (
+            "no such file: a backslash in double quotes was read as the beginning of a sign; write the path in "
+            "single quotes, or with forward slashes"
+        )
+    if Path(path).is_absolute():
+        return "no such file"
+    try:
+        return f"no such file in {brief(os.getcwd())}, the working directory"
+    except OSError:  # which may be gone
+        return "no such file"
 
 
 def _too_large(size, most):

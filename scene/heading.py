@@ -12,7 +12,7 @@ _STATEMENT = re.compile(r"[^\W\d][^:=;\t,|]{0,80}[:=].*")  # "Width: 20 µm", "T
 # "F(mN)" where it is one, as what is behind a comma or in brackets may belong to the name; "G' MPa", "freq_Hz".
 _SURE = re.compile(
     r"(?P<name>.+?)(?:\s*\[(?P<a>[^\[\]]*)\]|\s+\((?P<b>[^()]*(?:\([^()]*\)[^()]*)*)\)|\s*/\s*\((?P<c>[^()]+)\)"
-    r"|\s*/\s*(?P<d>[^()\[\]/]+)|\s+in\s+(?P<e>\S+))"
+    r"|\s*/\s*(?P<d>[^()\[\]/]+(?:/[^()\[\]/]+)?)|\s+in\s+(?P<e>\S+))"
 )
 _MAYBE = re.compile(r"(?P<name>.+?)(?:,\s*(?P<a>\S+)|\((?P<b>[^()]+)\))")
 _BEHIND = re.compile(r"(?P<name>.+?)[_ ](?P<a>[mkMGµμu]?(?:Hz|Pa)|[nuµμmk]m|[uµμmk]N|[nuµμmk]?m/s|rad/s|[uµμm]s)")
@@ -94,7 +94,8 @@ def parted(line: str, width: int, dialect: Dialect) -> list[str]:
             # Quotes within quotes, as of G", are not doubled by every program.
             ways.append([unquoted(each.strip()) for each in line.split(separator)])
             ways.append(Dialect(separator, ".").cells(line))
-    if dialect.separator == BLANK:
+    # Above cells that are parted otherwise, words with a unit in brackets are a heading, and no sentence.
+    if dialect.separator == BLANK or "[" in line:
         ways += [[unquoted(each) for each in blanks.split(line.strip())] for blanks in _BLANKS]
         ways.append(dialect.cells(line))
     cells = next((each for each in ways if len(each) == width and not _torn(each)), [])

@@ -7,8 +7,9 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightmap import MAPPED, QUOTIENT, ROUNDING, Scanned, levelled
+from .form import ROUNDING, levelled
 from .quantities import METRE, takes
+from .scanned import MAPPED, QUOTIENT, Scanned
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)

@@ -7,9 +7,9 @@ from typing import Any
 
 from .costs import Expected
 from .doubt import Doubt
-from .heightmap import Scanned
 from .markup import table
 from .motion import UNITS, Program
+from .scanned import Scanned
 from .scene import Scene
 
 WIDTH = 36  # of the first column of a plan, at least

@@ -34,6 +34,8 @@ LONGEST = 2000  # letters of a mistake
 # Names joined by so many dots take a parser time that grows with their square; no file that can be read has them.
 _NAME = r"""(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
 _ENDLESS = re.compile(rf"(?<![\w\\\"'-]){_NAME}(?:[ \t]{{0,9}}+\.[ \t]{{0,9}}+{_NAME}){{{5 * DEEPEST}}}", re.ASCII)
+# A line in which tomllib found a mistake, and a backslash in a string whose backslashes mean something.
+_PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'"[^"\n]*\\')
 
 
 class InvalidInput(ValueError):
@@ -76,10 +78,19 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
     except RecursionError as error:
         raise invalid(path, [f"tables and lists stand in one another deeper than {DEEPEST} levels"]) from error
     except tomllib.TOMLDecodeError as error:
-        raise invalid(path, [f"is not valid TOML: {error}"]) from error
+        raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
     return content
+
+
+def _of_backslashes(error, text):
+    """What to do about a backslash in double quotes, as paths of Windows have them, in a line that is no TOML."""
+    found = _PLACE.search(error)
+    line = text.split("\n")[int(found[1]) - 1] if found else ""
+    if not _BACKSLASH.search(line):
+        return ""
+    return "; a path with backslashes stands in single quotes, as 'C:\\data\\map.csv', or has forward slashes"
 
 
 def made(content: dict[str, Any], what: Any, path: str | Path):

@@ -14,8 +14,8 @@ from .heading import Heading, is_statement
 from .printable import brief
 
 # Lines, and letters in them, from which the dialect of a long file is found; the others have to be in it too.
-SAMPLE, SHORT, LETTERS = 300, 20, 50_000
-LINES, LINE = 2**20, 2**20  # lines of a file, and letters in one of them
+SAMPLE, SHORT, LETTERS = 300, 6, 50_000
+LINES, LINE = 2**21, 2**20  # lines of a file, and letters in one of them
 MOST = 20_000_000  # bytes of a file
 
 

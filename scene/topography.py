@@ -9,8 +9,9 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heightmap import MAPPED, QUOTIENT, Scanned, levelled
+from .form import levelled
 from .quantities import METRE, Whole, by_name, takes
+from .scanned import MAPPED, QUOTIENT, Scanned
 from .waves import MOST_WAVES, Waves
 
 # Maps whose waves are kept for the next solve.
@@ -22,9 +23,9 @@ class Topography(Scanned):
     """Roughness that was measured, of zero mean, around the indenter's axis.
 
     heights, pixel, peaks, shortest_kept : what was measured, and how much of it is kept, see `Scanned`
-    level : what is taken off the heights first, their "mean", the plane ("tilt") or the paraboloid ("curvature")
-        that fits them best; absent, the plane of a map that is mirrored and the mean of one that repeats, which
-        has no other: a plane taken off a whole period would leave a step at its sides
+    level : what is taken off the heights first, their "mean", the plane ("tilt"), or the form of second degree
+        ("curvature") or third ("cubic") that fits them best; absent, the plane of a map that is mirrored and the
+        mean of one that repeats, which has no other: a plane taken off a period would leave a step at its sides
     repeat : how the map goes on beyond its sides: "mirror", mirrored at each, which leaves no step and has a
         period of twice the map, or "periodic", as it stands, for what was made to repeat
     seed : 0, the middle of the map lies under the indenter's axis; another, a pixel drawn at random. The row
@@ -33,7 +34,7 @@ class Topography(Scanned):
     Between pixels the heights are a sum of cosines that passes through all of them.
     """
 
-    level: Literal["mean", "tilt", "curvature"] = "tilt"
+    level: Literal["mean", "tilt", "curvature", "cubic"] = "tilt"
     repeat: Literal["mirror", "periodic"] = "mirror"
     seed: Annotated[Whole, Field(ge=0)] = 0
     type: Literal["topography"] = Field(default="topography", repr=False)

@@ -28,6 +28,7 @@ from compare.studies.workprecision.study import DIAGRAMS
 from compare.tables import FORMS
 from scene import Topography
 from scene.heightfile import UNITS
+from scene.scanned import FILL
 
 TINY = (
     SCENE
@@ -141,7 +142,7 @@ def test_a_users_table_is_shifted(folder):
     assert (status, complained) == (0, "")
     assert "undecided" in said  # single measurements have no scatter
     assert list((folder / "mastercurve").glob("*.png"))
-    (folder / "ball.csv").write_text("1,2\n")
+    (folder / "ball.csv").write_text("1 2\n")
     status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
     assert status == 2
     assert "ball.csv, line 1: 2 columns" in complained
@@ -253,6 +254,7 @@ def test_the_values_that_a_shell_completes_are_those_that_are_allowed():
     assert set(values["format"]) == set(pages.FORMATS)
     assert set(values["figures"]) == set(pages.FORMS)
     assert set(values["unit"]) == set(UNITS)
+    assert set(values["missing"]) == set(FILL)
     assert set(values["to"]) == set(FORMS)
     assert set(values["kind"]) == set(KINDS)
     for name in ("level", "repeat", "peaks"):

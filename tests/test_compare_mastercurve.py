@@ -12,6 +12,8 @@ from compare.page import Plot
 from compare.plots import shifted_curves, style
 from compare.statistics.eq23 import NO_SHIFT
 from compare.studies.mastercurve import NOT_REPEATED, Mastercurve
+from compare.studies.measuredfriction import MeasuredFriction
+from compare.vocabulary import entry
 from scene.reading import InvalidInput
 
 
@@ -229,23 +231,26 @@ def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("mu, F_N [mPa], v\n1,2,3\n", "the heading gives F_N in 'mPa': the unit of a force, as N, is needed"),
-        ("mu [N], F_N, v\n1,2,3\n", "the heading gives mu in 'N': no unit is needed"),
-        ("mu,F,w\n1,2,3\n", "must name each of mu, F_N, v once"),
-        ("1,2\n", "line 1: 2 columns; mu, F_N and v are needed"),
-        ("0,5;1,0;3,2\n", "line 1: 6 columns.*numbers have decimal points"),
+        ("mu, F_N [mPa], v\n1,2,3\n", "gives F_N in 'mPa'.*that of a force, as N"),
+        ("mu [N], F_N, v\n1,2,3\n", "gives mu in 'N': the unit needed is none"),
+        ("mu,F,w\n1,2,3\n", "has no column for F_N, called F_N, FN, load"),
+        ("1 2\n", "line 1: 2 columns without a heading; without a heading, mu, F_N, v are needed"),
+        ("0.5,1,3,2\n", "line 1: 4 columns without a heading"),
         ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
-        (f"1,2,3\n1,2,{'9' * 5000}\n", r"line 2: v = 9{98}\.\.\.9{98} must be finite"),
-        ("1,2,3\n1,x,3\n", "line 2: F_N = 'x' is not a number"),
+        (f"1,2,3\n1,2,{'9' * 5000}\n", "line 2"),
+        ("1,2,3\n1,x,3\n", "line 2, column 2: 'x' is not a number"),
         ("1,2,3\n1,3,3\n", "1 speeds: 2 to 100 are"),
-        ("".join(f"1,{load},{v}\n" for load in (1, 2) for v in range(1, 102)), "101 speeds: 2 to 100 are"),
         (
-            "".join(f"1,{load},{v}\n" for load in range(1, 2502) for v in (1, 2)),
-            "5,002 loads at all speeds: at most",
+            "".join(f"1,{load},{v}\n" for load in (1, 2) for v in 1.06 ** np.arange(101)),
+            "101 speeds: 2 to 100 are",
         ),
-        ("\x1b[31m,F,v\n1,2,3\n", r"the heading \['\\x1b\[31m', 'F', 'v'\] must"),
+        (
+            "".join(f"1,{load},{v}\n" for load in 1.06 ** np.arange(102) for v in 1.06 ** np.arange(50)),
+            "5,100 loads at all speeds: at most",
+        ),
+        ("\x1b[31m,F,v\n1,2,3\n", r"the heading \(\\x1b\[31m, F, v\) has no column for F_N"),
         ("1,2,3\n1,3,3\n1,3,4\n", "v = 4 has 1 load: at least 2"),
-        ("", "0 speeds"),
+        ("", "there is no row of numbers"),
         ("1,2,3\n1,3,3\n1,3,4\n1,5,4\n", "too few points"),
     ],
 )
@@ -258,6 +263,247 @@ def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_fol
     assert not (tmp_path / "out").exists()
     with pytest.raises(InvalidInput, match="no such file"):
         compare.mastercurve(tmp_path / "none.csv", tmp_path / "out")
+
+
+def jittered(seed=1, jitter=0.003):
+    """The table, with loads and speeds that scatter as those of devices do, friction following them."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for line in table().splitlines():
+        mu, load, speed = map(float, line.split(","))
+        by = np.exp(jitter * rng.normal(size=2))
+        follows = (1 + 3e-4 * load * by[0] * (speed * by[1]) ** -1.5) / (1 + 3e-4 * load * speed**-1.5)
+        rows.append(f"{mu * follows**-0.6},{load * by[0]},{speed * by[1]}")
+    return "\n".join(rows)
+
+
+def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones(tmp_path):
+    nominal, scattering = found(study(tmp_path, table())), study(tmp_path, jittered(), "jittered.csv")
+    told = found(scattering)
+    assert len(scattering.pooled.points) == 32
+    assert told["horizontal"].verdict == HOLDS
+    assert told["exponent"].value == pytest.approx(nominal["exponent"].value, abs=0.003)
+    assert told["exponent"].interval == pytest.approx(nominal["exponent"].interval, abs=0.006)
+    with pytest.raises(InvalidInput, match=r"has 1 load|speeds: 2 to 100"):
+        Mastercurve.of(tmp_path / "jittered.csv", tolerance=0)
+    assert "Loads within 5 % of one another are one" in scattering.setting(None)[0].markdown
+
+
+@pytest.mark.parametrize("tolerance", [-0.1, 0.6, np.nan, True, "wide"])
+def test_a_tolerance_that_is_none_is_refused(tmp_path, tolerance):
+    (tmp_path / "ball.csv").write_text(table())
+    with pytest.raises(InvalidInput, match="tolerance = "):
+        Mastercurve.of(tmp_path / "ball.csv", tolerance=tolerance)
+
+
+COLUMNS = np.array([list(map(float, line.split(","))) for line in table().splitlines()]).T
+
+
+def written(columns, separator=","):
+    """A table of columns by their headings."""
+    names, numbers = zip(*columns.items(), strict=True)
+    rows = [separator.join(map(repr, row)) for row in zip(*(each.tolist() for each in numbers), strict=True)]
+    return "\n".join([separator.join(names), *rows])
+
+
+MU, LOAD, SPEED = COLUMNS
+ALIKE = {
+    "CoF,Normal load (N),Sliding velocity (m/s)": (MU, LOAD, SPEED),
+    "Time [s];Friction force [mN];Velocity [mm/s];Fz [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
+    "sliding speed / mm/s\tload / kN\tcoefficient of friction": (1e3 * SPEED, LOAD / 1e3, MU),
+    "tangential_force,normal_force,speed,t [s]": (MU * LOAD, LOAD, SPEED, np.arange(96.0)),
+    "Lateral Force (N);Load (N);v (m/s)": (MU * LOAD, LOAD, SPEED),
+}
+
+
+@pytest.mark.parametrize("heading", ALIKE)
+def test_names_order_units_and_the_friction_force_change_no_digit(tmp_path, heading):
+    separator = next(each for each in "\t;," if each in heading)
+    columns = dict(zip(heading.split(separator), ALIKE[heading], strict=True))
+    (tmp_path / "named.csv").write_text(written(columns, separator))
+    read = MeasuredFriction.of(tmp_path / "named.csv")
+    for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
+        np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
+    unused = [each for each in read.notes if "not used" in each]
+    assert len(unused) == sum(name.startswith(("Time", "t ")) for name in columns)
+
+
+def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
+    import pint
+    import xarray
+
+    (tmp_path / "ball.csv").write_text(table())
+    plain = MeasuredFriction.of(tmp_path / "ball.csv")
+    unit = pint.UnitRegistry()
+    frame = pandas.DataFrame({"v [mm/s]": 1e3 * SPEED, "COF": MU, "load [N]": LOAD})
+    labelled = xarray.Dataset(
+        {
+            "friction": ("row", MU),
+            "F_N": ("row", 1e3 * LOAD, {"units": "mN"}),
+            "speed": ("row", SPEED, {"units": "m/s"}),
+        }
+    )
+    loads, speeds = np.unique(LOAD), np.unique(SPEED)
+    grid = xarray.DataArray(
+        MU.reshape(4, 8, 3),
+        dims=("speed", "load", "repeat"),
+        coords={"speed": ("speed", 1e3 * speeds, {"units": "mm/s"}), "load": loads},
+    )
+    for given in (
+        frame,
+        labelled,
+        {"mu": MU, "F_N": unit.Quantity(1e3 * LOAD, "mN"), "v": SPEED},
+        {"F_T": MU * LOAD, "load": LOAD.tolist(), "v": unit.Quantity(100 * SPEED, "cm/s")},
+        xarray.Dataset({"mu": grid}),
+    ):
+        read = MeasuredFriction.of(given)
+        for name, numbers in plain.data.items():
+            np.testing.assert_allclose(read.data[name], numbers, rtol=1e-13)
+        assert read.source == f"a {type(given).__name__} from Python, 96 rows"
+    made = Mastercurve.of(frame)
+    assert made.inputs["table"] == "a DataFrame from Python, 96 rows"
+    assert made.title == "Friction of DataFrame on one curve"
+    assert made.collapse.horizontal.exponent.value == pytest.approx(
+        study(tmp_path, table()).collapse.horizontal.exponent.value, rel=1e-10
+    )
+    with pytest.raises(InvalidInput, match="row 3: v = 0 must be"):
+        Mastercurve.of({"mu": MU, "F_N": LOAD, "v": SPEED * (np.arange(96) != 2)})
+    with pytest.raises(InvalidInput, match="a path, a DataFrame"):
+        Mastercurve.of(3.0)
+
+
+def test_friction_force_and_coefficient_agree_or_are_refused(tmp_path):
+    both = {"mu": MU.round(3), "F_T [N]": MU * LOAD, "F_N [N]": LOAD, "v [m/s]": SPEED}
+    (note,) = MeasuredFriction.of({name: column.tolist() for name, column in both.items()}).notes
+    assert "mu is used; F_T / F_N agrees with it within" in note
+    both["F_T [N]"] = both["F_T [N]"] * np.where(np.arange(96) == 4, 2.0, 1.0)
+    with pytest.raises(InvalidInput, match=r"line 6: mu = .*, and F_T / F_N = .*: they must agree within 5%"):
+        study(tmp_path, written(both))
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ("mu,F_N [N],v [rpm]", "only with the radius of its track"),
+        ("mu,F_N [N],rotational speed [1/min]", "there is rotational speed and no v.*radius"),
+        ("mu,F_N [N],w", "there is no column for v, called v, speed"),
+        ("x,F_N [N],v", "there is no column for mu, called mu.*nor for F_T"),
+        ("mu,F_T [mm],v,F_N", "F_T in 'mm'.*a force, as N"),
+        ("mu,F_N,v,T", "line 2: T = 4 has no unit, and 4 K is hardly meant: write T .degC."),
+        ("mu,F_N,v,load", "'F_N' and 'load' are both F_N: keep one"),
+    ],
+)
+def test_columns_that_cannot_be_meant_are_refused_with_what_is_needed(tmp_path, names, said):
+    with pytest.raises(InvalidInput, match=said):
+        study(tmp_path, f"{names}\n1,2,3{',4' * (names.count(',') - 2)}\n")
+
+
+def test_a_row_that_lacks_a_number_is_left_out_and_told(tmp_path):
+    lines = written({"mu": MU, "F_N": LOAD, "v": SPEED}).splitlines()
+    lines.insert(4, ",1,0.003")
+    read = study(tmp_path, "\n".join(lines), "holed.csv")
+    (tmp_path / "ball.csv").write_text(table())
+    assert read.data.equals(MeasuredFriction.of(tmp_path / "ball.csv").data)
+    assert "1 of 97 rows lack a number and are left out" in read.notes[0]
+    assert f"Note: {read.notes[0]}." in read.answer(read.findings(None))
+
+
+def test_one_temperature_is_told_and_changes_nothing(tmp_path):
+    # The thermometer scatters too.
+    warm = {"mu": MU, "F_N": LOAD, "v": SPEED, "T [degC]": 25 + 0.4 * np.sin(np.arange(96))}
+    read, plain = study(tmp_path, written(warm)), study(tmp_path, table(), "plain.csv")
+    told, wanted = found(read), found(plain)
+    assert {name: each.found(6) for name, each in told.items()} == {
+        name: each.found(6) for name, each in wanted.items()
+    }
+    assert "one temperature, 298.2 K" in read.notes[0]
+    assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
+
+
+def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
+    """Friction at three temperatures, on one curve of load and of the speed that WLF at 20 degC shifts."""
+    rng, rows = np.random.default_rng(seed), ["T [degC],v [mm/s],F_N,F_T [N]"]
+    for celsius in (12, 20, 28):
+        by = 10 ** (-c1 * (celsius - 20) / (c2 + celsius - 20))
+        for speed in np.geomspace(3, 100, 3):
+            for load in np.geomspace(1, 30, 4):
+                for noise, *jitter in rng.normal(size=(2, 3)):
+                    v, f = (each * (1 + 0.003 * off) for each, off in zip((speed, load), jitter, strict=True))
+                    mu = law(f * (by * v / 30) ** -0.5) * (1 + 0.02 * noise)
+                    rows.append(f"{celsius},{v},{f},{mu * f}")
+    return "\n".join(rows)
+
+
+def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
+    made = study(tmp_path, warmed())
+    told = found(made)
+    assert (told["temperatures"].verdict, told["horizontal"].verdict) == (HOLDS, HOLDS)
+    low, high = told["exponent"].interval
+    assert low - 0.01 <= -0.5 <= high + 0.01
+    assert high - low < 0.05
+    assert told["temperatures-unshifted"].value > 0.2
+    first, *_ = made.answer(list(told.values()))
+    assert "Shifts along the speed bring the temperatures together" in " ".join(made.answer(list(told.values())))
+    assert first.startswith("Shifts along the load")
+    points, shifts = made.plots(None, list(told.values()))
+    assert set(points.tables["shifted-curves"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
+    with style.applied():
+        drawing = shifted_curves.figure(again(points), **points.options)
+        shifted = shifts.draw(again(shifts))
+    drawing.canvas.draw()
+    shifted.canvas.draw()
+    own = shifts.tables["temperature-shifts"]
+    np.testing.assert_allclose(
+        np.log(own["reduced_speed"] / own["speed"]),
+        own["temperature"].map(dict(zip(made.shifts.temperatures, made.shifts.shifts.value, strict=True))),
+        atol=1e-12,
+    )
+    for block in made.blocks(None, list(told.values()), []):
+        for name in getattr(block, "frame", pandas.DataFrame()).columns:
+            assert entry(name) is not None
+
+
+def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent(tmp_path):
+    (tmp_path / "ball.csv").write_text(warmed())
+    right = Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC")
+    told = found(right)
+    assert told["temperatures"].verdict == HOLDS
+    low, high = told["exponent"].interval
+    assert low - 0.01 <= -0.5 <= high + 0.01
+    assert right.inputs["reference"] == "20 degC"
+    wrong = found(Mastercurve.of(tmp_path / "ball.csv", c1=20.0, c2=101.6, reference=293.15))
+    assert wrong["temperatures"].verdict == FAILS
+    assert np.isnan(wrong["exponent"].value)
+    assert "temperatures together" in wrong["exponent"].reason
+    # Whether the curves are one does not depend on the speed that they have.
+    assert wrong["horizontal"].value == pytest.approx(told["horizontal"].value, abs=1e-3)
+
+
+def test_where_friction_is_a_power_no_temperature_is_shifted_and_no_exponent_told(tmp_path):
+    told = found(study(tmp_path, warmed(law=lambda x: (3 * x) ** -0.6)))
+    assert told["temperatures"].verdict == UNDECIDED
+    for name in ("exponent", "c1", "c2", "activation-energy"):
+        assert np.isnan(told[name].value)
+        assert "cannot be told from one along friction" in told[name].reason
+
+
+@pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"c1": 8.86}, "c2"),
+        ({"c1": 8.86, "c2": 101.6, "reference": "500 degC"}, "the law ends at reference - c2"),
+        ({"c1": -1, "c2": 101.6, "reference": 293.15}, "c1 = -1"),
+        ({"c1": 8.86, "c2": "101.6 N", "reference": 293.15}, "c2 = '101.6 N'"),
+        ({"c1": 8.86, "c2": 101.6, "reference": 20}, "is degC meant"),
+    ],
+)
+def test_constants_that_are_none_are_refused(tmp_path, stated, said):
+    (tmp_path / "ball.csv").write_text(warmed())
+    with pytest.raises(InvalidInput, match=said):
+        Mastercurve.of(tmp_path / "ball.csv", **stated)
+    (tmp_path / "plain.csv").write_text(table())
+    with pytest.raises(InvalidInput, match="ask for a column of temperature"):
+        Mastercurve.of(tmp_path / "plain.csv", c1=8.86, c2=101.6, reference=293.15)
 
 
 def again(plot):

@@ -303,7 +303,7 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
         (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
         (NOISE, {"pixel": "1 Pa"}, "a length"),
         (NOISE, {"pixel": [-1.0]}, "greater than 0"),
-        (NOISE, {"pixel": 1.0, "level": "cubic"}, "'mean', 'tilt' or 'curvature'"),
+        (NOISE, {"pixel": 1.0, "level": "flat"}, "'mean', 'tilt', 'curvature' or 'cubic'"),
         (NOISE, {"pixel": 1.0, "unit": "ell"}, "unit = 'ell': one of m, mm, um, nm"),
         (NOISE, REPEATS | {"level": "tilt"}, 'level = "tilt" with repeat = "periodic"'),
         (NOISE, {"pixel": [1.0, 1.0, 1.0]}, "pixel = (1.0, 1.0, 1.0): Input should be the side of"),

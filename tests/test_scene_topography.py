@@ -22,8 +22,9 @@ import scene.topography
 from compare.cases import Case
 from compare.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
-from scene.heightfile import LINE, MOST_BYTES
+from scene.heightfile import MOST_BYTES
 from scene.reading import InvalidInput, read
+from scene.sheet import LINE
 from scene.waves import MOST_WAVES
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
@@ -240,7 +241,7 @@ def test_a_map_goes_to_a_worker_and_cannot_be_changed():
         ({"pixel": np.array("a")}, "or two of them"),
         ({"pixel": 10**400}, "or two of them"),
         ({"peaks": "sideways"}, "'up' or 'down'"),
-        ({"level": "flat"}, "'mean', 'tilt' or 'curvature'"),
+        ({"level": "flat"}, "'mean', 'tilt', 'curvature' or 'cubic'"),
         ({"repeat": "never"}, "'mirror' or 'periodic'"),
         ({"repeat": "periodic", "level": "tilt"}, 'level = "tilt" with repeat = "periodic".*take level = "mean"'),
         ({"repeat": "periodic", "level": "curvature"}, 'level = "curvature" with repeat'),
@@ -420,8 +421,8 @@ def test_numbers_of_half_precision_are_no_less_in_nanometres(tmp_path):
 @pytest.mark.parametrize(
     ("name", "content", "stated", "named"),
     [
-        ("a.csv", "1,2\n3,x\n", {"pixel": 1.0}, "cannot be read as rows of numbers"),
-        ("a.txt", "# nothing\n", {"pixel": 1.0}, "there is nothing in it"),
+        ("a.csv", "1,2\n3,x\n", {"pixel": 1.0}, "line 2, column 2: 'x' is not a number"),
+        ("a.txt", "# nothing\n", {"pixel": 1.0}, "there is no row of numbers in it"),
         ("a.csv", "1 2 3 4\n" * 4, {}, "give pixel"),
         ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": "inch"}, "one of m, mm, um, nm"),
         ("a.npy", "no array", {"pixel": 1.0}, "cannot be read as arrays"),
@@ -591,20 +592,20 @@ def test_larger_files_than_are_read_are_not_opened(tmp_path, name):
     [
         ("1," * (LINE // 2 + 1), f"line 1 has more than {LINE} letters"),
         ("1 2 3 4\n" + "5" * (LINE + 1), f"line 2 has more than {LINE} letters"),
-        ("1,2,3,4\n1,2\n", "number of columns changed"),
-        ("1 2 3 " + "x" * 9999, "could not convert string"),
-        ("1 2 3 4\n" * 41, "4 x 41 pixels: at most 160"),
+        ("1,2,3,4\n1,2\n", "line 2: 2 columns, and other rows have 4"),
+        ("1 2 3 " + "x" * 9999, "line 1, column 4: 'xxx.*is not a number"),
+        ("1 2 3 4\n" * 41, "more than 160 numbers: no more are read"),
         ("\n" * 99, "more than 50 lines"),
-        ("\0", "could not convert string"),
-        (";;;\n" * 5, "nothing in it"),
+        ("\0", "there is no row of numbers"),
+        (";;;\n" * 5, "there is no row of numbers"),
     ],
 )
 def test_a_text_is_read_line_by_line_and_no_further_than_a_map_goes(tmp_path, monkeypatch, content, said):
     monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 160)
-    monkeypatch.setattr(scene.heightfile, "LINES", 50)
+    monkeypatch.setattr(scene.sheet, "LINES", 50)
     path = tmp_path / "a.csv"
     path.write_text(content)
-    with pytest.raises(ValidationError, match=f"a.csv cannot be read as rows of numbers: .*{said}") as error:
+    with pytest.raises(ValidationError, match=f"a.csv.*{said}") as error:
         Topography(file=path, pixel=1e-6, unit="m")
     assert says(error).isprintable()
     assert len(says(error)) < 1000
@@ -649,7 +650,9 @@ def test_other_files_are_read_with_their_sizes_and_units(tmp_path, surface_topog
     with pytest.raises(ValidationError, match="states its own"):
         Topography(file=path, pixel=1e-6)
     with pytest.raises(ValidationError, match="states its own"):
-        Topography(file=path, unit="nm")
+        Topography(file=path, unit="um")
+    # what is the same is no contradiction
+    assert Topography(file=path, unit=unit, pixel=(2 * metre, 4 * metre)) == found
 
 
 def test_a_file_that_states_no_unit_asks_for_it(tmp_path, surface_topography):
@@ -757,10 +760,10 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
         InvalidInput, match=r"roughness: surface.npy does not state the unit .* nor the side of a pixel"
     ):
         read("scene.toml", Scene)
-    (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\npath"))
+    (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\nzzz"))
     with pytest.raises(InvalidInput) as error:
         read("scene.toml", Scene)
-    for named in ("roughness.heights", "roughness.pixel: missing", "roughness.path"):
+    for named in ("roughness.heights", "roughness.pixel: missing", "roughness.zzz"):
         assert named in str(error.value)
 
 

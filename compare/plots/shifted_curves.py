@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import cycle
 from math import nan
 from typing import Any
 
@@ -21,6 +22,7 @@ from .lettering import clear, lettered, literal
 NAME = "shifted-curves"
 SHIFTS, POWERS, FITS = f"{NAME}-shifts", f"{NAME}-powers", f"{NAME}-fits"
 LOG10 = np.log(10)
+SLID = "speed times $a_T$ [m/s]"
 # Of more speeds, so many are drawn.
 SPEEDS = 8
 FITTED, EXPECTED, BOTH, ACROSS = "fitted", "expected", "both", "along friction"
@@ -39,6 +41,7 @@ class ShiftedCurves:
     powers : other exponents, by name
     conditions : further columns of the points, in their order; where the column `holds` is false points are hollow
     lead : alignment of the collapse that is the answer; that along the load if None
+    warmth : temperature and measured speed of each curve, where its own speed is one that its temperature shifts
     """
 
     title: str
@@ -48,6 +51,7 @@ class ShiftedCurves:
     powers: Mapping[str, float] = field(default_factory=dict)
     conditions: DataFrame | None = None
     lead: Alignment | None = None
+    warmth: DataFrame | None = None
 
     @property
     def both(self) -> bool:
@@ -86,7 +90,8 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
     """A row for each set of curves: as they are, shifted, and the shifts."""
     names = (each.removeprefix(NAME) for each in (NAME, SHIFTS, POWERS, FITS))
     points, shifts, powers, fits = (tables[name + each] for each in names)
-    points, shifts = (_few(each) for each in (points, shifts))
+    warm = "reduced_speed" in points
+    points, shifts = (_few(_slid(each)) for each in (points, shifts))
     count = len(fits)
     drawing = style.canvas("double", 0.55 + 2.1 * count)
     panels = drawing.subplots(count, 3, squeeze=False)
@@ -103,20 +108,29 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
         if own["shifted_force"].isna().all():
             row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
         _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
+        if warm:
+            _warmth(row[1], own)
         row[0].set_title(literal(fit["curves"]))
         row[1].set_title(_verdict(fit))
         row[2].set_title("" if fit["decided"] else "exponent undecided")
         row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
         row[1].set(xlabel="shifted normal force [N]")
-        row[2].set(xlabel="speed [m/s]", ylabel="decades of the shift [1]")
+        row[2].set(xlabel=SLID if warm else "speed [m/s]", ylabel="decades of the shift [1]")
         style.decades(*row)
         for axis in (row[0].yaxis, row[1].yaxis, row[1].xaxis):
             axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
-    shades.bar(drawing, panels, shades.SPEED, between, "speed [m/s]", **place)
+    shades.bar(drawing, panels, shades.SPEED, between, SLID if warm else "speed [m/s]", **place)
     lettered(panels.flat, 3)
     clear(drawing, panels[:, 2])
     return drawing
+
+
+def _slid(table: DataFrame) -> DataFrame:
+    """A table with the speed to which its temperature shifts a curve in place of that measured."""
+    if "reduced_speed" not in table:
+        return table
+    return table.drop(columns="speed").rename(columns={"reduced_speed": "speed"})
 
 
 def _few(table: DataFrame) -> DataFrame:
@@ -138,6 +152,16 @@ def _tables(each):
     points = found.points(along, lead.vertical.value if each.both else None)
     if each.conditions is not None:
         points = points.join(each.conditions.reset_index(drop=True))
+    shifts = found.shifts(lead)
+    if each.warmth is not None:
+        counts = [curve.log_load.size for curve in found.curves]
+        points, shifts = (
+            table.rename(columns={"speed": "reduced_speed"}).join(own)
+            for table, own in (
+                (points, each.warmth.loc[np.repeat(each.warmth.index, counts)].reset_index(drop=True)),
+                (shifts, each.warmth),
+            )
+        )
     fitted = (lead.exponent.value, *lead.exponent.interval()) if each.decided else (nan, nan, nan)
     powers = {FITTED: fitted}
     if each.both:
@@ -156,7 +180,7 @@ def _tables(each):
     }
     return {
         NAME: points,
-        SHIFTS: found.shifts(lead),
+        SHIFTS: shifts,
         POWERS: DataFrame(
             [(name, *found) for name, found in powers.items() if np.isfinite(found[0])],
             columns=["power", "exponent", "exponent_low", "exponent_high"],
@@ -185,7 +209,24 @@ def _curves(axes: Axes, points: DataFrame, across: str, friction: str, colours: 
     bars = {"fmt": "none", "ecolor": colours, "elinewidth": style.width(0.8), "capsize": 0}
     intervals(axes, x, points, friction, **bars)
     holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
-    scatter(axes, x, mu, holds, colours, 0.5, 0.35, zorder=2.5)
+    for marker, where in _marked(points):
+        scatter(axes, x[where], mu[where], holds[where], colours[where], 0.5, 0.35, zorder=2.5, marker=marker)
+
+
+def _marked(table: DataFrame):
+    """Markers and the rows that have them: one for each temperature, or one for all."""
+    if "temperature" not in table:
+        return [("o", np.ones(len(table), bool))]
+    warmth = table["temperature"].to_numpy()
+    return [(marker, warmth == at) for at, marker in zip(np.unique(warmth), cycle(style.SERIES_MARKERS))]
+
+
+def _warmth(axes: Axes, points: DataFrame) -> None:
+    """Which marker is which temperature."""
+    look: dict[str, Any] = {"linestyle": "none", "color": style.ink(), "markersize": style.mark(0.7)}
+    for marker, where in _marked(points):
+        axes.plot([], [], marker=marker, label=f"{points['temperature'].to_numpy()[where][0]:.4g} K", **look)
+    axes.legend(loc="lower left", fontsize=style.tiny(), handlelength=1.0, labelspacing=0.2)
 
 
 def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any) -> None:
@@ -193,7 +234,9 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
     speed, shift = shifts["speed"].to_numpy(), shifts["log_shift"].to_numpy() / LOG10
     if np.isfinite(shift).any():
         intervals(axes, speed, shifts, "log_shift", 1 / LOG10, fmt="none", ecolor=colours, capsize=0)
-        scatter(axes, speed, shift, np.full(len(speed), bool(fit["decided"])), colours, 0.8, 0.8, zorder=2)
+        for marker, where in _marked(shifts):
+            decided = np.full(where.sum(), bool(fit["decided"]))
+            scatter(axes, speed[where], shift[where], decided, colours[where], 0.8, 0.8, zorder=2, marker=marker)
     if fit["shifted_as"] == BOTH:
         squares = {"fmt": "s", "color": style.ink(), "markersize": style.mark(0.6), "capsize": 0}
         intervals(axes, speed, shifts, "log_lift", 1 / LOG10, **squares)

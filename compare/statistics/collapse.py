@@ -218,7 +218,7 @@ def _inseparable(straight):
 
 def _best(fit, *guesses):
     """Increments of least misfit of several starts, those given and powers of the speed."""
-    lower, upper = bounds(fit.curves)
+    lower, upper = fit.bounds
     lengths = np.diff(np.log([curve.speed for curve in fit.curves]))
 
     def cost(increments):
@@ -260,7 +260,7 @@ def _still(data, fit):
 def _moved(data, fit, guess):
     """Curves that are, from a guess; where they part, only the misfit that the least overlap leaves is known."""
     best = near(fit, guess)
-    if inside(best, *bounds(fit.curves)):
+    if inside(best, *fit.bounds):
         return _aligned(data, fit, lambda each: near(each, best))
 
     return replace(_undecided(fit, best, PARTED), misfit=_misfit(data, fit, lambda each: near(each, best)))

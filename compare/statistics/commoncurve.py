@@ -25,12 +25,12 @@ _STEPS, _SETTLED = 20, 1e-12
 
 @dataclass(frozen=True)
 class Common:
-    """The best common polynomial of curves shifted in some way; arrays over all points (N,).
+    """The best common function of curves shifted in some way; arrays over all points (N,).
 
-    basis, orthonormal : polynomials and levels (N, M), as they are and orthonormal
-    slopes : of the polynomial
-    coefficients : of the polynomial, then the increments of the level (M,)
-    domain : least and greatest ln F, shifted as the first curve is
+    basis, orthonormal : functions and levels (N, M), as they are and orthonormal
+    slopes : of the function along x
+    coefficients : of the functions, then the increments of the level (M,)
+    domain : least and greatest x, shifted as the first curve is
     """
 
     basis: np.ndarray
@@ -40,35 +40,29 @@ class Common:
     domain: tuple[float, float]
 
 
-class Fit:
-    """Misfit of curves to their best common polynomial, given the increments of the shifts from speed to speed.
+class Projected:
+    """Misfit of curves to a common function, linear in its coefficients, given the increments of their shifts.
 
-    degree : of the polynomial
-    lifted : whether each curve is shifted vertically too, as fits best
+    Curves are shifted along x one against the next. The function is projected out: shifts alone are sought.
+
+    places, heights : x and y of each curve
     """
 
-    def __init__(self, curves: Sequence[Curve], degree: int, lifted: bool = False):
-        self.curves, self.degree, self.lifted = curves, degree, lifted
-        self.owner = np.repeat(np.arange(len(curves)), [curve.log_load.size for curve in curves])
-        self.log_load = np.concatenate([curve.log_load for curve in curves])
-        self.log_friction = np.concatenate([curve.log_friction for curve in curves])
+    def __init__(self, places: Sequence[np.ndarray], heights: Sequence[np.ndarray]):
+        self.owner = np.repeat(np.arange(len(places)), [each.size for each in places])
+        self.x, self.y = np.concatenate(places), np.concatenate(heights)
         # An increment moves every later curve.
-        self.later = (self.owner[:, None] > np.arange(len(curves) - 1)).astype(float)
-        # An increment of the level moves it down.
-        self.levels = self.later if lifted else self.later[:, :0]
+        self.later = (self.owner[:, None] > np.arange(len(places) - 1)).astype(float)
+        self.bounds = _overlapping(places)
         self._last: tuple[np.ndarray, Common] | None = None
 
-    def of(self, curves: Sequence[Curve]) -> "Fit":
-        """The fit of other curves."""
-        return Fit(curves, self.degree, self.lifted)
-
     def residuals(self, increments: np.ndarray) -> np.ndarray:
-        """ln mu minus the best polynomial, (N,)."""
+        """y minus the best function, (N,)."""
         basis = self.common(increments).orthonormal
-        return self.log_friction - basis @ (basis.T @ self.log_friction)
+        return self.y - basis @ (basis.T @ self.y)
 
     def jacobian(self, increments: np.ndarray) -> np.ndarray:
-        """Derivatives of the residuals, (N, increments), except the part in the span of the polynomials.
+        """Derivatives of the residuals, (N, increments), except the part in the span of the functions.
 
         Kaufman, BIT 15, 49 (1975). The gradient of the sum of squares is exact, as residuals do not lie there.
         """
@@ -77,49 +71,83 @@ class Fit:
         return common.orthonormal @ (common.orthonormal.T @ moved) - moved
 
     def tangent(self, increments: np.ndarray) -> np.ndarray:
-        """Tangent of the fit: changes to first order of polynomials, levels and shifts (N, M)."""
+        """Tangent of the fit: changes to first order of functions, levels and shifts (N, M)."""
         common = self.common(increments)
         return np.hstack([common.basis, common.slopes[:, None] * self.later])
+
+    def common(self, increments: np.ndarray) -> Common:
+        """The best function once the curves are shifted; kept, as residuals and slopes are asked for in turn."""
+        if self._last is None or not np.array_equal(self._last[0], increments):
+            shifted = self.x + np.concatenate([[0], np.cumsum(increments)])[self.owner]
+            self._last = np.array(increments), self._common(shifted)
+        return self._last[1]
+
+    def _common(self, x: np.ndarray) -> Common:
+        """The best function of the places once they are shifted."""
+        raise NotImplementedError
+
+    def _projected(self, basis):
+        """Orthonormal basis and coefficients of y in a basis; functions that coincide there count as one."""
+        left, sizes, right = np.linalg.svd(basis, full_matrices=False)
+        told = sizes > _LEAST_SINGULAR * sizes[0]
+        orthonormal = left[:, told]
+        return orthonormal, right[told].T @ (orthonormal.T @ self.y / sizes[told])
+
+
+class Fit(Projected):
+    """Misfit of curves of ln mu against ln F to their best common polynomial.
+
+    degree : of the polynomial
+    lifted : whether each curve is shifted vertically too, as fits best
+    """
+
+    def __init__(self, curves: Sequence[Curve], degree: int, lifted: bool = False):
+        super().__init__([curve.log_load for curve in curves], [curve.log_friction for curve in curves])
+        self.curves, self.degree, self.lifted = curves, degree, lifted
+        # An increment of the level moves a curve down.
+        self.levels = self.later if lifted else self.later[:, :0]
+
+    def of(self, curves: Sequence[Curve]) -> "Fit":
+        """The fit of other curves."""
+        return Fit(curves, self.degree, self.lifted)
 
     def lifts(self, increments: np.ndarray) -> np.ndarray:
         """Increments of the level (K - 1,), zero where curves are not lifted."""
         lifts = self.common(increments).coefficients[self.degree + 1 :]
         return lifts if self.lifted else np.zeros(len(increments))
 
-    def common(self, increments: np.ndarray) -> Common:
-        """The best polynomial once the curves are shifted; kept, as residuals and slopes are asked for in turn."""
-        if self._last is None or not np.array_equal(self._last[0], increments):
-            self._last = np.array(increments), self._common(increments)
-        return self._last[1]
-
-    def _common(self, increments):
-        x = self.log_load + np.concatenate([[0], np.cumsum(increments)])[self.owner]
-        middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
-        scaled = (x - middle) / half
+    def _common(self, x):
+        scaled, half = scaled_to_one(x)
         basis = np.hstack([chebyshev.chebvander(scaled, self.degree), -self.levels])
-        left, sizes, right = np.linalg.svd(basis, full_matrices=False)
         # Where loads coincide once shifted, fewer polynomials are told apart than there are.
-        told = sizes > _LEAST_SINGULAR * sizes[0]
-        orthonormal = left[:, told]
-        coefficients = right[told].T @ (orthonormal.T @ self.log_friction / sizes[told])
+        orthonormal, coefficients = self._projected(basis)
         slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients[: self.degree + 1])) / half
         return Common(basis, orthonormal, slopes, coefficients, (x.min(), x.max()))
 
 
+def scaled_to_one(x: np.ndarray) -> tuple[np.ndarray, float]:
+    """Places between -1 and 1, and half of the range that they had; 1 of a single place."""
+    middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2 or 1.0
+    return (x - middle) / half, half
+
+
 def bounds(curves: Sequence[Curve]) -> tuple[np.ndarray, np.ndarray]:
     """Least and greatest increments that leave neighbouring curves the least overlap."""
+    return _overlapping([curve.log_load for curve in curves])
+
+
+def _overlapping(places):
     lower, upper = [], []
-    for left, right in pairwise(curves):
-        a, b = left.log_load, right.log_load
+    for a, b in pairwise(places):
         shared = LEAST_OVERLAP * min(np.ptp(a), np.ptp(b))
         lower.append(a.min() - b.max() + shared)
         upper.append(a.max() - b.min() - shared)
     return np.array(lower), np.array(upper)
 
 
-def near(fit: Fit, guess: np.ndarray) -> np.ndarray:
+def near(fit: Projected, guess: np.ndarray) -> np.ndarray:
     """Increments of least misfit close to a guess (Gauss-Newton), or of a search within the bounds."""
-    lower, upper = bounds(fit.curves)
+    lower, upper = fit.bounds
     at, least = guess, np.inf
     for _ in range(_STEPS):
         residuals, jacobian = fit.residuals(at), fit.jacobian(at)

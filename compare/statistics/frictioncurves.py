@@ -132,10 +132,13 @@ class MeasuredCurves:
 
     curves : with the standard error of each ln mu, NaN where unknown
     freedom : degrees of freedom of the one relative scatter behind these errors; infinite if it is known exactly
+    levers : change of ln v of each curve with ln mu of each point (S, N), where friction itself says by how much
+        speeds are shifted, in the order of the curves, which is that of their speeds; None of speeds as measured
     """
 
     curves: tuple[Curve, ...]
     freedom: float = inf
+    levers: np.ndarray | None = None
 
     @property
     def speeds(self) -> np.ndarray:
@@ -184,10 +187,11 @@ class MeasuredCurves:
         return np.concatenate([curve.error for curve in self.curves])
 
     def _moved(self, point, by):
+        quicker = np.ones(len(self.curves)) if self.levers is None else np.exp(by * self.levers[:, point])
         moved = []
-        for curve in self.curves:
+        for curve, times in zip(self.curves, quicker.tolist(), strict=True):
             here = np.arange(curve.log_load.size) == point
-            moved.append(replace(curve, log_friction=curve.log_friction + by * here))
+            moved.append(replace(curve, speed=times * curve.speed, log_friction=curve.log_friction + by * here))
             point -= curve.log_load.size
         return replace(self, curves=tuple(moved))
 

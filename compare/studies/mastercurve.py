@@ -1,47 +1,39 @@
 """Friction that a user measured at several loads and speeds, shifted onto one curve: `crosscheck mastercurve`."""
 
-import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import isfinite, nan, sqrt
-from pathlib import Path
+from math import isfinite, nan
+from typing import Any
 
-import numpy as np
 import xarray
+from pandas import DataFrame
 
 from scene.printable import brief
-from scene.quantities import NEWTON, SPEED
+from scene.quantities import BARE, argument
 from scene.reading import InvalidInput
-from scene.table import read_rows
 
 from ..declaration import Study
 from ..finding import Finding, claimed, sentences
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Table, Text
-from ..plots import shifted_curves
+from ..plots import shifted_curves, temperature_shifts
 from ..statistics import eq23
 from ..statistics.collapse import Alignment, Collapse, collapse
-from ..statistics.frictioncurves import Curve, MeasuredCurves
+from ..statistics.measuredcurves import check, curves_of, in_order
+from ..statistics.pooling import WARMTH, Pooled, pooled
+from ..statistics.shiftlaws import ShiftLaw, law_of
+from ..statistics.temperatureshifts import TemperatureShifts
 from ..task import Batch, Task
-from ..vocabulary import attributes
+from . import temperatures
+from .measuredfriction import MeasuredFriction, Measurements
+from .temperatures import Constants
 
-COLUMNS = ("mu", "F_N", "v")
-# Names of the columns that a heading may have, in lower case.
-CALLED = {
-    "mu": ("mu", "µ", "μ", "friction", "friction_coefficient", "cof"),
-    "F_N": ("f_n", "fn", "load", "normal_force", "force"),
-    "v": ("v", "speed", "velocity", "sliding_speed"),
-}
-UNITS = {"F_N": NEWTON, "v": SPEED}  # mu has none
-PLAIN = ("1", "-")  # written for none
-# "F_N [mN]", "F_N (mN)", "F_N / mN", or a name alone.
-_NAMED = re.compile(r"(?P<name>[^\[(/]*?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>.*)\)|/\s*\(?(?P<c>[^()]+)\)?)?")
-LEAST_LOADS = 2
-MOST_SPEEDS, MOST_POINTS = 100, 5_000
-MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
+TOLERANCE = (
+    0.05  # relative: loads within it are one, and speeds; wider than devices scatter, less than people step
+)
+WIDEST = 0.5
 MEASURED = "measured"
-VARIABLES = dict(zip(COLUMNS, ("friction_coefficient", "normal_force", "speed"), strict=True))
 
 # Claims of Eq. 23 in the words of a measurement, by their own names.
 CLAIMS = {
@@ -58,48 +50,88 @@ CLAIMS = {
     ),
 }
 NOT_REPEATED = "no point was measured more than once: the scatter is not known, and part of a misfit"
+EXPONENTS = (eq23.ALONE.id, eq23.BESIDE.id, eq23.NOT_SHIFTED.id)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mastercurve(Study):
     """Shifts of measured friction.
 
-    path : of a table of friction, load and speed, a row a measurement
+    friction : measurements
+    tolerance : relative; loads that lie within it of one another are one, and so are speeds
+    constants : of WLF, as stated
     """
 
-    path: Path
+    friction: MeasuredFriction
+    tolerance: float = TOLERANCE
+    constants: Constants = field(default_factory=Constants)
 
     command = "mastercurve"
 
     @classmethod
-    def of(cls, table: str | Path) -> "Mastercurve":
-        """The study of a table. Raises InvalidInput naming file, line and what is allowed."""
-        study = cls(Path(table))
+    def of(cls, table: Measurements, tolerance: float = TOLERANCE, **constants: Any) -> "Mastercurve":
+        """The study of a table. Raises InvalidInput naming the table, the place and what is allowed.
+
+        constants : c1, c2 and reference of WLF, where they are known
+        """
         try:
-            study.data  # noqa: B018
-            study.collapse  # noqa: B018
+            tolerance = argument("tolerance", tolerance, BARE.value)
+            if not 0 <= tolerance <= WIDEST:
+                raise ValueError(f"tolerance = {tolerance:g}: it must lie between 0 and {WIDEST:g}")
         except ValueError as error:
-            said, name = str(error), brief(str(table))
+            raise InvalidInput(str(error)) from error
+        friction, stated = MeasuredFriction.of(table), Constants(**constants)
+        if stated.given and "temperature" not in friction.data:
+            raise InvalidInput(
+                f"{friction.name}: {', '.join(stated.given)} ask for a column of temperature, as T [degC]"
+            )
+        study = cls(friction, tolerance, stated)
+        try:
+            study.collapse  # noqa: B018
+        except InvalidInput:
+            raise
+        except ValueError as error:
+            said, name = str(error), brief(friction.source)
             raise InvalidInput(said if said.startswith(name) else f"{name}: {said}") from error
         return study
 
     @property
     def title(self) -> str:  # type: ignore[override]
-        return f"Friction of {self.path.stem} on one curve"
+        return f"Friction of {self.friction.name} on one curve"
 
     @property
-    def inputs(self) -> Mapping[str, str]:
-        return {"table": str(self.path)}
+    def inputs(self) -> Mapping[str, Any]:
+        return {"table": self.friction.source, "tolerance": self.tolerance, **self.constants.given}
 
-    @cached_property
+    @property
     def data(self) -> xarray.Dataset:
         """The table as a Dataset with a measurement a row."""
-        return read_measured(self.path)
+        return self.friction.data
+
+    @cached_property
+    def pooled(self) -> Pooled:
+        """Measurements as points."""
+        data = self.data
+        warmth = data["temperature"].values if "temperature" in data else None
+        friction, load, speed = (data[name].values for name in ("friction_coefficient", "normal_force", "speed"))
+        found = pooled(friction, load, speed, warmth, self.tolerance)
+        check(found)
+        return found
+
+    @cached_property
+    def shifts(self) -> TemperatureShifts | None:
+        """Shifts of temperatures along the speed; None of one temperature or none."""
+        return temperatures.shifts_of(self.pooled, self.constants)
+
+    @cached_property
+    def law(self) -> ShiftLaw | None:
+        """Law of the shifts that were found; None where none were."""
+        return law_of(self.shifts) if self.shifts is not None and self.shifts.found else None
 
     @cached_property
     def collapse(self) -> Collapse:
         """Shifts of the curves."""
-        return collapse(curves_of(self.data))
+        return collapse(curves_of(self.pooled, self.shifts))
 
     def batches(self) -> Sequence[Batch]:
         return ()
@@ -113,128 +145,90 @@ class Mastercurve(Study):
         return self.collapse.both if eq23.raised(self.collapse) else self.collapse.horizontal
 
     def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """Whether horizontal shifts suffice, whether vertical ones are needed, and the exponents of both."""
+        """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
         found, plots = self.collapse, (shifted_curves.NAME,) * 2
+        warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
         raw = {
             eq23.COLLAPSE.id: found.horizontal.rms,
             eq23.UNSHIFTED.id: found.unshifted.rms,
             eq23.VERTICAL_ALONE.id: found.vertical.rms,
         }
         findings = []
-        for each in eq23.findings(found, None, MEASURED, where=self.path.stem, draws=0, plots=plots, every=True):
+        for each in eq23.findings(
+            found, None, MEASURED, where=self.friction.name, draws=0, plots=plots, every=True
+        ):
             name, sentence = CLAIMS[each.claim.id]
-            if not isfinite(found.scatter):
+            if each.claim.id in EXPONENTS and (why := temperatures.unshifted(self.shifts, warm)):
+                each = replace(each, value=nan, scatter=(nan, nan), reason=why)
+            elif not isfinite(found.scatter):
                 known = each.value if each.claim is eq23.ALONE else raw.get(each.claim.id, nan)
                 each = replace(each, value=known, reason=NOT_REPEATED)
             findings.append(replace(each, claim=replace(each.claim, id=name, sentence=sentence)))
-        return findings
+        return [*findings, *warm]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         named = {each.claim.id: each for each in findings}
         across, along, alone, collapsed = (
             named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
         )
-        told = sentences(claimed(findings))
-        if self.lead is self.collapse.both:
-            return [eq23.answer(across, along, alone, collapsed).capitalize(), *told]
-        return [*told, *sentences([alone])]
+        warm = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
+        lines = [*warm, *(f"Note: {each}." for each in self.notes)]
+        told = sentences([each for each in claimed(findings) if each.claim.id != temperatures.TOGETHER.id])
+        if self.lead is self.collapse.both and isfinite(across.value):
+            return [eq23.answer(across, along, alone, collapsed).capitalize(), *told, *lines]
+        return [*told, *sentences([alone]), *lines]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was read of the table and not used."""
+        if "temperature" not in self.data or self.shifts is not None:
+            return self.friction.notes
+        return (*self.friction.notes, temperatures.ONE.format(self.pooled.points[0].temperature))
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        row = shifted_curves.ShiftedCurves(self.path.stem, self.collapse, findings[0], lead=self.lead)
-        plot = shifted_curves.plot([row])
-        return [plot] if plot else []
+        shown = shifted_curves.ShiftedCurves(
+            self.friction.name, self.collapse, findings[0], lead=self.lead, warmth=self._curves()
+        )
+        plots = [shifted_curves.plot([shown])]
+        if self.shifts is not None:
+            plots.append(temperature_shifts.plot(self.pooled, self.shifts, self.law))
+        return [each for each in plots if each]
+
+    def _curves(self):
+        """Temperature and measured speed of each curve, in the order of the collapse; None of one temperature."""
+        if self.shifts is None:
+            return None
+        first = [self.pooled.points[places[0]] for _, places in in_order(self.pooled, self.shifts)]
+        return DataFrame(
+            {"temperature": [each.temperature for each in first], "speed": [each.speed for each in first]}
+        )
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
     ) -> Sequence[Block]:
         told = "Natural logarithms of the shifts, with intervals of 95 %."
-        return [*plots, Findings(findings), Table("shifts", self.collapse.shifts(self.lead), told)]
+        shifts = self.collapse.shifts(self.lead)
+        if self.shifts is not None and (warm := self._curves()) is not None:
+            shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
+            warmth = temperature_shifts.shifts_table(self.shifts)
+            return [*plots, Findings(findings), Table("time-shifts", warmth, told), Table("shifts", shifts, told)]
+        return [*plots, Findings(findings), Table("shifts", shifts, told)]
 
     def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
-        """Number and range of the measurements."""
+        """Number and range of the measurements, and what counts as one point."""
         loads, speeds = self.data["normal_force"].values, self.data["speed"].values
         reach = [f"{each.min():.3g} to {each.max():.3g}" for each in (speeds, loads)]
-        counts = f"{loads.size} measurements at {np.unique(speeds).size} speeds from {self.path.name}"
-        return [Text(f"{counts}: speeds of {reach[0]} m/s, loads of {reach[1]} N.")]
-
-
-def read_measured(path: str | Path) -> xarray.Dataset:
-    """Table of friction coefficient mu, normal force F_N and speed v, a row a measurement, in SI.
-
-    Columns stand in this order, or as a heading names them, and are in [N] and [m/s], or in the units that the
-    heading gives: "v [mm/s], F_N [mN], mu". Raises ValueError naming file and line.
-    """
-    heading, rows = read_rows(path, COLUMNS, MOST_ROWS)
-    order, units = _order_and_units(heading)
-    columns = (np.array(rows, float).reshape(-1, len(COLUMNS)) * units)[:, order].T
-    variables = {
-        name: ("measurement", column, attributes(name))
-        for name, column in zip(VARIABLES.values(), columns, strict=True)
-    }
-    return xarray.Dataset(variables)
-
-
-def curves_of(data: xarray.Dataset) -> MeasuredCurves:
-    """Curves of measurements.
-
-    Rows of equal load and speed are measurements of one point: their mean counts. Its standard error is that of a
-    scatter which, relative to friction, is the same everywhere: two or three measurements say too little of their
-    own. Where no point was measured twice, it is not known. Raises ValueError with too few or too many points.
-    """
-    points: dict[float, dict[float, list[float]]] = {}
-    columns = (data[name].values.tolist() for name in VARIABLES.values())
-    for friction, load, speed in zip(*columns, strict=True):
-        points.setdefault(speed, {}).setdefault(load, []).append(friction)
-    if not 2 <= len(points) <= MOST_SPEEDS:
-        raise ValueError(f"{len(points):,} speeds: 2 to {MOST_SPEEDS} are shifted onto one curve")
-    if (count := sum(map(len, points.values()))) > MOST_POINTS:
-        raise ValueError(f"{count:,} loads at all speeds: at most {MOST_POINTS:,} are shifted onto one curve")
-    for speed, loads in points.items():
-        if len(loads) < LEAST_LOADS:
-            raise ValueError(f"v = {speed:g} has {len(loads)} load: at least {LEAST_LOADS} are needed for a curve")
-    scatter, freedom = pooled_scatter([each for loads in points.values() for each in loads.values()])
-    return MeasuredCurves(tuple(_curve(speed, points[speed], scatter) for speed in sorted(points)), freedom)
-
-
-def pooled_scatter(repeated: Sequence[Sequence[float]]) -> tuple[float, int]:
-    """Standard deviation of a measurement relative to the mean of its point, and its degrees of freedom."""
-    freedom = sum(len(each) - 1 for each in repeated)
-    squares = sum(float(np.sum(np.square(np.array(each) / np.mean(each) - 1))) for each in repeated)
-    return (sqrt(squares / freedom), freedom) if freedom else (nan, 0)
-
-
-def _curve(speed, loads, scatter):
-    ordered = [loads[load] for load in sorted(loads)]
-    friction, error = zip(*((np.mean(each), scatter / sqrt(len(each))) for each in ordered), strict=True)
-    return Curve(speed, np.log(sorted(loads)), np.log(friction), np.array(error))
-
-
-def _order_and_units(heading):
-    """Columns of mu, F_N and v, and the units of all columns in SI, in the order of the heading."""
-    if not heading:
-        return list(range(len(COLUMNS))), np.ones(len(COLUMNS))
-    cells = [_NAMED.fullmatch(cell) for cell in heading]
-    names = [
-        "_".join(found["name"].lower().split()) if found else cell
-        for cell, found in zip(heading, cells, strict=True)
-    ]
-    meant = [next((column for column in COLUMNS if name in CALLED[column]), name) for name in names]
-    if sorted(meant) != sorted(COLUMNS):
-        allowed = "; ".join(f"{name} as {', '.join(called)}" for name, called in CALLED.items())
-        raise ValueError(
-            f"the heading {brief(repr(heading))} must name each of {', '.join(COLUMNS)} once: {allowed}"
+        points = self.pooled.points
+        counts = (
+            f"{loads.size} measurements of {len(points)} points at {len(self.collapse.speeds)} speeds from "
+            f"{self.friction.source}: speeds of {reach[0]} m/s, loads of {reach[1]} N."
         )
-    stated = [next(filter(None, found.group("a", "b", "c")), "").strip() for found in cells]
-    units = [_unit(column, unit) for column, unit in zip(meant, stated, strict=True)]
-    return [meant.index(name) for name in COLUMNS], np.array(units)
-
-
-def _unit(column, stated):
-    """The unit of a column in SI. Raises ValueError for a unit of anything else."""
-    if not stated or (column not in UNITS and stated in PLAIN):
-        return 1.0
-    needed = "no unit" if column not in UNITS else f"the unit of {UNITS[column].kind}, as {UNITS[column].symbol},"
-    try:
-        return UNITS[column].value(f"1 {stated}")
-    except (KeyError, ValueError) as error:
-        raise ValueError(f"the heading gives {column} in {brief(repr(stated))}: {needed} is needed") from error
+        if not self.tolerance:
+            return [Text(f"{counts} Only equal loads and speeds are one.")]
+        warm = f", temperatures within {WARMTH:g} K" if "temperature" in self.data else ""
+        return [
+            Text(
+                f"{counts} Loads within {100 * self.tolerance:.3g} % of one another are one, and so are speeds"
+                f"{warm}: the mean of each point and its friction there count."
+            )
+        ]

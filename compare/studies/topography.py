@@ -12,7 +12,7 @@ import xarray
 from pydantic import TypeAdapter, ValidationError
 
 from scene import Topography
-from scene.heightfile import read_heights
+from scene.files import reading_once
 from scene.quantities import METRE, argument
 from scene.reading import InvalidInput, mistakes
 
@@ -26,6 +26,7 @@ from ..task import Batch, Task
 from ..vocabulary import attributes
 
 Side: TypeAlias = str | float
+Surface: TypeAlias = Any  # a path, or heights as an array of any library
 WAVES = "Rms of the derivatives of its waves."
 DIFFERENCES = "Rms of the differences between neighbours over a pixel."
 EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
@@ -70,18 +71,18 @@ NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] =
 class Map(Study):
     """Description of a measured map of heights.
 
-    path : of the heights
+    given : path of the heights, or the heights
     stated : the other fields of a scene's `Topography`
     """
 
-    path: Path
+    given: Surface
     stated: Mapping[str, Any]
 
     command = "topography"
 
     @classmethod
-    def of(cls, file: str | Path, pixel: Side | Sequence[Side] | None = None, **stated: Any) -> "Map":
-        """The study of a file. Raises InvalidInput for what the file or a field of `Topography` does not allow.
+    def of(cls, file: Surface, pixel: Side | Sequence[Side] | None = None, **stated: Any) -> "Map":
+        """The study of a file or of heights. Raises InvalidInput for what a field of `Topography` does not allow.
 
         pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
             default
@@ -91,36 +92,42 @@ class Map(Study):
             sides = _in_metres(sides)
         if isinstance(sides, tuple) and len(sides) < 2:
             sides = sides[0] if sides else None
-        stated |= {"pixel": sides}
-        study = cls(Path(file), {name: value for name, value in stated.items() if value is not None})
+        stated |= {"pixel": sides, "crop": stated.get("crop") or None}
+        study = cls(file, {name: value for name, value in stated.items() if value is not None})
         study.description  # noqa: B018
         return study
 
     @property
+    def name(self) -> str:
+        """Name of the file, or of what holds the heights."""
+        return Path(self.given).name if isinstance(self.given, str | Path) else type(self.given).__name__
+
+    @property
     def title(self) -> str:  # type: ignore[override]
-        return f"Topography of {self.path.name}"
+        return f"Topography of {self.name}"
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        return {"file": str(self.path), **self.stated}
+        held = self.description.topography.heights
+        named = {"file": str(self.given)} if isinstance(self.given, str | Path) else {"heights": held.digest}
+        plain = {name: each if isinstance(each, str | float) else str(each) for name, each in self.stated.items()}
+        return named | plain
 
     @cached_property
     def description(self) -> Description:
         """Sizes, slopes and spectra. Raises InvalidInput."""
-        content, adapter = dict(self.stated), TypeAdapter(Topography)
-        try:
-            # Once: what is looked at for mistakes is read again for each.
-            heights, pixel = read_heights(self.path, content.pop("pixel", None), content.pop("unit", None))
-        except ValueError as error:
-            raise InvalidInput(str(error)) from error
-        content |= {"heights": heights, "pixel": pixel}
-        try:
-            return describe(adapter.validate_python(content))
-        except ValidationError as error:
-            lines = mistakes(error, content, adapter)
-            raise InvalidInput("\n".join(f"{self.path}: {line}" for line in lines)) from error
-        except ValueError as error:
-            raise InvalidInput(f"{self.path}: {error}") from error
+        path = isinstance(self.given, str | Path)
+        content, adapter = {"file" if path else "heights": self.given, **self.stated}, TypeAdapter(Topography)
+        # Once: what is looked at for mistakes is read again for each.
+        with reading_once():
+            try:
+                return describe(adapter.validate_python(content))
+            except ValidationError as error:
+                lines = mistakes(error, content, adapter)
+            except ValueError as error:
+                lines = [str(error)]
+        named = (each if str(self.given) in each or not path else f"{self.given}: {each}" for each in lines)
+        raise InvalidInput("\n".join(named))
 
     def batches(self) -> Sequence[Batch]:
         return ()
@@ -146,7 +153,7 @@ class Map(Study):
             claim = Claim(f"topography.{name}", sentence, meaning=meaning, unit=unit)
             told: dict[str, Any] = {
                 "value": float(number(found)),
-                "where": self.path.name,
+                "where": self.name,
                 "plot": plots.NAME,
                 "dimension": "measured",
             }
@@ -160,7 +167,8 @@ class Map(Study):
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
         warnings = [f"Warning: {each}." for each in self.description.warnings]
-        return [*warnings, *sentences([each for each in findings if each.claim.id in told])]
+        notes = [f"Note: {each}." for each in self.description.topography.notes]
+        return [*warnings, *notes, *sentences([each for each in findings if each.claim.id in told])]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         return [plots.plot(self.description)]
@@ -180,5 +188,7 @@ class Map(Study):
         return [
             f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
             f'level: "{map_.level}" taken off; repeat: "{map_.repeat}"; peaks: "{map_.peaks}"',
+            *([f"waves shorter than {map_.shortest_kept:.4g} m are left out"] if map_.shortest_kept else []),
+            *map_.notes,
             *([f"self-affine band: {found.band}"] if found.band else []),
         ]

@@ -1,0 +1,204 @@
+"""Repeats within a tolerance, and shifts from temperature to temperature: what was planted is found."""
+
+from dataclasses import replace
+from itertools import groupby, pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from compare.statistics import shiftlaws
+from compare.statistics.frictioncurves import MeasuredCurves
+from compare.statistics.measuredcurves import curves_of, isotherms
+from compare.statistics.pooling import pooled
+from compare.statistics.temperatureshifts import POWERS, found, stated
+
+C1, C2, REFERENCE = 8.86, 101.6, 293.15
+KELVINS = np.array([273.15, 283.15, 293.15, 303.15, 313.15])
+ENERGY = 1.2e5
+TOLERANCE = 0.05
+# Standard errors that a number may be off by in a test with one seed.
+FAR = 3.5
+
+
+def wlf(kelvins):
+    above = np.asarray(kelvins) - REFERENCE
+    return -np.log(10) * C1 * above / (C2 + above)
+
+
+def arrhenius(kelvins):
+    return ENERGY / shiftlaws.GAS_CONSTANT * (1 / np.asarray(kelvins) - 1 / REFERENCE)
+
+
+def knee(x):
+    return -0.6 * np.log1p(3 * np.exp(x))
+
+
+def bent(x):
+    """Within reach of the polynomial."""
+    return -0.3 * x - 0.03 * x**2
+
+
+def measured(
+    law=knee, shift=wlf, noise=0.02, jitter=0.003, repeats=3, kelvins=KELVINS, seed=0, speeds=(1e-3, 0.1)
+):
+    """Friction, load, speed and temperature: Q(F (v a_T)^-1/2), a row a measurement."""
+    rng = np.random.default_rng(seed)
+    grid = np.meshgrid(kelvins, np.geomspace(*speeds, 5), np.geomspace(1, 30, 4), range(repeats), indexing="ij")
+    warm, v, load = (each.ravel() for each in grid[:3])
+    v, load = (each * (1 + jitter * rng.normal(size=each.size)) for each in (v, load))
+    friction = np.exp(law(np.log(load) - 0.5 * (np.log(v / 0.01) + shift(warm))))
+    return friction * (1 + noise * rng.normal(size=friction.size)), load, v, warm
+
+
+def shifts(*columns):
+    points = pooled(*columns, TOLERANCE)
+    return found(isotherms(points), points.loads, points.freedom)
+
+
+@given(
+    st.lists(st.floats(1e-3, 1e3), min_size=1, max_size=60),
+    st.sampled_from([0.0, 1e-3, 0.05, 0.5]),
+    st.integers(0, 5),
+)
+@settings(deadline=None, max_examples=60)
+def test_loads_that_are_one_lie_within_the_tolerance_and_each_measurement_is_in_one_point(loads, tolerance, more):
+    loads = np.array(loads + loads[:more])
+    points = pooled(np.ones(loads.size), loads, np.ones(loads.size), None, tolerance).points
+    assert sum(len(each.repeats) for each in points) == loads.size
+    assert [each.load for each in points] == sorted(each.load for each in points)
+    # No fewer than as many stretches as cover them, each as wide as the tolerance.
+    stretches, end = 0, -np.inf
+    for load in np.sort(loads):
+        if load > end:
+            stretches, end = stretches + 1, load * (1 + tolerance)
+    assert len(points) >= stretches
+    for low, high in pairwise(points):
+        assert low.load < high.load
+    for each in points:
+        assert loads.min() <= each.load <= loads.max()
+
+
+def test_loads_that_scatter_are_those_meant():
+    rng = np.random.default_rng(3)
+    steps = np.repeat(np.geomspace(1, 100, 40), 25)
+    points = pooled(np.ones(1000), steps * (1 + 0.003 * rng.normal(size=1000)), np.ones(1000), None, TOLERANCE)
+    assert [len(each.repeats) for each in points.points] == [25] * 40
+
+
+def test_a_sweep_without_gaps_is_never_chained():
+    loads = np.geomspace(1, 100, 5000)
+    points = pooled(loads**-0.3, loads, np.ones(5000), None, TOLERANCE)
+    assert np.log(100) / np.log1p(TOLERANCE) <= len(points.points) <= 2.2 * np.log(100) / np.log1p(TOLERANCE)
+    # Friction follows the load within a point, which is no scatter; one parabola is the law of these rows.
+    assert points.scatter < 1e-6
+    np.testing.assert_allclose([each.friction * each.load**0.3 for each in points.points], 1, rtol=1e-6)
+
+
+def test_at_a_tolerance_of_nil_points_are_equal_loads_and_speeds():
+    friction, load, speed, _ = measured(jitter=0.0, kelvins=KELVINS[2:3])
+    load[::7] *= 1 + 1e-9
+    rows = sorted(zip(speed.tolist(), load.tolist(), friction.tolist(), strict=True))
+    plain = [(key, [row[2] for row in own]) for key, own in groupby(rows, key=lambda row: row[:2])]
+    points = pooled(friction, load, speed, None, 0.0)
+    assert [(each.speed, each.load) for each in points.points] == [key for key, _ in plain]
+    np.testing.assert_allclose(
+        [each.friction for each in points.points], [np.mean(own) for _, own in plain], rtol=1e-15
+    )
+    left = sum(float(np.sum(np.square(np.array(own) / np.mean(own) - 1))) for _, own in plain)
+    assert points.scatter == pytest.approx(np.sqrt(left / points.freedom), rel=1e-13)
+
+
+@pytest.mark.parametrize("law", [knee, bent])
+def test_shifts_that_were_planted_are_found_within_their_errors(law):
+    told = shifts(*measured(law))
+    true = wlf(told.temperatures) - wlf(told.reference)
+    others = true != 0
+    off = np.abs(told.shifts.value - true)[others]
+    assert np.all(off < FAR * told.shifts.error[others])
+    assert np.all(told.shifts.error[others] < 0.05)
+    assert told.misfit.interval()[1] < 0.02
+    assert told.unshifted.value > 0.3
+
+
+def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():
+    told = shifts(*measured(bent, noise=0.0, jitter=0.0))
+    np.testing.assert_allclose(told.shifts.value, wlf(KELVINS), atol=1e-8)
+
+
+def test_levers_are_what_a_point_moves_the_shifts_by():
+    points = pooled(*measured(bent, noise=0.005), TOLERANCE)
+    each = isotherms(points)
+    told = found(each, points.loads, points.freedom)
+    moved = each[1].log_friction.copy()
+    moved[7] += 1e-5
+    other = found((each[0], replace(each[1], log_friction=moved), *each[2:]), points.loads, points.freedom)
+    place = each[0].log_speed.size + 7
+    # Gauss-Newton leaves out the curvature of what is missed.
+    np.testing.assert_allclose(
+        (other.shifts.value - told.shifts.value) / 1e-5, told.levers[:, place], rtol=0.1, atol=2e-3
+    )
+
+
+def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():
+    points = pooled(*measured(kelvins=KELVINS[1:4]), TOLERANCE)
+    each = isotherms(points)
+    data = curves_of(points, found(each, points.loads, points.freedom))
+    assert isinstance(data, MeasuredCurves)
+    assert list(data.speeds) == sorted(data.speeds)
+
+    def slope(part):
+        return {"": np.log(part.speeds[-1] / part.speeds[0])}
+
+    assert data.resampled(slope)[""].estimated.error > 0.01
+    assert replace(data, levers=None).resampled(slope)[""].estimated.error == 0
+
+
+def test_the_law_of_the_shifts_is_told_where_it_can_be():
+    law = shiftlaws.law_of(shifts(*measured(noise=0.005)))
+    # c1 c2 / c2^2 at another reference follows; this one is the middle temperature, where they are stated.
+    assert law.c1.low < C1 < law.c1.high
+    assert law.c2.low < C2 < law.c2.high
+    assert law.allowed == (shiftlaws.WLF,)
+    law = shiftlaws.law_of(shifts(*measured(shift=arrhenius, noise=0.005)))
+    assert shiftlaws.ARRHENIUS in law.allowed
+    assert law.activation_energy.low < ENERGY < law.activation_energy.high
+    kelvins = np.array([280.0, 300.0])
+    np.testing.assert_allclose(law.log_shift(kelvins, shiftlaws.ARRHENIUS), arrhenius(kelvins), rtol=0.02)
+
+
+def test_two_temperatures_tell_an_energy_and_no_law():
+    law = shiftlaws.law_of(shifts(*measured(kelvins=KELVINS[1:3])))
+    assert law.reason == shiftlaws.TWO
+    assert law.activation_energy.told
+    alone = shiftlaws.law_of(shifts(*measured(repeats=1, kelvins=KELVINS[1:4])))
+    assert alone.reason == alone.against == shiftlaws.UNSCATTERED
+    backwards = shiftlaws.law_of(shifts(*measured(shift=lambda kelvins: -wlf(kelvins), kelvins=KELVINS[1:4])))
+    assert backwards.reason == shiftlaws.RISING
+
+
+def test_temperatures_too_far_apart_are_refused_by_name():
+    with pytest.raises(ValueError, match=r"273\.15 K and 313\.15 K share less than 25% of their speeds"):
+        shifts(*measured(kelvins=KELVINS[::4]))
+    friction, load, speed, warm = measured()
+    with pytest.raises(ValueError, match="less than 25% of their loads"):
+        shifts(friction, np.where(warm > 300, 100 * load, load), speed, warm)
+    with pytest.raises(ValueError, match="single speed"):
+        shifts(*(each[speed < 1.2e-3] for each in (friction, load, speed, warm)))
+
+
+def test_of_powers_of_speed_and_load_no_shift_is_told():
+    told = shifts(*measured(lambda x: -0.3 * x))
+    assert told.inseparable == POWERS
+    assert not shifts(*measured()).inseparable
+
+
+def test_stated_shifts_are_judged_and_wrong_ones_fail():
+    points = pooled(*measured(), TOLERANCE)
+    each = isotherms(points)
+    right = stated(each, wlf([one.temperature for one in each]), points.loads, points.freedom)
+    assert right.misfit.interval()[1] < 0.05
+    wrong = stated(each, wlf([one.temperature for one in each]) * 1.5, points.loads, points.freedom)
+    assert wrong.misfit.interval()[0] > 0.05
+    assert not np.any(right.covariance)
