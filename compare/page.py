@@ -124,7 +124,7 @@ class Page:
     @property
     def first(self) -> list[str]:
         """Doubts and notes, each with the word that says which it is."""
-        return [*(f"Doubtful: {each}" for each in self.doubts), *(f"Note: {each}" for each in self.notes)]
+        return [*(f"Doubtful: {each}" for each in self.doubts), *(f"Note: {each}." for each in self.notes)]
 
     def tables(self) -> Iterator[tuple[str, DataFrame]]:
         """Name of its file, without .csv, and frame of every table that is shown or drawn; some come twice."""
