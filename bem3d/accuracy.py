@@ -8,7 +8,7 @@ from math import inf, log2
 from numbers import Real
 from typing import TYPE_CHECKING, Protocol
 
-from scene import Cylinder, Measured, Plane, Program, Refused, Result, Scene, Shear, SolveError
+from scene import Cylinder, Doubtful, Measured, Plane, Program, Refused, Result, Scene, Shear, SolveError
 from scene.scales import elastic_contact
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ HOPELESS = 4  # times MOST: where so many points are needed by the order observe
 LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 
 
-class Unconfirmed(UserWarning):
+class Unconfirmed(Doubtful):
     """An answer changes by too much when the pixel is halved."""
 
 

@@ -93,15 +93,27 @@ def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[st
 
     radius : of the contact [m]; without one that of a contact that fills the grid
     """
-    radius = grid.extent / 2 / MARGIN if radius is None else radius
     layer, poisson_ratio = scene.layer, scene.solid.poisson_ratio
-    if layer is None or Layered.of(layer, poisson_ratio).falsified(grid.pixel, radius) <= FALSIFIED:
+    if layer is None or falsified(scene, grid, radius) <= FALSIFIED:
         return []
+    radius = _radius(grid, radius)
     return [
         f"layer.thickness = {layer.thickness:g} m of nu = {poisson_ratio:.15g} is too thin for "
         f"pixels of {grid.pixel:g} m: a layer that hardly yields to an even pressure has to be resolved; "
         + _remedy(layer, poisson_ratio, grid, radius)
     ]
+
+
+def falsified(scene: Scene, grid: Grid, radius: float | None = None) -> float:
+    """Relative error of the force that the pixels of a grid make on a layer; radius : see `unresolved`."""
+    layer = scene.layer
+    if layer is None:
+        return 0.0
+    return Layered.of(layer, scene.solid.poisson_ratio).falsified(grid.pixel, _radius(grid, radius))
+
+
+def _radius(grid, radius):
+    return grid.extent / 2 / MARGIN if radius is None else radius
 
 
 def _remedy(layer, poisson_ratio, grid, radius):

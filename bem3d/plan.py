@@ -67,7 +67,6 @@ def _plan(solver, scene, costs):
         steps=march.steps if march else 0,
         **costs(solver, scene, shape, march),
         left_out=left_out(scene, LEFT_OUT),
-        doubts=(*_doubts(solver, scene),),
     )
     for term in terms:
         found = term.planned(found, scene)
@@ -114,6 +113,11 @@ class _March:
                 yield Array(f"left behind {by(finer.shape)} points", (columns, self.modes * finer.rows + PIECE))
 
 
+def likely_grid(solver, scene: Scene) -> Grid:
+    """The grid of a solve; where a window has to be found, as wide as the smooth contact at rest asks for."""
+    return Grid(solver.points, _extent(solver, scene), width=row_width(scene))
+
+
 def _extent(solver, scene):
     """Side of the window [m]: the period, as stated, all of a map, or estimated from the smooth contact."""
     if isinstance(scene.indenter, Plane):
@@ -133,12 +137,6 @@ def _method(scene, flow, march):
         return "one contact at rest: conjugate gradients on sets of contact"
     inner = "elimination" if row_width(scene) else "GMRES"
     return f"one contact in steady flow: {inner} on sets of contact"
-
-
-def _doubts(solver, scene):
-    """Doubts about a window that is estimated from a contact at rest on a half-space."""
-    if solver.extent is None and not isinstance(scene.indenter, Plane):
-        yield from window.unresolved(scene, Grid(solver.points, _extent(solver, scene), width=row_width(scene)))
 
 
 def _grids(solver, scene, march):

@@ -1,6 +1,7 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
 import time
+from dataclasses import replace
 from functools import partial
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -8,7 +9,7 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from scene import Cylinder, Plane, Program, Result, Scene, SolveError
+from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, doubts
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
@@ -20,7 +21,7 @@ from .engine import Engine, Library, Unavailable
 from .grid import Grid
 from .history import marched
 from .measures import measured
-from .plan import memory_of, plan_of
+from .plan import likely_grid, memory_of, plan_of
 from .problem import Problem
 from .terms import TERMS
 from .trail import Trail
@@ -171,15 +172,32 @@ class BEM:
             reasons.append(str(missing))
         return reasons or shortage(memory_of(self, scene), self.engine.memory)
 
+    def foreseen(self, scene: Scene) -> list[str]:
+        """Reasons why a solve of what is not refused would fail all the same, as far as a coarse contact shows.
+
+        One is solved only where the widest window there can be leaves a doubt, and not for a Program.
+        """
+        if isinstance(scene.indenter, Plane) or isinstance(scene.motion, Program):
+            return []
+        return window.foreseen(Problem(scene, self.engine, self.terms), self.points, self.extent)
+
+    def doubts(self, scene: Scene) -> tuple[Doubt, ...]:
+        """Doubts about a scene, and how well a grid of the likely window shows it; nothing is solved."""
+        try:
+            grid = likely_grid(self, scene)
+            return *doubts(scene, grid.pixel), *window.doubts(scene, grid)
+        except ArithmeticError:
+            return doubts(scene)
+
     def plan(self, scene: Scene) -> Plan:
         """Plan of a scene: the parts that would be simulated, and their costs; nothing is solved.
 
         Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
-        of numbers. Other reasons for which a solve may fail it does not see.
+        of numbers. For which other reasons a solve would fail, as far as that shows beforehand, `foreseen` says.
         """
         refuse(self, scene)
         with trusted():
-            return plan_of(self, scene)
+            return replace(plan_of(self, scene), doubts=self.doubts(scene))
 
     def solve(self, scene: Scene, trail: Trail | None = None) -> Result:
         """Pressure, gap and forces.

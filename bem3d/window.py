@@ -1,10 +1,11 @@
 """The window of surface that a contact needs: found on coarse grids, then checked for what it left out."""
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 
-from scene import Cylinder, EmptyContact, Measured, Plane, Profile, Scene, SolveError
+from scene import Cylinder, Doubt, EmptyContact, Measured, Plane, Profile, Scene, SelfAffine, SolveError
 from scene.scales import elastic_contact
 from scene.scanned import Scanned
 
@@ -22,6 +23,9 @@ RING = 3.0  # outer over inner side of a ring of the surroundings
 RING_POINTS = 96  # a side, for the displacement in a ring: 16 pixels from the contact at least
 SAMPLES = 2048  # points a side at most, at which a ring is searched for what penetrates
 FEWEST = 9  # points in contact below which forces are no more than a guess
+SPARE = 1.25  # of a window, for that of other surfaces, whose peaks lie elsewhere
+RESOLVED = 8.0  # pixels on the shortest wave
+MOST_POINTS = 16384  # a side
 FULLER = 1.01  # of a pixel, so that two of them are carried with few digits too
 OVERLAP = 1e-2  # of the depth below the lowest point: what may penetrate outside, felt below 1e-3 in the forces
 
@@ -207,25 +211,91 @@ def unresolved(scene, grid: Grid) -> list[str]:
     return _falsified(scene, grid) + _missed(scene, grid)
 
 
+def foreseen(problem: Problem, points: int, extent: float | None) -> list[str]:
+    """Reasons why a steady solve would fail by its window, with values that work.
+
+    A coarse contact is sought, as by `fitted`, where the widest window that there can be does not settle it.
+    extent : as stated [m]; None where the window is fitted
+    """
+    scene, width, most = problem.scene, problem.width, _widest(problem)
+    carries = not _missed(scene, Grid(points, most if extent is None else extent, width=width))
+    if carries and (extent is None or most <= extent):
+        return []
+    try:
+        placed = fitted(problem, points)
+    except SolveError:
+        return []  # a solve has the same reason, and says it
+    if extent is None:
+        return _missed(scene, placed.grid(points, width), SPARE)
+    reach = _reach(placed.start)
+    if reach <= extent / 2:
+        return []
+    enough = 2 * SPARE * MARGIN * reach
+    return [
+        f"the contact reaches the edge of extent = {extent:g} m: extent = {enough:.3g} holds it, with points = "
+        f"{ceil(points * enough / extent)} on the same pixel; without an extent the window is fitted"
+    ]
+
+
+def _widest(problem):
+    """Side of a square around the axis that no contact leaves [m]: of smooth bodies the contact at rest."""
+    scene = problem.scene
+    if scene.layer is None and scene.roughness is None and not isinstance(scene.indenter, Measured):
+        return 2 * elastic_contact(scene).radius
+    return 2 * surroundings(problem).right
+
+
+def _reach(start):
+    """Farthest point in contact from the axis along x or y [m], zero where none was found."""
+    if start is None or not (touched := start.pressure > 0).any():
+        return 0.0
+    across = [] if start.grid.width else np.abs(start.grid.y[touched.any(axis=1)])
+    return max([*across, *np.abs(start.grid.x[touched.any(axis=0)])])
+
+
+def doubts(scene: Scene, grid: Grid) -> tuple[Doubt, ...]:
+    """Doubts about how well a grid shows the shortest wave, and the layer."""
+    found, (_, shortest) = [], _shortest(scene)
+    if shortest is not None and shortest < RESOLVED * grid.pixel:
+        why = "two carry a wave, about eight resolve it: take more points, or longer waves"
+        found.append(Doubt("pixels in 3D on the shortest wave", shortest / grid.pixel, RESOLVED, "", why))
+    if reasons := _falsified(scene, grid):
+        share = layer.falsified(scene, grid)
+        found.append(
+            Doubt("share of the force that pixels falsify", share, layer.FALSIFIED, "", "; ".join(reasons))
+        )
+    return tuple(found)
+
+
 def _falsified(scene, grid, radius=None):
     if scene.layer is None or isinstance(scene.indenter, Plane):
         return []
     return layer.unresolved(scene, grid, radius)
 
 
-def _missed(scene, grid):
-    field, rough = "roughness", scene.roughness
-    if rough is None and isinstance(scene.indenter, Measured):
-        field, rough = "indenter", scene.indenter
-    if rough is None or rough.shortest is None or 2 * grid.pixel <= rough.shortest:
+def _shortest(scene):
+    """Field of the scene that has waves, and the shortest of them [m]; None without."""
+    if scene.roughness is None and isinstance(scene.indenter, Measured):
+        return "indenter", scene.indenter.shortest
+    return "roughness", None if scene.roughness is None or scene.roughness.flat else scene.roughness.shortest
+
+
+def _missed(scene, grid, spare=1.0):
+    """Whether waves are shorter than two pixels, and the values that would do; spare : factor on the window."""
+    field, shortest = _shortest(scene)
+    if shortest is None or 2 * grid.pixel <= shortest:
         return []
-    least = int(np.ceil(2 * grid.extent / rough.shortest))
-    reason = (
-        f"{field}.shortest = {rough.shortest:g} m is less than two pixels of {grid.pixel:g} m; "
-        f"points = {least:.15g} would carry it, {4 * least:.15g} resolve it"
-    )
+    least, rough = ceil(2 * spare * grid.extent / shortest), getattr(scene, field)
+    told = [f"points = {least} would carry it"] if least <= MOST_POINTS else []
+    if told and 4 * least <= MOST_POINTS:
+        told = [f"{told[0]}, {4 * least} resolve it"]
+    kept = 2 * FULLER * spare * grid.pixel
     if isinstance(rough, Scanned | Profile):
-        own = rough.pixel if isinstance(rough, Scanned) else (rough.spacing,)
-        kept = 2 * FULLER * max(*own, grid.pixel)
-        reason += f"; {field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"
-    return [reason]
+        least_kept, most_kept = rough.keepable
+        kept = max(kept, FULLER * least_kept)
+        if kept <= most_kept:
+            told.append(f"{field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry")
+    elif isinstance(rough, SelfAffine) and kept <= rough.longest / 2:
+        told.append(f"{field}.shortest = {kept:.3g} would be carried")
+    remedy = "; ".join(told) or "no allowed number of points would carry it: press less, or take longer waves"
+    return [f"{field}.shortest = {shortest:g} m is less than two pixels of {grid.pixel:g} m; {remedy}"]

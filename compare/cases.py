@@ -12,11 +12,11 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Heating, Indent, Layer, Refused, Scene, Slide
+from scene import Coulomb, Doubt, Heating, Indent, Layer, Refused, Scene, Slide
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
-from scene.protocol import refuse
+from scene.protocol import trusted
 from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
 from scene.reading import read
 from scene.rheology import Elastomer
@@ -24,12 +24,17 @@ from scene.roughness import Roughness
 from scene.scales import elastic_contact
 from scene.scene import fit_together
 from scene.temperature import Temperature
+from scene.terms import terms_of
 
 from .cost import MOST_DRAWS, MOST_VALUES
 
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
 Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
+
+
+class NotCompared(Refused):
+    """The scene is of a kind that nothing compares, whatever its numbers; a solver may solve it from Python."""
 
 
 def _distinct(study):
@@ -122,25 +127,33 @@ class Case:
         return content
 
     @property
+    def doubts(self) -> tuple[Doubt, ...]:
+        """Doubts about the scene, and about how well the grids of both solvers show it."""
+        return tuple(dict.fromkeys([*self.mdr.doubts(self.scene), *self.bem.doubts(self.scene)]))
+
+    @property
     def slides(self) -> bool:
         """Whether there is friction to speak of: sliding, on a solid that relaxes."""
         return isinstance(self.motion, Slide) and len(self.scene.solid.retardation()[2]) > 0
 
     def refuse(self) -> None:
-        """Raise Refused, with the reasons, if a solver lacks what the scene asks for, or nothing compares it."""
+        """Raise NotCompared, with the reasons, if a solver lacks a part of the scene, or nothing compares it."""
         if not isinstance(self.motion, Indent | Slide):
-            raise Refused(
+            raise NotCompared(
                 f"motion = {type(self.motion).__name__}: crosscheck compares bodies that are pressed in (Indent) "
                 "or slide steadily (Slide); solve other motions from Python, with each solver"
             )
         if self.interface is not None and isinstance(self.motion, Slide):
-            raise Refused(
+            raise NotCompared(
                 "interface = Coulomb with motion = Slide: crosscheck compares the loss in the elastomer, to which "
                 "the interface adds coefficient * F_N in both solvers; leave interface out, or solve the scene "
                 "from Python, where the measure friction_in_elastomer is the loss"
             )
-        refuse(self.mdr, self.scene)
-        refuse(self.bem, self.scene)
+        for solver in (self.mdr, self.bem):
+            with trusted():
+                reasons = [why for term in terms_of(solver.terms, self.scene) for why in term.refusals(self.scene)]
+            if reasons:
+                raise NotCompared(f"{solver.name} cannot solve this scene: {'; '.join(reasons)}")
 
     def plan(self) -> Plan:
         """Plan of what is given in [study], the rest derived from the scene.
@@ -174,6 +187,14 @@ class Case:
             return loads
         n = self.indenter.exponent
         return tuple(load ** (n / (n + 1)) for load in loads)
+
+
+def doubted(*cases: Case) -> tuple[str, ...]:
+    """Doubts about cases as sentences; of one number and limit the first alone."""
+    told: dict[tuple[str, float], str] = {}
+    for each in (doubt for case in cases for doubt in case.doubts):
+        told.setdefault((each.name, each.limit), str(each))
+    return tuple(told.values())
 
 
 def read_case(path: str | Path) -> Case:

@@ -3,6 +3,8 @@
 import inspect
 import json
 import os
+import re
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,7 +42,6 @@ TYPES = {
     "str | Path": Path,
     "str | Path | None": Path | None,
     "Surface": Path,
-    "str | float | None": str | None,
     "str | float | Sequence[str | float] | None": list[str] | None,
     "Sequence[str | float] | None": list[str] | None,
     "Any": str | None,
@@ -112,7 +113,10 @@ class Command:
 
     def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
         """Do the command, print what came of it, and end with its status."""
-        with said_to_people(f"--output {given.get('output')}", solves=self.solves):
+        output = f"--output {given.get('output')}"
+        with warnings.catch_warnings(), said_to_people(output, solves=self.solves):
+            # What Python is warned of stands at the top of what is printed.
+            warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
             if self.tells and not (quiet or json):
                 with Preparing(lines=verbose) as given["progress"]:
                     found = self.function(**given)
@@ -123,6 +127,9 @@ class Command:
             say(f"0 tasks solved, {swept.reused} reused")
         for line in getattr(found, "faults", ()):
             say(f"crosscheck: {line}", error=True)
+        if quiet or json:
+            for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
+                say(f"crosscheck: {line}", error=True)
         if json:
             say(_as_json(found))
         elif not quiet:
@@ -169,7 +176,9 @@ def _keyword(name, annotation, default=False):
 def _as_json(found: Any) -> str:
     if hasattr(found, "findings"):
         rows = json.loads(found.findings.to_json(orient="records", double_precision=15))
-        return json.dumps({"page": str(found.path) if found.path else None, "findings": rows}, indent=1)
+        page = str(found.path) if found.path else None
+        told = {"page": page, "doubts": list(found.page.first), "findings": rows}
+        return json.dumps(told, indent=1)
     return json.dumps({name: str(each) for name, each in dict(found).items()}, indent=1)
 
 

@@ -15,6 +15,9 @@ report : write the page and its figures. Findings, tables and results are writte
 yes : agree to a study of more than a day or of more than 300,000 contacts
 progress : whether the terminal shows how far it is
 
+Each warns Doubtful of what is doubtful of a scene before it solves, of contacts without an answer after it: what
+stands before the answer on the page and on a terminal.
+
 Each raises InvalidInput or Refused before anything is solved where what is asked for cannot be, and OSError where
 the folder cannot be written.
 """
@@ -22,11 +25,15 @@ the folder cannot be written.
 # Nothing is imported before a command needs it: `crosscheck --help` answers at once.
 from __future__ import annotations
 
+import sys
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     import xarray
     from matplotlib.figure import Figure
 
@@ -62,12 +69,28 @@ def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Repor
     from . import pipeline
     from .console import Preparing, watch
 
+    _warn(study.doubts)
     chosen: dict[str, Any] = dict(options)
     progress = chosen.pop("progress", False)
     if not progress:
-        return pipeline.run(study, output, **chosen)
-    with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
-        return pipeline.run(study, output, watch=watch(preparing), **chosen)
+        report = pipeline.run(study, output, **chosen)
+    else:
+        with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
+            report = pipeline.run(study, output, watch=watch(preparing), **chosen)
+    _warn([" ".join(report.unsolved.sentences)] if report.unsolved.failed else [])
+    return report
+
+
+def _warn(sentences: Sequence[str]) -> None:
+    """Warn Doubtful of each sentence, as from the line that called a function of this module."""
+    from scene import Doubtful
+
+    frame: FrameType | None = sys._getframe()
+    level = 1
+    while frame is not None and frame.f_globals.get("__name__") == __name__:
+        level, frame = level + 1, frame.f_back
+    for each in sentences:
+        warnings.warn(each, Doubtful, stacklevel=level)
 
 
 def run(
@@ -279,7 +302,9 @@ def trust(scene: Asked) -> Trust:
     from .inputs import case_of
     from .studies.trust.verdict import trust
 
-    return trust(case_of(scene).scene)
+    found = trust(case_of(scene).scene)
+    _warn([str(each) for each in found.doubts])
+    return found
 
 
 def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
@@ -291,6 +316,7 @@ def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
     from .planning import plans
 
     found = plans(scene)
+    _warn(found.doubts)
     if figure is not None:
         found.draw(figure)
     return found

@@ -13,7 +13,8 @@ from .page import Block, Findings, Page, Plot, Section, Text
 from .rectangle import Rectangle
 from .statistics import griderror
 from .statistics.jackknife import judge
-from .task import Batch, Task
+from .task import Batch, SceneTask, Task
+from .unsolved import Unsolved
 
 SETTING = "Setting"
 
@@ -33,6 +34,25 @@ class Study:
     title: str = ""
     about: str = ""
     place: str = ""
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Doubts about what is asked, as sentences: what is to be looked at before any number is used."""
+        return ()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on what was read for what is asked."""
+        return ()
+
+    @property
+    def own(self) -> Sequence[SceneTask]:
+        """Contacts of scenes as they stand, without whose answer a command has failed."""
+        return ()
+
+    def unsolved(self, outcomes: Mapping[Task, Outcome]) -> Unsolved:
+        """Contacts of the rectangles without an answer."""
+        return Unsolved.of(rectangle.contacts_of(self.rectangles()), outcomes, self.own)
 
     @property
     def inputs(self) -> Mapping[str, Any]:

@@ -101,21 +101,30 @@ def in_order(blocks: Sequence[Block]) -> tuple[Block, ...]:
 
 @dataclass(frozen=True)
 class Page:
-    """A page, in the order of reading: the answer, figures, findings, other tables, sections.
+    """A page, in the order of reading: doubts, the answer, figures, findings, other tables, sections.
 
     title : of the page
     answer : a sentence for each claim, generated from all findings
     blocks : of the page below the answer; those given are put in the order of reading
     about : facts on how it was made, by name: versions, machine, times
+    doubts : sentences that stand before the answer: doubts about what was asked, contacts without an answer
+    notes : sentences that follow them, on what was read
     """
 
     title: str
     answer: Sequence[str]
     blocks: Sequence[Block]
     about: Mapping[str, str] = field(default_factory=dict)
+    doubts: Sequence[str] = ()
+    notes: Sequence[str] = ()
 
     def __post_init__(self):
         object.__setattr__(self, "blocks", in_order(self.blocks))
+
+    @property
+    def first(self) -> list[str]:
+        """Doubts and notes, each with the word that says which it is."""
+        return [*(f"Doubtful: {each}" for each in self.doubts), *(f"Note: {each}." for each in self.notes)]
 
     def tables(self) -> Iterator[tuple[str, DataFrame]]:
         """Name of its file, without .csv, and frame of every table that is shown or drawn; some come twice."""

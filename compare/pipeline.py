@@ -4,7 +4,7 @@ import errno
 import os
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -83,7 +83,9 @@ def run(
     try:
         answers = study.answers(swept.outcomes)
         findings = study.findings(answers)
+        unsolved = study.unsolved(_whole(swept))
         page = study.page(answers, findings)
+        page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=study.notes)
     except (SolveError, ValueError, ArithmeticError, LookupError) as error:
         # What is made of NaN alone raises nearly anything, and would hide what matters.
         if not swept.faults:
@@ -106,7 +108,12 @@ def run(
             (below / name).unlink(missing_ok=True)
         pages.write_tables(page, findings, below)
     manifest.stamp(below, study, page, swept, os.path.relpath(output / SOLVED, below))
-    return Report(study, answers, findings, page, swept, output, path)
+    return Report(study, answers, findings, page, swept, output, path, unsolved)
+
+
+def _whole(swept):
+    """Outcomes of the tasks that did not break."""
+    return {task: outcome for task, outcome in swept.outcomes.items() if task not in swept.faults}
 
 
 def _solve(batches, output, workers, scheduler, watch) -> SweepResult:

@@ -1,22 +1,21 @@
 """Plan of a scene: what both solvers would simulate, what that costs, and what the 1D answer would be worth."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import isinf
 from pathlib import Path
 from textwrap import fill
 
-from pydantic import ValidationError
-
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError, markup
+from scene import Refused, Scene, SolveError, markup, notes
 from scene.costs import two_digits
 from scene.plan import Plan, size
 from scene.printable import brief
+from scene.protocol import foresee
 from scene.reading import InvalidInput
 
 from .amounts import duration, pascals, seconds
-from .cases import Case
+from .cases import Case, NotCompared, doubted
 from .cost import Cost
 from .inputs import Asked, case_of
 from .studies.casecurves import DIMENSIONS, curves
@@ -31,12 +30,21 @@ class Plans(dict[str, Plan | str | Trust]):
     """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, six lines.
 
     scene : the scene that is planned
-    cost : what all contacts of `crosscheck run` take; the reason where it cannot compare this scene
+    cost : what all contacts of `crosscheck run` take; the reason where it solves none
+    refused : whether that refuses the numbers of a scene of a kind that it compares
+    doubts : about the scene, and notes on what was read for it, as sentences
     """
 
-    def __init__(self, plans: Mapping[str, Plan | str | Trust], scene: Scene, cost: Cost | str) -> None:
+    def __init__(
+        self,
+        plans: Mapping[str, Plan | str | Trust],
+        scene: Scene,
+        cost: Cost | str,
+        refused: bool = False,
+        doubts: Sequence[str] = (),
+    ) -> None:
         super().__init__(plans)
-        self.scene, self.cost = scene, cost
+        self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
 
     def draw(self, file: str | Path) -> Path:
         """Draw G', G'' of the solid into a .png, .pdf or .svg file; returns its path.
@@ -58,8 +66,8 @@ class Plans(dict[str, Plan | str | Trust]):
 
     @property
     def feasible(self) -> bool:
-        """Whether any solver would solve it."""
-        return bool(self._plans)
+        """Whether any solver would solve it, and `crosscheck run` would not refuse it for its numbers."""
+        return bool(self._plans) and not self.refused
 
     @property
     def details(self) -> str:
@@ -80,10 +88,14 @@ class Plans(dict[str, Plan | str | Trust]):
         return {name: each for name, each in self.items() if isinstance(each, Plan)}
 
     def _summary(self) -> Iterator[tuple[str, str]]:
-        """Names and texts of the lines; then the reasons of a solver that refuses, and doubts."""
+        """Names and texts of doubts and notes, of the six lines, then the reasons against the scene."""
+        yield from (("doubtful", each) for each in self.doubts)
+        yield from (("note", each) for each in notes(self.scene))
         if plans := self._plans:
-            contacts, time = "1, from Python: crosscheck run does not compare this scene", ""
-            if isinstance(self.cost, Cost):
+            contacts, time = "1, from Python: crosscheck run does not compare this scene, as said below", ""
+            if self.refused:
+                contacts = "none by crosscheck run, which refuses this scene"
+            elif isinstance(self.cost, Cost):
                 contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
                 time = f"about {duration(self.cost.seconds)} on one processor; "
             yield "contacts", contacts
@@ -93,11 +105,14 @@ class Plans(dict[str, Plan | str | Trust]):
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
         yield "modulus", _stiffness(self.scene)
-        for name, each in self.items():
-            if isinstance(each, str):
+        # What refuses all contacts refuses this one too, with values that work for all of them.
+        told = self.cost if isinstance(self.cost, str) else ""
+        reasons = {name: each for name, each in self.items() if isinstance(each, str)}
+        for name, each in reasons.items():
+            if not (self.refused and f"{name} cannot solve" in told):
                 yield "refused", each
-            elif isinstance(each, Plan):
-                yield from (("doubtful", f"{name}: {doubt}") for doubt in each.doubts)
+        if told and (self.refused or not reasons):
+            yield "refused" if self.refused else "alone", told
 
     def _by_dimension(self, told: Callable[[Plan], str]) -> str:
         return ", ".join(f"{told(plan)} in {DIMENSIONS[name]}" for name, plan in self._plans.items())
@@ -124,12 +139,14 @@ def plans(asked: Asked) -> Plans:
     made: dict[str, Plan | str | Trust] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
-    return Plans(made | {"trust": trust(case.scene)}, case.scene, _cost(case))
+    cost, refused = _cost(case)
+    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubted(case))
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
     """The plan of a solver, or its reasons against the scene."""
     try:
+        foresee(solver, scene)
         return solver.plan(scene)
     except Refused as reasons:
         return str(reasons)
@@ -137,12 +154,14 @@ def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
         return f"{solver.name} would not get through this scene: {reason}"
 
 
-def _cost(case: Case) -> Cost | str:
-    """Cost of all contacts that `crosscheck run` solves, or why it solves none."""
+def _cost(case: Case) -> tuple[Cost | str, bool]:
+    """Cost of all contacts that `crosscheck run` solves, or why it solves none, and whether that is a refusal."""
     try:
-        return sum((each.cost for each in curves(case).values()), Cost())
-    except (Refused, SolveError, ArithmeticError, ValidationError) as reason:
-        return str(reason)
+        return sum((each.cost for each in curves(case).values()), Cost()), False
+    except NotCompared as reason:
+        return str(reason), False
+    except Refused as reason:
+        return str(reason), True
 
 
 def _seconds(plan: Plan) -> str:

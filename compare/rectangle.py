@@ -3,21 +3,22 @@
 # xarray is imported where a Dataset is made: to count contacts, as `crosscheck plan` does, takes none.
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from math import nan
+from math import inf, nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Indent, Program, Scene, Slide, Solver, Stage
-from scene.motion import PRESSES, Motion
-from scene.protocol import refuse
+from scene import Indent, Program, Refused, Scene, Slide, Solver, Stage
+from scene.motion import PRESSES, UNITS, Motion
+from scene.protocol import trusted, why_not
 from scene.quantities import SPEED, WHOLE, argument
+from scene.scales import elastic_contact
 
 from .cost import Cost
 from .outcome import Outcome, Row
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 FINE, COARSE = "fine", "coarse"
 # Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
 SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
+ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
+MOST_ASKED = 1000  # lines drawn, whether each fits its grid
 # What a solver gives of every contact, by the names of a Dataset.
 NUMBERS = {
     "normal_force": "normal_force",
@@ -102,15 +105,15 @@ class Rectangle:
             motion = Slide(speed=speed, **pressed) if speed else Indent(**pressed)
         return replace(self.scene, motion=motion)
 
-    def refuse(self) -> None:
-        """Raise Refused if a solver lacks what a scene asks for, SolveError if numbers are too far apart.
+    @property
+    def corners(self) -> list[Scene]:
+        """Scenes at the greatest and the least load or depth and speed, that with the widest contact first."""
+        speeds, values = (sorted({min(each), max(each)}) for each in (self.speeds, self.values))
+        return [self.at(value, speed) for value in reversed(values) for speed in speeds]
 
-        Asked at the least and the greatest speed and load or depth, between which nothing else is lacking.
-        """
-        speeds, values = ({min(each), max(each)} for each in (self.speeds, self.values))
-        for grids in self.grids.values():
-            for solver, speed, value in product(grids.values(), speeds, values):
-                refuse(solver, self.at(value, speed))
+    def refuse(self) -> None:
+        """Raise as `refuse` of this rectangle alone."""
+        refuse([self])
 
     def tasks(self) -> list[SceneTask | Path]:
         """Every task, each once: all profiles of a 1D contact, and all speeds on a surface in 3D."""
@@ -203,6 +206,56 @@ def on_two_grids(*solvers: MDR | BEM) -> dict[str, dict[str, Solver]]:
         each.name: {FINE: each, COARSE: replace(each, points=each.points // 2, steps=max(1, each.steps // 2))}
         for each in solvers
     }
+
+
+def refuse(rectangles: Iterable[Rectangle]) -> None:
+    """Raise Refused where a solver cannot solve a contact of these, SolveError where numbers are too far apart.
+
+    Of each solver the reasons are told against the widest contact that it cannot solve: what mends that mends all.
+    Asked at the corners of a rectangle, between which nothing else is lacking; of the widest contact also what is
+    foreseen of its solve, and, where one line hardly fits its grid, whether every other does.
+    """
+    asked = [(each, grids) for each in rectangles for grids in each.grids.values()]
+    asked.sort(key=lambda pair: -_width(pair[0].corners[0]))
+    told: dict[str, str] = {}
+    with trusted():
+        for rectangle, grids in asked:
+            for solver in (each for each in grids.values() if each.name not in told):
+                if reason := _reason(solver, rectangle):
+                    told[solver.name] = reason
+    if told:
+        raise Refused("; ".join(told.values()))
+
+
+def _reason(solver, rectangle):
+    """Why a solver cannot solve all of a rectangle; empty where nothing is known."""
+    widest, *others = rectangle.corners
+    if why := why_not(solver, widest):
+        return _against(solver, widest, why)
+    draws: tuple[Scene, ...] = ()
+    if isinstance(solver, MDR) and replace(solver, points=max(8, int(solver.points / ROOM))).refusals(widest):
+        draws = draws_of(widest, min(rectangle.draws.get(solver.name, 1), MOST_ASKED))
+    for scene in (*others, *draws[1:]):
+        if why := solver.refusals(scene):
+            return _against(solver, scene, why)
+    return ""
+
+
+def _against(solver, scene, why):
+    pressed, motion = scene.motion.pressed_by, scene.motion
+    speed = f" at {motion.speed:.3g} m/s" if getattr(motion, "speed", 0.0) else ""
+    points = f" on {solver.points} points" if hasattr(solver, "points") else ""
+    place = f"{pressed} = {motion.greatest:.3g} {UNITS[pressed]}{speed}{points}"
+    return f"{solver.name} cannot solve this scene with {place}: {'; '.join(why)}"
+
+
+def _width(scene):
+    """Radius of the smooth relaxed contact [m]; infinite beyond the range of numbers."""
+    motion = scene.motion
+    try:
+        return elastic_contact(replace(scene, motion=motion.held) if isinstance(motion, Program) else scene).radius
+    except ArithmeticError:
+        return inf
 
 
 def tasks_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask | Path]:

@@ -18,6 +18,7 @@ from .page import Page, Plot
 from .plots import style
 from .runner import SweepResult
 from .store import TRACE
+from .unsolved import NONE_UNSOLVED, Unsolved
 
 SOLVED = "solved"  # folder of what has been solved, below that of the page
 SHOWN = 3  # reasons that are said of tasks that broke
@@ -35,6 +36,7 @@ class Report:
     swept : number of tasks that were solved and reused, and what broke
     output : folder of the page and of what has been solved
     path : file of the page; None if none was written
+    unsolved : contacts without an answer
     """
 
     study: Study
@@ -44,6 +46,7 @@ class Report:
     swept: SweepResult
     output: Path
     path: Path | None = None
+    unsolved: Unsolved = NONE_UNSOLVED
 
     @property
     def findings(self) -> DataFrame:
@@ -57,8 +60,13 @@ class Report:
 
     @property
     def failed(self) -> bool:
-        """Whether a task broke, or a law or a stored value does not hold."""
-        return bool(self.swept.faults) or self.study.failed(self.claims)
+        """Whether a task broke, many contacts or a scene's own have no answer, or what has to hold does not."""
+        return bool(self.swept.faults) or self.unsolved.serious or self.study.failed(self.claims)
+
+    @property
+    def doubts(self) -> Sequence[str]:
+        """Doubts, and contacts without an answer, as they stand before the answer."""
+        return self.page.doubts
 
     @property
     def faults(self) -> list[str]:

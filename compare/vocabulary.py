@@ -65,7 +65,8 @@ regime : Range of the dimensionless groups in which a number was measured.
 plot : Figure that shows it.
 
 Of the trust map: ratios of 1D over 3D, foretold and measured.
-advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D.
+advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D;
+    none beyond every linear theory.
 surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none where
     one surface says nothing. [1]
 surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none

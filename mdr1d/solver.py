@@ -1,5 +1,6 @@
 """The one-dimensional solver: the method of dimensionality reduction (MDR) behind the common protocol."""
 
+from dataclasses import replace
 from math import ceil, inf
 from time import process_time
 from typing import Annotated, ClassVar, Literal
@@ -8,11 +9,13 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Program, Result, Scene
+from scene import Doubt, EmptyContact, Profile, Program, Result, Scene, SolveError, doubts
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Whole
+from scene.roughness import Roughness
+from scene.scanned import Scanned
 from scene.terms import Table, surrounded, terms_of
 
 from .accuracy import friction_error
@@ -26,6 +29,9 @@ from .plan import plan_of
 from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, unmapped
 from .surface import MOST_NODES, Band, Spectrum, band_of
 from .terms import TERMS
+
+SPARE = 1.25  # of an extent, for the contacts of other draws
+FULLER = 1.01  # of two pixels, so that they are carried with few digits too
 
 
 @dataclass(frozen=True, config=CLOSED)
@@ -101,19 +107,38 @@ class MDR:
         """Reasons why the scene cannot be solved, one sentence each; empty when it can."""
         reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
         if not reasons and scene.roughness is not None:
-            band = band_of(scene.roughness, self.spectrum)
-            reasons += _too_broad(band) or _unresolved(band, self._laid_out(scene), self.points)
+            rough, band = scene.roughness, band_of(scene.roughness, self.spectrum)
+            reasons += _too_broad(band) or _unresolved(rough, band, self._laid_out(scene), self.points)
         return reasons or shortage(plan_of(self, scene, self._laid_out(scene)).memory)
+
+    def foreseen(self, scene: Scene) -> list[str]:
+        """Reasons why a solve that is not refused would fail all the same: by a stated extent, which is tried."""
+        if self.extent is None or isinstance(scene.motion, Program):
+            return []
+        try:
+            self._pressed(self._reduced(scene))
+        except EmptyContact:
+            return []
+        except SolveError as reason:
+            return [str(reason)]
+        return []
+
+    def doubts(self, scene: Scene) -> tuple[Doubt, ...]:
+        """Doubts about a scene, whose roughness this grid may cut off. Nothing is solved."""
+        rough = scene.roughness
+        if rough is None or rough.shortest is not None or self.refusals(scene):
+            return doubts(scene)
+        return doubts(scene, self._laid_out(scene).pixel)
 
     def plan(self, scene: Scene) -> Plan:
         """Plan of a scene: the parts that would be simulated, and their costs; nothing is solved.
 
         Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
-        of numbers. Other reasons for which a solve may fail it does not see.
+        of numbers. For which other reasons a solve would fail, as far as that shows beforehand, `foreseen` says.
         """
         with trusted():
             refuse(self, scene)
-            return plan_of(self, scene, self._laid_out(scene))
+            return replace(plan_of(self, scene, self._laid_out(scene)), doubts=self.doubts(scene))
 
     def solve(self, scene: Scene) -> Result:
         """Solve the scene.
@@ -229,7 +254,7 @@ def _too_broad(band: Band) -> list[str]:
     ]
 
 
-def _unresolved(band: Band, layout: Grid, points: int) -> list[str]:
+def _unresolved(rough: Roughness, band: Band, layout: Grid, points: int) -> list[str]:
     """Reasons why the grid does not resolve the roughness."""
     if layout.period is None or layout.period < band.nodes:
         shortest = "" if band.shortest is None else f", shortest = {band.shortest:g},"
@@ -237,7 +262,7 @@ def _unresolved(band: Band, layout: Grid, points: int) -> list[str]:
         return [
             f"points = {points} over an extent of {layout.extent:g} m make a pixel of {layout.pixel:g} m, on "
             f"which roughness with longest = {band.period:g}{shortest} is not resolved: "
-            f"it takes at least points = {enough:.15g}"
+            f"it takes at least points = {enough:.15g}{_room(rough, band, layout, enough)}"
         ]
     if layout.period > MOST_NODES:
         return [
@@ -246,6 +271,19 @@ def _unresolved(band: Band, layout: Grid, points: int) -> list[str]:
             "larger extent or a shorter period"
         ]
     return []
+
+
+def _room(rough, band, layout, enough):
+    """What works for other draws of the roughness too, whose contacts are wider, in words."""
+    told, kept = f"; {ceil(SPARE * enough):.15g} have room for other draws", 2 * SPARE * layout.pixel
+    if isinstance(rough, Scanned | Profile):
+        least, most = rough.keepable
+        kept = max(kept, FULLER * least)
+        if kept <= most:
+            told += f"; roughness.shortest_kept = {kept:.3g} would leave out waves that the pixels cannot carry"
+    elif band.shortest is not None and kept <= band.period / 2:
+        told += f"; roughness.shortest = {kept:.3g} would be resolved"
+    return told
 
 
 def _cutoff(scene: Scene) -> str | None:

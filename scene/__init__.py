@@ -1,5 +1,6 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
+from .doubt import Doubt, Doubtful, doubts, notes
 from .fractional import Fractional
 from .heating import Heating
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
@@ -30,6 +31,8 @@ __all__ = [
     "CreepTable",
     "CrossedWaves",
     "Cylinder",
+    "Doubt",
+    "Doubtful",
     "Elastic",
     "EmptyContact",
     "Fractional",
@@ -63,5 +66,7 @@ __all__ = [
     "Tabulated",
     "Topography",
     "Wave",
+    "doubts",
+    "notes",
     "read_table",
 ]

@@ -6,6 +6,7 @@ from math import prod
 from typing import Any
 
 from .costs import Expected
+from .doubt import Doubt
 from .markup import table
 from .motion import UNITS, Program
 from .scanned import Scanned
@@ -93,7 +94,7 @@ class Plan:
     steps : in time; 0 of what is steady
     applications, seconds : of the operator, in equivalents of the finest grid, and of processor
     left_out : what the scene does not ask for, and what therefore is not done
-    doubts : why a solve may refuse what is planned, where that rests on an estimate
+    doubts : about the scene, and about how well the grid shows it
     """
 
     solver: str
@@ -109,7 +110,7 @@ class Plan:
     applications: Expected
     seconds: Expected
     left_out: Mapping[str, str] = field(default_factory=dict)
-    doubts: tuple[str, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
 
     @property
     def memory(self) -> int:
@@ -120,11 +121,11 @@ class Plan:
         return "\n".join([f"{self.solver}, {self.settings}", *self._lines()])
 
     def _repr_html_(self) -> str:
-        groups = {
+        groups: dict[str, Mapping[Any, Any]] = {
+            "doubtful": dict.fromkeys(self.doubts, ""),
             "simulated": self.terms,
             "method": {"": self.method},
             "grids": dict.fromkeys(self.grids, ""),
-            "doubtful": dict.fromkeys(self.doubts, ""),
             "kernels": {kernel.name: kernel for kernel in self.kernels},
             "modes": {"": self.modes},
             "steps in time": {"": self.steps or "none"},
@@ -138,11 +139,11 @@ class Plan:
         return table(named, title=f"{self.solver}, {self.settings}")
 
     def _lines(self) -> Iterator[str]:
+        if self.doubts:
+            yield from _list("doubtful", self.doubts)
         yield from _table("simulated", self.terms)
         yield from _list("method", [self.method])
         yield from _list("grids", self.grids)
-        if self.doubts:
-            yield from _list("doubtful, as far as the window is an estimate", self.doubts)
         yield from _table("kernels", {kernel.name: kernel for kernel in self.kernels})
         yield from _list("modes", [self.modes])
         yield from _list("steps in time", [self.steps or "none"])

@@ -109,7 +109,7 @@ class Profile:
                 f'level = "{self.level}" with repeat = "periodic": taken off a period it would leave a step at '
                 'its ends: take level = "mean", or repeat = "mirror"'
             )
-        least, most, kept = 2 * self.spacing, self.length / 2, self.shortest_kept
+        (least, most), kept = self.keepable, self.shortest_kept
         if kept is not None and not least * (1 - QUOTIENT) <= kept <= most:
             raise ValueError(
                 f"shortest_kept = {kept:g} m: from two spacings, {least:g} m, to half of the line, {most:g} m"
@@ -121,6 +121,11 @@ class Profile:
                 f"{law.rolloff.value:.3g} m, and waves below it have to be left"
             )
         return self
+
+    @property
+    def keepable(self) -> tuple[float, float]:
+        """Least and greatest `shortest_kept` [m]: two spacings, and half of the line."""
+        return 2 * self.spacing, self.length / 2
 
     @property
     def length(self) -> float:

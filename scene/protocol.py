@@ -65,5 +65,21 @@ def refuse(solver: Solver, scene: Scene) -> None:
     """Raise Refused with every reason at once, if there is any; SolveError as `trusted`."""
     with trusted():
         reasons = solver.refusals(scene)
+    _raise(solver, reasons)
+
+
+def foresee(solver: Solver, scene: Scene) -> None:
+    """Raise Refused and SolveError as `refuse`, and Refused where it shows beforehand that a solve would fail."""
+    with trusted():
+        reasons = why_not(solver, scene)
+    _raise(solver, reasons)
+
+
+def why_not(solver: Solver, scene: Scene) -> list[str]:
+    """Reasons why a solver refuses a scene, or else those that its `foreseen`, if it has one, finds beforehand."""
+    return solver.refusals(scene) or getattr(solver, "foreseen", lambda scene: [])(scene)
+
+
+def _raise(solver, reasons):
     if reasons:
         raise Refused(f"{solver.name} cannot solve this scene: " + "; ".join(reasons))

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .doubt import SMALL_SLOPE
+
 # "Much less" in numbers: the term that a law drops is then at most about a tenth, a twenty-fifth of what it keeps.
 MUCH_LESS_HEIGHT, MUCH_LESS_SLOPE = 0.1, 0.2
-# Slopes up to which a linear theory of contact is taken at its word.
-SMALL_SLOPE = 0.3
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ from .printable import brief
 from .quantities import METRE
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-UNIT = f'the unit of its heights: give unit = "um", or --unit um on the command line, out of {", ".join(UNITS)}'
-PIXEL = 'the side of a pixel: give pixel = "1 um", or --pixel "1 um" on the command line'
+_LINE = "on the command line of crosscheck topography"
+UNIT = f'the unit of its heights: give unit = "um", or --unit um {_LINE}, out of {", ".join(UNITS)}'
+PIXEL = f'the side of a pixel: give pixel = "1 um", or --pixel "1 um" {_LINE}'
 LEAST = 4  # pixels a side: what a cubic between pixels takes
 EVEN = 1e-3  # relative, of sides and spacings: a header rounds them, and so do coordinates in single precision
 

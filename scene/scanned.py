@@ -88,13 +88,18 @@ class Scanned:
     @model_validator(mode="after")
     def _waves_kept(self):
         if self.shortest_kept is not None:
-            least, most = 2 * max(self.pixel), min(self.sides) / 2
+            least, most = self.keepable
             if not least * (1 - QUOTIENT) <= self.shortest_kept <= most:
                 raise ValueError(
                     f"shortest_kept = {self.shortest_kept:g} m: from two pixels, {least:g} m, to half of what "
                     f"repeats, {most:g} m"
                 )
         return self
+
+    @property
+    def keepable(self) -> tuple[float, float]:
+        """Least and greatest `shortest_kept` [m]: two pixels, and half of what repeats."""
+        return 2 * max(self.pixel), min(self.sides) / 2
 
     @property
     def notes(self) -> tuple[str, ...]:

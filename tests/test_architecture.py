@@ -32,7 +32,7 @@ DOORS = {
 # Floors of the judge, from the ground up: a room imports rooms of its own floor and of those below.
 FLOORS = (
     {"outcome", "vocabulary", "suggest", "amounts", "digits", "docstrings", "library"},
-    {"task", "path", "cost", "finding", "exact", "page", "describe"},
+    {"task", "path", "cost", "finding", "exact", "page", "describe", "unsolved"},
     {"store", "workers", "statistics", "rectangle", "cases", "inputs", "hardcases", "quantity", "csvfiles"},
     {"plots", "cluster", "runner", "progress", "pages", "manifest", "redraw", "views", "film", "vtk"},
     {"interactive", "declaration", "results", "report", "pipeline", "animation", "tables"},

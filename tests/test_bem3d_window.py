@@ -1,5 +1,6 @@
 """The window follows the contact, wherever it is; what cannot be trusted is an error that says how to mend it."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -171,3 +172,48 @@ def test_a_line_and_a_surface_of_one_seed_share_no_phases():
 def test_a_mistaken_setting_is_named(field, value):
     with pytest.raises(ValueError, match=field):
         BEM(**{field: value})
+
+
+def drawn_contacts(count, seed):
+    """Rough spheres, cones and blunt bodies at rest and sliding, whose waves 16 to 64 points hardly carry."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        body = (Sphere(1e-2), Cone(0.1), PowerLaw(1e6, 4.0))[rng.integers(3)]
+        motion = (Indent(load=1.0), Slide(speed=10 ** rng.uniform(-3, 1), load=1.0), Slide(speed=0.1, depth=1e-4))
+        rough = SelfAffine(
+            hurst=0.7,
+            rms_height=10 ** rng.uniform(-6, -4),
+            longest=4e-3,
+            shortest=10 ** rng.uniform(-4, -3),
+            seed=int(rng.integers(100)),
+        )
+        scene = Scene(body, Kelvin(1e6, 1e-3), motion[rng.integers(3)], rough)
+        yield BEM(points=int(rng.choice([16, 32, 64]))), scene
+
+
+def test_what_is_foreseen_is_what_a_solve_would_fail_by():
+    foreseen = 0
+    for solver, scene in drawn_contacts(40, seed=1):
+        if reasons := solver.foreseen(scene):
+            foreseen += 1
+            with pytest.raises(SolveError, match="less than two pixels"):
+                solver.solve(scene)
+            assert "less than two pixels" in reasons[0]
+        else:
+            try:
+                solver.solve(scene)
+            except SolveError as error:  # for another reason, or in a window that peaks outside have made wider
+                foreseen += "less than two pixels" not in str(error)
+    assert foreseen > 10
+
+
+def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it():
+    for scene in (SMOOTH, replace(SMOOTH, roughness=replace(ROUGH, rms_height=2e-5))):
+        (reason,) = BEM(points=64, extent=2e-3).foreseen(scene)
+        with pytest.raises(SolveError, match="edge of extent"):
+            BEM(points=64, extent=2e-3).solve(scene)
+        extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
+        wider = BEM(points=int(points), extent=float(extent))
+        assert wider.foreseen(scene) == []
+        assert wider.solve(scene).normal_force == pytest.approx(1.0)
+        assert BEM(points=64).foreseen(scene) == []

@@ -405,7 +405,8 @@ def test_a_row_that_lacks_a_number_is_left_out_and_told(tmp_path):
     (tmp_path / "ball.csv").write_text(table())
     assert read.data.equals(MeasuredFriction.of(tmp_path / "ball.csv").data)
     assert "1 of 97 rows lack a number and are left out" in read.notes[0]
-    assert f"Note: {read.notes[0]}." in read.answer(read.findings(None))
+    report = compare.mastercurve(tmp_path / "holed.csv", output=tmp_path / "out", workers=1, report=False)
+    assert f"Note: {read.notes[0]}." in report.page.first
 
 
 def test_one_temperature_is_told_and_changes_nothing(tmp_path):

@@ -1,5 +1,6 @@
 """`crosscheck plan`: both solvers' plans of a file, and what it says of a file that cannot be solved."""
 
+import re
 import tracemalloc
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
+import compare
 from bem3d import BEM
 from compare import run
 from compare.cli import app
@@ -15,7 +17,7 @@ from compare.plots import solid, style
 from compare.rectangle import contacts_of
 from compare.studies.trust.verdict import trust
 from mdr1d import MDR
-from scene import WLF, Indent, Prony, Scene, Sphere, Tabulated
+from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
 from scene.plan import Plan
 from scene.reading import made, read
 
@@ -218,3 +220,58 @@ def test_a_figure_of_another_form_is_refused(written, tmp_path):
     assert answer.exit_code == 2
     assert "a file that ends in .png, .pdf, .svg" in answer.output
     assert not (tmp_path / "solid.jpg").exists()
+
+
+def fine_map(folder, **stated):
+    """A scene with a map of 2 um waves on a contact of some 500 um, which 128 points a side do not carry."""
+    heights = 1e-7 * np.random.default_rng(3).standard_normal((64, 64))
+    np.save(folder / "map.npy", heights)
+    kept = "".join(f"{name} = {value}\n" for name, value in stated.items() if name != "points")
+    text = SCENE.split("[roughness]")[0].replace("load = 1.0", "load = 0.02")
+    rough = f'[roughness]\ntype = "topography"\nfile = "{folder}/map.npy"\npixel = "1 um"\nunit = "m"\n{kept}'
+    path = folder / "scene.toml"
+    path.write_text(f"{text}{rough}[bem]\npoints = {stated.get('points', 128)}\n")
+    return path
+
+
+def test_what_no_grid_carries_is_refused_alike_by_plan_and_run_before_any_work(tmp_path):
+    path = fine_map(tmp_path)
+    planned = told(path)
+    ran = CliRunner().invoke(app, ["run", str(path), "--output", str(tmp_path / "out")])
+    assert planned.exit_code == ran.exit_code == 2
+    assert not (tmp_path / "out").exists()
+    # of the widest contact of all, ten times the load of the scene, slowly
+    reason = " ".join(ran.stderr.split()).partition(": ")[2].partition(": ")[2]
+    assert (
+        "BEM cannot solve this scene with load = 0.2 N at 0.0333 m/s on 128 points: roughness.shortest" in reason
+    )
+    assert reason in " ".join(planned.stdout.split())
+
+
+@pytest.mark.parametrize("name", ["points", "shortest_kept"])
+def test_the_values_that_a_refusal_names_work(tmp_path, name):
+    refusal = str(plans(fine_map(tmp_path)).cost)
+    (value,) = re.findall(rf"{name} = ([\d.e-]+)", refusal)
+    accepted = plans(fine_map(tmp_path, **{name: value}))
+    assert accepted.feasible
+    assert not isinstance(accepted.cost, str)
+
+
+def test_a_plan_says_why_a_scene_is_not_compared(written):
+    head, _ = SCENE.split("[motion]", 1)
+    answer = told(written(f'{head}[motion]\ntype = "program"\nstages = [{{duration = 1.0, load = 1.0}}]\n'))
+    assert answer.exit_code == 0
+    assert "alone      motion = Program: crosscheck compares bodies that are pressed in" in answer.output
+
+
+def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in_python(written):
+    path = written(SCENE.replace("radius = 1e-2", "radius = 12.7").split("[roughness]")[0])
+    for command in ("plan", "trust"):
+        answer = CliRunner().invoke(app, [command, str(path)])
+        first = " ".join(answer.output.split())
+        assert re.match(r"doubtful:? +radius of the body = 12.7 m, above 1 m: .* is 12.7 mm meant\?", first)
+        assert not answer.stderr
+    for function in (compare.plan, compare.trust):
+        with pytest.warns(Doubtful, match="is 12.7 mm meant") as warned:
+            function(path)
+        assert {each.filename for each in warned} == {__file__}

@@ -179,10 +179,9 @@ def test_what_is_elastic_has_no_friction():
         ({"roughness": Wave(amplitude=1e-5, wavelength=1e-3)}, "roughness = Wave"),
         ({"roughness": replace(ROUGH, shortest=None)}, "roughness.shortest"),
         ({"roughness": replace(ROUGH, amplitudes="gaussian")}, "roughness.amplitudes"),
-        ({"roughness": replace(ROUGH, shortest=5e-6)}, "a/λ_s = 2"),
-        ({"roughness": replace(ROUGH, rms_height=1e-3)}, "h0/d = "),
+        ({"roughness": replace(ROUGH, hurst=0.8, shortest=5e-6)}, "a/λ_s = 2"),
+        ({"roughness": replace(ROUGH, rms_height=2e-4)}, "h0/d = "),
         ({"motion": Slide(speed=1e9, load=1.0)}, "G''(v q_s)/G0 = "),
-        ({"indenter": PowerLaw(1e300, 60.0)}, ""),
         ({"motion": Slide(speed=0.1, load=1e-250)}, ""),
         ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
     ],
@@ -194,6 +193,35 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
     assert all(np.isnan(worth.ratio) and "Off the map" in worth.reason for worth in found.worths.values())
     assert all(said in worth.reason for worth in found.worths.values())
     assert found.nearest == ()
+
+
+@pytest.mark.parametrize(
+    ("changed", "steep"),
+    [
+        ({"motion": Slide(speed=0.1, load=1e5)}, "slope of the body"),
+        ({"indenter": PowerLaw(1e300, 60.0)}, "slope of the body"),
+        ({"motion": Slide(speed=0.1, depth=1e25)}, "slope of the body"),
+        ({"roughness": replace(ROUGH, shortest=1e-6)}, "rms slope of the roughness"),
+        ({"roughness": None, "motion": Slide(speed=0.1, load=1e5)}, "slope of the body"),
+        ({"roughness": None, "motion": Slide(speed=0.1, load=1e5), "layer": Layer(thickness=1e-3)}, "slope"),
+    ],
+)
+def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, steep):
+    found = trust(replace(PAPER, **changed))
+    assert {worth.advice for worth in found.worths.values()} == {"none"}
+    assert all(
+        steep in worth.reason and "3D is as linear as 1D" in worth.reason for worth in found.worths.values()
+    )
+    told = str(found)
+    assert told.startswith("doubtful: ")
+    assert "use 1D" not in told
+    assert "no advice" in told
+
+
+def test_steep_slopes_are_doubted_before_the_advice():
+    found = trust(replace(SMOOTH, motion=Slide(speed=0.1, load=100.0)))
+    assert [each.name for each in found.doubts] == ["slope of the body at the edge of the contact"]
+    assert found.friction.advice == "multiply"
 
 
 def drawn_scenes(count, seed):

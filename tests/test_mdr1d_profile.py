@@ -1,5 +1,6 @@
 """Which line stands for the indenter, what is measured on it, and the limits of slow and fast sliding."""
 
+import re
 from dataclasses import replace
 from math import sqrt
 
@@ -10,7 +11,19 @@ from sliding import ROUGH as SCENE
 
 from mdr1d import MDR, lay_out, map_profile, modes_of, sweep, sweep_modes
 from mdr1d.profile import contact_extent, greatest_depth, unmapped
-from scene import Cone, PowerLaw, Regime, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import (
+    Cone,
+    Elastic,
+    Indent,
+    PowerLaw,
+    Regime,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    StandardLinearSolid,
+)
 from scene.scales import elastic_contact
 
 SHAPES = [Sphere(radius=1e-2), Cone(angle=0.2), PowerLaw(coefficient=0.5, exponent=1.3)]
@@ -174,3 +187,27 @@ def test_scenes_of_one_body_share_its_profile_and_no_result_changes_that_of_anot
     assert MDR(points=1000).solve(slow).depth == depth
     with pytest.raises(ValueError, match="read-only"):
         map_profile(slow, grid).heights[0] = 0.0
+
+
+def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it():
+    scene = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0))
+    (reason,) = MDR(points=500, extent=2e-3).foreseen(scene)
+    with pytest.raises(SolveError, match="the contact leaves the grid"):
+        MDR(points=500, extent=2e-3).solve(scene)
+    extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
+    wider = MDR(points=int(points), extent=float(extent))
+    assert wider.foreseen(scene) == []
+    assert wider.solve(scene).normal_force == pytest.approx(1.0)
+    assert MDR(points=500).foreseen(scene) == []
+
+
+def test_points_and_waves_that_a_refusal_names_do_for_other_draws_too():
+    rough = SelfAffine(hurst=0.5, rms_height=2e-5, longest=4e-3, shortest=2e-5)
+    scene = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0), rough)
+    (reason,) = MDR(points=100).refusals(scene)
+    points = int(re.search(r"; (\d+) have room for other draws", reason)[1])
+    shortest = float(re.search(r"roughness.shortest = ([\d.e-]+) would be resolved", reason)[1])
+    for seed in range(20):
+        drawn = replace(rough, seed=seed)
+        assert MDR(points=points).refusals(replace(scene, roughness=drawn)) == []
+        assert MDR(points=100).refusals(replace(scene, roughness=replace(drawn, shortest=shortest))) == []

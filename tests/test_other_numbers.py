@@ -138,6 +138,7 @@ UNITS = {
 }
 # What solvers make and hand over, and what holds no numbers itself.
 MADE = {
+    "Doubt",
     "Plan",
     "Regime",
     "Result",

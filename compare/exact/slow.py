@@ -26,7 +26,8 @@ def slow_friction_3d(speed, radius, lag, indentation_modulus, coefficient, expon
     a [m]: mu = v tau / R for a sphere, (pi/2) tan(theta) v tau / a for a cone.
     """
     n = exponent
-    slope_squared = (n * coefficient) ** 2 * radius ** (2 * n - 1) / (2 * n - 1)
+    # The slope first: of a blunt body neither factor alone is within the range of numbers.
+    slope_squared = (n * coefficient * radius ** (n - 1)) ** 2 * radius / (2 * n - 1)
     return speed * lag * indentation_modulus * slope_squared
 
 

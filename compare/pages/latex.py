@@ -77,9 +77,10 @@ def findings(block: Findings, label: str = "") -> str:
 
 def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
     """The page as a document that stands alone, with its figures beside it."""
-    items = "\n".join(rf"\item {typeset(sentence)}" for sentence in page.answer)
     parts = [HEAD, rf"\section*{{{escaped(page.title)}}}"]
-    parts += [f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"] if items else []
+    for sentences in (page.first, page.answer):
+        items = "\n".join(rf"\item {typeset(sentence)}" for sentence in sentences)
+        parts += [f"\\begin{{itemize}}\n{items}\n\\end{{itemize}}"] if items else []
     parts += [*_blocks(page.blocks, 0, pictures), r"\end{document}"]
     return "\n\n".join(parts) + "\n"
 

@@ -17,7 +17,8 @@ SPECIAL = re.compile(r"([\\`*\[\]<>|$]|(?<![^\W_])_|_(?![^\W_]))")
 def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
     """The page; what stands in tables is defined at its end."""
     used: dict[str, None] = {}
-    parts = [f"# {escaped(page.title)}", "\n".join(f"- {typeset(sentence)}" for sentence in page.answer)]
+    parts = [f"# {escaped(page.title)}", "\n".join(f"- **{typeset(each)}**" for each in page.first)]
+    parts += ["\n".join(f"- {typeset(sentence)}" for sentence in page.answer)]
     parts += _blocks(page.blocks, 2, used)
     parts.append(f"All findings, every digit: [{FINDINGS}.csv]({FINDINGS}.csv).")
     if used:

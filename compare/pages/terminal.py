@@ -1,4 +1,4 @@
-"""A page as plain text, which a command prints: the answer, findings and short tables."""
+"""A page as plain text, which a command prints: doubts, the answer, findings and short tables."""
 
 import textwrap
 from collections.abc import Iterator
@@ -16,7 +16,12 @@ MOST_ROWS, WIDEST = 40, 200
 
 def text(page: Page, path: Path | None = None) -> str:
     """The page; path : of its file, named at the end."""
-    parts = [_headed(page.title, "="), *map(_filled, page.answer), *_blocks(page.blocks, "-")]
+    parts = [
+        _headed(page.title, "="),
+        *map(_filled, page.first),
+        *map(_filled, page.answer),
+        *_blocks(page.blocks, "-"),
+    ]
     if path is not None:
         parts.append(f"Page: {path.resolve()}")
     return "\n\n".join(part for part in parts if part)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from scene import Doubtful
+
 if TYPE_CHECKING:
     import xarray
 
@@ -15,7 +17,7 @@ MUCH = 0.1  # from which on it is said first
 MODELS = {"MDR": "1D", "row": "1D", "BEM": "3D", "surface": "3D"}
 
 
-class UncertainFriction(UserWarning):
+class UncertainFriction(Doubtful):
     """Friction may be wrong by more than a tenth, as its grid is coarse."""
 
 

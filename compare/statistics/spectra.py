@@ -10,13 +10,13 @@ from math import hypot, log10, pi
 import numpy as np
 
 from scene import Topography
+from scene.doubt import LOPSIDED
 
 from .powerlaw import LEAST, SelfAffineLaw, fit
 
 PER_DECADE = 10  # rings
 DECADE = 1.0  # decades of wavelengths below which an exponent says little
 STEEP = 10.0  # rms slope above which one of the units is probably another
-LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
 WHOLE = 1.05  # highest wave number of a map over that of its last wave with power, where there is no cut-off
 NOTHING = 1e-24  # of the greatest mean square of a wave: rounding
 

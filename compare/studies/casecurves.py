@@ -6,12 +6,13 @@ from dataclasses import replace
 from pydantic import ValidationError
 
 from mdr1d import equations
-from scene import Indent, Scene, Solver
+from scene import Indent, Refused, Scene, SolveError, Solver
+from scene.protocol import trusted, why_not
 from scene.scales import elastic_contact
 
 from .. import exact
 from ..cases import Case
-from ..rectangle import COARSE, FINE, Rectangle, on_two_grids
+from ..rectangle import COARSE, FINE, Rectangle, on_two_grids, refuse
 
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
@@ -27,7 +28,20 @@ CURVES = {
 
 
 def curves(case: Case) -> dict[str, Rectangle]:
-    """Rectangles of a case by name, each refused before anything is solved. Raises Refused, SolveError."""
+    """Rectangles of a case by name, all of which both solvers can solve, as far as that is known beforehand.
+
+    Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
+    """
+    try:
+        found = _curves(case)
+        refuse(found.values())
+    except (ArithmeticError, SolveError, ValidationError) as error:
+        # The case is valid; what follows from it is not.
+        raise Refused("its numbers are so far apart that the contact leaves their range") from error
+    return found
+
+
+def _curves(case):
     plan, scene, motion = case.plan(), case.scene, case.motion
     smooth = replace(scene, roughness=None)
     found = {OWN: _rectangle(case, scene, (motion.speed,), (motion.greatest,), keeps_fields=True)}
@@ -47,8 +61,6 @@ def curves(case: Case) -> dict[str, Rectangle]:
         found[LOAD] = _rectangle(case, scene, plan.load_speeds, loads)
     if plan.smooth_speeds:
         found[SMOOTH_SPEED] = _rectangle(case, smooth, plan.smooth_speeds, (motion.greatest,))
-    for each in found.values():
-        each.refuse()
     return found
 
 
@@ -109,15 +121,16 @@ def _rectangle(case: Case, scene: Scene, speeds, values, keeps_fields=False) -> 
     # A grid that cuts the roughness off has another surface on half the points.
     if scene.roughness is not None and scene.roughness.shortest is None:
         return found
-    places = [found.at(value, speed) for speed in found.speeds for value in found.values]
-    return replace(found, grids={each.name: _halved(each, places) for each in (case.mdr, case.bem)})
+    return replace(found, grids={each.name: _halved(each, found.corners) for each in (case.mdr, case.bem)})
 
 
 def _halved(solver, scenes) -> dict[str, Solver]:
-    """A solver on its grid, and on half the points if it then solves all of some scenes."""
+    """A solver on its grid, and on half the points if it then solves all of some scenes, the widest first."""
     try:
         grids = on_two_grids(solver)[solver.name]
     except ValidationError:
         return {FINE: solver}
-    refused = any(grids[COARSE].refusals(scene) for scene in scenes)
+    coarse = grids[COARSE]
+    with trusted():
+        refused = any(map(coarse.refusals, scenes)) or why_not(coarse, scenes[0])
     return {FINE: solver} if refused else grids

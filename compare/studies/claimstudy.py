@@ -20,7 +20,7 @@ from ..inputs import located
 from ..library import ready, studies
 from ..outcome import Outcome
 from ..page import Block, Findings, Plot, Section, Table, Text
-from ..rectangle import Rectangle
+from ..rectangle import Rectangle, refuse
 from ..statistics import eq23
 from ..suggest import known
 from ..task import Task
@@ -87,8 +87,7 @@ class ClaimStudy(Study):
             path = _located(name)
             text = text_of(path)
             found = cls(path.stem, study_of(text, str(path)), size, text)
-        for rectangle in found.rectangles().values():
-            rectangle.refuse()
+        refuse(found.rectangles().values())
         return found
 
     @property

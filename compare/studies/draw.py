@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import xarray
 
-from scene import Refused, SolveError, Solver
-from scene.protocol import refuse
+from scene import Refused, SolveError, Solver, notes
+from scene.protocol import foresee
 
 from .. import interactive as turning
-from ..cases import Case
+from ..cases import Case, doubted
 from ..declaration import Study
 from ..finding import Claim, Finding
 from ..inputs import Asked, case_of
@@ -68,6 +68,14 @@ class Drawing(Study):
     @property
     def inputs(self) -> Mapping[str, Any]:
         return {"case": self.case.inputs}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return notes(self.case.scene)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        return doubted(self.case)
 
     def batches(self) -> Sequence[Batch]:
         return (Batch(self.tasks),)
@@ -136,7 +144,7 @@ class Drawing(Study):
 
 
 def _task(solver: Solver, case: Case) -> SceneTask:
-    refuse(solver, case.scene)
+    foresee(solver, case.scene)
     return SceneTask(solver, (case.scene,), keeps_fields=True, work=work_of(solver, case.scene))
 
 

@@ -171,8 +171,7 @@ class Mastercurve(Study):
         across, along, alone, collapsed = (
             named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
         )
-        warm = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
-        lines = [*warm, *(f"Note: {each}." for each in self.notes)]
+        lines = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
         told = sentences([each for each in claimed(findings) if each.claim.id != temperatures.TOGETHER.id])
         if self.lead is self.collapse.both and isfinite(across.value):
             return [eq23.answer(across, along, alone, collapsed).capitalize(), *told, *lines]

@@ -9,14 +9,12 @@ from typing import Any
 import numpy as np
 import xarray
 from pandas import DataFrame
-from pydantic import ValidationError
 
-from scene import Refused, Scene, SolveError
-from scene.reading import InvalidInput
+from scene import Refused, Scene, notes
 from scene.vocabulary import FIELDS as DEFINED
 
 from .. import finding, rectangle
-from ..cases import Case
+from ..cases import Case, NotCompared, doubted
 from ..declaration import Study
 from ..describe import described, folders
 from ..finding import Finding
@@ -63,27 +61,42 @@ class Run(Study):
     @classmethod
     def of(cls, scene: Asked | Mapping[str, Asked] | None = None) -> "Run":
         """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
-        asked = "scene" if isinstance(scene, Scene | Case) else scene
+        asked = scene if isinstance(scene, str | Path) else "scene"
         try:
             run = cls(named_cases(scene))
             run.rectangles()
-        except Refused as error:
+        except NotCompared as error:
             if not isinstance(scene, str | Path):
                 raise
             alone = (
                 "crosscheck plan says what each solver makes of it, and crosscheck animate shows motion in time"
             )
-            raise Refused(f"{error}. So {scene} cannot be compared; {alone}") from error
-        except (ArithmeticError, SolveError, ValidationError) as error:
-            # The file is valid; what follows from it is not.
-            raise InvalidInput(
-                f"{asked}: its numbers are so far apart that the contact leaves their range"
-            ) from error
+            raise NotCompared(f"{error}. So {scene} cannot be compared; {alone}") from error
+        except Refused as error:
+            raise Refused(f"{asked}: {error}") from error
         return run
 
     @property
     def inputs(self) -> Mapping[str, Any]:
         return {"cases": {name: case.inputs for name, case in self.cases.items()}}
+
+    @cached_property
+    def doubts(self) -> tuple[str, ...]:
+        """Doubts about the scene of each case as it stands, with its name where there are several."""
+        found = {name: doubted(case) for name, case in self.cases.items()}
+        named = len(self.cases) > 1
+        return tuple(f"{name}: {each}" if named else each for name, told in found.items() for each in told)
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on what was read for the scenes."""
+        return tuple(dict.fromkeys(note for case in self.cases.values() for note in notes(case.scene)))
+
+    @property
+    def own(self) -> Sequence[SceneTask]:
+        """First contact of each case in each solver, on the fine grid."""
+        found = [dict(reversed(curves[OWN].contacts)) for curves in self._curves.values()]
+        return [contacts[0] for each in found for contacts in each.values()]
 
     @cached_property
     def folders(self) -> Mapping[str, str]:

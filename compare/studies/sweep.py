@@ -10,14 +10,14 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from scene import Indent, Scene, Slide
+from scene import Indent, Scene, Slide, notes
 from scene.motion import PRESSES, UNITS
 from scene.plain import one_by_one
 from scene.printable import brief
 from scene.quantities import SPEED
 from scene.reading import InvalidInput, whole
 
-from ..cases import Case
+from ..cases import Case, doubted
 from ..cost import MOST_DRAWS, MOST_VALUES
 from ..declaration import Study
 from ..finding import Claim, Finding
@@ -83,6 +83,16 @@ class Sweep(Study):
     @property
     def inputs(self) -> Mapping[str, Any]:
         return {"speed": self.speeds, self.case.motion.pressed_by: self.values, "draws": self.draws}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return notes(self.case.scene)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Doubts about the contacts at the corners of the sweep, each number and limit once."""
+        scenes = [each for rectangle in self.rectangles().values() for each in rectangle.corners]
+        return doubted(*(replace(self.case, motion=each.motion) for each in scenes))
 
     def rectangles(self) -> Mapping[str, Rectangle]:
         scene: Scene = self.case.scene

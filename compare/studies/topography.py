@@ -164,11 +164,14 @@ class Map(Study):
             findings.append(Finding(claim, **told))
         return findings
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self.description.topography.notes
+
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
         warnings = [f"Warning: {each}." for each in self.description.warnings]
-        notes = [f"Note: {each}." for each in self.description.topography.notes]
-        return [*warnings, *notes, *sentences([each for each in findings if each.claim.id in told])]
+        return [*warnings, *sentences([each for each in findings if each.claim.id in told])]
 
     def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
         return [plots.plot(self.description)]

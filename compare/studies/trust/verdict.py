@@ -10,7 +10,22 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, SolveError, Sphere, markup
+from scene import (
+    Cone,
+    Doubt,
+    Indent,
+    PowerLaw,
+    Profile,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    doubts,
+    markup,
+    notes,
+)
+from scene.doubt import beyond_linear
 
 from . import shipped, table
 from .groups import LINE, SPACE, Groups, Smooth
@@ -20,10 +35,11 @@ from .ratio import QUANTITIES, asked_of
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Advice = Literal["use", "multiply", "solve"]
+Advice = Literal["use", "multiply", "solve", "none"]
 USE: Advice = "use"
 MULTIPLY: Advice = "multiply"
 SOLVE: Advice = "solve"
+NONE: Advice = "none"  # of neither solver
 # Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
 SMALL, WIDE = 0.05, 0.15
 # Of the range of a group, what may be missing to it.
@@ -66,7 +82,7 @@ class Worth:
     low, high : its interval of 95 %
     surface_low, surface_high : interval of 95 % of the mean in 1D over one single surface in 3D; nan where single
         surfaces differ so much that one says nothing, as the reason then tells
-    advice : "use" 1D as it is, "multiply" it by 1 / ratio, or "solve" in 3D
+    advice : "use" 1D as it is, "multiply" it by 1 / ratio, "solve" in 3D, or "none" beyond every linear theory
     reason : in a sentence or two
     """
 
@@ -84,6 +100,8 @@ class Worth:
         return 1 / self.ratio
 
     def __str__(self) -> str:
+        if self.advice == NONE:
+            return f"no advice. {self.reason}"
         if self.advice == SOLVE:
             return f"solve in 3D. {self.reason}"
         told = "use 1D as it is" if self.advice == USE else f"multiply 1D by {self.factor:.3g}"
@@ -113,6 +131,8 @@ class Trust:
     friction, depth, force : of the coefficient of friction, the depth under a load, the force at a depth
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
     nearest : scenes that were measured, the nearest first, of the first quantity
+    doubts : about the scene
+    notes : on what was read for it
     """
 
     friction: Worth | None
@@ -120,6 +140,8 @@ class Trust:
     force: Worth | None
     groups: Mapping[str, float]
     nearest: tuple[Neighbour, ...]
+    doubts: tuple[Doubt, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def worths(self) -> dict[str, Worth]:
@@ -127,7 +149,8 @@ class Trust:
         return {name: worth for name in QUANTITIES if (worth := getattr(self, name))}
 
     def __str__(self) -> str:
-        lines = [f"{name}: {worth}" for name, worth in self.worths.items()]
+        lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
+        lines += [f"{name}: {worth}" for name, worth in self.worths.items()]
         if self.groups:
             lines.append(f"place on the map: {_placed(self.groups)}")
         first = next(iter(self.worths), "")
@@ -135,7 +158,8 @@ class Trust:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        return markup.table(self._rows, HEADINGS, "Trust map")
+        first = "".join(markup.paragraph(f"doubtful: {each}") for each in self.doubts)
+        return first + markup.table(self._rows, HEADINGS, "Trust map")
 
     def table(self) -> DataFrame:
         """A row for each quantity."""
@@ -151,10 +175,19 @@ class Trust:
 def trust(scene: Scene) -> Trust:
     """Worth of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved.
 
-    A measured line is judged as the surface that is fitted to it.
+    A measured line is judged as the surface that is fitted to it. Beyond every linear theory of contact there is
+    no advice: 3D is as linear as 1D.
     """
-    if isinstance(scene.roughness, Profile):
-        return _of_fit(trust(as_judged(scene)))
+    found = replace(_advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene))
+    return _of_fit(found) if isinstance(scene.roughness, Profile) else found
+
+
+def _advised(scene):
+    if (steep := beyond_linear(scene)) is not None:
+        why = (
+            f"This advice is about linear contacts, and this is none: {steep.name} = {steep.number:.3g}, above 1."
+        )
+        return _unknown(scene, f"{why} 3D is as linear as 1D.", NONE)
     if reasons := unmeasured(scene):
         return _unknown(scene, f"Off the map: {'; '.join(reasons)}.")
     try:
@@ -172,7 +205,7 @@ def trust(scene: Scene) -> Trust:
     place = np.clip(place, *limits())
     asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
     worths = {name: _foretold(name, place, groups) for name in asked}
-    return Trust(**_all(worths), groups=named, nearest=tuple(_nearest(asked[0], place)))
+    return _of(worths, named, tuple(_nearest(asked[0], place)))
 
 
 def as_judged(scene: Scene) -> Scene:
@@ -208,14 +241,17 @@ def unmeasured(scene: Scene) -> list[str]:
     return reasons
 
 
-def _unknown(scene, reason):
-    worth = Worth(nan, nan, nan, nan, nan, SOLVE, reason)
+def _unknown(scene, reason, advice=SOLVE):
+    worth = Worth(nan, nan, nan, nan, nan, advice, reason)
     asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else QUANTITIES
-    return Trust(**_all(dict.fromkeys(asked, worth)), groups={}, nearest=())
+    return _of(dict.fromkeys(asked, worth))
 
 
-def _all(worths: Mapping[str, Worth]) -> dict[str, Worth | None]:
-    return {name: worths.get(name) for name in QUANTITIES}
+def _of(
+    worths: Mapping[str, Worth], groups: Mapping[str, float] | None = None, nearest: tuple[Neighbour, ...] = ()
+) -> Trust:
+    friction, depth, force = (worths.get(name) for name in QUANTITIES)
+    return Trust(friction, depth, force, groups or {}, nearest)
 
 
 def _smooth(scene) -> Trust:
@@ -232,7 +268,7 @@ def _smooth(scene) -> Trust:
         ratio, other = getattr(fine, name), getattr(coarse, name)
         error = abs(log(ratio / other)) / NORMAL
         worths[name] = _worth(ratio, error, 0.0, "the body is smooth, and both solvers answered it")
-    return Trust(**_all(worths), groups={}, nearest=())
+    return _of(worths)
 
 
 def _foretold(name, place, groups):

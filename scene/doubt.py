@@ -1,0 +1,230 @@
+"""Doubts about a scene: numbers beyond what the models allow or materials have, each with its limit and why.
+
+One list of limits for every command and both solvers; nothing is solved for it.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import nan
+from typing import Any
+
+import numpy as np
+
+from .magnitudes import Magnitudes
+from .scene import Scene
+
+SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
+LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
+LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
+
+
+class Doubtful(UserWarning):
+    """Something about a scene or its answer that has to be looked at before its numbers are used."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Doubt about one number of a scene; as a string, a sentence.
+
+    name : of the number, in words
+    number, limit : in SI
+    unit : of both; empty of a pure number
+    why : what is wrong beyond the limit
+    beside : what explains the number; meant : what was probably meant. Either may be empty
+    """
+
+    name: str
+    number: float
+    limit: float
+    unit: str
+    why: str
+    beside: str = ""
+    meant: str = ""
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        side = "above" if self.number > self.limit else "below"
+        beside = f" ({self.beside})" if self.beside else ""
+        told = f"{self.name} = {self.number:.3g}{unit}{beside}, {side} {self.limit:g}{unit}: {self.why}"
+        return f"{told}; {self.meant}" if self.meant else told
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One end of what a number of `Magnitudes` may be.
+
+    number : its name there; name : in words; limit, unit, why : of the `Doubt` beyond it
+    most : whether it is the upper end
+    meant : units that people forget to state, with what makes SI of them
+    beside : further numbers in words
+    """
+
+    number: str
+    name: str
+    limit: float
+    unit: str
+    why: str
+    most: bool = True
+    meant: tuple[tuple[str, Callable[[float], float]], ...] = ()
+    beside: Callable[[Magnitudes], str] | None = None
+
+    def doubt(self, found: Magnitudes) -> Doubt | None:
+        """Doubt about a scene; None within the limit, and where the scene has no such number."""
+        number = _known(lambda: float(getattr(found, self.number)), nan)
+        if not self.broken(number):
+            return None
+        guesses = (f"is {number:g} {unit} meant?" for unit, si in self.meant if not self.broken(si(number)))
+        beside = "" if self.beside is None else _known(lambda: self.beside(found), "")
+        return Doubt(self.name, number, self.limit, self.unit, self.why, beside, next(guesses, ""))
+
+    def broken(self, number: float) -> bool:
+        """Whether a number is beyond the limit; one that is not known is not."""
+        return number > self.limit if self.most else number < self.limit
+
+
+def doubts(scene: Scene, pixel: float | None = None) -> tuple[Doubt, ...]:
+    """Doubts about a scene; empty where all its numbers are within their limits. Nothing is solved.
+
+    pixel : of a grid [m], which cuts off roughness that states no shortest wave; without one such roughness has no
+        slope that could be doubted
+    """
+    found = Magnitudes(scene, pixel)
+    with np.errstate(all="ignore"):
+        return tuple(doubt for limit in LIMITS if (doubt := limit.doubt(found)) is not None)
+
+
+def beyond_linear(scene: Scene) -> Doubt | None:
+    """Doubt about a slope, of body or roughness, that is beyond every linear theory of contact; else None."""
+    slopes = (each for each in doubts(scene) if each.limit == SMALL_SLOPE and each.number > LINEAR_SLOPE)
+    return max(slopes, key=lambda each: each.number, default=None)
+
+
+def notes(scene: Scene) -> tuple[str, ...]:
+    """Notes on what was read for the parts of a scene: what was not used, and what was made of it."""
+
+    def within(part: Any) -> Iterator[str]:
+        for each in (part, *getattr(part, "__dict__", {}).values()):
+            yield from getattr(each, "notes", ())
+
+    return tuple(dict.fromkeys(note for part in scene.parts.values() for note in within(part)))
+
+
+def _known(asked, otherwise):
+    """What is asked of a scene; otherwise where the scene lacks it, or its numbers leave their range."""
+    try:
+        return asked()
+    except (AttributeError, TypeError, ValueError, ArithmeticError, RuntimeError, MemoryError):
+        return otherwise
+
+
+def _times(factor):
+    return lambda number: number * factor
+
+
+MM, UM = ("mm", _times(1e-3)), ("um", _times(1e-6))
+MPA, KJ, DEGC = ("MPa", _times(1e6)), ("kJ/mol", _times(1e3)), ("degC", lambda number: number + 273.15)
+LINEAR = "both models are linear and hold for slopes that are small against 1"
+STRAINS = "both models are linear and hold for strains that are small against 1"
+ATOM, ATOMS = "less than an atom is wide", "a few atoms, where no solid is continuous"
+SOFT, HARD = "softer than a gel", "stiffer than steel"
+COLD, HOT = "every elastomer is a glass there", "no elastomer stands that"
+POLYMERS = "polymers have some 5 to 30, and 20 to 200 K"
+LARGE = "larger than tyres and wheels"
+
+
+def _size(found):
+    return f"radius of the contact {found.contact_radius:.3g} m, depth {found.depth:.3g} m"
+
+
+def _slopes(found):
+    waves = found.scene.roughness.waves
+    return f"{waves.rms_slope_x:.3g} along x, {waves.rms_slope_y:.3g} along y"
+
+
+def _seen(found):
+    return f"{found.frequencies[0]:.2g} to {found.frequencies[-1]:.2g} rad/s, {found.state} throughout"
+
+
+# In the order in which they are told: fields as they stand, then what follows from several.
+LIMITS = (
+    Limit("temperature", "temperature", 100.0, "K", COLD, False, (DEGC,)),
+    Limit("temperature", "temperature", 1000.0, "K", HOT),
+    Limit("reference", "reference temperature", 100.0, "K", COLD, False, (DEGC,)),
+    Limit("reference", "reference temperature", 1000.0, "K", HOT),
+    Limit("activation_energy", "activation energy", 1e3, "J/mol", "less than heat itself gives", False, (KJ,)),
+    Limit("activation_energy", "activation energy", 1e6, "J/mol", "more than a chemical bond takes"),
+    Limit("c1", "c1", 1.0, "", POLYMERS, False),
+    Limit("c1", "c1", 100.0, "", POLYMERS),
+    Limit("c2", "c2", 5.0, "K", POLYMERS, False),
+    Limit("c2", "c2", 1000.0, "K", POLYMERS),
+    Limit("modulus_at_rest", "shear modulus at rest", 1e3, "Pa", SOFT, False, (MPA,)),
+    Limit("modulus_at_rest", "shear modulus at rest", 1e11, "Pa", HARD),
+    Limit("modulus_at_the_instant", "shear modulus at the instant", 1e11, "Pa", HARD),
+    Limit("body_radius", "radius of the body", 1.0, "m", LARGE, meant=(MM, UM)),
+    Limit("body_radius", "radius of the body", 1e-9, "m", ATOMS, False),
+    Limit("thickness", "thickness of the layer", 1.0, "m", "thicker than any layer of rubber", meant=(MM, UM)),
+    Limit("thickness", "thickness of the layer", 1e-9, "m", ATOMS, False),
+    Limit("longest", "longest wave of the roughness", 1.0, "m", "no roughness of a contact", meant=(MM, UM)),
+    Limit("shortest", "shortest wave of the roughness", 1e-9, "m", ATOMS, False),
+    Limit("rms_height", "rms height of the roughness", 1e-10, "m", ATOM, False),
+    Limit("coefficient", "coefficient of friction", 10.0, "", "no dry pair of bodies has it"),
+    Limit("conductivity", "conductivity", 1e-2, "W/(m K)", "less than that of still air", False),
+    Limit("conductivity", "conductivity", 3e3, "W/(m K)", "more than that of diamond"),
+    Limit(
+        "mach",
+        "speed over that of shear waves",
+        1.0,
+        "",
+        "neither model has inertia",
+        beside=lambda found: f"speed {found.speed:g} m/s",
+    ),
+    Limit("contact_radius", "radius of the contact", 1.0, "m", LARGE),
+    Limit("contact_radius", "radius of the contact", 1e-9, "m", ATOMS, False),
+    Limit("depth", "depth of the contact", 1e-10, "m", ATOM, False),
+    Limit("edge_slope", "slope of the body at the edge of the contact", SMALL_SLOPE, "", LINEAR, beside=_size),
+    Limit(
+        "edge_slope",
+        "slope of the body at the edge of the contact",
+        1e-5,
+        "",
+        "flatter than any body",
+        False,
+        (),
+        _size,
+    ),
+    Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR),
+    Limit("rms_slope", "rms slope of the roughness", 1e-4, "", "smoother than polished glass: check units", False),
+    Limit(
+        "height_over_depth",
+        "rms height of the roughness over the depth",
+        1.0,
+        "",
+        "the contact rests on few peaks, and differs much from surface to surface",
+    ),
+    Limit(
+        "lopsided",
+        "greater over lesser rms slope along x and y",
+        LOPSIDED,
+        "",
+        "1D takes the map as isotropic: it cannot tell along from across",
+        beside=_slopes,
+    ),
+    Limit("depth_over_thickness", "depth over the thickness of the layer", SMALL_SLOPE, "", STRAINS),
+    Limit("pressure_over_modulus", "mean pressure over the modulus E* at rest", 1.0, "", STRAINS),
+    Limit(
+        "stiffening",
+        "shear modulus at the speed over that at rest",
+        1e4,
+        "",
+        "no elastomer stiffens so much before it is a glass: check times and speed",
+    ),
+    Limit(
+        "loss",
+        "greatest loss tangent that the contact sees",
+        1e-2,
+        "",
+        "the elastomer loses next to nothing: check times, speed and temperature",
+        False,
+        beside=_seen,
+    ),
+)

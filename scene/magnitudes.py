@@ -1,0 +1,215 @@
+"""Numbers of a scene by which its size, slopes, stiffness and times are judged, without a solve."""
+
+from dataclasses import replace
+from functools import cached_property
+from math import inf, isfinite, nan, sqrt
+
+import numpy as np
+
+from .indenter import Cylinder, Plane
+from .motion import Program, Slide
+from .profile import Profile
+from .roughness import CrossedWaves
+from .scales import ElasticContact, elastic_contact
+from .scene import Scene
+from .selfaffine import SelfAffine
+from .topography import Topography
+
+DENSITY = 1000.0  # [kg/m^3] of an elastomer, for the speed of its waves
+DECADES = 1.0  # of frequency to either side of what a contact sees
+SAMPLED = 25  # frequencies at which the loss is looked at
+
+
+class Magnitudes:
+    """Numbers of a scene in SI, each found once. What a scene lacks is NaN or raises AttributeError.
+
+    pixel : of a grid [m], which cuts off roughness that states no shortest wave; None, such roughness has no slope
+
+    Sizes of the contact are those of the smooth relaxed one on a half-space, at the greatest load or depth.
+    """
+
+    def __init__(self, scene: Scene, pixel: float | None = None):
+        self.scene, self.pixel = scene, pixel
+
+    @cached_property
+    def contact(self) -> ElasticContact:
+        """Smooth relaxed contact."""
+        motion = self.scene.motion
+        return elastic_contact(
+            replace(self.scene, motion=motion.held) if isinstance(motion, Program) else self.scene
+        )
+
+    @property
+    def body_radius(self) -> float:
+        """Radius of a sphere or a cylinder [m]."""
+        return self.scene.indenter.radius
+
+    @property
+    def contact_radius(self) -> float:
+        """Radius of the contact [m]."""
+        return self.contact.radius
+
+    @property
+    def depth(self) -> float:
+        """Depth of the contact [m]."""
+        return self.contact.depth
+
+    @property
+    def edge_slope(self) -> float:
+        """Slope of the body at the edge of the contact."""
+        body, radius = self.scene.indenter, self.contact.radius
+        if isinstance(body, Cylinder):
+            return radius / body.radius
+        return body.coefficient * body.exponent * radius ** (body.exponent - 1)
+
+    @property
+    def rms_height(self) -> float:
+        """Rms height of the roughness [m]."""
+        return nan if self.scene.roughness.flat else self.scene.roughness.rms_height
+
+    @property
+    def rms_slope(self) -> float:
+        """Rms slope of the full gradient of the roughness."""
+        rough = self.scene.roughness
+        if rough.flat or (rough.shortest is None and self.pixel is None):
+            return nan
+        if isinstance(rough, Topography):
+            return rough.waves.rms_slope
+        q_max = rough.q_max(1.0 if self.pixel is None else self.pixel)
+        if isinstance(rough, SelfAffine | Profile):
+            return rough.rms_slope(q_max)
+        return rough.rms_height * q_max * (sqrt(2) if isinstance(rough, CrossedWaves) else 1.0)
+
+    @property
+    def height_over_depth(self) -> float:
+        """Rms height of the roughness over the depth."""
+        return self.rms_height / self.contact.depth
+
+    @property
+    def lopsided(self) -> float:
+        """Greater over lesser rms slope of a measured map along x and y."""
+        least, most = sorted((self.scene.roughness.waves.rms_slope_x, self.scene.roughness.waves.rms_slope_y))
+        return most / least if least else (inf if most else nan)
+
+    @property
+    def longest(self) -> float:
+        """Length after which roughness repeats [m]."""
+        return self.scene.roughness.period
+
+    @property
+    def shortest(self) -> float:
+        """Shortest wave of the roughness [m]."""
+        return nan if self.scene.roughness.shortest is None else self.scene.roughness.shortest
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the layer [m]."""
+        return self.scene.layer.thickness
+
+    @property
+    def depth_over_thickness(self) -> float:
+        """Prescribed depth over the thickness of the layer."""
+        return nan if self.scene.motion.pressed_by != "depth" else self.scene.motion.greatest / self.thickness
+
+    @property
+    def pressure_over_modulus(self) -> float:
+        """Mean pressure on a plane over the modulus E* at rest."""
+        motion = self.scene.motion
+        return motion.greatest / self.scene.solid.indentation_modulus if motion.pressed_by == "pressure" else nan
+
+    @property
+    def modulus_at_rest(self) -> float:
+        """Relaxed modulus in shear [Pa]."""
+        return self.scene.solid.static_modulus
+
+    @property
+    def modulus_at_the_instant(self) -> float:
+        """Glassy modulus in shear [Pa] of a solid that has one."""
+        glassy = self.scene.solid.glassy_modulus
+        return glassy if isfinite(glassy) else nan
+
+    @cached_property
+    def speed(self) -> float:
+        """Greatest speed of sliding [m/s]."""
+        motion = self.scene.motion
+        return max(abs(each.speed) for each in motion.stages) if isinstance(motion, Program) else motion.speed
+
+    @property
+    def length(self) -> float:
+        """Length that is slid over: the radius of the contact, of a plane the period [m]."""
+        return self.longest if isinstance(self.scene.indenter, Plane) else self.contact.radius
+
+    @cached_property
+    def modulus_at_speed(self) -> float:
+        """Modulus in shear [Pa] at the frequency with which the contact is slid over."""
+        return abs(complex(self.scene.solid.complex_modulus(self.speed / self.length)))
+
+    @property
+    def stiffening(self) -> float:
+        """That modulus over the one at rest."""
+        return self.modulus_at_speed / self.modulus_at_rest
+
+    @property
+    def mach(self) -> float:
+        """Speed over that of shear waves in an elastomer of that modulus."""
+        return self.speed / sqrt(self.modulus_at_speed / DENSITY)
+
+    @cached_property
+    def frequencies(self) -> np.ndarray:
+        """Frequencies that a sliding contact sees [rad/s]: of its length, its shortest wave, and around."""
+        if not (
+            isinstance(self.scene.motion, Slide) and self.speed > 0 and len(self.scene.solid.retardation()[2])
+        ):
+            raise AttributeError("nothing that relaxes slides steadily")
+        lowest = highest = self.speed / self.length
+        if (rough := self.scene.roughness) is not None and not rough.flat and rough.shortest is not None:
+            highest = max(highest, self.speed * rough.q_max(1.0))
+        return np.geomspace(lowest * 10**-DECADES, highest * 10**DECADES, SAMPLED)
+
+    @property
+    def loss(self) -> float:
+        """Greatest loss tangent at these frequencies."""
+        modulus = self.scene.solid.complex_modulus(self.frequencies)
+        return float((modulus.imag / modulus.real).max())
+
+    @property
+    def state(self) -> str:
+        """Glassy or relaxed, whichever the elastomer is at these frequencies."""
+        solid, middle = self.scene.solid, sqrt(self.frequencies[0] * self.frequencies[-1])
+        geometric_mean = sqrt(solid.static_modulus) * sqrt(solid.glassy_modulus)
+        return "glassy" if abs(complex(solid.complex_modulus(middle))) > geometric_mean else "relaxed"
+
+    @property
+    def temperature(self) -> float:
+        """Temperature [K]."""
+        return self.scene.temperature.temperature
+
+    @property
+    def reference(self) -> float:
+        """Temperature at which the elastomer is stated [K]."""
+        return self.scene.temperature.reference
+
+    @property
+    def c1(self) -> float:
+        """First constant of the law of Williams, Landel and Ferry."""
+        return self.scene.temperature.c1
+
+    @property
+    def c2(self) -> float:
+        """Second constant [K]."""
+        return self.scene.temperature.c2
+
+    @property
+    def activation_energy(self) -> float:
+        """Activation energy [J/mol]."""
+        return self.scene.temperature.activation_energy
+
+    @property
+    def coefficient(self) -> float:
+        """Coefficient of friction of the interface."""
+        return self.scene.interface.coefficient
+
+    @property
+    def conductivity(self) -> float:
+        """Conductivity of the indenter [W/(m K)]."""
+        return self.scene.heating.conductivity
