@@ -83,8 +83,9 @@ def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
     if z.unit is None and told.unit:
         heights = measured_in(sheet.name, heights, told.unit)
     if x.unit is not None:
-        return Scan(sheet.name, heights, unit, steps, notes=notes)
-    return Scan(sheet.name, heights, unit, steps=steps, counted=_count(steps), notes=notes)
+        return Scan(sheet.name, heights, unit, steps, notes=notes, spoken=told.spoken)
+    counted = _count(steps)
+    return Scan(sheet.name, heights, unit, steps=steps, counted=counted, notes=notes, spoken=told.spoken)
 
 
 def _count(steps):
@@ -121,7 +122,8 @@ def _of_rows(sheet, told):
     if height:
         numbers = measured_in(sheet.name, numbers, height)
     stated = None if None not in pixel else steps
-    return Scan(sheet.name, numbers, height, pixel, stated, stated is not None and _count(stated), told.notes)
+    counted = stated is not None and _count(stated)
+    return Scan(sheet.name, numbers, height, pixel, stated, counted, told.notes, told.spoken)
 
 
 def _axes(sheet):
@@ -181,9 +183,21 @@ def _ascending(sheet, called, axis, numbers, along):
 
 
 def _check_axes(sheet, numbers):
-    """Raise ValueError where the first row or column of a map is evenly spaced, as coordinates."""
+    """Raise ValueError where the first row or column of a map is evenly spaced, as coordinates, or two are points."""
+    if len(numbers) >= LEAST**2 and numbers.shape[1] <= _TOLD:
+        for k in range(2):
+            try:
+                shape = mapped(*numbers[:, k : k + 2].T, numbers[:, k], str)[0].shape
+            except ValueError:
+                continue
+            if min(shape) >= LEAST:
+                raise ValueError(
+                    f"{sheet.name}, line {sheet.lines[0]}: columns {k + 1} and {k + 2} are places on a lattice: "
+                    'write a heading with x, y and z and their units, as "x [um]"'
+                )
     for called, rows in (("row", numbers), ("column", numbers.T)):
-        if rows.shape[1] < _TOLD or len(rows) < 2 or not _even(rows[0], _EXACT) or _even(rows[1], _EXACT):
+        # Their common cell may hold anything.
+        if rows.shape[1] <= _TOLD or len(rows) < 2 or not _even(rows[0, 1:], _EXACT) or _even(rows[1, 1:], _EXACT):
             continue
         if np.isfinite(rows[1]).all():
             raise ValueError(

@@ -31,6 +31,7 @@ class Scan:
     steps : both as numbers without a unit
     counted : whether these may merely number the pixels, as coordinates that are 1 apart do
     notes : what was read and is not used, a line each
+    spoken : units of length that stand above the heights, where nothing says of what
     """
 
     name: str
@@ -40,6 +41,7 @@ class Scan:
     steps: tuple[float, float] | None = None
     counted: bool = False
     notes: tuple[str, ...] = ()
+    spoken: frozenset[str] = frozenset()
 
     def settled(self, pixel: Any = None, unit: str | None = None) -> tuple[np.ndarray, Any]:
         """Heights [m] and the pixel, what is stated and what the file says put together.
@@ -52,6 +54,12 @@ class Scan:
             raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(self.unit)}, leave unit out")
         if self.steps is not None and metre is not None and not (self.counted and pixel is not None):
             own = self.steps[0] * metre, self.steps[1] * metre
+        others = [each for each in self.spoken if metre is not None and not _is_metres(each, metre)]
+        if others and (self.steps is not None or len(others) == len(self.spoken)):
+            raise ValueError(
+                f"unit = {unit!r}: {self.name} speaks of {', '.join(sorted(others))} above its heights, and does not "
+                'say of what: write a line as "Z unit: um", or leave the text out'
+            )
         needed = {UNIT: not self.unit and unit is None, PIXEL: None in own and pixel is None}
         if lacking := [each for each, lacks in needed.items() if lacks]:
             raise ValueError(f"{self.name} does not state {'; nor '.join(lacking)}")
@@ -74,7 +82,7 @@ class Scan:
         ):
             said = " x ".join(f"{side:.6g}" for side in dict.fromkeys(own) if side is not None)
             raise ValueError(f"pixel = {briefly(pixel)}: {self.name} states its own, {said} m, leave pixel out")
-        if self.steps is not None and abs(given[0] / given[1] - self.steps[0] / self.steps[1]) > EVEN:
+        if self.steps is not None and not self.counted and abs(given[0] / given[1] - self.steps[0] / self.steps[1]) > EVEN:
             raise ValueError(
                 f"pixel = {briefly(pixel)}: coordinates in {self.name} lie {self.steps[0]:g} apart along x and "
                 f"{self.steps[1]:g} along y, which is another ratio"

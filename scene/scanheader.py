@@ -19,19 +19,23 @@ UNIT = (
     "height unit",
     "height units",
     "unit of heights",
+    "unit",
+    "units",
 )
 # Sides along x, along y, and both, of the whole map and of a pixel.
 SIZES = (
-    ("width", "x size", "size x", "scan size x", "x scan size", "x range", "x length", "scan width"),
-    ("height", "y size", "size y", "scan size y", "y scan size", "y range", "y length", "scan height"),
+    ("width", "x size", "size x", "scan size x", "x scan size", "x range", "x length", "x amplitude"),
+    ("height", "y size", "size y", "scan size y", "y scan size", "y range", "y length", "y amplitude"),
     ("scan size", "scan range", "size", "image size", "field of view"),
 )
 PIXELS = (
     ("x pixel size", "pixel size x", "pixel width", "x step", "step x", "dx", "x spacing", "spacing x"),
     ("y pixel size", "pixel size y", "pixel height", "y step", "step y", "dy", "y spacing", "spacing y"),
-    ("pixel size", "pixel", "pixel spacing", "spacing", "step size", "point spacing"),
+    ("pixel size", "pixel", "pixel spacing", "spacing", "step size", "point spacing", "pitch", "xy calibration"),
 )
 _HEIGHTS = {"height", "heights", "z", "topography", "elevation"}
+# Of a length that a line speaks of and does not give a number in.
+_SPOKEN = re.compile(r"(?<![\d.,]\s)(?<![^\W_])(?:[pnuµμmc]m|Å|microns?|angstroms?)(?![^\W_])")
 _LINE = re.compile(r"([^:=;\t]*[^\W\d][^:=;\t]*?)\s*[:=;\t,]\s*(.*?)[\s;,]*")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _LENGTHS = re.compile(rf"({_NUMBER})\s*([^\W\d]+|Å)?(?:\s*[x×*]\s*({_NUMBER})\s*([^\W\d]+|Å)?)?")
@@ -44,34 +48,37 @@ class Header:
     channel, unit : name of the block, and unit of its heights as it is written; empty where they are not stated
     lengths : sides by the names that they may have, of the map or of a pixel: one [m], or two along x and y
     notes : lines that seem to state a side, and do not, with the reason
+    spoken : units of length in lines that say nothing else that is known
     """
 
     channel: str = ""
     unit: str = ""
     lengths: dict[tuple[str, ...], tuple[float, ...]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    spoken: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, sheet: Sheet, above: "Header | None" = None) -> "Header":
         """The header of a block; above : that of the block before, whose sides hold on. Raises ValueError."""
-        lengths, notes, channel, unit = dict(above.lengths if above else {}), [], "", ""
-        for line in sheet.before:
-            stated = _LINE.fullmatch(line.strip())
-            if stated is None:
-                unit = _of_heights(line) or unit
-                continue
-            key, written = named(stated[1])
-            key, value = " ".join(re.split(r"[\s_-]+", key.casefold())), stated[2].strip('" ')
+        own: dict[tuple[str, ...], tuple[float, ...]] = {}
+        notes, spoken, channel, unit = [], set(), "", ""
+        for line, key, written, value in _statements(sheet.before):
+            names = [each for each in (*SIZES, *PIXELS) if key in each]
             if key in CHANNEL:
                 channel, unit = _parted(value, unit)
-            elif key in UNIT:
+            elif key in UNIT and value:
                 unit = value
-            elif names := [each for each in (*SIZES, *PIXELS) if key in each]:
-                if found := _lengths(sheet, line, value, written):
-                    lengths[names[0]] = found
-                else:
+            elif names and (found := _lengths(sheet, line, value, written)):
+                if own.setdefault(names[0], found) != found:
+                    raise ValueError(f"{sheet.name}: {brief(repr(line))} is another {key} than above: keep one")
+            elif not value and (found_unit := _of_heights(line)):
+                unit = found_unit
+            else:
+                spoken |= {*_SPOKEN.findall(line)} | ({value} & {"m"})
+                if names:
                     notes.append(f"{sheet.name}: {brief(repr(line))} has no unit of length and is not used")
-        return cls(channel, unit, lengths, tuple(notes))
+        lengths = (above.lengths if above else {}) | own
+        return cls(channel, unit, lengths, tuple(notes), frozenset(() if unit else spoken))
 
     def sides(self, name: str, columns: int, rows: int) -> tuple[float | None, float | None]:
         """Sides of a pixel of a map of so many [m], None where one is not stated.
@@ -102,6 +109,29 @@ class Header:
         return both[k]
 
 
+def _statements(lines):
+    """Lines with what they state: key, unit behind the key, value; empty where they state nothing."""
+    lines = [line.strip().lstrip("\\").strip('" ') for line in lines]
+    stated = [_LINE.fullmatch(line) for line in lines]
+    if _is_gwyddion(stated):
+        keys = [CHANNEL[0], SIZES[0][0], SIZES[1][0], UNIT[0]]
+        return [(line, key, "", each[2]) for line, key, each in zip(lines, keys, stated, strict=True)]
+    keys = [named(each[1]) if each else ("", "") for each in stated]
+    values = [each[2].strip('" ') if each else "" for each in stated]
+    return [
+        (line, " ".join(re.split(r"[\s_-]+", key.strip('"').casefold())), written, value)
+        for line, (key, written), value in zip(lines, keys, values, strict=True)
+    ]
+
+
+def _is_gwyddion(stated):
+    """Whether four lines name a channel, its width, its height and its unit, in whatever language."""
+    if len(stated) != 4 or None in stated:
+        return False
+    *sides, unit = (each[2] for each in stated[1:])
+    return _is_length(unit) and all(_LENGTHS.fullmatch(side.replace(",", ".")) for side in sides)
+
+
 def _of_heights(line):
     """The unit of a line like "Heights in nm" or "z [um]"; empty of any other."""
     name, written = named(line)
@@ -111,11 +141,15 @@ def _of_heights(line):
 def _parted(value, unit):
     """Name of a channel, and the unit in brackets after it, if it is one of a length."""
     name, written = named(value)
+    return (name, written) if _is_length(written) else (value, unit)
+
+
+def _is_length(unit):
     try:
-        METRE.scale(written)
+        METRE.scale(unit)
     except ValueError:
-        return value, unit
-    return name, written
+        return False
+    return True
 
 
 def _lengths(sheet, line, value, written):
