@@ -12,7 +12,10 @@ BLANK = " "
 # In the order in which a separator that stands in every row excludes those after it.
 STRONG = "\t;|"
 _COMMENT = re.compile(r"\s*(?:#|%|//|!)+\s?")
-_NOT_MEASURED = re.compile(r"[+-]?(?:nan|na|n/a|n\.a\.|null|none|bad|no ?data|-+)?", re.IGNORECASE)
+_NOT_MEASURED = re.compile(
+    r"[+-]?(?:nan(?:\(s?n?(?:an|ind)\))?|na|n/a|n\.a\.|null|none|bad|no ?data|missing|masked|invalid|void|-+|\*+)?",
+    re.IGNORECASE,
+)
 # Marks of spreadsheets and of old compilers for what is no number; a # in them begins no comment.
 _SPREADSHEET = re.compile(
     r"(?<![^\s,;|\t\"])(?:#N/?A|#NV|#NULL!|#DIV/0!|#VALUE!|[+-]?1[.,]#(?:QNAN|SNAN|IND)0*)(?![\w/!])"

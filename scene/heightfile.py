@@ -24,6 +24,8 @@ MOST_PIXELS = SIDE**2  # that are read of a file
 MOST_BYTES = 2**28  # of a file, as it is and unpacked: of so many pixels with eight bytes each, and more
 MOST_TEXT, ROWS = 2**27, 2**21  # bytes of a text, and rows of numbers in it
 ARRAYS, TEXTS = {".npy", ".npz"}, {".csv", ".txt", ".tsv", ".xyz"}
+# Its readers of texts guess separators, and those of nameless matrices take rows along x.
+_TEXTS_THERE, _MATRICES = {"Text", "XYZ"}, {"Matlab", "H5"}
 SECONDS = 10.0  # of a processor, for SurfaceTopography: some of its readers take minutes for what they do not know
 
 
@@ -165,8 +167,11 @@ def _scan(path, channel):
     try:
         # What it warns of and prints tells of itself, and a line is kept of what it raises.
         with _at_most(SECONDS), _silent(), open_topography(str(path)) as reader:
-            return _of_channel(name, reader, channel)
+            if type(reader).__module__.rpartition(".")[2] not in _TEXTS_THERE:
+                return _of_channel(name, reader, channel)
     except CannotDetectFileFormat as error:  # which tells of every reader at length
+        if b"\0" not in content(path, MOST_BYTES):
+            return _text(path, channel)
         raise ValueError(
             f"{name} cannot be read by SurfaceTopography: it is of no format that it knows, or damaged"
         ) from error
@@ -179,6 +184,7 @@ def _scan(path, channel):
     # Readers of some forty formats raise nearly anything at a damaged file.
     except Exception as error:
         raise ValueError(f"{name} cannot be read by SurfaceTopography: {_first_line(error)}") from error
+    return _text(path, channel)
 
 
 class _NotChosen(Exception):
@@ -205,8 +211,9 @@ def _of_channel(name, reader, asked):
         found = found.to_unit("m")
     if found.dim != 2 or 0 in found.nb_grid_pts:
         raise ValueError("it holds a line or nothing, and no map of heights")
-    # There the first index is along x.
-    heights = np.ma.filled(np.ma.array(found.heights(), float), np.nan).T
+    # There the first index is along x, but of matrices, whose rows are along y as those of arrays.
+    heights = np.ma.filled(np.ma.array(found.heights(), float), np.nan)
+    heights = heights if type(reader).__module__.rpartition(".")[2] in _MATRICES else heights.T
     pixel = tuple(float(side) / count for side, count in zip(found.physical_sizes, found.nb_grid_pts, strict=True))
     notes = ()
     if asked is None and len(channels) > 1:

@@ -15,9 +15,10 @@ from .scan import EVEN, LEAST, Scan, measured_in, picked
 from .scanheader import Header
 from .sheet import Sheet, read_sheets
 
-X = Column("x", ("x", "x position", "position x", "x coordinate", "pos x", "x pos", "x axis"), (METRE,))
-Y = Column("y", ("y", "y position", "position y", "y coordinate", "pos y", "y pos", "y axis"), (METRE,))
-Z = Column("z", ("z", "height", "heights", "h", "elevation", "topography", "z position", "z height"), (METRE,))
+PLACES = "{} position", "position {}", "{} coordinate", "pos {}", "{} pos", "{} axis", "{} achse"
+X, Y = (Column(k, (k, *(each.format(k) for each in PLACES)), (METRE,)) for k in ("x", "y"))
+Z_NAMES = "z height heights h elevation topography höhe hauteur,z position,z height,z axis,height sensor,zsensor"
+Z = Column("z", (*Z_NAMES.partition(",")[0].split(), *Z_NAMES.split(",")[1:]), (METRE,))
 _NUMBERS = re.compile(r"(?<![\w.,])[+-]?\d[\d.,]*")
 _TOLD = 6  # cells: so many evenly spaced ones in one row alone are no heights
 _EXACT, _NEAR = 1e-6, 1e-2  # relative, of spacings
@@ -66,7 +67,11 @@ def of_points(sheets: Sequence[Sheet], channel: str | None) -> Scan:
     bare = (replace(each.heading, before=(), unread="" if told.unit else each.unread) for each in sheets)
     sheet = joined([replace(each, heading=heading) for each, heading in zip(sheets, bare, strict=True)])
     wanted = [X, Y, Z if channel is None else Column("z", (channel,), (METRE,))]
-    found, notes = chosen(sheet, wanted, ("x", "y", "z"))
+    try:
+        found, notes = chosen(sheet, wanted, ("x", "y", "z"))
+    except ValueError as error:
+        hint = ': channel = "NAME" takes a column of another name' if "no column for z" in str(error) else ""
+        raise ValueError(f"{error}{hint}") from None
 
     def where(row):
         return f"{sheet.name}, line {sheet.lines[row]}" if len(sheet.lines) else sheet.name

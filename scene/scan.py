@@ -82,7 +82,11 @@ class Scan:
         ):
             said = " x ".join(f"{side:.6g}" for side in dict.fromkeys(own) if side is not None)
             raise ValueError(f"pixel = {briefly(pixel)}: {self.name} states its own, {said} m, leave pixel out")
-        if self.steps is not None and not self.counted and abs(given[0] / given[1] - self.steps[0] / self.steps[1]) > EVEN:
+        if (
+            self.steps is not None
+            and not self.counted
+            and abs(given[0] / given[1] - self.steps[0] / self.steps[1]) > EVEN
+        ):
             raise ValueError(
                 f"pixel = {briefly(pixel)}: coordinates in {self.name} lie {self.steps[0]:g} apart along x and "
                 f"{self.steps[1]:g} along y, which is another ratio"

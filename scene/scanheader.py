@@ -48,20 +48,20 @@ class Header:
     channel, unit : name of the block, and unit of its heights as it is written; empty where they are not stated
     lengths : sides by the names that they may have, of the map or of a pixel: one [m], or two along x and y
     notes : lines that seem to state a side, and do not, with the reason
-    spoken : units of length in lines that say nothing else that is known
+    rest : lines that say nothing that is known
     """
 
     channel: str = ""
     unit: str = ""
     lengths: dict[tuple[str, ...], tuple[float, ...]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
-    spoken: frozenset[str] = frozenset()
+    rest: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, sheet: Sheet, above: "Header | None" = None) -> "Header":
         """The header of a block; above : that of the block before, whose sides hold on. Raises ValueError."""
         own: dict[tuple[str, ...], tuple[float, ...]] = {}
-        notes, spoken, channel, unit = [], set(), "", ""
+        notes, rest, channel, unit = [], [], "", ""
         for line, key, written, value in _statements(sheet.before):
             names = [each for each in (*SIZES, *PIXELS) if key in each]
             if key in CHANNEL:
@@ -74,11 +74,23 @@ class Header:
             elif not value and (found_unit := _of_heights(line)):
                 unit = found_unit
             else:
-                spoken |= {*_SPOKEN.findall(line)} | ({value} & {"m"})
+                rest.append(line)
                 if names:
                     notes.append(f"{sheet.name}: {brief(repr(line))} has no unit of length and is not used")
         lengths = (above.lengths if above else {}) | own
-        return cls(channel, unit, lengths, tuple(notes), frozenset(() if unit else spoken))
+        return cls(channel, unit, lengths, tuple(notes), tuple(rest))
+
+    @property
+    def spoken(self) -> frozenset[str]:
+        """Units of length in lines that say nothing else, where the unit of the heights is not stated."""
+        lines = () if self.unit else self.rest
+        ends = ({"m"} & {line.rpartition(mark)[2].strip()} for line in lines for mark in ":=")
+        return frozenset().union(*map(_SPOKEN.findall, lines), *ends)
+
+    @property
+    def step(self) -> float | None:
+        """Spacing of the points along a line [m]; None where it is not stated."""
+        return next((self.lengths[each][0] for each in (PIXELS[0], PIXELS[2]) if each in self.lengths), None)
 
     def sides(self, name: str, columns: int, rows: int) -> tuple[float | None, float | None]:
         """Sides of a pixel of a map of so many [m], None where one is not stated.

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
 
+from .heading import named
 from .heightmap import HeightMap, Heights, Pixel, unmasked
 from .labelled import is_labelled, rows_along_y
 from .missing import LEAST_DEVIATIONS, mended
@@ -144,6 +145,7 @@ def _of_array(stated):
     if channel is not None and hasattr(heights, "data_vars") and not _is_table(heights):  # of xarray
         maps = {str(name): each for name, each in heights.data_vars.items() if each.ndim == 2}
         heights, channel = maps[picked("a Dataset", maps, channel)], None
+    heights = _of_pivot(heights)
     if _is_table(heights):
         # Only tables of points need them.
         from .columns import sheet_of
@@ -172,7 +174,22 @@ def _is_table(heights):
     names = getattr(
         heights, "data_vars", getattr(heights, "columns", heights if isinstance(heights, Mapping) else ())
     )
-    return {"x", "y"} <= {str(name).partition("[")[0].partition("(")[0].strip().casefold() for name in names}
+    return {"x", "y"} <= set(map(_axis, names))
+
+
+def _axis(name):
+    """Name of a column or an axis without its unit."""
+    return named(str(name))[0].casefold()
+
+
+def _of_pivot(heights):
+    """A DataFrame whose index and columns are called x and y, as points; anything else as it is."""
+    axes = getattr(heights, "index", None), getattr(heights, "columns", None)
+    names = [getattr(each, "name", None) for each in axes]
+    if {*map(_axis, names)} != {"x", "y"}:
+        return heights
+    down, across = (np.ravel(each) for each in np.meshgrid(*axes, indexing="ij"))
+    return {str(names[0]): down, str(names[1]): across, "z": np.ravel(heights)}
 
 
 def _mapped(stated, heights, notes=(), given=None):

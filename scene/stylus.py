@@ -17,16 +17,19 @@ from .lattice import OFF
 from .linescan import MOST
 from .printable import brief
 from .quantities import METRE, argument
-from .scan import EVEN, UNITS, metres
+from .scan import EVEN, UNITS, measured_in, metres
+from .scanheader import Header
 from .sheet import Sheet, read_sheets
 
 X_NAMES = (
-    "x distance position length lateral travel traverse path displacement,x position,x distance,x coordinate,"
-    "lateral position,lateral distance,scan length,scan position,scan distance,traverse length,profile length"
+    "x distance position length lateral travel traverse path displacement horiz horizontal weg,x position,x distance,x coordinate,"
+    "lateral position,lateral distance,scan length,scan position,scan distance,traverse length,profile length,"
+    "x axis,x achse"
 )
 Z_NAMES = (
-    "z height heights profile depth elevation topography amplitude vertical,z position,z height,profile height,"
-    "surface height,raw profile,raw height,primary profile,total profile,measured profile,z profile,profile depth"
+    "z height heights profile depth elevation topography amplitude vertical raw höhe profil hauteur,z position,z height,profile height,"
+    "surface height,raw profile,raw height,primary profile,total profile,measured profile,z profile,profile depth,"
+    "z axis,z achse,roughness profile,r profile,p profile"
 )
 X = Column("x", (*X_NAMES.partition(",")[0].split(), *X_NAMES.split(",")[1:]), (METRE,), optional=True)
 Z = Column("heights", (*Z_NAMES.partition(",")[0].split(), *Z_NAMES.split(",")[1:]), (METRE,))
@@ -84,14 +87,25 @@ def _of_sheet(sheet: Sheet, spacing, unit) -> Line:
     if not sheet.names and len(sheet.numbers) == 1 and sheet.numbers.size > 1:
         sheet = replace(sheet, numbers=sheet.numbers.T, lines=())  # a row of heights
     positional = ("heights",) if sheet.numbers.shape[1] == 1 else ("x", "heights")
-    found, notes = chosen(sheet, (X, Z), positional)
+    # A graph has its heights along y.
+    graph = [each.casefold() for each in sheet.names] == ["x", "y"]
+    told = Header.of(sheet)
+    sheet = replace(sheet, heading=replace(sheet.heading, before=told.rest))
+    found, notes = chosen(sheet, (X, replace(Z, called=("y",)) if graph else Z), positional)
     heights, x = found["heights"], found.get("x")
     if heights.name.casefold().endswith("depth"):
         notes += (f'{sheet.name}: {brief(repr(heights.name))} is read as heights; peaks = "down" turns them over',)
     written = sheet.units[heights.index] if sheet.units else ""
+    if heights.unit is None and told.unit:
+        written, heights = (
+            told.unit,
+            replace(heights, numbers=measured_in(sheet.name, heights.numbers, told.unit), unit=METRE),
+        )
     numbers = _in_metres(sheet.name, heights.numbers, unit, heights, written)
+    if told.step is not None:
+        spacing = _agreeing(sheet.name, spacing, told.step)
     if x is None:
-        return numbers, spacing, notes
+        return numbers, spacing, notes + told.notes
     step, rising = _even(f"{sheet.name}, {x.name or 'x'}", x.numbers, sheet)
     if x.unit is not None:
         spacing = _agreeing(sheet.name, spacing, step)

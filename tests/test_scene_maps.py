@@ -13,6 +13,7 @@ import xarray
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
+from scipy.io import savemat
 from strategies import examples
 
 from compare.studies.topography import Map
@@ -75,6 +76,29 @@ LAYOUTS = {
     "decimal commas and tabs": (lambda h, p: text(h, "\t", ","), ROWS),
     "a blank line after each row": (lambda h, p: text(h).replace("\n", "\n\n"), ROWS),
     "Gwyddion": (gwyddion, {}),
+    "Gwyddion in German": (
+        lambda h, p: (
+            gwyddion(h, p)
+            .replace("Channel", "Kanal")
+            .replace("Width", "Breite")
+            .replace("# Height", "# Höhe")
+            .replace("Value units", "Werteinheiten")
+        ),
+        {},
+    ),
+    "a confocal microscope": (
+        lambda h, p: f'"XY calibration","{1e3 * p[0]}","nm"\n"Unit","um"\n"Height"\n' + text(h, ","),
+        {"pixel": "stated"},
+    ),
+    "a quoted heading of all": (lambda h, p: '"Height Sensor(nm)"\n' + text(1e3 * h, "\t"), {"pixel": "stated"}),
+    "points that count": (
+        lambda h, p: text(points(h, (1, 1))),
+        {"unit": "um", "pixel": "stated"},
+    ),
+    "points of an atomic force microscope": (
+        lambda h, p: "x(um)\ty(um)\tHeight_Sensor(um)\n" + text(points(h, p), "\t"),
+        {},
+    ),
     "a pixel": (lambda h, p: f"X Pixel size: {p[0]} µm\nY pixel size;{p[1]};um\nZ unit: um\n\n" + text(h), {}),
     "a unit in brackets": (
         lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h),
@@ -129,12 +153,20 @@ def labelled(heights, pixel, **attributes):
     return xarray.DataArray(heights, coords, ("y", "x"), attrs=attributes)
 
 
+def pivoted(heights, pixel):
+    axes = zip(("y [um]", "x [um]"), heights.shape, pixel[::-1], strict=True)
+    y, x = (pandas.Index(np.arange(count) * side * 1e6, name=name) for name, count, side in axes)
+    return pandas.DataFrame(heights, y, x)
+
+
 PIXEL = (2e-6, 3e-6)
 ARRAYS = {
     "rows": lambda h: {"heights": h.tolist(), "pixel": PIXEL},
     "um": lambda h: {"heights": 1e6 * h, "pixel": PIXEL, "unit": "um"},
     "a quantity": lambda h: {"heights": pint.UnitRegistry().Quantity(1e6 * h, "um"), "pixel": PIXEL},
     "a DataFrame": lambda h: {"heights": pandas.DataFrame(h), "pixel": PIXEL},
+    "a pivoted DataFrame": lambda h: {"heights": pivoted(h, PIXEL)},
+    "a pivoted DataFrame, turned": lambda h: {"heights": pivoted(h, PIXEL).T},
     "xarray": lambda h: {"heights": labelled(h, PIXEL)},
     "xarray, turned": lambda h: {"heights": labelled(h, PIXEL).transpose()},
     "xarray in um": lambda h: {"heights": labelled(1e6 * h, (2.0, 3.0), units="um")},
@@ -238,6 +270,31 @@ WRONG = {
         text(np.column_stack([np.arange(8), drawn((8, 6))])),
         "the first column, 0, 1, 2",
     ),
+    "axes beside a number": (
+        with_axes(drawn((8, 8)), (1, 2), "0"),
+        "the first row, 0, 3, 4 and so on, is evenly spaced",
+    ),
+    "points with a number each and no heading": (
+        text(np.column_stack([points(drawn((6, 5)), (1, 2)), drawn(30)])),
+        "columns 1 and 2 are places on a lattice: write a heading",
+    ),
+    "points that are counted, and no heading": (
+        text(np.column_stack([np.arange(30), points(drawn((6, 5)), (1, 2))])),
+        "columns 2 and 3 are places on a lattice: write a heading",
+    ),
+    "a side twice": (
+        "X axis\nSpacing: 1 um\nY axis\nSpacing: 2 um\n\n" + text(drawn((5, 5))),
+        "'Spacing: 2 um' is another spacing than above",
+    ),
+    "units in a sentence": ("data in mm\n" + text(drawn((5, 5))), "unit = 'um': .*map.txt speaks of mm above"),
+    "a unit of another language": (
+        "# Einheit: m\n" + text(drawn((5, 5))),
+        "unit = 'um': .*map.txt speaks of m ab",
+    ),
+    "units of points in a sentence": (
+        "# places in mm, z in um\n" + text(points(drawn((5, 5)), (1, 1))),
+        "unit = 'um': .* speaks of mm above",
+    ),
     "a line that is neither": (
         with_axes(drawn((5, 5)), (1, 1), "[um]"),
         r"line 1: '\[um\];3.*is neither a row of",
@@ -294,6 +351,36 @@ def test_a_point_that_is_missing_is_a_missing_height(tmp_path):
     found = Topography(file=file, unit="m", missing="fill").heights.heights
     heights[4, 4] = (heights[3, 4] + heights[5, 4] + heights[4, 3] + heights[4, 5]) / 4
     np.testing.assert_allclose(found, heights, rtol=DIGITS)
+
+
+def test_matrices_of_other_programs_have_their_rows_along_y(tmp_path):
+    pytest.importorskip("SurfaceTopography")
+    heights = drawn((5, 6))
+    savemat(tmp_path / "map.mat", {"z": heights})
+    found = Topography(file=tmp_path / "map.mat", unit="um", pixel=("1 um", "2 um"))
+    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights)
+
+
+@pytest.mark.parametrize("name", ["map.asc", "map.dat", "map.prn"])
+def test_a_text_of_another_ending_is_read_as_a_text(tmp_path, name):
+    pytest.importorskip("SurfaceTopography")
+    heights = drawn((5, 6))
+    for content, stated in (
+        (gwyddion(heights, (1, 2)), {}),
+        (text(heights, ";", ","), {"unit": "um", "pixel": 1e-6}),
+    ):
+        found = Topography(file=written(tmp_path, content, name), **stated)
+        np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
+
+
+@pytest.mark.parametrize("mark", ["***", "-nan(ind)", "masked", "Missing", "#N/A"])
+def test_what_instruments_write_for_no_height_is_missing(tmp_path, mark):
+    heights = drawn((6, 7))
+    rows = text(heights).split(";")
+    rows[9] = mark
+    file = written(tmp_path, ";".join(rows))
+    with pytest.raises(ValidationError, match=r"1 pixel has no height, 2.38 % of 42"):
+        Topography(file=file, unit="um", pixel=1e-6)
 
 
 HOLES = {

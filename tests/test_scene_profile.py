@@ -307,6 +307,8 @@ def written(path, separator, decimal, heading, encoding="utf-8", scale=(1e3, 1e6
         (";", ",", "X [mm];Z [µm]\n", "latin-1"),
         ("\t", ".", "# stylus 2 um\nlength\tprofile\nmm\tum\n", "utf-8"),
         (",", ".", "Lateral position (mm),Height (um)\n", "utf-16"),
+        (";", ",", "Weg [mm];Höhe [µm]\n", "latin-1"),
+        (" ", ".", "Profile 1\nx [mm] y [um]\n", "utf-8"),  # a graph of Gwyddion
     ],
 )
 def test_files_of_places_and_heights_are_read_in_their_units(tmp_path, separator, decimal, heading, encoding):
@@ -325,6 +327,17 @@ def test_a_file_of_heights_alone_needs_a_unit_and_a_spacing(tmp_path):
     assert Profile(file=path, unit="um", spacing="2 um").heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
     np.save(tmp_path / "line.npy", HEIGHTS * 1e9)
     assert Profile(file=tmp_path / "line.npy", unit="nm", spacing="2 um").heights.heights == pytest.approx(HEIGHTS)
+
+
+@pytest.mark.parametrize("head", ["# Spacing: 2 um\n# Z unit: um\n", '"Pitch","0.002","mm"\nz [um]\n'])
+def test_the_spacing_may_stand_above_the_heights(tmp_path, head):
+    path = tmp_path / "line.txt"
+    path.write_text(head + "\n".join(f"{1e6 * z:.9f}" for z in HEIGHTS))
+    assert Profile(file=path) == Profile(file=path, spacing="2 um", unit="um")
+    assert Profile(file=path).heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
+    for stated in ({"unit": "nm"}, {"spacing": "1 um"}):
+        with pytest.raises(ValidationError, match="leave"):
+            Profile(file=path, **stated)
 
 
 def test_units_and_spacings_that_contradict_the_file_are_refused(tmp_path):
