@@ -13,7 +13,8 @@ BLANK = " "
 STRONG = "\t;|"
 _COMMENT = re.compile(r"\s*(?:#|%|//|!)+\s?")
 _NOT_MEASURED = re.compile(
-    r"[+-]?(?:nan(?:\(s?n?(?:an|ind)\))?|na|n/a|n\.a\.|null|none|bad|no ?data|missing|masked|invalid|void|-+|\*+)?",
+    r"[+-]?(?:nan(?:\(s?n?(?:an|ind)\))?|na|n/a|n\.a\.|null|none|bad|no ?data|missing|masked|invalid|void|-+"
+    r"|\*+)?",
     re.IGNORECASE,
 )
 # Marks of spreadsheets and of old compilers for what is no number; a # in them begins no comment.

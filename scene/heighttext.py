@@ -188,7 +188,7 @@ def _ascending(sheet, called, axis, numbers, along):
 
 
 def _check_axes(sheet, numbers):
-    """Raise ValueError where the first row or column of a map is evenly spaced, as coordinates, or two are points."""
+    """Raise ValueError where the first row or column of a map is evenly spaced, or two columns are points."""
     if len(numbers) >= LEAST**2 and numbers.shape[1] <= _TOLD:
         for k in range(2):
             try:

@@ -57,8 +57,8 @@ class Scan:
         others = [each for each in self.spoken if metre is not None and not _is_metres(each, metre)]
         if others and (self.steps is not None or len(others) == len(self.spoken)):
             raise ValueError(
-                f"unit = {unit!r}: {self.name} speaks of {', '.join(sorted(others))} above its heights, and does not "
-                'say of what: write a line as "Z unit: um", or leave the text out'
+                f"unit = {unit!r}: {self.name} speaks of {', '.join(sorted(others))} above its heights, and does "
+                'not say of what: write a line as "Z unit: um", or leave the text out'
             )
         needed = {UNIT: not self.unit and unit is None, PIXEL: None in own and pixel is None}
         if lacking := [each for each, lacks in needed.items() if lacks]:

@@ -123,15 +123,15 @@ class Header:
 
 def _statements(lines):
     """Lines with what they state: key, unit behind the key, value; empty where they state nothing."""
-    lines = [line.strip().lstrip("\\").strip('" ') for line in lines]
+    lines = [line.replace('"', "").strip().lstrip("\\") for line in lines]
     stated = [_LINE.fullmatch(line) for line in lines]
     if _is_gwyddion(stated):
         keys = [CHANNEL[0], SIZES[0][0], SIZES[1][0], UNIT[0]]
         return [(line, key, "", each[2]) for line, key, each in zip(lines, keys, stated, strict=True)]
     keys = [named(each[1]) if each else ("", "") for each in stated]
-    values = [each[2].strip('" ') if each else "" for each in stated]
+    values = [each[2] if each else "" for each in stated]
     return [
-        (line, " ".join(re.split(r"[\s_-]+", key.strip('"').casefold())), written, value)
+        (line, " ".join(re.split(r"[\s_-]+", key.casefold())), written, value)
         for line, (key, written), value in zip(lines, keys, values, strict=True)
     ]
 

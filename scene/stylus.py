@@ -22,14 +22,14 @@ from .scanheader import Header
 from .sheet import Sheet, read_sheets
 
 X_NAMES = (
-    "x distance position length lateral travel traverse path displacement horiz horizontal weg,x position,x distance,x coordinate,"
-    "lateral position,lateral distance,scan length,scan position,scan distance,traverse length,profile length,"
-    "x axis,x achse"
+    "x distance position length lateral travel traverse path displacement horiz horizontal weg,x axis,"
+    "x achse,x position,x distance,x coordinate,lateral position,lateral distance,scan length,scan position,"
+    "scan distance,traverse length,profile length"
 )
 Z_NAMES = (
-    "z height heights profile depth elevation topography amplitude vertical raw höhe profil hauteur,z position,z height,profile height,"
-    "surface height,raw profile,raw height,primary profile,total profile,measured profile,z profile,profile depth,"
-    "z axis,z achse,roughness profile,r profile,p profile"
+    "z height heights profile depth elevation topography amplitude vertical raw höhe profil hauteur,"
+    "z position,z height,z axis,z achse,profile height,surface height,raw profile,raw height,primary profile,"
+    "total profile,measured profile,roughness profile,r profile,p profile,z profile,profile depth"
 )
 X = Column("x", (*X_NAMES.partition(",")[0].split(), *X_NAMES.split(",")[1:]), (METRE,), optional=True)
 Z = Column("heights", (*Z_NAMES.partition(",")[0].split(), *Z_NAMES.split(",")[1:]), (METRE,))

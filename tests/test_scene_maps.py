@@ -87,8 +87,11 @@ LAYOUTS = {
         {},
     ),
     "a confocal microscope": (
-        lambda h, p: f'"XY calibration","{1e3 * p[0]}","nm"\n"Unit","um"\n"Height"\n' + text(h, ","),
-        {"pixel": "stated"},
+        lambda h, p: (
+            f'"X pixel size","{1e3 * p[0]}","nm"\n"Y pixel size","{p[1]}","um"\n"Unit","um"\n"Height"\n'
+            + text(h, ",")
+        ),
+        {},
     ),
     "a quoted heading of all": (lambda h, p: '"Height Sensor(nm)"\n' + text(1e3 * h, "\t"), {"pixel": "stated"}),
     "points that count": (
