@@ -218,13 +218,14 @@ def foreseen(problem: Problem, points: int, extent: float | None) -> list[str]:
     extent : as stated [m]; None where the window is fitted
     """
     scene, width, most = problem.scene, problem.width, _widest(problem)
-    carries = not _missed(scene, Grid(points, most if extent is None else extent, width=width))
+    widest = Grid(points, most if extent is None else extent, width=width)
+    carries = not _missed(scene, widest)
     if carries and (extent is None or most <= extent):
         return []
     try:
         placed = fitted(problem, points)
-    except SolveError:
-        return []  # a solve has the same reason, and says it
+    except SolveError as reason:  # that a solve has too
+        return ["; ".join([str(reason), *_kept(scene, widest)])]
     if extent is None:
         return _missed(scene, placed.grid(points, width), SPARE)
     reach = _reach(placed.start)
@@ -285,17 +286,28 @@ def _missed(scene, grid, spare=1.0):
     field, shortest = _shortest(scene)
     if shortest is None or 2 * grid.pixel <= shortest:
         return []
-    least, rough = ceil(2 * spare * grid.extent / shortest), getattr(scene, field)
+    least = ceil(2 * spare * grid.extent / shortest)
     told = [f"points = {least} would carry it"] if least <= MOST_POINTS else []
     if told and 4 * least <= MOST_POINTS:
         told = [f"{told[0]}, {4 * least} resolve it"]
-    kept = 2 * FULLER * spare * grid.pixel
+    remedy = (
+        "; ".join([*told, *_kept(scene, grid, spare)])
+        or "no allowed number of points would carry it: press less, or take longer waves"
+    )
+    return [f"{field}.shortest = {shortest:g} m is less than two pixels of {grid.pixel:g} m; {remedy}"]
+
+
+def _kept(scene, grid, spare=1.0):
+    """The shortest wave that a grid carries, as the field that states it, in words; empty where it carries all."""
+    field, shortest = _shortest(scene)
+    if shortest is None or 2 * grid.pixel <= shortest:
+        return []
+    rough, kept = getattr(scene, field), 2 * FULLER * spare * grid.pixel
     if isinstance(rough, Scanned | Profile):
         least_kept, most_kept = rough.keepable
         kept = max(kept, FULLER * least_kept)
         if kept <= most_kept:
-            told.append(f"{field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry")
+            return [f"{field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"]
     elif isinstance(rough, SelfAffine) and kept <= rough.longest / 2:
-        told.append(f"{field}.shortest = {kept:.3g} would be carried")
-    remedy = "; ".join(told) or "no allowed number of points would carry it: press less, or take longer waves"
-    return [f"{field}.shortest = {shortest:g} m is less than two pixels of {grid.pixel:g} m; {remedy}"]
+        return [f"{field}.shortest = {kept:.3g} would be carried"]
+    return []

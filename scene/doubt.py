@@ -12,6 +12,7 @@ import numpy as np
 
 from .magnitudes import Magnitudes
 from .scene import Scene
+from .temperature import COLDEST
 
 SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
@@ -147,9 +148,9 @@ def _seen(found):
 
 # In the order in which they are told: fields as they stand, then what follows from several.
 LIMITS = (
-    Limit("temperature", "temperature", 100.0, "K", COLD, False, (DEGC,)),
+    Limit("temperature", "temperature", COLDEST, "K", COLD, False, (DEGC,)),
     Limit("temperature", "temperature", 1000.0, "K", HOT),
-    Limit("reference", "reference temperature", 100.0, "K", COLD, False, (DEGC,)),
+    Limit("reference", "reference temperature", COLDEST, "K", COLD, False, (DEGC,)),
     Limit("reference", "reference temperature", 1000.0, "K", HOT),
     Limit("activation_energy", "activation energy", 1e3, "J/mol", "less than heat itself gives", False, (KJ,)),
     Limit("activation_energy", "activation energy", 1e6, "J/mol", "more than a chemical bond takes"),

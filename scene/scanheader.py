@@ -24,8 +24,28 @@ UNIT = (
 )
 # Sides along x, along y, and both, of the whole map and of a pixel.
 SIZES = (
-    ("width", "x size", "size x", "scan size x", "x scan size", "x range", "x length", "x amplitude"),
-    ("height", "y size", "size y", "scan size y", "y scan size", "y range", "y length", "y amplitude"),
+    (
+        "width",
+        "x size",
+        "size x",
+        "scan size x",
+        "x scan size",
+        "x range",
+        "x length",
+        "x amplitude",
+        "scan width",
+    ),
+    (
+        "height",
+        "y size",
+        "size y",
+        "scan size y",
+        "y scan size",
+        "y range",
+        "y length",
+        "y amplitude",
+        "scan height",
+    ),
     ("scan size", "scan range", "size", "image size", "field of view"),
 )
 PIXELS = (

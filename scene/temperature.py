@@ -17,6 +17,7 @@ GAS_CONSTANT = 8.314462618  # [J/(mol K)], CODATA 2018
 # c1 [1] and c2 [K] at the glass transition as reference, means over many polymers (Williams, Landel and Ferry).
 UNIVERSAL = {"c1": 17.44, "c2": 51.6}
 
+COLDEST = 100.0  # [K] that is not doubted
 _MOST = 700.0  # of |ln a_T|: beyond it the factor leaves the range of numbers
 
 
@@ -25,9 +26,13 @@ def _within_range(law):
     if not abs(law.log_shift) < _MOST:
         raise ValueError(
             f"temperature = {law.temperature:g} K: times would be longer by exp({law.log_shift:.3g}), beyond the "
-            f"range of numbers; give one closer to reference = {law.reference:g} K"
+            f"range of numbers; give one closer to reference = {law.reference:g} K{_meant(law)}"
         )
     return law
+
+
+def _meant(law):
+    return f'; is "{law.temperature:g} degC" meant?' if law.temperature < COLDEST else ""
 
 
 class _Law:
@@ -67,7 +72,7 @@ class WLF(_Law):
         if not self.temperature > self.reference - self.c2:
             raise ValueError(
                 f"temperature = {self.temperature:g} K: the law ends at reference - c2 = "
-                f"{self.reference - self.c2:g} K, it must be above"
+                f"{self.reference - self.c2:g} K, it must be above{_meant(self)}"
             )
         return _within_range(self)
 

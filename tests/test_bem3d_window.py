@@ -207,6 +207,14 @@ def test_what_is_foreseen_is_what_a_solve_would_fail_by():
     assert foreseen > 10
 
 
+def test_more_waves_than_fit_are_foreseen_with_a_shortest_that_works():
+    scene = replace(SMOOTH, roughness=SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-2, shortest=1e-6))
+    (reason,) = BEM(points=64).foreseen(scene)
+    assert "10000 waves" in reason
+    shortest = float(re.search(r"roughness.shortest = ([\d.e-]+) would be carried", reason)[1])
+    assert BEM(points=64).foreseen(replace(scene, roughness=replace(scene.roughness, shortest=shortest))) == []
+
+
 def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it():
     for scene in (SMOOTH, replace(SMOOTH, roughness=replace(ROUGH, rms_height=2e-5))):
         (reason,) = BEM(points=64, extent=2e-3).foreseen(scene)

@@ -138,6 +138,7 @@ def test_temperatures_where_a_law_ends_are_named():
         return Arrhenius(temperature=temperature, reference=300.0, activation_energy=1e5)
 
     for ask, message in (
+        (lambda: WLF(c1=8.86, c2=51.6, reference=293.15, temperature=20.0), r'above; is "20 degC" meant\?'),
         (lambda: universal(-51.6), r"temperature = 168.4 K: the law ends at reference - c2 = 168.4 K"),
         (lambda: universal(-50.5), r"temperature = 169.5 K: times would be longer by exp\(1.84e\+03\)"),
         (lambda: arrhenius(10.0), r"temperature = 10 K: times would be longer by exp\(1.16e\+03\), beyond"),
