@@ -130,6 +130,7 @@ ATOM, ATOMS = "less than an atom is wide", "a few atoms, where no solid is conti
 SOFT, HARD = "softer than a gel", "stiffer than steel"
 COLD, HOT = "every elastomer is a glass there", "no elastomer stands that"
 POLYMERS = "polymers have some 5 to 30, and 20 to 200 K"
+SPIKE = "a spike of the instrument? outliers = 6 fills it in"
 LARGE = "larger than tyres and wheels"
 
 
@@ -210,6 +211,7 @@ LIMITS = (
         "1D takes the map as isotropic: it cannot tell along from across",
         beside=_slopes,
     ),
+    Limit("spike", "farthest height of the map over its rms height", 10.0, "", SPIKE),
     Limit("depth_over_thickness", "depth over the thickness of the layer", SMALL_SLOPE, "", STRAINS),
     Limit("pressure_over_modulus", "mean pressure over the modulus E* at rest", 1.0, "", STRAINS),
     Limit(

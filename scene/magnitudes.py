@@ -92,6 +92,15 @@ class Magnitudes:
         return most / least if least else (inf if most else nan)
 
     @property
+    def spike(self) -> float:
+        """Greatest distance of a height of a measured map from their mean, over their rms height."""
+        if not isinstance(self.scene.roughness, Topography):
+            return nan
+        relief = self.scene.roughness.relief
+        deviation = relief.std()
+        return np.abs(relief - relief.mean()).max() / deviation if deviation else nan
+
+    @property
     def longest(self) -> float:
         """Length after which roughness repeats [m]."""
         return self.scene.roughness.period

@@ -59,6 +59,8 @@ BASE = Scene(
 )
 WAVES = np.sin(2 * np.pi * np.arange(64) / 16)
 GROOVES = 1e-6 * (WAVES[:, None] + 0.05 * WAVES[None, :])  # heights vary along y
+SPIKE = 1e-6 * WAVES[:, None] * WAVES[None, :]
+SPIKE[20, 30] = 1e-3
 # By the number and its end: what breaks the limit.
 BEYOND = {
     ("temperature", False): {"temperature": replace(LAW, temperature=20, reference=25)},
@@ -94,6 +96,7 @@ BEYOND = {
     ("rms_slope", False): {"roughness": replace(ROUGH, rms_height=1e-9)},
     ("height_over_depth", True): {"roughness": replace(ROUGH, rms_height=2e-4)},
     ("lopsided", True): {"roughness": Topography(heights=GROOVES, pixel=1e-5, repeat="periodic")},
+    ("spike", True): {"roughness": Topography(heights=SPIKE, pixel=1e-4)},
     ("depth_over_thickness", True): {"motion": Slide(speed=0.1, depth=5e-4), "layer": Layer(thickness=1e-3)},
     ("pressure_over_modulus", True): {"indenter": Plane(), "motion": Slide(speed=0.1, pressure=1e8)},
     ("stiffening", True): {"elastomer": Kelvin(1e6, 1e3)},
