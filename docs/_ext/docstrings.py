@@ -67,7 +67,7 @@ def kind(annotation) -> str:
     if annotation is type(None):
         return "None"
     if inspect.isclass(annotation) and not arguments and annotation.__module__ != "builtins":
-        return f"~{annotation.__module__}.{annotation.__name__}"  # two packages may have the name, which alone is shown
+        return f"~{annotation.__module__}.{annotation.__name__}"  # packages share names; the name alone is shown
     return inspect.formatannotation(annotation).rsplit(".", 1)[-1] if not arguments else _generic(annotation)
 
 
