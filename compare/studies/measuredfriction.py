@@ -23,7 +23,7 @@ Measurements: TypeAlias = "str | Path | DataFrame | xarray.Dataset | Mapping[str
 
 MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 POSITIONAL = ("mu", "F_N", "v")
-_COEFFICIENT = "cof, mu, friction coefficient, friction coeff, friction coef, coefficient of friction, coeff. of friction"
+_COEFFICIENT = "mu, cof, friction coefficient, friction coeff, friction coef, coefficient of friction, coeff. of friction"
 # What is said of it beside its name; messages leave these out.
 _FORMS = [
     form.format(word, name)
@@ -38,7 +38,7 @@ NAMES = {
     "traction force, drag, drag force, F_F, FF, F_R, FR, Fx, F_x, force x",
     "F_N": "F_N, FN, load, normal force, normal load, force, applied force, applied load, vertical force, "
     "vertical load, contact force, Fz, F_z, force z",
-    "v": "v, vel, speed, velocity, sliding speed, sliding velocity, slip speed, slip velocity, linear speed, "
+    "v": "v, speed, velocity, vel, sliding speed, sliding velocity, slip speed, slip velocity, linear speed, "
     "track speed, stage speed, sled speed, scan speed, max linear speed, v rel, vrel, relative velocity",
     "T": "T, temperature, temp, test temperature, sample temperature, rubber temperature, ambient "
     "temperature, chamber temperature",
