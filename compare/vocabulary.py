@@ -39,6 +39,13 @@ side : Which of the two answers: numerator or denominator of the ratio.
 measured : Number of one answer that a ratio is made of, in its SI unit.
 stored : Ratio as the baseline has it. [1]
 
+Of solids.
+omega : Angular frequency. [rad/s]
+storage : Storage modulus G' in shear. [Pa]
+loss : Loss modulus G'' in shear. [Pa]
+modulus : Relaxation modulus G(t) in shear. [Pa]
+compliance : Creep compliance J(t) in shear. [1/Pa]
+
 Of findings.
 claim : Name of the claim, which never changes.
 sentence : The claim in words.

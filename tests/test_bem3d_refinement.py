@@ -21,6 +21,7 @@ from scene import (
     Measured,
     Plane,
     PowerLaw,
+    Profile,
     Program,
     Prony,
     Refused,
@@ -49,6 +50,9 @@ COLD = WLF(temperature=300, reference=298, c1=8.86, c2=101.6)
 WARM = replace(SMOOTH, elastomer=GLASSY, roughness=replace(ROUGH, rms_height=1e-7), temperature=COLD)
 SIDE = np.linspace(-1, 1, 64) * 0.6e-3
 BOWL = Measured(heights=np.hypot(SIDE, SIDE[:, None]) ** 2 / 2e-2, pixel=1.2e-3 / 63, peaks="down")
+LINE = Profile(
+    heights=2e-8 * np.random.default_rng(1).normal(size=500).cumsum(), spacing=2e-5, shortest_kept=1e-4, seed=1
+)
 BUMPS = np.random.default_rng(1).normal(scale=1e-7, size=(8, 8))
 ANSWERED = {
     "smooth": SMOOTH,
@@ -66,6 +70,7 @@ ANSWERED = {
     ),
     "waves": replace(SMOOTH, roughness=CrossedWaves(amplitude=2e-7, wavelength=1e-4)),
     "map": replace(SMOOTH, roughness=Topography(heights=BUMPS, pixel=1e-4, repeat="periodic")),
+    "measured line": replace(SMOOTH, roughness=LINE),
     "measured body": replace(SMOOTH, indenter=BOWL),
     "prony, at a depth": replace(
         SMOOTH,

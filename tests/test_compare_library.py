@@ -15,7 +15,7 @@ from compare.planning import plans
 from compare.studies.catalogue import SIZES
 from compare.studies.claimstudy import ClaimStudy
 from compare.studies.inputs import study_of
-from scene import Refused, Scene
+from scene import Prony, Refused, Scene
 from scene.quantities import unit_of
 from scene.reading import InvalidInput, made, read
 
@@ -188,7 +188,14 @@ def blocks_of(page):
 @pytest.mark.parametrize("text", blocks_of("scenes.md"), ids=lambda text: text.strip().splitlines()[0])
 def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    np.save("surface.npy", np.random.default_rng(1).normal(size=(32, 32)))
+    draws = np.random.default_rng(1)
+    np.save("surface.npy", draws.normal(size=(32, 32)))
+    np.savetxt("line.csv", draws.normal(size=400).cumsum())
+    solid = Prony(1e6, (1e6, 1e6), (1e-2, 1.0))
+    frequency = np.geomspace(1e-3, 1e3, 30)
+    moduli = 1e-6 * 3 * solid.complex_modulus(2 * np.pi * frequency)
+    rows = np.column_stack([frequency, moduli.real, moduli.imag])
+    np.savetxt("rubber.csv", rows, delimiter=";", header="f [Hz];E' [MPa];E'' [MPa]")
     if "[[series]]" in text:
         assert study_of(text, "mine").series(SIZES["quick"])
         return

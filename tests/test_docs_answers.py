@@ -18,6 +18,7 @@ from scene import (
     Layer,
     Measured,
     Plane,
+    Profile,
     Scene,
     SelfAffine,
     Slide,
@@ -29,6 +30,7 @@ from scene import (
 ROOT = Path(__file__).parent.parent
 MOST_WORDS = 900
 ROUGH = SelfAffine(hurst=0.7, rms_height=2e-5, longest=1e-2, shortest=2e-3)
+LINE = 1e-6 * np.random.default_rng(2).normal(size=300).cumsum()
 HEIGHTS = [[1e-6 * (k * m % 5) for k in range(16)] for m in range(16)]
 PRESSED, ON_LINE, SPREAD = (
     Slide(speed=0.1, load=1.0),
@@ -44,9 +46,10 @@ OF_ROW = {
         Scene(Cylinder(1e-2), SOLID, ON_LINE),
         Scene(Measured(heights=HEIGHTS, pixel=1e-4), SOLID, PRESSED),
     ],
-    "roughness `self-affine`, `topography`": [
+    "roughness `self-affine`, `topography`, `profile`": [
         Scene(BODY, SOLID, PRESSED, ROUGH),
         Scene(BODY, SOLID, PRESSED, Topography(heights=HEIGHTS, pixel=1e-4)),
+        Scene(BODY, SOLID, PRESSED, Profile(heights=LINE, spacing=1e-5)),
     ],
     "roughness `wave`, `crossed-waves`": [
         Scene(BODY, SOLID, PRESSED, Wave(amplitude=1e-5, wavelength=2e-3)),

@@ -21,7 +21,9 @@ import scene
 from bem3d import BEM
 from compare.animation import animate
 from compare.cases import Study
+from compare.studies.mastercurve import Mastercurve
 from compare.studies.sweep import Sweep
+from compare.studies.temperatures import Constants
 from compare.studies.topography import Map
 from mdr1d import MDR, equations, estimates
 from scene import (
@@ -303,6 +305,15 @@ def by_accuracy(**given):
         return BEM.for_accuracy(SLIDING, **given)
 
 
+LOADS, SPEEDS = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
+FRICTION = {"mu": 0.3 / (1 + LOADS / SPEEDS / 10), "F_N": LOADS, "v": SPEEDS}
+
+
+def shifted(**given):
+    stated = {"c1": 8.86, "c2": 101.6, "reference": 293.15} | given
+    return Constants(**stated).shifts(np.array([310.0]))[0]
+
+
 @cache
 def coarse():
     solver = BEM(points=16, tolerance=1e-2)
@@ -341,6 +352,11 @@ CALLED = [
     Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),
     Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
     Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
+    Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),
+    *(
+        Place(f"compare.mastercurve({name})", lambda given, name=name: shifted(**{name: given}), value, unit)
+        for name, value, unit in (("c1", 8.0, None), ("c2", 100.0, "K"), ("reference", 300.0, "K"))
+    ),
 ]
 PLACES = [
     *(place for thing in OBJECTS for place in fields_of(thing)),
