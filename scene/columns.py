@@ -1,8 +1,7 @@
 """Columns of a sheet by their headings, in the units that those give."""
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,13 +12,9 @@ from .printable import brief
 from .quantities import KELVIN, Unit
 from .sheet import Sheet
 from .spelling import speaks_of, spelt
-from .units import in_si
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
 _MARKS = str.maketrans(',;|"[]()/\t', " " * 10)
-_STATED = re.compile(r"([^:=]+?)\s*[:=]\s*(.*)")  # "T = 25 °C"
-# Lines that count blocks, or say when they were measured.
-_COUNT = re.compile(r"(?:interval|step|segment|run|number of|points?|data points|date|time|start)\b", re.IGNORECASE)
 # As they stand in headings of temperatures alone: elsewhere they are other units.
 _HERTZ = {"hz": "Hz", "HZ": "Hz"}  # no prefix is meant
 _DEGREES = {"C": "degC", "c": "degC", "F": "degF", "deg. C": "degC", "deg C": "degC", "º C": "degC", "ºC": "degC"}
@@ -84,83 +79,6 @@ def chosen(
     known = {name: _converted(sheet, index, fields[name]) for name, index in places.items()}
     rest = [k for k in range(sheet.numbers.shape[1]) if k not in places.values()]
     return known, tuple(f"{sheet.name}: column {brief(_title(sheet, k))} is not used" for k in rest)
-
-
-def joined(sheets: Sequence[Sheet], stated: Sequence[Column] = ()) -> Sheet:
-    """Blocks of one table of columns as one.
-
-    stated : what a line above a block, as "T = 25 °C", may state of its rows and of those below, where no column does
-
-    Raises ValueError for blocks with headings of their own, and for lines that tell one block from another otherwise.
-    """
-    first, *others = sheets
-    for each in others:
-        if each.names and (each.names, each.units) != (first.names, first.units):
-            raise ValueError(
-                f"{first.name} has two tables, from line {first.lines[0]} and from line {each.lines[0]} on: keep "
-                "one"
-            )
-        if each.unread and not each.commented:
-            raise ValueError(
-                f"{each.name}, line {each.lines[0] - 1}: {brief(repr(each.unread))} parts two tables: keep one"
-            )
-    before = tuple(dict.fromkeys(text for each in sheets for text in each.before))
-    lines = tuple(line for each in sheets for line in each.lines)
-    heading = replace(first.heading, before=before)
-    whole = replace(first, numbers=np.vstack([each.numbers for each in sheets]), lines=lines, heading=heading)
-    lacking = [each for each in stated if first.names and not _named(whole, each)]
-    for column in lacking:
-        whole = _with_stated(whole, sheets, column)
-    if stated:
-        _refuse_other_blocks(sheets, [each for each in stated if _named(whole, each)])
-    return whole
-
-
-def _named(sheet, column):
-    return any(meant(name, (column,)) for name in sheet.names)
-
-
-def _with_stated(whole, sheets, column):
-    """The whole with one column more if lines above its blocks state it for all rows."""
-    told, values = None, []
-    for each in sheets:
-        here = {found for text in each.before if (found := _value(text, column)) is not None}
-        if len(here) > 1:
-            return whole
-        told = next(iter(here), told)
-        values.append(told)
-    if None in values:
-        return whole
-    further = np.concatenate([np.full(len(each.lines), value) for each, value in zip(sheets, values, strict=True)])
-    names, units = (*whole.names, column.called[0]), (*whole.units, column.units[0].symbol)
-    heading = replace(whole.heading, names=names, units=units)
-    return replace(whole, numbers=np.column_stack([whole.numbers, further]), heading=heading)
-
-
-def _value(text, column):
-    """What a line states of a column, in SI; None where it does not, or not in a unit of it."""
-    name, value = _STATED.fullmatch(text).groups() if _STATED.fullmatch(text) else ("", "")
-    if not meant(name, (column,)):
-        return None
-    unit = column.units[0]
-    try:
-        return in_si(" ".join(re.split(r"[\s;]+", value)).replace(",", "."), unit.symbol, unit.difference)
-    except ValueError:
-        return None
-
-
-def _refuse_other_blocks(sheets, known):
-    """Raise ValueError for a line above a later block that says what no column does."""
-    for each in sheets[1:]:
-        for text in each.before:
-            name = _STATED.fullmatch(text)
-            if not name or text in sheets[0].before or _COUNT.match(text):
-                continue
-            if not any(speaks_of(name[1], called) for column in known for called in column.called):
-                raise ValueError(
-                    f"{each.name}: {brief(repr(text))} above line {each.lines[0]} tells one block from another: give "
-                    "what it says, a temperature for one, as a column"
-                )
 
 
 def refuse_half_stated(sheet: Sheet, found: Iterable[Chosen]) -> None:

@@ -61,8 +61,9 @@ class Heading:
             return cls(before=tuple(texts), commented=remarks[-1:] == [True], unread=text)
         place = first = places[-1]
         names, units = zip(*map(named, parted(texts[place], width, dialect)), strict=True)
-        # A line of units below one of names; below both, some programs repeat a remark in each column.
-        for units_at in (place, place - 1):
+        # A line of units below one of names; below both, some programs repeat a remark of words in each column.
+        remark = not any(dialect.kind(cell) == NUMBER for cell in parted(texts[place], width, dialect))
+        for units_at in (place, place - 1)[: 1 + remark]:
             above = {units_at - 1, units_at} <= set(places) and parted(texts[units_at], width, dialect)
             if above and _are_units(above):
                 first = units_at - 1

@@ -10,7 +10,8 @@ import numpy as np
 from pydantic import ValidationError
 
 from . import modulinames as names
-from .columns import chosen, joined, meant, sheet_of
+from .blocks import joined
+from .columns import chosen, meant, sheet_of
 from .files import once
 from .heading import named
 from .mistakes import said

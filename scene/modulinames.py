@@ -86,14 +86,18 @@ MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
 }
 _TIMES_SHIFT = tuple(
-    form.replace("a", name) for name in ("aT", "a_T", "a(T)") for form in ("a {}", "{} a", "a*{}", "{}*a", "a·{}", "{}·a")
+    form.replace("a", name)
+    for name in ("aT", "a_T", "a(T)")
+    for form in ("a {}", "{} a", "a*{}", "{}*a", "a·{}", "{}·a")
 )
 _SHIFT = (*("aT", "a_T", "a(T)", "shift factor", "shift", "shift factor aT", "shift factor a_T"),)
 
 
 def _reduced(*names):
     return tuple(
-        form.format(name) for name in names for form in (*_TIMES_SHIFT, "reduced {}", "shifted {}", "red. {}", "{} red")
+        form.format(name)
+        for name in names
+        for form in (*_TIMES_SHIFT, "reduced {}", "shifted {}", "red. {}", "{} red")
     )
 
 

@@ -9,7 +9,20 @@ from pathlib import Path
 import numpy as np
 
 from . import files
-from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, decimals, plain, thousands
+from .dialect import (
+    BAD,
+    BLANK,
+    DIALECTS,
+    EMPTY,
+    NUMBER,
+    STRONG,
+    WORD,
+    Dialect,
+    comment,
+    decimals,
+    plain,
+    thousands,
+)
 from .heading import Heading, is_statement
 from .printable import brief
 
@@ -253,7 +266,11 @@ class _Reading:
             cells = self.dialect.cells(line)
             kinds = self.dialect.kinds(cells)
             nothing = NUMBER not in kinds and not any(map(str.isalpha, line))
-            if (nothing and not (rows and start + len(rows) >= self.end)) or not self._fits(kinds) or not self.dialect.fits(line, cells):
+            if (
+                (nothing and not (rows and start + len(rows) >= self.end))
+                or not self._fits(kinds)
+                or not self.dialect.fits(line, cells)
+            ):
                 break
             rows.append(list(map(self.dialect.value, cells)))
             self._check_size(len(rows))
@@ -319,9 +336,10 @@ class _Reading:
         kinds = self.dialect.kinds(cells)
         wrong = next((k for k, kind in enumerate(kinds) if kind not in (EMPTY, NUMBER)), None)
         if wrong is not None and (len(cells) == len(form) or NUMBER not in kinds):
-            raise ValueError(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number{self.dialect.reason(cells[wrong])}")
-        if NUMBER not in kinds and len(cells) == len(form):
-            raise ValueError(f"{where}: a row without a number: leave it out, or leave it blank to part two blocks")
+            reason = self.dialect.reason(cells[wrong])
+            raise ValueError(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number{reason}")
+        if kinds == EMPTY * len(form):
+            raise ValueError(f"{where}: a row without a number: leave it out, or leave the line blank")
         count = f"{len(cells)} column{'s' * (len(cells) != 1)}, and other rows have {len(form)}"
         raise ValueError(f"{where}: {count}: {brief(repr(self.lines[number].strip()))}")
 

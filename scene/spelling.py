@@ -23,8 +23,12 @@ ENGLISH = {
     **dict.fromkeys(("normalkraft", "force normale"), "normal force"),
     **dict.fromkeys(("reibkraft", "reibungskraft", "tangentialkraft"), "friction force"),
     **dict.fromkeys(("force de frottement", "force tangentielle"), "friction force"),
-    **dict.fromkeys(("reibwert", "reibzahl", "reibungszahl", "reibbeiwert", "reibungsbeiwert"), "friction coefficient"),
-    **dict.fromkeys(("reibungskoeffizient", "reibkoeffizient", "coefficient de frottement"), "friction coefficient"),
+    **dict.fromkeys(
+        ("reibwert", "reibzahl", "reibungszahl", "reibbeiwert", "reibungsbeiwert"), "friction coefficient"
+    ),
+    **dict.fromkeys(
+        ("reibungskoeffizient", "reibkoeffizient", "coefficient de frottement"), "friction coefficient"
+    ),
     **dict.fromkeys(("geschwindigkeit", "vitesse"), "speed"),
     **dict.fromkeys(("gleitgeschwindigkeit", "relativgeschwindigkeit", "vitesse de glissement"), "sliding speed"),
     **dict.fromkeys(("last", "normallast", "charge", "charge normale"), "load"),

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import xarray
 
-from scene.columns import PURE, Chosen, Column, chosen, joined, refuse_half_stated, sheet_of
+from scene.blocks import joined
+from scene.columns import PURE, Chosen, Column, chosen, refuse_half_stated, sheet_of
 from scene.quantities import HERTZ, KELVIN, NEWTON, RADIAN_PER_SECOND, SPEED
 from scene.reading import InvalidInput
 from scene.sheet import Sheet, read_sheets
@@ -23,7 +24,9 @@ Measurements: TypeAlias = "str | Path | DataFrame | xarray.Dataset | Mapping[str
 
 MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 POSITIONAL = ("mu", "F_N", "v")
-_COEFFICIENT = "mu, cof, friction coefficient, friction coeff, friction coef, coefficient of friction, coeff. of friction"
+_COEFFICIENT = (
+    "mu, cof, friction coefficient, friction coeff, friction coef, coefficient of friction, coeff. of friction"
+)
 # What is said of it beside its name; messages leave these out.
 _FORMS = [
     form.format(word, name)
@@ -32,8 +35,8 @@ _FORMS = [
     for form in ("{0} {1}", "{1} {0}")
 ]
 NAMES = {
-    "mu": f"{_COEFFICIENT}, µ, friction, friction factor, mu k, µ k, µk, coefficient of kinetic friction, coefficient of "
-    "dynamic friction",
+    "mu": f"{_COEFFICIENT}, µ, friction, friction factor, mu k, µ k, µk, coefficient of kinetic friction, "
+    "coefficient of dynamic friction",
     "F_T": "F_T, FT, friction force, frictional force, tangential force, lateral force, shear force, "
     "traction force, drag, drag force, F_F, FF, F_R, FR, Fx, F_x, force x",
     "F_N": "F_N, FN, load, normal force, normal load, force, applied force, applied load, vertical force, "
@@ -53,7 +56,12 @@ UNITS = {
     "rotation": (RADIAN_PER_SECOND, HERTZ),
 }
 COLUMNS = tuple(
-    Column(field, (*names.split(", "), *(_FORMS if field == "mu" else ())), UNITS.get(field, ()), optional=field != "F_N")
+    Column(
+        field,
+        (*names.split(", "), *(_FORMS if field == "mu" else ())),
+        UNITS.get(field, ()),
+        optional=field != "F_N",
+    )
     for field, names in NAMES.items()
 )
 STATED = tuple(each for each in COLUMNS if each.field in ("F_N", "v", "T"))
@@ -110,7 +118,7 @@ def _sizes(found):
     """Columns without the sign that a sensor gives to a direction, and fields that were turned."""
     turned = [
         name
-        for name in ("F_N", "F_T", "v")
+        for name in ("mu", "F_N", "F_T", "v")
         if name in found and not np.any(found[name].numbers >= 0) and not np.isnan(found[name].numbers).all()
     ]
     return found | {name: replace(found[name], numbers=-found[name].numbers) for name in turned}, turned
