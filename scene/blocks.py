@@ -13,6 +13,7 @@ from .spelling import speaks_of
 from .units import in_si
 
 _STATED = re.compile(r"([^:=]+?)\s*[:=]\s*(.*)")  # "T = 25 °C"
+_THOUSANDS = re.compile(r"\d[.,]\d{3}(?!\d)")  # or decimals
 # Lines that count blocks, or say when they were measured.
 _COUNT = re.compile(
     r"(?:interval|step|segment|run|number of|points?|data points|date|time|start)\b", re.IGNORECASE
@@ -24,7 +25,7 @@ def joined(sheets: Sequence[Sheet], stated: Sequence[Column] = ()) -> Sheet:
 
     stated : what lines above a block may state of its rows and of those below, where no column does
 
-    Raises ValueError for blocks with headings of their own, and for lines that tell one block from another otherwise.
+    Raises ValueError for blocks with headings of their own, and for lines that tell blocks apart otherwise.
     """
     first, *others = sheets
     for each in others:
@@ -74,6 +75,8 @@ def _value(text, column):
     """What a line states of a column, in SI; None where it does not, or not in a unit of it."""
     name, value = _STATED.fullmatch(text).groups() if _STATED.fullmatch(text) else ("", "")
     if not meant(name, (column,)):
+        return None
+    if _THOUSANDS.search(value):
         return None
     unit = column.units[0]
     try:

@@ -15,8 +15,8 @@ from .spelling import speaks_of, spelt
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
 _MARKS = str.maketrans(',;|"[]()/\t', " " * 10)
-# As they stand in headings of temperatures alone: elsewhere they are other units.
 _HERTZ = {"hz": "Hz", "HZ": "Hz"}  # no prefix is meant
+# As they stand in headings of temperatures alone: elsewhere they are other units.
 _DEGREES = {"C": "degC", "c": "degC", "F": "degF", "deg. C": "degC", "deg C": "degC", "º C": "degC", "ºC": "degC"}
 
 
@@ -181,7 +181,7 @@ def _by_place(sheet, wanted, positional):
 
 
 def _refuse_spoken_units(sheet, wanted):
-    """Raise ValueError for a text above or below the numbers with a unit that may be one of a column without any."""
+    """Raise ValueError for a text beside the numbers with a unit that may be one of a column without any."""
     units = {unit for each in wanted for unit in each.units}
     for text in (*sheet.before, sheet.unread, *(sheet.names if sheet.commented else ())):
         words = text.translate(_MARKS).split()
