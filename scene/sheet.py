@@ -218,7 +218,8 @@ class _Reading:
     @cached_property
     def end(self) -> int:
         """Line from which on there is nothing but separators, as spreadsheets write them below a table."""
-        return max((k + 1 for k, line in enumerate(self.lines) if any(map(str.isalnum, line))), default=0)
+        backwards = range(len(self.lines), 0, -1)
+        return next((count for count in backwards if any(map(str.isalnum, self.lines[count - 1]))), 0)
 
     def _fits(self, kinds):
         """Whether a line of such cells is a row."""
