@@ -140,6 +140,8 @@ def _output(command):
     asked, _, most = command.partition(HEAD)
     program, *arguments = shlex.split(asked)
     assert program == "crosscheck", command
+    # Pages and figures change nothing of it, and take seconds.
+    arguments += ["--no-report"] * (arguments[0] in ("mastercurve", "topography"))
     lines = CliRunner().invoke(app, arguments).output.splitlines(keepends=True)
     return "".join(lines[: int(most)] if most else lines)
 

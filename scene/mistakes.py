@@ -68,7 +68,7 @@ def examined(error: ValidationError, content: dict, adapter: TypeAdapter) -> tup
             break
     if error is not None:
         left_out = [each.where for each in said if not each.mended]
-        said += _remaining(_with_what_is_missing(error, mended, adapter), mended, left_out, order)
+        said += _remaining(_with_what_is_missing(error, mended, adapter), mended, names, left_out, order)
     said.sort(key=lambda each: order(each.where))
     return list({each.line: each for each in said}.values()), mended
 
@@ -153,7 +153,7 @@ def _misspelt_type(where, content):
     yield Mistake((*where, name), f"{_written((*where, name), value)}unknown here; did you mean type?")
 
 
-def _remaining(error, content, left_out, order) -> Iterator[Mistake]:
+def _remaining(error, content, names, left_out, order) -> Iterator[Mistake]:
     """Wrong values, and missing fields; nothing of a table as a whole that has lost a part."""
     poorer = {where[:depth] for where in left_out for depth in range(len(where) + 1)}
     for number, (where, mistake) in enumerate(_placed(error, content, order)):
@@ -175,7 +175,8 @@ def _remaining(error, content, left_out, order) -> Iterator[Mistake]:
             value, allowed = stated, f"{allowed}, in SI units"
         allowed = allowed.replace("valid tuple", "list")
         if value is MISSING or value is NO_TYPE:
-            yield Mistake(where, _dotted(where) + ": missing, " + allowed.removeprefix("Input should be "))
+            allowed = "; or ".join([allowed.removeprefix("Input should be "), *names.instead(where, content)])
+            yield Mistake(where, f"{_dotted(where)}: missing, {allowed}")
         else:
             # What is wrong with the parts of the whole names them itself.
             yield Mistake(where, _written(where, value) + allowed if where else allowed)

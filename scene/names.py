@@ -83,12 +83,22 @@ class Names:
         node = self._node(self._table(where[:-1], content)[str(where[-1])], {})
         return _WORDS.get(str(node.get("type")), "other values")
 
+    def instead(self, where: Place, content: Any) -> list[str]:
+        """Names of which one may stand in place of that at a place, as a Young's modulus for a shear modulus."""
+        table = self._schema(where[:-1], content)
+        ways = [each.get("oneOf") or each.get("anyOf") or [] for each in (table, *table.get("allOf", ()))]
+        needed = [[each.get("required", []) for each in way] for way in ways]
+        return [name for way in needed if [where[-1]] in way for name, *_ in way if name != where[-1]]
+
     def _table(self, where: Place, content) -> Mapping[str, Any]:
+        return self._schema(where, content).get("properties", {})
+
+    def _schema(self, where: Place, content) -> Mapping[str, Any]:
         node = self._node(self.schema, content)
         for part in where:
             content = _part(content, part)
             node = self._node(_child(node, part), content)
-        return node.get("properties", {})
+        return node
 
     def _unstated(self, where: Place, node, content) -> Iterator[tuple[Place, Mapping]]:
         """Names that tables could have besides; tables in lists are left out."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field
 
 from .quantities import CLOSED, ROW, Finite, ShearModulus, Time, by_name, some_of
-from .youngs import in_shear, or_in_tension
+from .youngs import in_shear, in_tension, or_in_tension
 
 INSTANT, RELAXED = "instantaneous_modulus", "equilibrium_modulus"
 _MEANT = {"tau": "relaxation_times", "g": "moduli"}
@@ -66,7 +66,8 @@ def _or_normalised(schema: dict[str, Any]) -> None:
     or_in_tension(schema)
     # Which of so many stand together is checked where they are read.
     schema.pop("required", None)
-    ways = ("moduli", "youngs_moduli", "g"), ("relaxation_times", "tau")
+    at_rest = (RELAXED, in_tension(RELAXED), INSTANT, in_tension(INSTANT))
+    ways = at_rest, ("moduli", "youngs_moduli", "g"), ("relaxation_times", "tau")
     schema["allOf"] = [{"anyOf": [{"required": [name]} for name in names]} for names in ways]
 
 

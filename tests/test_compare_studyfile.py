@@ -110,7 +110,8 @@ def test_a_ready_scene_may_stand_below_all_tables():
 def test_another_type_takes_the_place_of_the_whole_table():
     text = TEXT + '[series.elastomer]\ntype = "standard-linear-solid"\nrubbery_modulus = 1e6\n'
     assert mistakes_in(text) == [
-        "mine: series.1.elastomer.glassy_modulus: missing, a shear modulus G, as 1.2 MPa or 1.2e+06 (in Pa)",
+        "mine: series.1.elastomer.glassy_modulus: missing, a shear modulus G, as 1.2 MPa or 1.2e+06 (in Pa); or "
+        "glassy_youngs_modulus",
         "mine: series.1.elastomer.relaxation_time: missing, a time, as 1 ms or 0.001 (in s)",
     ]
 

@@ -31,6 +31,7 @@ STANDARD = {
 PRONY = {"type": "prony", "equilibrium_modulus": 1e6, "moduli": [1e6], "relaxation_times": [1e-3]}
 SHARES = {"type": "prony", "equilibrium_modulus": 1e6, "g": [0.5], "tau": [1e-3]}
 CONE = {"type": "cone", "angle": 0.1}
+STEEP = {"type": "self-affine", "hurst": 0.5, "longest": 1e-2, "shortest": 1e-4}
 MAP = {"type": "topography", "heights": [[0.0, 1e-6, 0.0, 1e-6]] * 4, "pixel": 1e-6}
 
 
@@ -86,6 +87,7 @@ def test_no_meaning_overrides_a_name_that_a_table_has():
         ("roughness", "h_rms", 1e-6, "rms_height", {}),
         ("roughness", "Sq", 1e-6, "rms_height", {}),
         ("roughness", "rms", 1e-6, "rms_height", {}),
+        ("roughness", "Sdq", 0.1, "rms_slope", {"roughness": STEEP}),
         ("roughness", "lambda_min", 1e-4, "shortest", {}),
         ("roughness", "wavelength_max", 1e-2, "longest", {}),
         ("roughness", "dx", "1 um", "pixel", {"roughness": MAP}),
@@ -127,6 +129,7 @@ def test_another_name_of_a_field_is_said_as_the_field_and_its_value_is_checked_t
         ("indenter", "theta", "10 deg", "angle", "between the flank and the flat surface", {"indenter": CONE}),
         ("motion", "mass", 1.0, "load", "9.81 N", {}),
         ("roughness", "Ra", 1e-6, "rms_height", "1.25 Ra", {}),
+        ("roughness", "Rdq", 0.1, "rms_slope", "root of 2 times Rdq", {"roughness": STEEP}),
         ("roughness", "q0", 600.0, "longest", "longest = 2 pi / q", {}),
         ("roughness", "q1", 6e4, "shortest", "shortest = 2 pi / q", {}),
         ("bem", "dx", "1 um", "points", "points = extent / pixel", {}),

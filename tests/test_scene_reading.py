@@ -263,6 +263,23 @@ def test_everything_that_is_missing_is_said(tmp_path):
     ]
 
 
+@pytest.mark.parametrize(
+    ("stated", "missing", "instead"),
+    [
+        ('type = "elastic"', "elastomer.modulus", ["youngs_modulus"]),
+        ('type = "prony"\nmoduli = [1]', "elastomer.relaxation_times", ["tau"]),
+        ('type = "prony"\nrelaxation_times = [1]', "elastomer.moduli", ["youngs_moduli", "g"]),
+        ('type = "kelvin-chain"', "elastomer.compliances", ["tensile_compliances"]),
+        ('type = "kelvin"\nmodulus = 1', "elastomer.relaxation_time", []),
+        (f'{ELASTOMER[12:]}\n[roughness]\ntype = "self-affine"', "roughness.rms_height", ["rms_slope"]),
+    ],
+)
+def test_what_may_stand_in_place_of_a_missing_name_is_said(tmp_path, stated, missing, instead):
+    lines = lines_of(tmp_path, f"{INDENTER}[elastomer]\n{stated}\n[motion]\ntype = 'indent'\nload = 1")
+    (line,) = [line for line in lines if line.startswith(f"{missing}: missing, ")]
+    assert line.split("; or ")[1:] == instead
+
+
 def test_the_page_about_scenes_shows_what_is_said(tmp_path):
     text = SCENE.replace('"sphere"\nradius = 1e-2', '"spher"\nradius = "5 N"').replace("modulus =", "modlus =")
     page = (Path(__file__).parent.parent / "docs" / "scenes.md").read_text(encoding="utf-8")

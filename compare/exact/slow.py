@@ -66,7 +66,8 @@ def loss_exponent(elastomer, wave_number, speeds):
     """beta of G'' ~ omega^beta, from the lowest to the highest of some speeds [m/s] at a wave number [rad/m]."""
     slow, fast = min(speeds), max(speeds)
     loss = elastomer.complex_modulus(wave_number * np.array([slow, fast])).imag
-    return float(np.log(loss[1] / loss[0]) / np.log(fast / slow))
+    # Rounding may lead beyond the powers that a solid can have.
+    return float(np.clip(np.log(loss[1] / loss[0]) / np.log(fast / slow), -1, 1))
 
 
 def edge_slope(indenter, radius):

@@ -66,6 +66,8 @@ def kind(annotation) -> str:
         return f"tuple[{', '.join('...' if each is ... else kind(each) for each in arguments)}]"
     if annotation is type(None):
         return "None"
+    if inspect.isclass(annotation) and not arguments and annotation.__module__ != "builtins":
+        return f"~{annotation.__module__}.{annotation.__name__}"  # packages share names; the name alone is shown
     return inspect.formatannotation(annotation).rsplit(".", 1)[-1] if not arguments else _generic(annotation)
 
 
