@@ -1,5 +1,6 @@
 """Friction that a user measured, out of a file or from Python: a row a measurement, in SI."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,7 +10,7 @@ import numpy as np
 import xarray
 
 from scene.blocks import joined
-from scene.columns import PURE, Chosen, Column, chosen, refuse_half_stated, sheet_of
+from scene.columns import PURE, Chosen, Column, chosen, meant, refuse_half_stated, sheet_of
 from scene.quantities import HERTZ, KELVIN, NEWTON, RADIAN_PER_SECOND, SPEED
 from scene.reading import InvalidInput
 from scene.sheet import Sheet, read_sheets
@@ -24,19 +25,10 @@ Measurements: TypeAlias = "str | Path | DataFrame | xarray.Dataset | Mapping[str
 
 MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 POSITIONAL = ("mu", "F_N", "v")
-_COEFFICIENT = (
-    "mu, cof, friction coefficient, friction coeff, friction coef, coefficient of friction, coeff. of friction"
-)
-# What is said of it beside its name; messages leave these out.
-_FORMS = [
-    form.format(word, name)
-    for name in _COEFFICIENT.split(", ")
-    for word in ("mean", "average", "avg", "kinetic", "dynamic")
-    for form in ("{0} {1}", "{1} {0}")
-]
 NAMES = {
-    "mu": f"{_COEFFICIENT}, µ, friction, friction factor, mu k, µ k, µk, coefficient of kinetic friction, "
-    "coefficient of dynamic friction",
+    "mu": "mu, µ, friction, friction coefficient, friction coeff, friction coef, coefficient of friction, "
+    "coeff. of friction, friction factor, cof, mu k, µ k, µk, coefficient of kinetic friction, coefficient of "
+    "dynamic friction",
     "F_T": "F_T, FT, friction force, frictional force, tangential force, lateral force, shear force, "
     "traction force, drag, drag force, F_F, FF, F_R, FR, Fx, F_x, force x",
     "F_N": "F_N, FN, load, normal force, normal load, force, applied force, applied load, vertical force, "
@@ -48,6 +40,9 @@ NAMES = {
     # Named to say what it lacks.
     "rotation": "rpm, rotation, rotational speed, rotation speed, angular speed, angular velocity, revolutions",
 }
+# Said beside a name of them, before or behind it.
+_KIND = "(?:mean|average|avg|kinetic|dynamic)"
+_KINDS = re.compile(rf"{_KIND}[ _](.+)|(.+)[ _]{_KIND}", re.IGNORECASE)
 UNITS = {
     "F_T": (NEWTON,),
     "F_N": (NEWTON,),
@@ -56,12 +51,7 @@ UNITS = {
     "rotation": (RADIAN_PER_SECOND, HERTZ),
 }
 COLUMNS = tuple(
-    Column(
-        field,
-        (*names.split(", "), *(_FORMS if field == "mu" else ())),
-        UNITS.get(field, ()),
-        optional=field != "F_N",
-    )
+    Column(field, tuple(names.split(", ")), UNITS.get(field, ()), optional=field != "F_N")
     for field, names in NAMES.items()
 )
 STATED = tuple(each for each in COLUMNS if each.field in ("F_N", "v", "T"))
@@ -181,6 +171,9 @@ def _spelled(sheet):
             return "t (time)"
         if name == "T" and unit in SECONDS:
             return "time"
+        said = _KINDS.fullmatch(name)
+        if said and meant(said[1] or said[2], COLUMNS):
+            name = said[1] or said[2]
         return "friction force" if name.lower() == "friction" and unit not in PURE else name
 
     names = tuple(map(spelled, sheet.names, sheet.units))
