@@ -1,9 +1,8 @@
 """Columns of a sheet by their headings, in the units that those give."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
-from unicodedata import normalize
 
 import numpy as np
 
@@ -12,10 +11,11 @@ from .plain import NotPlain, bare, in_unit
 from .printable import brief
 from .quantities import KELVIN, Unit
 from .sheet import Sheet
+from .spelling import speaks_of, spelt
 
 PURE = ("", "1", "-", "[-]", "none")  # written for no unit
 _MARKS = str.maketrans(',;|"[]()/\t', " " * 10)
-_SIGNS = str.maketrans("’‘′`´″”“", "'" * 5 + '"' * 3)
+_HERTZ = {"hz": "Hz", "HZ": "Hz"}  # no prefix is meant
 # As they stand in headings of temperatures alone: elsewhere they are other units.
 _DEGREES = {"C": "degC", "c": "degC", "F": "degF", "deg. C": "degC", "deg C": "degC", "º C": "degC", "ºC": "degC"}
 
@@ -68,7 +68,7 @@ def chosen(
             f"{sheet.name}: {brief(repr(sheet.unread))} between heading and numbers is neither: leave it out, or "
             "begin it with #"
         )
-    if not sheet.names or (sheet.commented and not any(_meant(name, wanted) for name in sheet.names)):
+    if not sheet.names or (sheet.commented and not any(meant(name, wanted) for name in sheet.names)):
         places = _by_place(sheet, wanted, positional)
     else:
         places = _by_name(sheet, wanted)
@@ -81,21 +81,15 @@ def chosen(
     return known, tuple(f"{sheet.name}: column {brief(_title(sheet, k))} is not used" for k in rest)
 
 
-def joined(sheets: Sequence[Sheet]) -> Sheet:
-    """Blocks of one table of columns as one. Raises ValueError for blocks with headings of their own."""
-    first, *others = sheets
-    for each in others:
-        if each.names and (each.names, each.units) != (first.names, first.units):
-            raise ValueError(
-                f"{first.name} has two tables, from line {first.lines[0]} and from line {each.lines[0]} on: keep "
-                "one"
-            )
-        if each.unread and not each.commented:
-            raise ValueError(
-                f"{each.name}, line {each.lines[0] - 1}: {brief(repr(each.unread))} parts two tables: keep one"
-            )
-    lines = tuple(line for each in sheets for line in each.lines)
-    return replace(first, numbers=np.vstack([each.numbers for each in sheets]), lines=lines)
+def refuse_half_stated(sheet: Sheet, found: Iterable[Chosen]) -> None:
+    """Raise ValueError where of columns of one kind some state a unit other than that of SI, and others none."""
+    found = list(found)
+    bare = [each.name for each in found if each.unit is None]
+    other = [each.name for each in found if each.unit and sheet.units[each.index] != each.unit.symbol]
+    if bare and other:
+        raise ValueError(
+            f"{_heading(sheet)} gives a unit of {other[0]!r} and none of {bare[0]!r}: write both, or none"
+        )
 
 
 def sheet_of(table: Any) -> Sheet:
@@ -135,42 +129,40 @@ def _items(table):
     raise ValueError(f"{brief(repr(table))}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
 
 
-def _plain(name):
-    """A name in one spelling; letters stay as large as they are."""
-    name = (
-        normalize("NFKC", name.translate(_SIGNS))
-        .translate(_SIGNS)
-        .replace("''", '"')
-        .replace("_", " ")
-        .replace("-", " ")
-    )
-    return " ".join(name.strip(" .:").split())
-
-
-def _meant(name, wanted):
+def meant(name: str, wanted: Sequence[Column]) -> list[Column]:
     """The columns that a heading may name: by its letters as they are, else whatever their size."""
-    name = _plain(name)
-    exact = [each for each in wanted if name in map(_plain, each.called)]
-    return exact or [
-        each for each in wanted if name.casefold() in (_plain(called).casefold() for called in each.called)
-    ]
+    name = spelt(name)
+    exact = [each for each in wanted if name in map(spelt, each.called)]
+    alike = exact or [each for each in wanted if _is_called(each, name)]
+    # A word and the symbol of the same, as "Normal force F_N".
+    word, _, symbol = name.partition(" ")
+    while not alike and symbol:
+        alike = [each for each in wanted if _is_called(each, word) and _is_called(each, symbol)]
+        further, _, symbol = symbol.partition(" ")
+        word = f"{word} {further}"
+    return alike
+
+
+def _is_called(column, name):
+    name = name[1:-1] if name[:1] + name[-1:] == "()" else name
+    return name.casefold() in (spelt(called).casefold() for called in column.called)
 
 
 def _by_name(sheet, wanted):
     places: dict[str, int] = {}
     for index, name in enumerate(sheet.names):
-        meant = _meant(name, wanted)
-        if len(meant) > 1:
-            either = " or ".join(each.field for each in meant)
+        said = meant(name, wanted)
+        if len(said) > 1:
+            either = " or ".join(each.field for each in said)
             raise ValueError(f"{_heading(sheet)}: {brief(repr(name))} may be {either}: write it out")
-        if meant and meant[0].field in places:
-            twice = sheet.names[places[meant[0].field]]
+        if said and said[0].field in places:
+            twice = sheet.names[places[said[0].field]]
             raise ValueError(
-                f"{_heading(sheet)}: {brief(repr(twice))} and {brief(repr(name))} are both {meant[0].field}: keep "
+                f"{_heading(sheet)}: {brief(repr(twice))} and {brief(repr(name))} are both {said[0].field}: keep "
                 "one"
             )
-        if meant:
-            places[meant[0].field] = index
+        if said:
+            places[said[0].field] = index
     return places
 
 
@@ -180,7 +172,7 @@ def _by_place(sheet, wanted, positional):
         count = sheet.numbers.shape[1]
         raise ValueError(f"{_heading(sheet)}: {count} column{'s' * (count != 1)} without a heading{needed}")
     for text in filter(None, (*sheet.before, sheet.unread)):
-        if sum(any(_speaks_of(text, name) for name in each.called) for each in wanted) > 1:
+        if sum(any(speaks_of(text, name) for name in each.called) for each in wanted) > 1:
             raise ValueError(
                 f"{sheet.name}: {brief(repr(text))} above the numbers is no heading of {len(positional)} columns: "
                 "part its names by semicolons or tabs"
@@ -188,20 +180,15 @@ def _by_place(sheet, wanted, positional):
     return {field: index for index, field in enumerate(positional)}
 
 
-def _speaks_of(text, name):
-    words = f" {' '.join(_plain(text).casefold().translate(_MARKS).split())} "
-    return f" {_plain(name).casefold()} " in words
-
-
 def _refuse_spoken_units(sheet, wanted):
-    """Raise ValueError for a text above the numbers with a unit that may be one of a column without any."""
+    """Raise ValueError for a text beside the numbers with a unit that may be one of a column without any."""
     units = {unit for each in wanted for unit in each.units}
     for text in (*sheet.before, sheet.unread, *(sheet.names if sheet.commented else ())):
         words = text.translate(_MARKS).split()
         for before, word in zip(["", *words], words, strict=False):
             if not before[-1:].isdigit() and any(_of_another_size(unit, word) for unit in units):
                 raise ValueError(
-                    f"{sheet.name} speaks of {brief(word)} above its numbers, and no heading says of which "
+                    f"{sheet.name} speaks of {brief(word)} beside its numbers, and no heading says of which "
                     "column: write units into the heading"
                 )
 
@@ -221,12 +208,13 @@ def _converted(sheet, index, column):
         stated = _DEGREES.get(stated, stated)
     if stated in PURE:
         return Chosen(values, None, name, index)
-    reason = ""
+    stated, reasons = _HERTZ.get(stated, stated), []
     for unit in column.units:
         try:
             return Chosen(in_unit(values, stated, unit.symbol, unit.difference), unit, name, index)
         except (NotPlain, ValueError) as error:
-            reason = str(error)
+            reasons.append(str(error))
+    reason = max(reasons, key=lambda each: "did you mean" in each, default="")
     needed = " or ".join(f"that of {unit.kind}, as {unit.symbol}" for unit in column.units) or "none"
     raise ValueError(
         f"{_heading(sheet)} gives {column.field} in {brief(repr(stated))}{f' ({reason})' if reason else ''}: the "

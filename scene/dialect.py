@@ -29,6 +29,7 @@ _MOMENT = re.compile(
 _DECIMALS, _WHOLE = re.compile(r"(\d+)(?:[eE][+-]?\d+)?"), re.compile(r"[+-]?\d+")
 _ZERO = re.compile(r"[+-]?0\d+")
 _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:([.,'’ ])\d{3})(?:\1\d{3})*(?:[.,]\d*)?")
 _MINUS = str.maketrans("−‐‑–", "----")
 
 
@@ -78,6 +79,14 @@ class Dialect:
             return WORD
         first = cell.lstrip('"')[:1]
         return BAD if first.isdigit() or first in ("+", "-", ".", ",") else WORD
+
+    def reason(self, cell: str) -> str:
+        """Why a cell that begins as a number is none, and what to do; empty where nothing is known."""
+        if _THOUSANDS.fullmatch(cell.strip('"')):
+            return ": write numbers without marks between thousands"
+        if _number({".": ",", ",": "."}[self.decimal]).fullmatch(cell):
+            return f": the other numbers have {'points' if self.decimal == '.' else 'commas'} for decimals"
+        return ""
 
     def kinds(self, cells: Sequence[str]) -> str:
         """Kinds of cells, a letter each."""

@@ -15,7 +15,15 @@ _SURE = re.compile(
     r"|\s*/\s*(?P<d>[^()\[\]/]+(?:/[^()\[\]/]+)?)|\s+in\s+(?P<e>\S+))"
 )
 _MAYBE = re.compile(r"(?P<name>.+?)(?:,\s*(?P<a>\S+)|\((?P<b>[^()]+)\))")
-_BEHIND = re.compile(r"(?P<name>.+?)[_ ](?P<a>[mkMGµμu]?(?:Hz|Pa)|[nuµμmk]m|[uµμmk]N|[nuµμmk]?m/s|rad/s|[uµμm]s)")
+_PER = "(?:/|_per_|_)"  # a slash stands in no name of a variable
+_BEHIND = re.compile(
+    r"(?P<name>.+?)[_ ](?P<a>[mkMGµμu]?(?:[hH]z|[pP]a)|[nuµμmk]m|[uµμmk]N"
+    rf"|(?:[nuµμmck]?m|rad){_PER}s|[uµμm]s|°C|deg_?[CF])"
+)
+# Of one letter only behind what needs it: "F_N" is a force, and "T_g" a temperature.
+_LETTER = re.compile(
+    r"(?P<name>(?:.*[_ ])?[^\W_]{2,}(?=[_ ]N$)|[tT](?:emp(?:erature)?)?(?=[_ ][CKF]$))[_ ](?P<a>[NCKF])"
+)
 _UNIT = re.compile(r"[\[(]?\s*(?P<unit>[^\[\]]*?)\s*[\])]?")
 _NONE = "", "-", "1"  # in a line of units
 # Names of several words are parted by two blanks, or a unit in brackets ends them.
@@ -42,7 +50,7 @@ class Heading:
     @classmethod
     def of(cls, lines: Sequence[str], width: int, dialect: Dialect) -> "Heading":
         """The heading among the lines above so many columns. Raises ValueError for units that are stated twice."""
-        said = [(comment(line), line.strip(" ")) for line in lines if line.strip(' \t;,|"')]
+        said = [(comment(line), line.strip(" ")) for line in lines if line.strip(' \t;,|"-=_+')]
         texts = [line if remark is None else remark for remark, line in said]
         remarks = [remark is not None for remark, _ in said]
         unread = [(k, text) for k, text in enumerate(texts) if not remarks[k] and not is_statement(text)][-1:]
@@ -53,9 +61,14 @@ class Heading:
             return cls(before=tuple(texts), commented=remarks[-1:] == [True], unread=text)
         place = first = places[-1]
         names, units = zip(*map(named, parted(texts[place], width, dialect)), strict=True)
-        if places[-2:-1] == [place - 1] and _are_units(parted(texts[place], width, dialect)):
-            first = place - 1
-            names, units = _with_units(texts[first], texts[place], width, dialect)
+        # A line of units below one of names; below both, some programs repeat a remark of words in each column.
+        remark = not any(dialect.kind(cell) == NUMBER for cell in parted(texts[place], width, dialect))
+        for units_at in (place, place - 1)[: 1 + remark]:
+            above = {units_at - 1, units_at} <= set(places) and parted(texts[units_at], width, dialect)
+            if above and _are_units(above):
+                first = units_at - 1
+                names, units = _with_units(texts[first], texts[units_at], width, dialect)
+                break
         below = unread[0][1] if unread and unread[0][0] > place else ""
         return cls(names, units, (*texts[:first], *texts[place + 1 :]), remarks[place], below)
 
@@ -74,9 +87,11 @@ def is_statement(line: str) -> bool:
 def named(cell: str) -> tuple[str, str]:
     """Name and unit of a heading, as "F_N [mN]" has them; an empty unit where it has none."""
     cell = " ".join(cell.split())
-    for way, certain in ((_MAYBE, False), (_SURE, True), (_BEHIND, True)):
+    for way, certain in ((_MAYBE, False), (_SURE, True), (_BEHIND, True), (_LETTER, True)):
         if found := way.fullmatch(cell):
             unit = next((each for each in found.groups()[1:] if each is not None), "").strip()
+            if way is _BEHIND:
+                unit = unit.replace("deg_", "deg").replace("_per_", "/").replace("_", "/")
             if certain or _is_unit(unit):
                 return found["name"].rstrip(" /"), unit
     return cell, ""

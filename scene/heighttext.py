@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .columns import Column, chosen, joined
+from .blocks import joined
+from .columns import Column, chosen
 from .lattice import mapped, placed
 from .printable import brief
 from .quantities import METRE

@@ -17,6 +17,8 @@ _SAME = {
     "poisson_ratio": "nu poisson poissons_ratio",
     "relaxation_time": "tau relax_time retardation_time",
     "relaxation_times": "tau taus tau_i tau_k times",
+    "g": "alpha alphas alpha_i gamma_i",
+    "tau": "taus tau_i tau_k times",
     "rubbery_modulus": "relaxed_modulus static_modulus equilibrium_modulus long_term_modulus",
     "equilibrium_modulus": "relaxed_modulus static_modulus rubbery_modulus long_term_modulus",
     "glassy_modulus": "unrelaxed_modulus instantaneous_modulus",
@@ -104,6 +106,8 @@ _OTHER = (
         "viscosity viscosities eta",
         "a viscosity has no field: relaxation_time = viscosity / modulus",
     ),
+    ("g", "g_i gi g_k gk", "g takes shares of the instantaneous modulus, moduli takes shear moduli [Pa]"),
+    ("relaxation_times", "beta betas beta_i", "beta are rates of decay: relaxation_times = 1 / beta"),
     (
         "modulus",
         "viscosity eta",

@@ -1,5 +1,6 @@
 """Tables of moduli as people have them: columns found by their names, in a file or in Python, made one table."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,19 +10,20 @@ import numpy as np
 from pydantic import ValidationError
 
 from . import modulinames as names
-from .columns import chosen, joined, sheet_of
+from .blocks import joined
+from .columns import chosen, meant, sheet_of
 from .files import once
-from .heading import is_statement
+from .heading import named
 from .mistakes import said
 from .modulicolumns import Columns
 from .moduliplaces import FREQUENCIES, factors, frequencies, reference, temperatures, times
-from .printable import brief
 from .sheet import Sheet, read_sheets
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
 
 # In brackets behind a name: what the number depends on, and no unit.
 _ARGUMENTS = ("t", "ω", "omega", "w", "f", "δ", "delta", "φ", "d", "phi", "aT", "a_T", "T")
 _IDLE = ("(ω)", "(omega)", "(w)", "(f)", "(iω)")
+_LOGARITHM = re.compile(r"(?P<log>log10|log|lg|ln)[ _]?(?:\((?P<a>.+)\)|(?P<b>.+))", re.IGNORECASE)
 _OTHER = "another "  # before a letter that is no name of ours in this size
 _PER_SECOND = ("1/s", "s^-1", "s-1", "s⁻¹", "1/sec", "sec^-1")
 _ONE_FREQUENCY = 1.05  # frequencies within this factor are one
@@ -87,22 +89,21 @@ def _is_table(given):
 
 
 def _sheet(path):
-    sheets = read_sheets(path, MOST_ROWS)
-    for each in sheets[1:]:
-        if statement := next(filter(is_statement, each.before), None):
-            raise ValueError(
-                f"{each.name}: {brief(repr(statement))} above line {each.lines[0]} tells one block from another: "
-                "give what it says, a temperature for one, as a column"
-            )
-    return joined(sheets)
+    return joined(read_sheets(path, MOST_ROWS), (names.TEMPERATURE,))
 
 
 def _spelt(sheet: Sheet) -> Sheet:
-    """The sheet with arguments as parts of names such as G(t), and without those that say nothing."""
-    called, units = list(sheet.names), list(sheet.units)
+    """The sheet with numbers of logarithms, arguments as parts of names such as G(t), and no others in names."""
+    called, units, numbers = list(sheet.names), list(sheet.units), sheet.numbers.copy()
     for k, (name, unit) in enumerate(zip(called, units, strict=True)):
         if unit in _ARGUMENTS:
             name, units[k] = f"{name}({unit})", ""
+        if logarithm := _LOGARITHM.fullmatch(name):
+            inner, within = named(logarithm["a"] or logarithm["b"])
+            if meant(inner, names.COLUMNS):
+                name, units[k] = inner, units[k] or within
+                with np.errstate(over="ignore"):
+                    numbers[:, k] = (np.e if logarithm["log"].lower() == "ln" else 10.0) ** numbers[:, k]
         for idle in _IDLE:
             name = name.removesuffix(idle).strip()
         exact = any(name in each.called for each in names.COLUMNS)
@@ -111,7 +112,8 @@ def _spelt(sheet: Sheet) -> Sheet:
         if units[k] in _PER_SECOND:
             angular = any(_is(name, each) for each in (names.ANGULAR, names.REDUCED_ANGULAR))
             units[k] = "rad/s" if angular else "" if _is(name, names.FREQUENCY) else units[k]
-    return replace(sheet, heading=replace(sheet.heading, names=tuple(called), units=tuple(units)))
+    heading = replace(sheet.heading, names=tuple(called), units=tuple(units))
+    return replace(sheet, numbers=numbers, heading=heading)
 
 
 def _is(name, column):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import modulinames as names
-from .columns import Chosen
+from .columns import Chosen, refuse_half_stated
 from .modulinames import KINDS, OPEN
 from .sheet import Sheet
 
@@ -81,6 +81,12 @@ class Columns:
     def complex_modulus(self, kind: str | None) -> dict[str, np.ndarray]:
         """Storage and loss modulus, however they are stated."""
         storage, loss, size = (self.modulus(each, kind) for each in ("storage", "loss", "magnitude"))
+        used = (
+            each
+            for name, each in self.found.items()
+            if name in self.used and name.startswith(("storage", "loss", "magnitude"))
+        )
+        refuse_half_stated(self.sheet, used)
         whole = storage is not None and loss is not None
         tangent = self._tangent(needed=not whole)
         if storage is not None and loss is not None:

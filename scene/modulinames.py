@@ -22,13 +22,15 @@ MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
                 "{M} 1",
                 "{M} prime",
                 "{M}prime",
+                "Re({M}*)",
+                "Re {M}*",
                 "{M} storage",
                 "{M} stor",
                 "{M} real",
             ),
             *("storage modulus {M}'", "{M}' storage modulus", "{kind} storage modulus", "storage {kind} modulus"),
         ),
-        ("storage modulus", "storage", "elastic modulus", "real modulus"),
+        ("storage modulus", "storage", "storage mod", "elastic modulus", "real modulus"),
     ),
     "loss": (
         (
@@ -40,12 +42,16 @@ MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
                 "{M} 2",
                 "{M} double prime",
                 "{M} dprime",
+                "{M}doubleprime",
+                "{M}dprime",
+                "Im({M}*)",
+                "Im {M}*",
                 "{M} loss",
                 "{M} imag",
             ),
             *("loss modulus {M}''", "{M}'' loss modulus", "{kind} loss modulus", "loss {kind} modulus"),
         ),
-        ("loss modulus", "loss", "viscous modulus", "imaginary modulus"),
+        ("loss modulus", "loss", "loss mod", "viscous modulus", "imaginary modulus"),
     ),
     "magnitude": (
         (
@@ -80,19 +86,19 @@ MODULI: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
 }
 _TIMES_SHIFT = tuple(
-    form.replace("a", name) for name in ("aT", "a_T", "a(T)") for form in ("a {}", "{} a", "a*{}")
+    form.replace("a", name)
+    for name in ("aT", "a_T", "a(T)")
+    for form in ("a {}", "{} a", "a*{}", "{}*a", "a·{}", "{}·a")
 )
 _SHIFT = (*("aT", "a_T", "a(T)", "shift factor", "shift", "shift factor aT", "shift factor a_T"),)
 
 
 def _reduced(*names):
     return tuple(
-        form.format(name) for name in names for form in (*_TIMES_SHIFT, "reduced {}", "shifted {}", "{} red")
+        form.format(name)
+        for name in names
+        for form in (*_TIMES_SHIFT, "reduced {}", "shifted {}", "red. {}", "{} red")
     )
-
-
-def _log(*logs):
-    return tuple(form.format(log, name) for log in logs for name in _SHIFT for form in ("{}{}", "{} {}", "{}({})"))
 
 
 _FREQUENCY = ("f", "freq", "frequency", "freq.", "test frequency", "oscillation frequency", "frequency f")
@@ -112,8 +118,6 @@ TEMPERATURE = Column(
     optional=True,
 )
 SHIFT = Column("shift factor", (*_SHIFT, "horizontal shift factor", "x shift factor"), optional=True)
-LOG_SHIFT = Column("log10 of the shift factor", _log("log", "log10", "lg"), optional=True)
-LN_SHIFT = Column("ln of the shift factor", _log("ln"), optional=True)
 TAN = Column(
     "tan delta",
     (
@@ -125,6 +129,7 @@ TAN = Column(
             "tan(δ)",
             "tan(delta)",
             "tan d",
+            "tanD",
             "tan(d)",
             "tan phi",
             "tan(φ)",
@@ -156,6 +161,6 @@ def modulus(quantity: str, kind: str) -> Column:
 
 
 COLUMNS = (
-    *(FREQUENCY, ANGULAR, REDUCED, REDUCED_ANGULAR, TIME, TEMPERATURE, SHIFT, LOG_SHIFT, LN_SHIFT, TAN, PHASE),
+    *(FREQUENCY, ANGULAR, REDUCED, REDUCED_ANGULAR, TIME, TEMPERATURE, SHIFT, TAN, PHASE),
     *(modulus(quantity, kind) for quantity in MODULI for kind in (*KINDS, OPEN)),
 )

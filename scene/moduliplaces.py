@@ -13,7 +13,6 @@ UNITS = ("rad/s", "Hz")
 _ANGULAR = names.ANGULAR.field, names.REDUCED_ANGULAR.field
 FREQUENCIES = *_ANGULAR, names.FREQUENCY.field, names.REDUCED.field
 _AGREE = 0.01  # relative, of a frequency and an angular one beside it
-_LOGARITHMS = {names.LOG_SHIFT.field: 10.0, names.LN_SHIFT.field: np.e}
 
 
 def frequencies(columns: Columns, stated: str | None) -> tuple[np.ndarray, str | None, bool]:
@@ -67,16 +66,7 @@ def temperatures(columns: Columns, reduced: bool) -> np.ndarray | None:
 
 def factors(columns: Columns) -> np.ndarray | None:
     """By which times are longer than at the reference; None where no column says so."""
-    if names.SHIFT.field in columns:
-        return columns.of(names.SHIFT.field)
-    name = next((each for each in _LOGARITHMS if each in columns), None)
-    if name is None:
-        return None
-    columns.used.add(name)
-    with np.errstate(over="ignore"):
-        found = _LOGARITHMS[name] ** columns.found[name].numbers
-    columns.refuse(name, ~(np.isnan(found) | ((found > 0) & np.isfinite(found))), "leaves the range of numbers")
-    return found
+    return columns.of(names.SHIFT.field) if names.SHIFT.field in columns else None
 
 
 def reference(columns: Columns, longer: np.ndarray, temperature: np.ndarray) -> float | None:

@@ -33,7 +33,7 @@ def absolute(cls: type, given: Any) -> Any:
         if name in stated and field in stated:
             raise ValueError(f"{name} beside {field}: give one of them")
     if "g" not in stated and INSTANT in stated:
-        raise ValueError(f"{INSTANT} goes with g: moduli go with {RELAXED}")
+        raise ValueError(f"{INSTANT} goes with g, shares of it, which is missing: moduli go with {RELAXED}")
     if "g" in stated and (INSTANT in stated) == (RELAXED in stated):
         raise ValueError(f"g are shares of a modulus: give one of {INSTANT} and {RELAXED}")
     found = some_of(_TYPES, stated)

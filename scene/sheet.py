@@ -1,7 +1,7 @@
 """Sheets of numbers in text files: read in the one dialect that fits the whole file, or refused with the place."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate, islice
 from pathlib import Path
@@ -9,7 +9,20 @@ from pathlib import Path
 import numpy as np
 
 from . import files
-from .dialect import BAD, BLANK, DIALECTS, EMPTY, NUMBER, WORD, Dialect, comment, decimals, plain, thousands
+from .dialect import (
+    BAD,
+    BLANK,
+    DIALECTS,
+    EMPTY,
+    NUMBER,
+    STRONG,
+    WORD,
+    Dialect,
+    comment,
+    decimals,
+    plain,
+    thousands,
+)
 from .heading import Heading, is_statement
 from .printable import brief
 
@@ -46,7 +59,7 @@ class Sheet:
 
     @property
     def before(self) -> tuple[str, ...]:
-        """Lines of text above the block, since the block before."""
+        """Lines of text above the block, since the block before, and below the last one."""
         return self.heading.before
 
     @property
@@ -58,6 +71,11 @@ class Sheet:
     def unread(self) -> str:
         """Text right above the numbers that is neither a heading of them nor a comment."""
         return self.heading.unread
+
+    def told(self, below: Sequence[str]) -> "Sheet":
+        """The sheet with lines below it among those around it."""
+        texts = (comment(line) or line.strip() for line in below if line.strip())
+        return replace(self, heading=replace(self.heading, before=(*self.before, *texts)))
 
     def place(self, row: int, column: int) -> str:
         """Where a number stands, for messages."""
@@ -102,7 +120,7 @@ def _found(name, lines):
         try:
             fitting.append((dialect, tuple(reading.sheets())))
         except ValueError as mistake:
-            reasons[reading.weight] = mistake
+            reasons.setdefault(reading.weight, mistake)
     if not fitting:
         raise ValueError(str(reasons[max(reasons)]))
     best = fitting[0]
@@ -174,7 +192,7 @@ class _Reading:
     most_rows: int = LINES
     most_numbers: int | None = None
     whole: bool = True
-    weight: tuple[int, int] = field(default=(0, 0), init=False)
+    weight: tuple[int, bool, int] = field(default=(0, False, 0), init=False)
 
     @cached_property
     def form(self) -> str:
@@ -191,11 +209,17 @@ class _Reading:
             raise ValueError(f"{self.name}: there is no row of numbers in it")
         sound = {width: sum(BAD not in each for each in rows) for width, rows in counted.items()}
         width = max(sound, key=lambda each: (sound[each], each))
-        self.weight = sound[width], width
+        self.weight = sound[width], width > 1 and self.dialect.separator in STRONG, width
         if tabs and self.dialect.separator == BLANK:
             raise ValueError(f"{self.name}: a tab stands in every row, and blanks beside it part no cells")
         columns = zip(*counted[width], strict=True)
         return "".join(NUMBER if each.count(NUMBER) >= each.count(WORD) else WORD for each in columns)
+
+    @cached_property
+    def end(self) -> int:
+        """Line from which on there is nothing but separators, as spreadsheets write them below a table."""
+        backwards = range(len(self.lines), 0, -1)
+        return next((count for count in backwards if any(map(str.isalnum, self.lines[count - 1]))), 0)
 
     def _fits(self, kinds):
         """Whether a line of such cells is a row."""
@@ -207,7 +231,7 @@ class _Reading:
 
     def sheets(self) -> Iterator[Sheet]:
         """The blocks. Raises ValueError for what is no row among them."""
-        gap, start, stop, total = [], 0, 0, 0
+        gap, start, stop, total, last = [], 0, 0, 0, None
         while start < len(self.lines):
             stop = self._stop(start) if start >= stop else stop
             end, numbers = self._block(start, stop)
@@ -218,12 +242,15 @@ class _Reading:
             total += len(numbers)
             self._check_size(total)
             self._check_gap(gap)
-            yield self._sheet(gap, start, numbers)
+            if last:
+                yield last
+            last = self._sheet(gap, start, numbers)
             gap, start = [], end
         if self.whole:
             self._check_gap(gap, last=True)
-        if not total:
+        if not last:
             raise ValueError(f"{self.name}: there is no row of numbers in it")
+        yield last.told([self.lines[each] for each in gap])
 
     def _stop(self, start):
         """The next blank line or comment from a line on."""
@@ -240,7 +267,11 @@ class _Reading:
             cells = self.dialect.cells(line)
             kinds = self.dialect.kinds(cells)
             nothing = NUMBER not in kinds and not any(map(str.isalpha, line))
-            if nothing or not self._fits(kinds) or not self.dialect.fits(line, cells):
+            if (
+                (nothing and not (rows and start + len(rows) >= self.end))
+                or not self._fits(kinds)
+                or not self.dialect.fits(line, cells)
+            ):
                 break
             rows.append(list(map(self.dialect.value, cells)))
             self._check_size(len(rows))
@@ -306,7 +337,10 @@ class _Reading:
         kinds = self.dialect.kinds(cells)
         wrong = next((k for k, kind in enumerate(kinds) if kind not in (EMPTY, NUMBER)), None)
         if wrong is not None and (len(cells) == len(form) or NUMBER not in kinds):
-            raise ValueError(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number")
+            reason = self.dialect.reason(cells[wrong])
+            raise ValueError(f"{where}, column {wrong + 1}: {brief(repr(cells[wrong]))} is not a number{reason}")
+        if kinds == EMPTY * len(form):
+            raise ValueError(f"{where}: a row without a number: leave it out, or leave the line blank")
         count = f"{len(cells)} column{'s' * (len(cells) != 1)}, and other rows have {len(form)}"
         raise ValueError(f"{where}: {count}: {brief(repr(self.lines[number].strip()))}")
 

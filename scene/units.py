@@ -67,7 +67,7 @@ _NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?
 # A digit that is glued to a name is its power, as in mm2 and s-1, unless more is glued to it.
 _TOKEN = re.compile(
     r"\s*(?:(Δ?°[CF]?|[^\W\d_]+(?:_[^\W\d_]+)*)(?:([2-9]|-[1-9])(?![\w.,^]))?"
-    r"|(\*\*|\^)\s*(-?[0-9]+)|([*·⋅/()])|(1)(?=\s*/))"
+    r"|(\*\*|\^)\s*(-?[0-9]+)|([*·⋅/()]|(?<=[^\W_])\.(?=[^\W\d_]))|(1)(?=\s*/))"
 )
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 # Letters as a keyboard has them; "m²" is m^2.
@@ -225,7 +225,8 @@ def _product(factors):
 def _called(name):
     """Name of a unit in the registry. Raises _Unknown."""
     name, registry = _SHORT.get(name, name), _registry()
-    known = registry.parse_unit_name(name)
+    # A name that begins a sentence, as Newton.
+    known = registry.parse_unit_name(name) or (name.istitle() and registry.parse_unit_name(name.lower()))
     plural = name.endswith("s") and len(name) <= 4 and known and known == registry.parse_unit_name(name[:-1])
     if known and not plural:  # a plural of a symbol would be taken for a product with seconds
         prefix, unit, _ = known[0]

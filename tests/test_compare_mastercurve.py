@@ -313,6 +313,10 @@ ALIKE = {
     "sliding speed / mm/s\tload / kN\tcoefficient of friction": (1e3 * SPEED, LOAD / 1e3, MU),
     "tangential_force,normal_force,speed,t [s]": (MU * LOAD, LOAD, SPEED, np.arange(96.0)),
     "Lateral Force (N);Load (N);v (m/s)": (MU * LOAD, LOAD, SPEED),
+    "Normalkraft F_N in N;Reibkraft in N;Gleitgeschwindigkeit in mm/s": (LOAD, MU * LOAD, 1e3 * SPEED),
+    "Charge (N);Coefficient de frottement;Vitesse (mm.s-1)": (LOAD, MU, 1e3 * SPEED),
+    "load_mN;mean_cof;speed_mm_s": (1e3 * LOAD, MU, 1e3 * SPEED),
+    "T(sec)\tFx(N)\tFz(N)\tVel(mm/s)": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
 }
 
 
@@ -325,7 +329,24 @@ def test_names_order_units_and_the_friction_force_change_no_digit(tmp_path, head
     for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
         np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
     unused = [each for each in read.notes if "not used" in each]
-    assert len(unused) == sum(name.startswith(("Time", "t ")) for name in columns)
+    assert len(unused) == sum(name.startswith(("Time", "t ", "T(")) for name in columns)
+    turned = [each for each in read.notes if "negative throughout" in each]
+    assert len(turned) == sum(bool(np.all(numbers < 0)) for numbers in ALIKE[heading])
+
+
+def test_a_line_above_the_rows_states_the_load_of_its_block(tmp_path):
+    blocks = [
+        f"Load: {1e3 * load!r} mN\n{written({'mu': MU[load == LOAD], 'v': SPEED[load == LOAD]})}"
+        for load in np.unique(LOAD).tolist()
+    ]
+    (tmp_path / "blocks.csv").write_text("\n\n".join(blocks))
+    read = MeasuredFriction.of(tmp_path / "blocks.csv")
+    order = np.argsort(LOAD, kind="stable")
+    np.testing.assert_allclose(read.data["normal_force"], LOAD[order], rtol=1e-14)
+    np.testing.assert_array_equal(read.data["friction_coefficient"], MU[order])
+    (tmp_path / "blocks.csv").write_text("\n\n".join(f"Sample: {each}\nmu,F_N,v\n1,2,3\n1,2,4" for each in "AB"))
+    with pytest.raises(InvalidInput, match="'Sample: B' above line 8 tells one block from another"):
+        MeasuredFriction.of(tmp_path / "blocks.csv")
 
 
 def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
@@ -390,6 +411,7 @@ def test_friction_force_and_coefficient_agree_or_are_refused(tmp_path):
         ("x,F_N [N],v", "there is no column for mu, called mu.*nor for F_T"),
         ("mu,F_T [mm],v,F_N", "F_T in 'mm'.*a force, as N"),
         ("mu,F_N,v,T", "line 2: T = 4 has no unit, and 4 K is hardly meant: write T .degC."),
+        ("F_T,F_N [mN],v", "gives a unit of 'F_N' and none of 'F_T'"),
         ("mu,F_N,v,load", "'F_N' and 'load' are both F_N: keep one"),
     ],
 )

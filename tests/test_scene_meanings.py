@@ -29,6 +29,7 @@ STANDARD = {
     "relaxation_time": 1e-3,
 }
 PRONY = {"type": "prony", "equilibrium_modulus": 1e6, "moduli": [1e6], "relaxation_times": [1e-3]}
+SHARES = {"type": "prony", "equilibrium_modulus": 1e6, "g": [0.5], "tau": [1e-3]}
 CONE = {"type": "cone", "angle": 0.1}
 STEEP = {"type": "self-affine", "hurst": 0.5, "longest": 1e-2, "shortest": 1e-4}
 MAP = {"type": "topography", "heights": [[0.0, 1e-6, 0.0, 1e-6]] * 4, "pixel": 1e-6}
@@ -76,6 +77,7 @@ def test_no_meaning_overrides_a_name_that_a_table_has():
         ("elastomer", "tau", "1 ms", "relaxation_time", {}),
         ("elastomer", "retardation_time", "1 ms", "relaxation_time", {}),
         ("elastomer", "times", [1e-3], "relaxation_times", {"elastomer": PRONY}),
+        ("elastomer", "alpha", [0.2], "g", {"elastomer": SHARES}),
         ("indenter", "R", "5 mm", "radius", {}),
         ("motion", "F", "1 N", "load", {}),
         ("motion", "normal_force", "1 N", "load", {}),
@@ -117,6 +119,9 @@ def test_another_name_of_a_field_is_said_as_the_field_and_its_value_is_checked_t
         ("elastomer", "eta", 1e3, "relaxation_time", "(glassy_modulus - rubbery_mod", {"elastomer": STANDARD}),
         ("elastomer", "retardation_time", 1e-2, "relaxation_time", "* rubbery_modulus /", {"elastomer": STANDARD}),
         ("elastomer", "G0", 1e6, "rubbery_modulus", "the shear modulus at rest", {"elastomer": STANDARD}),
+        ("elastomer", "g_i", [0.2], "g", "moduli takes shear moduli [Pa]", {"elastomer": SHARES}),
+        ("elastomer", "G_i", [1e6], "moduli", "moduli takes shear moduli [Pa]", {"elastomer": PRONY}),
+        ("elastomer", "beta", [10.0], "relaxation_times", "relaxation_times = 1 / beta", {"elastomer": PRONY}),
         ("elastomer", "T", "25 degC", None, "[temperature]", {}),
         ("elastomer", "mu", 1e6, "modulus", "that of [interface]", {}),
         ("indenter", "diameter", "5 mm", "radius", "half of the diameter", {}),

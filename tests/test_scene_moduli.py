@@ -446,6 +446,64 @@ def test_blocks_that_a_line_tells_apart_are_no_one_table(tmp_path):
     path = tmp_path / "rubber.csv"
     path.write_text(f"omega;G';G''\n{rows}\n\n{rows}\n")
     assert len(read_table(path).frequency) == 10
-    path.write_text(f"omega;G';G''\nT = 20 °C\n{rows}\n\nT = 60 °C\n{rows}\n", encoding="utf-8")
-    with pytest.raises(ValueError, match=r"tells one block from another|parts two tables|neither"):
+    path.write_text(f"omega;G';G''\nsample: A\n{rows}\n\nsample: B\n{rows}\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="'sample: B' above line 10 tells one block from another"):
+        read_table(path)
+
+
+@pytest.mark.parametrize(
+    ("above", "kelvin"), [("T = 20 °C", 293.15), ("Temperatur: 25,5 °C", 298.65), ("T = hot", 0)]
+)
+def test_a_line_above_the_rows_states_their_temperature(tmp_path, above, kelvin):
+    path = tmp_path / "rubber.csv"
+    rows = "\n".join(f"{f:g};{1e6 + f:g};1e4" for f in (1, 2, 4, 8))
+    path.write_text(f"{above}\nomega;G';G''\n{rows}\n", encoding="utf-8")
+    expected = (pytest.approx(kelvin),) * 4 if kelvin else None
+    assert read_table(path).temperature == expected
+    path.write_text(f"{above}\nomega;G';G''\n{rows}\n\nInterval: 2\nT = 60 °C\n{rows}\n", encoding="utf-8")
+    if kelvin:
+        assert read_table(path).temperature == expected + (333.15,) * 4
+    else:
+        with pytest.raises(ValueError, match="'T = 60 °C' above line 10 tells one block from another"):
+            read_table(path)
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "Kreisfrequenz in rad/s;Speichermodul in Pa;Verlustmodul in Pa",
+        "Pulsation [rad/s];Module de conservation [Pa];Module de perte [Pa]",
+        "omega_rad_s;Gprime_Pa;Gdoubleprime_Pa",
+        "omega*aT [rad.s-1];Re(G*) [Pa];Im(G*) [Pa]",
+        "$\\omega$ (rad/s);$G'$ (Pa);$G''$ (Pa)",
+        "angular frequency;storage modulus;loss modulus\nrad/s;Pa;Pa\nSample A;Sample A;Sample A",
+        "omega [rad/s];G' [Pa];G''\n-------------------",
+    ],
+)
+def test_headings_of_languages_formulas_and_programs_are_read(tmp_path, heading):
+    law = SOLID.complex_modulus(OMEGA)
+    rows = "\n".join(f"{w!r};{g.real!r};{g.imag!r}" for w, g in zip(OMEGA.tolist(), law.tolist(), strict=True))
+    path = tmp_path / "rubber.csv"
+    path.write_text(f"{heading}\n{rows}\n;;\n", encoding="utf-8")
+    found = Tabulated(table=path, kind="shear")
+    np.testing.assert_array_equal(found.measured()[1], law)
+    np.testing.assert_array_equal(found.measured()[0], OMEGA)
+
+
+@pytest.mark.parametrize(
+    "names", ["log omega,log G',lg G''", "log10(omega),log10(G' [Pa]),LOG(G'')", "ln(ω/(rad/s)),G',G''"]
+)
+def test_logarithms_are_read_as_what_they_are_of(names):
+    law, names = SOLID.complex_modulus(OMEGA), names.split(",")
+    columns = [
+        np.log(each) if name.startswith("ln") else np.log10(each) if name[0] in "lL" else each
+        for name, each in zip(names, (OMEGA, law.real, law.imag), strict=True)
+    ]
+    assert deviation(Tabulated(table=dict(zip(names, columns, strict=True)))) < FITTED
+
+
+def test_of_storage_and_loss_modulus_both_have_a_unit_or_none(tmp_path):
+    path = tmp_path / "rubber.csv"
+    path.write_text("omega,G' [MPa],G''\n" + "\n".join(f"{w},1,0.1" for w in range(1, 9)))
+    with pytest.raises(ValueError, match='gives a unit of "G\'" and none of "G\'\'"'):
         read_table(path)

@@ -6,7 +6,9 @@ import pytest
 import xarray
 from random_tables import CALLED, draw_map, draw_table
 
-from scene.columns import Column, chosen, joined, sheet_of
+from scene.blocks import joined
+from scene.columns import Column, chosen, sheet_of
+from scene.heading import named
 from scene.quantities import HERTZ, KELVIN, PASCAL, SECOND
 from scene.sheet import read_sheets
 
@@ -117,6 +119,11 @@ def test_units_are_those_of_the_heading_wherever_it_stands(tmp_path, above):
         (["f;G'", "1;2", "2;3"], "no column for loss"),
         (["# storage modulus and loss modulus in MPa", *ROWS], "above the numbers is no heading"),
         (["# all moduli in MPa", *ROWS], "speaks of MPa"),
+        ([*ROWS, "# all moduli in MPa"], "speaks of MPa"),
+        (["f;G';G''", *ROWS, "", "all moduli in MPa"], "speaks of MPa"),
+        (["f;G';G''", "1;2;3", ";;", "2;3;4"], "line 3: a row without a number"),
+        (["f,G',G''", '1.5,"1,003,935","65,230"', '2.5,"1,003,936","65,231"'], "column 2.*between thousands"),
+        (["f;G';G''", "0.5;1,5;2", "2;3,5;3"], "column 1: '0.5' is not a number: the other numbers have commas"),
         ([HEADED, "1;2;3", "2;x;4", "3;4;5"], r"line 3, column 2: 'x' is not a number"),
         ([HEADED, "1;x;3", "2;3;4", "3;4;5"], r"line 2, column 2: 'x' is not a number"),
         ([HEADED, "1;2;3", "2;3", "3;4;5"], "line 3: 2 columns, and other rows have 3"),
@@ -141,6 +148,29 @@ def test_an_empty_cell_is_missing_and_closes_no_gap(tmp_path):
     (sheet,) = read_sheets(written(tmp_path, "1;2;;4\n;2;3;4\n1;nan;3;#N/A\n1;2;3;-1.#IND"))
     expected = [[1, 2, np.nan, 4], [np.nan, 2, 3, 4], [1, np.nan, 3, np.nan], [1, 2, 3, np.nan]]
     np.testing.assert_array_equal(sheet.numbers, expected)
+
+
+def test_rows_of_separators_at_the_end_are_rows_without_numbers(tmp_path):
+    (sheet,) = read_sheets(written(tmp_path, "f;G';G''\n1;2;3\n2;3;4\n;;\n;;\n"))
+    np.testing.assert_array_equal(sheet.numbers, [[1, 2, 3], [2, 3, 4], *[[np.nan] * 3] * 2])
+
+
+@pytest.mark.parametrize(
+    ("cell", "parts"),
+    [
+        ("storage_modulus_mpa", ("storage_modulus", "mpa")),
+        ("v_mm_s", ("v", "mm/s")),
+        ("speed_m_per_s", ("speed", "m/s")),
+        ("load_N", ("load", "N")),
+        ("F_N", ("F_N", "")),
+        ("Normal force F_N", ("Normal force F_N", "")),
+        ("T_C", ("T", "C")),
+        ("T_g", ("T_g", "")),
+        ("temp_deg_C", ("temp", "degC")),
+    ],
+)
+def test_units_behind_underscores_are_units(cell, parts):
+    assert named(cell) == parts
 
 
 def test_a_blank_line_a_comment_or_a_text_ends_a_block(tmp_path):

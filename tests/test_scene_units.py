@@ -195,7 +195,7 @@ def test_degrees_are_read_as_people_write_them(degrees):
         ("10 MS", "s", "did you mean 'ms' (0.001 s)?"),
         ("5 MM/s", "m/s", "did you mean 'mm/s' (0.001 m/s)?"),
         ("5 lb/in2", "Pa", "did you mean 'lbf/in2' (6894.76 Pa)?"),
-        ("5 Newton", "N", "did you mean 'newton'?"),
+        ("5 NEWTON", "N", "did you mean 'newton'?"),
         ("25 degc", "K", "did you mean 'degC'?"),
         ("3 Pas", "Pa", "did you mean 'Pa'?"),
     ],

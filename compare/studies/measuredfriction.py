@@ -1,5 +1,6 @@
 """Friction that a user measured, out of a file or from Python: a row a measurement, in SI."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -8,7 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import xarray
 
-from scene.columns import PURE, Chosen, Column, chosen, joined, sheet_of
+from scene.blocks import joined
+from scene.columns import PURE, Chosen, Column, chosen, meant, refuse_half_stated, sheet_of
 from scene.quantities import HERTZ, KELVIN, NEWTON, RADIAN_PER_SECOND, SPEED
 from scene.reading import InvalidInput
 from scene.sheet import Sheet, read_sheets
@@ -24,20 +26,23 @@ Measurements: TypeAlias = "str | Path | DataFrame | xarray.Dataset | Mapping[str
 MOST_ROWS = 100_000  # of a table: measurements, repeated ones too
 POSITIONAL = ("mu", "F_N", "v")
 NAMES = {
-    "mu": "mu, µ, friction, friction coefficient, friction coeff, coefficient of friction, coeff. of "
-    "friction, cof, mean cof, cof mean, mu k, kinetic friction coefficient, dynamic friction "
-    "coefficient, kinetic coefficient of friction, dynamic coefficient of friction",
+    "mu": "mu, µ, friction, friction coefficient, friction coeff, friction coef, coefficient of friction, "
+    "coeff. of friction, friction factor, cof, mu k, µ k, µk, coefficient of kinetic friction, coefficient of "
+    "dynamic friction",
     "F_T": "F_T, FT, friction force, frictional force, tangential force, lateral force, shear force, "
-    "traction force, drag, drag force, F_F, F_R, Fx, F_x, force x",
+    "traction force, drag, drag force, F_F, FF, F_R, FR, Fx, F_x, force x",
     "F_N": "F_N, FN, load, normal force, normal load, force, applied force, applied load, vertical force, "
     "vertical load, contact force, Fz, F_z, force z",
-    "v": "v, speed, velocity, sliding speed, sliding velocity, slip speed, slip velocity, linear speed, "
-    "track speed, stage speed",
+    "v": "v, speed, velocity, vel, sliding speed, sliding velocity, slip speed, slip velocity, linear speed, "
+    "track speed, stage speed, sled speed, scan speed, max linear speed, v rel, vrel, relative velocity",
     "T": "T, temperature, temp, test temperature, sample temperature, rubber temperature, ambient "
     "temperature, chamber temperature",
     # Named to say what it lacks.
     "rotation": "rpm, rotation, rotational speed, rotation speed, angular speed, angular velocity, revolutions",
 }
+# Said beside a name of them, before or behind it.
+_KIND = "(?:mean|average|avg|kinetic|dynamic)"
+_KINDS = re.compile(rf"{_KIND}[ _](.+)|(.+)[ _]{_KIND}", re.IGNORECASE)
 UNITS = {
     "F_T": (NEWTON,),
     "F_N": (NEWTON,),
@@ -49,12 +54,15 @@ COLUMNS = tuple(
     Column(field, tuple(names.split(", ")), UNITS.get(field, ()), optional=field != "F_N")
     for field, names in NAMES.items()
 )
+STATED = tuple(each for each in COLUMNS if each.field in ("F_N", "v", "T"))
 VARIABLES = {"mu": "friction_coefficient", "F_N": "normal_force", "v": "speed", "T": "temperature"}
 SPINS = (
     "the speed of a rotation is one of sliding only with the radius of its track: give v = 2 pi radius times "
     "revolutions per second, as v [m/s]"
 )
+DIRECTION = ": of strokes to and fro give the size, half the difference of both"
 AGREE = 0.05  # relative, of mu and F_T / F_N where both are given
+SECONDS = ("s", "sec", "ms", "min", "h")
 COLDEST = 100.0  # [K]: a number below it without a unit is hardly one of kelvins
 
 
@@ -81,7 +89,7 @@ class MeasuredFriction:
         """
         path = Path(table) if isinstance(table, str | Path) else None
         try:
-            sheet = joined(read_sheets(path, MOST_ROWS)) if path else sheet_of(_flat(table))
+            sheet = joined(read_sheets(path, MOST_ROWS), STATED) if path else sheet_of(_flat(table))
             columns, notes = _columns(sheet)
         except ValueError as error:
             raise InvalidInput(str(error)) from error
@@ -94,6 +102,16 @@ class MeasuredFriction:
             if field in columns
         }
         return cls(xarray.Dataset(data), named, source, notes)
+
+
+def _sizes(found):
+    """Columns without the sign that a sensor gives to a direction, and fields that were turned."""
+    turned = [
+        name
+        for name in ("mu", "F_N", "F_T", "v")
+        if name in found and not np.any(found[name].numbers >= 0) and not np.isnan(found[name].numbers).all()
+    ]
+    return found | {name: replace(found[name], numbers=-found[name].numbers) for name in turned}, turned
 
 
 def _flat(table):
@@ -126,6 +144,9 @@ def _columns(sheet: Sheet) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
         raise ValueError(
             f"{sheet.name}: there is no column for mu, called {NAMES['mu']}; nor for F_T, called {NAMES['F_T']}"
         )
+    refuse_half_stated(sheet, [found[name] for name in ("F_T", "F_N") if name in found])
+    found, turned = _sizes(found)
+    notes = (*notes, *(f"{sheet.name}: {name} is negative throughout, and its sizes are used" for name in turned))
     missing = np.any([np.isnan(each.numbers) for each in found.values()], axis=0)
     if missing.all():
         raise ValueError(f"{sheet.name}: no row has a number in every column")
@@ -148,6 +169,11 @@ def _spelled(sheet):
     def spelled(name, unit):
         if name == "t":
             return "t (time)"
+        if name == "T" and unit in SECONDS:
+            return "time"
+        said = _KINDS.fullmatch(name)
+        if said and meant(said[1] or said[2], COLUMNS):
+            name = said[1] or said[2]
         return "friction force" if name.lower() == "friction" and unit not in PURE else name
 
     names = tuple(map(spelled, sheet.names, sheet.units))
@@ -167,7 +193,7 @@ def _check(sheet: Sheet, name: str, column: Chosen, missing: np.ndarray) -> None
     if wrong.any():
         raise ValueError(
             f"{_row(sheet, int(np.argmax(wrong)))}: {name} = {numbers[wrong][0]:g} must be finite and greater "
-            "than 0"
+            f"than 0{DIRECTION if numbers[wrong][0] < 0 else ''}"
         )
 
 
