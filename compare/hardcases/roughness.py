@@ -129,8 +129,8 @@ NINE_DECADES = resting(roughness=replace(ROUGH, shortest=1e-12))
 case.add(
     "unresolved-waves",
     "The shortest wave is far less than a pixel.",
-    "Refused: the error names shortest, its value and the points that carry it.",
-    refused(f"shortest | {TINY.shortest:g} | points = ", resting(roughness=TINY), WIDE_LINE, space, error=Refused),
+    "Refused: the error names shortest, its value and one that would be carried.",
+    refused(f"shortest | {TINY.shortest:g} | would be", resting(roughness=TINY), WIDE_LINE, space, error=Refused),
 )
 case.add(
     "nine-decades-of-waves",

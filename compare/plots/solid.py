@@ -89,6 +89,7 @@ def moduli(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: fl
     axes.set_xlim(table["omega"].iloc[0], table["omega"].iloc[-1])
     axes.set_ylim(bottom=max(axes.get_ylim()[0], up * table["storage"].iloc[0] * 10**-DECADES))
     right = axes.twinx()
+    right.set_label("<right axis>")
     right.spines["right"].set_visible(True)
     right.set(yscale="log", ylim=[stiffer * end for end in axes.get_ylim()], ylabel=f"Young's modulus [{unit}]")
     style.decades(axes, right)
