@@ -38,6 +38,14 @@ def found(study):
     return {each.claim.id.removeprefix("mastercurve."): each for each in study.findings(study.answers({}))}
 
 
+def test_coefficients_that_no_pair_of_bodies_has_are_told():
+    loads, speeds = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
+    friction = 0.3 / (1 + loads / speeds / 10)
+    for factor, told in ((1.0, False), (100.0, True)):
+        notes = MeasuredFriction.of({"mu": factor * friction, "F_N": loads, "v": speeds}).notes
+        assert any("is a force, or another unit, meant?" in each for each in notes) == told
+
+
 def test_shifts_of_a_table_are_found_with_their_intervals(tmp_path):
     told = found(study(tmp_path, table()))
     assert (told["horizontal"].verdict, told["vertical"].verdict) == (HOLDS, HOLDS)

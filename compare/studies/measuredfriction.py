@@ -61,6 +61,7 @@ SPINS = (
     "revolutions per second, as v [m/s]"
 )
 DIRECTION = ": of strokes to and fro give the size, half the difference of both"
+MOST_FRICTION = 10.0  # no dry pair of bodies has more, see the doubts about a scene
 AGREE = 0.05  # relative, of mu and F_T / F_N where both are given
 SECONDS = ("s", "sec", "ms", "min", "h")
 COLDEST = 100.0  # [K]: a number below it without a unit is hardly one of kelvins
@@ -160,6 +161,8 @@ def _columns(sheet: Sheet) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
         if "mu" in columns:
             notes = (*notes, _agreement(sheet, columns["mu"], ratio, missing))
         columns.setdefault("mu", ratio)
+    if (most := float(columns["mu"][~missing].max())) > MOST_FRICTION:
+        notes = (*notes, f"{sheet.name}: coefficients of up to {most:.3g}: is a force, or another unit, meant?")
     return {name: each[~missing] for name, each in columns.items()}, notes
 
 
