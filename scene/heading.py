@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from .dialect import BLANK, NUMBER, STRONG, Dialect, comment, unquoted
+from .dialect import BLANK, EMPTY, NUMBER, STRONG, WORD, Dialect, comment, unquoted
 from .printable import brief
 
 _STATEMENT = re.compile(r"[^\W\d][^:=;\t,|]{0,80}[:=].*")  # "Width: 20 µm", "T = 25 °C"
@@ -62,7 +62,7 @@ class Heading:
         place = first = places[-1]
         names, units = zip(*map(named, parted(texts[place], width, dialect)), strict=True)
         # A line of units below one of names; below both, some programs repeat a remark of words in each column.
-        remark = not any(dialect.kind(cell) == NUMBER for cell in parted(texts[place], width, dialect))
+        remark = all(dialect.kind(cell) in (WORD, EMPTY) for cell in parted(texts[place], width, dialect))
         for units_at in (place, place - 1)[: 1 + remark]:
             above = {units_at - 1, units_at} <= set(places) and parted(texts[units_at], width, dialect)
             if above and _are_units(above):

@@ -126,6 +126,7 @@ def test_units_are_those_of_the_heading_wherever_it_stands(tmp_path, above):
         (["f;G';G''", "0.5;1,5;2", "2;3,5;3"], "column 1: '0.5' is not a number: the other numbers have commas"),
         ([HEADED, "1;2;3", "2;x;4", "3;4;5"], r"line 3, column 2: 'x' is not a number"),
         ([HEADED, "1;x;3", "2;3;4", "3;4;5"], r"line 2, column 2: 'x' is not a number"),
+        (["f;G';G''", "Hz;MPa;kPa", "x;2,5;3,5", "2,5;3,5;4,5"], "no column for"),
         ([HEADED, "1;2;3", "2;3", "3;4;5"], "line 3: 2 columns, and other rows have 3"),
         ([HEADED, "1;2;3", "2;3;4;5", "3;4;5"], "line 3: 4 columns, and other rows have 3"),
         ([HEADED, *ROWS, "the end"], "line 5"),
