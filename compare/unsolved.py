@@ -52,7 +52,7 @@ class Unsolved:
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """How many, and why: a reason says what to do. Empty where all have an answer."""
+        """Sentences that say how many contacts have no answer, why, and what to do; none where all have one."""
         if not self.failed:
             return ()
         by_solver = ", ".join(

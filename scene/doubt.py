@@ -111,7 +111,7 @@ def notes(scene: Scene) -> tuple[str, ...]:
 
 
 def _known(asked, otherwise):
-    """What is asked of a scene; otherwise where the scene lacks it, or its numbers leave their range."""
+    """A number of a scene; `otherwise` where the scene has no such number, or it leaves its range."""
     try:
         return asked()
     except (AttributeError, TypeError, ValueError, ArithmeticError, RuntimeError, MemoryError):

@@ -20,7 +20,7 @@ Modes = Relaxation | Retardation
 
 
 class Measured:
-    """What is followed: measured numbers (M,), each to the same share of itself.
+    """Measured numbers (M,) that a series has to follow, each to the same share of itself.
 
     measured : the numbers
     """
@@ -32,11 +32,11 @@ class Measured:
         raise NotImplementedError
 
     def of(self, modes: Modes) -> np.ndarray:
-        """The same numbers of a solid (M,)."""
+        """The numbers (M,) that a solid of such modes would show where these were measured."""
         raise NotImplementedError
 
     def parts(self, times: np.ndarray) -> np.ndarray:
-        """The same (M, 1 + K) of a spring of one, and of a mode of one for each time."""
+        """The numbers (M, 1 + K) that a spring of size one shows, and a mode of size one at each of K times."""
         raise NotImplementedError
 
     def series(self, times: np.ndarray, rest: float | None) -> Modes:

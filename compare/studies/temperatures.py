@@ -48,7 +48,7 @@ class Constants:
 
     @property
     def given(self) -> dict[str, Any]:
-        """What is stated, by name."""
+        """Constants that the user states, by name."""
         return {each.name: value for each in fields(self) if (value := getattr(self, each.name)) is not None}
 
     def shifts(self, temperatures: np.ndarray) -> np.ndarray:
