@@ -37,16 +37,16 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from .console import Preparing
-    from .declaration import Study
-    from .inputs import Asked
-    from .library import Listing
-    from .planning import Plans
-    from .quantity import Quantity
-    from .report import Report
-    from .studies.measuredfriction import Measurements
-    from .studies.topography import Surface
-    from .studies.trust.verdict import Trust
+    from .library.lookup import Asked
+    from .library.ready import Listing
+    from .solving.terminal import Preparing
+    from .studies.mastercurve.measurements import Measurements
+    from .studies.plan import Plans
+    from .studies.regress.quantity import Quantity
+    from .studies.report import Report
+    from .studies.study import Study
+    from .studies.topography.study import Surface
+    from .trustmap.verdict import Trust
 
 
 class Options(TypedDict, total=False):
@@ -66,8 +66,8 @@ def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Repor
 
     study : an object of a class derived from `compare.Study`
     """
-    from . import pipeline
-    from .console import Preparing, watch
+    from .solving.terminal import Preparing, shown
+    from .studies import pipeline
 
     _warn(study.doubts)
     chosen: dict[str, Any] = dict(options)
@@ -76,7 +76,7 @@ def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Repor
         report = pipeline.run(study, output, **chosen)
     else:
         with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
-            report = pipeline.run(study, output, watch=watch(preparing), **chosen)
+            report = pipeline.run(study, output, progress=shown(preparing), **chosen)
     _warn([" ".join(report.unsolved.sentences)] if report.unsolved.failed else [])
     return report
 
@@ -103,7 +103,7 @@ def run(
     scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
         also a Scene or a Case, or several by name
     """
-    from .studies.run import Run
+    from .studies.run.study import Run
 
     return solve(Run.of(scene), output, **options)
 
@@ -120,10 +120,10 @@ def study(
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
     """
     if name is None:
-        from .library import studies
+        from .library.ready import studies
 
         return studies()
-    from .studies.claimstudy import ClaimStudy
+    from .studies.claims.study import ClaimStudy
     from .studies.trust.study import TrustStudy
 
     if name == TrustStudy.name:
@@ -166,7 +166,7 @@ def stability(
 
     size : how much is solved: quick (half a minute), standard or full (some minutes)
     """
-    from .studies.stability import Stability
+    from .studies.stability.study import Stability
 
     return solve(Stability.of(size), output, **options)
 
@@ -184,7 +184,7 @@ def regress(
     update : store the values that have changed
     quantities : quantities to measure; if absent, those of the package
     """
-    from .studies.regress import Regress
+    from .studies.regress.study import Regress
 
     asked = Regress.of(baseline, quantities, update)
     report = solve(asked, output, **options)
@@ -212,7 +212,7 @@ def mastercurve(
     c2 : constant of WLF, as "101.6 K"
     reference : temperature at which c1 and c2 are stated, as "20 degC"
     """
-    from .studies.mastercurve import Mastercurve
+    from .studies.mastercurve.study import Mastercurve
 
     stated = {"c1": c1, "c2": c2, "reference": reference}
     return solve(Mastercurve.of(table, tolerance, **stated), output, **options)
@@ -250,7 +250,7 @@ def topography(
     repeat : how the map continues beyond its sides: mirror or periodic
     peaks : up if the heights grow towards the elastomer, down if they grow away from it
     """
-    from .studies.topography import Map
+    from .studies.topography.study import Map
 
     asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
     done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
@@ -279,7 +279,7 @@ def sweep(
     draws : rough surfaces, and as many profiles
     """
     from .statistics import griderror
-    from .studies.sweep import Sweep
+    from .studies.sweep.study import Sweep
 
     asked = Sweep.of(scene, speed, load, depth, draws)
     answers = solve(asked, output, **options).answers
@@ -289,7 +289,7 @@ def sweep(
 
 def friction_plot(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
-    from .studies.sweep import figure_of
+    from .studies.sweep.study import figure_of
 
     return figure_of(dataset)
 
@@ -299,8 +299,8 @@ def trust(scene: Asked) -> Trust:
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     """
-    from .inputs import case_of
-    from .studies.trust.verdict import trust
+    from .library.lookup import case_of
+    from .trustmap.verdict import trust
 
     found = trust(case_of(scene).scene)
     _warn([str(each) for each in found.doubts])
@@ -313,7 +313,7 @@ def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     figure : file (.png, .pdf or .svg) into which the shear moduli G', G'' of the solid are drawn; if absent, none
     """
-    from .planning import plans
+    from .studies.plan import plans
 
     found = plans(scene)
     _warn(found.doubts)
@@ -327,14 +327,14 @@ def load(folder: str | Path) -> xarray.DataTree:
 
     folder : folder that a command has written, or its results.nc
     """
-    from . import results
+    from .solving import netcdf
 
-    return results.load(folder)
+    return netcdf.load(folder)
 
 
 def ready() -> Listing:
     """List the scenes and studies that come with the package."""
-    from .library import offered
+    from .library.ready import offered
 
     return offered()
 
@@ -345,7 +345,7 @@ def new(name: str, file: str | Path | None = None) -> Path:
     name : ready scene or study, see `crosscheck list`
     file : file to write; if absent, NAME.toml. A file that exists is never overwritten
     """
-    from .library import write
+    from .library.ready import write
 
     return write(name, file or f"{name}.toml")
 
@@ -356,7 +356,7 @@ def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, A
     kind : schema of which files: scene or study
     output : file to write beside; if absent, none
     """
-    from .json_schema import schema
+    from .studies.schema import schema
 
     return schema(kind, output)
 
@@ -371,7 +371,7 @@ def figures(
     style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
     output : folder for the figures; if absent, `figures` in the folder
     """
-    from .redraw import redraw
+    from .report.redraw import redraw
 
     return redraw(folder, journal, style, output)
 
@@ -384,7 +384,7 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
         which takes the extra vtk)
     output : folder for the files; if absent, `tables` in the folder
     """
-    from .tables import export
+    from .report.export import export
 
     return export(folder, to, output)
 
@@ -399,9 +399,9 @@ def draw(
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
     """
-    from . import interactive as turning
-    from .page import Plot
-    from .studies.draw import Drawing
+    from .report.page import Plot
+    from .studies.draw import interactive as turning
+    from .studies.draw.study import Drawing
 
     if interactive:
         turning.refuse()
@@ -428,13 +428,13 @@ def animate(
     seconds : length of the animation [s]
     folder : folder for the solved contacts
     """
-    from .animation import animate
-    from .console import Preparing, watch
+    from .solving.terminal import Preparing, shown
+    from .studies.animate.animation import animate
 
     if not progress:
         return animate(scene, output, frames, seconds, folder, workers, None)
     with (
         progress if isinstance(progress, Preparing) else Preparing() as preparing,
-        watch(preparing).solving() as told,
+        shown(preparing).solving() as told,
     ):
         return animate(scene, output, frames, seconds, folder, workers, told)

@@ -5,9 +5,9 @@ from math import nan
 import numpy as np
 from pandas import DataFrame
 
-from compare.finding import HALVED, Claim, Finding, sentences
-from compare.page import Findings, Page, Section, Table, Text
-from compare.plots import sweep
+from compare.report.page import Findings, Page, Section, Table, Text
+from compare.statistics.finding import HALVED, Claim, Finding, sentences
+from compare.studies.sweep import figure as sweep
 
 DEPTH = Claim("rest.depth", "Depths at rest agree", 1.0, 0.05, "Ratio of depths at one load.", dimension="1D/3D")
 SLOW = Claim("slow", "Friction & <speed> fall as n_1 = 40 %", 0.4, 0.01, dimension="1D")

@@ -8,7 +8,7 @@ from math import exp, nan
 import numpy as np
 from pandas import DataFrame
 
-from ..amounts import seconds, setting, share
+from ..solving.amounts import seconds, setting, share
 from .intervals import student
 from .sampling import Effort
 

@@ -8,9 +8,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
 from .collapse import DEGREE, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
+from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
 from .intervals import Estimated, RmsMisfit
 
 # Of ln mu, and relative of an exponent: what still counts as one curve, and as the exponent predicted.

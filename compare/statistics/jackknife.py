@@ -12,7 +12,7 @@ from typing import Any, Protocol, Self
 import numpy as np
 import xarray
 
-from ..finding import HALVED, UNKNOWN, Claim, Finding
+from .finding import HALVED, UNKNOWN, Claim, Finding
 from .intervals import Estimated, RmsMisfit, skewness
 
 # Statistics are found this often at most: above that, surfaces are left out in groups.

@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ..rectangle import COARSE, EMPTY, FAILED, FINE
+from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import Sample, mean_ratio, resample
 

@@ -8,7 +8,7 @@ import re
 from docutils import nodes
 from sphinx.transforms.post_transforms import SphinxPostTransform
 
-PAGE = "theory"
+PAGE = "explanation/theory"
 _TAG = re.compile(r"\\tag\{(\w+)\}")
 _HERE = re.compile(r"\((\d+[a-z]?)\)")
 _ELSEWHERE = re.compile(r"theory, Eqs?\. (\d+[a-z]?)")

@@ -6,7 +6,7 @@ from docutils import nodes
 from equations import is_prose
 from sphinx.transforms.post_transforms import SphinxPostTransform
 
-PAGE = "glossary"
+PAGE = "reference/glossary"
 # Terms that are also words of any sentence, or have another meaning in some.
 WORDS = "claim draw fails holds multiply path program reference reported scene solve stage tolerance use window"
 COMMON = set(WORDS.split())

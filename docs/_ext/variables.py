@@ -2,8 +2,8 @@
 
 from sphinx.util.docutils import SphinxDirective
 
-from compare.rectangle import NUMBERS
-from compare.vocabulary import LABELS, entry
+from compare.solving.parameter_grid import NUMBERS
+from compare.solving.vocabulary import LABELS, entry
 from scene.vocabulary import FIELDS, MEASURES
 
 COORDINATES = ("grid", "points", "speed", "load", "depth", "draw")

@@ -6,8 +6,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...outcome import Outcome, Row
-from ...task import Task
+from ...solving.outcome import Outcome, Row
+from ...solving.task import Task
 
 
 class ArrayTask(Task):

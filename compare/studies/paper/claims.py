@@ -12,8 +12,8 @@ from itertools import product
 
 import numpy as np
 
-from ...finding import EXACT, FAILS, Claim, Finding
 from ...statistics import eq23
+from ...statistics.finding import EXACT, FAILS, Claim, Finding
 from ...statistics.intervals import Estimated
 from .conditions import FLAG, between
 from .law import Law, difference

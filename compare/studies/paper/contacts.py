@@ -11,8 +11,8 @@ from mdr1d import MDR
 from scene import Cone, Regime
 from scene.scales import elastic_contact
 
-from ...rectangle import FINE, SOLVED, Rectangle
-from ...vocabulary import attributes
+from ...solving.parameter_grid import FINE, SOLVED, Rectangle
+from ...solving.vocabulary import attributes
 from . import parameters
 
 AT_NODES = ("x", "profile", "displacement", "contact")

@@ -12,12 +12,12 @@ from scipy.optimize import minimize_scalar
 from mdr1d import MDR, draw, equations
 from scene import SolveError
 
-from ...outcome import Outcome
-from ...rectangle import FINE, Rectangle
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import FINE, Rectangle
+from ...solving.task import Task
+from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import Replicates, left_out, mean_ratio
-from ...task import Task
-from ...vocabulary import attributes
 from . import parameters
 from .conditions import regime_of, with_conditions, with_ends
 from .planes import Planes

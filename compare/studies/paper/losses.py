@@ -15,7 +15,7 @@ from pandas import DataFrame
 from mdr1d import MDR, equations
 from scene import Regime, SolveError
 
-from ...rectangle import FINE, Rectangle
+from ...solving.parameter_grid import FINE, Rectangle
 from ...statistics.collapse import Collapse, along_load, collapse
 from ...statistics.frictioncurves import SimulatedCurves
 from . import parameters

@@ -14,12 +14,12 @@ from mdr1d import equations
 from mdr1d.ensemble import Answers, solve_profiles
 from scene import Scene, SolveError
 
-from ...outcome import Outcome
-from ...rectangle import FAILED, SOLVED
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import FAILED, SOLVED
+from ...solving.task import SCENES, Task
+from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import Replicates, left_out, mean_ratio
-from ...task import SCENES, Task
-from ...vocabulary import attributes
 from . import parameters
 from .arrays import ArrayTask
 from .conditions import regime_of, with_conditions, with_ends

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from mdr1d import draw, sweep
 from scene.scales import elastic_contact
 
-from ...task import SCENES
+from ...solving.task import SCENES
 from . import parameters
 from .arrays import ArrayTask
 

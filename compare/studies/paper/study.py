@@ -11,19 +11,34 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput
 
-from ... import rectangle
-from ...cost import MOST_DRAWS, Cost
-from ...declaration import Study
-from ...finding import FAILS, Finding
-from ...outcome import Outcome
-from ...page import Block, Findings, Plot, Section, Table, Text
-from ...plots import paper_contacts, paper_law, paper_losses, paper_sketch, paper_studies, shifted_curves
-from ...rectangle import FAILED, Rectangle
+from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...report.plots import shifted_curves
+from ...solving import parameter_grid
+from ...solving.cost import MOST_DRAWS, Cost
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import FAILED, Rectangle
+from ...solving.task import Batch, Task
 from ...statistics import eq23
-from ...task import Batch, Task
+from ...statistics.finding import FAILS, Finding
+from ..study import Study
 from . import law, losses, parameter_studies, parameters
 from .claims import findings, lines
 from .contacts import contact_rectangle, contact_tables, with_nodes
+from .figures import (
+    contacts as paper_contacts,
+)
+from .figures import (
+    law as paper_law,
+)
+from .figures import (
+    losses as paper_losses,
+)
+from .figures import (
+    sketch as paper_sketch,
+)
+from .figures import (
+    studies as paper_studies,
+)
 from .parameter_studies import ParameterStudies
 from .text import ABOUT, OPEN, SHIFTS
 
@@ -95,7 +110,7 @@ class Paper(Study):
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved: rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
-        return (Batch([*self._own, *rectangle.tasks_of(self.rectangles())]),)
+        return (Batch([*self._own, *parameter_grid.tasks_of(self.rectangles())]),)
 
     @cached_property
     def _own(self):
@@ -104,7 +119,7 @@ class Paper(Study):
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved: a Dataset for each figure, shape and rubber."""
         rectangles = self.rectangles()
-        tree = rectangle.tree(rectangles, outcomes)
+        tree = parameter_grid.tree(rectangles, outcomes)
         parts = {parameter_studies.NODE: self._studies.dataset(outcomes)}
         for shape in parameters.SHAPES:
             parts[f"law-{shape}/planes"] = law.planes_dataset(shape, outcomes)

@@ -12,8 +12,9 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Scene
 
-from ...outcome import Outcome, Row
-from ...task import SCENES, SceneTask, draws_of
+from ...solving.outcome import Outcome, Row
+from ...solving.task import SCENES, SceneTask, draws_of
+from ...trustmap.ratio import FINE, HALF
 
 POINTS = 128, 192, 256, 384, 512
 LINE_POINTS = 4000
@@ -22,7 +23,6 @@ PIXELS = 10
 # Draws solved at once, and on half the points besides.
 BLOCK, COARSE = {"MDR": 40, "BEM": 4}, {"MDR": 40, "BEM": 2}
 MOST_PROFILES = 400
-FINE, HALF = "fine", "coarse"
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from pandas import DataFrame
 
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 
-from ...exact import mean_lag
-from . import shipped, verdict
-from .groups import Groups, Smooth
-from .model import NORMAL, Model
+from ...models.exact import mean_lag
+from ...trustmap import shipped, verdict
+from ...trustmap.groups import Groups, Smooth
+from ...trustmap.model import NORMAL, Model
 
 COLUMNS = "pressure_over_slope", "memory_over_shortest", "ratio", "ratio_low", "ratio_high"
 RADIUS, DEPTH, SOLID = 1e-3, 1e-4, Kelvin(1e6, 1.0)

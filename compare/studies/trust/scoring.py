@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 from scipy.special import betaincinv, ndtr, ndtri
 
-from .model import NORMAL, Foretold, Measurements
-from .verdict import SOLVE, advice_on
+from ...trustmap.model import NORMAL, Foretold, Measurements
+from ...trustmap.verdict import SOLVE, advice_on
 
 # Quantiles of a normal distribution that stand for it.
 _QUANTILES = ndtri((np.arange(99) + 0.5) / 99)

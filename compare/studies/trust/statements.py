@@ -6,10 +6,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from .model import NORMAL
-from .regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, parts
+from ...trustmap.model import NORMAL
+from ...trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, parts
+from ...trustmap.verdict import MULTIPLY, SOLVE, USE
 from .scoring import Score, of_count
-from .verdict import MULTIPLY, SOLVE, USE
 
 # Scenes of a regime below which nothing is said of its advice.
 FEWEST = 5

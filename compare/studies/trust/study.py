@@ -12,25 +12,26 @@ from pandas import DataFrame
 
 from scene import Scene
 
-from ...declaration import Study
-from ...finding import Claim, Finding, claimed, sentences
-from ...library import CATALOGUE
-from ...outcome import Outcome
-from ...page import Block, Findings, Plot, Section, Table, Text
-from ...plots import regime_map
-from ...suggest import known
-from ...task import Batch, SceneTask, Task
-from ...vocabulary import attributes
-from . import design, shipped, table
+from ...library.ready import CATALOGUE
+from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...solving.outcome import Outcome
+from ...solving.suggest import known
+from ...solving.task import Batch, SceneTask, Task
+from ...solving.vocabulary import attributes
+from ...statistics.finding import Claim, Finding, claimed, sentences
+from ...trustmap import shipped, table
+from ...trustmap.groups import LINE, SPACE, Groups, Smooth
+from ...trustmap.model import NAMES, Model
+from ...trustmap.ratio import QUANTITIES, Ratio, asked_of, ratio_of
+from ...trustmap.verdict import WIDE
+from ..study import Study
+from . import design
+from . import figure as regime_map
 from .contact import Contact
-from .groups import LINE, SPACE, Groups, Smooth
 from .map import ABOUT as ABOUT_FAMILY
 from .map import regime_table
-from .model import NAMES, Model
-from .ratio import QUANTITIES, Ratio, asked_of, ratio_of
 from .scoring import Score
 from .statements import PROMISED, Scored, advice_rows, coverage_rows, error_rows, evenly
-from .verdict import WIDE
 
 LEARNED, HELD_OUT = "learned", "held-out"
 ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on

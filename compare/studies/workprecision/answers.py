@@ -7,9 +7,9 @@ from typing import Any
 
 import xarray
 
-from ...amounts import seconds, share
-from ...finding import HALVED, UNKNOWN, Claim, Finding
+from ...solving.amounts import seconds, share
 from ...statistics.convergence import MeasuredLadder, ladders
+from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
 from ...statistics.sampling import Bias, Effort, SamplingPlan, cheapest
 from .convergence import DIMENSIONS, steps_table
 from .ensemble import MeasuredMean, means

@@ -12,10 +12,10 @@ from pandas import DataFrame, concat, factorize
 from bem3d import BEM
 from scene import Scene
 
-from ...rectangle import FAILED, SOLVED
+from ...solving.parameter_grid import FAILED, SOLVED
+from ...solving.task import Task
+from ...solving.vocabulary import attributes
 from ...statistics.convergence import MeasuredLadder
-from ...task import Task
-from ...vocabulary import attributes
 from .reference import Outcomes, Quantity, Reference
 from .timed_solve import COSTS, OnGrid, TimedSolve
 

@@ -9,18 +9,18 @@ import numpy as np
 import xarray
 from pandas import DataFrame, concat
 
-from ...amounts import short
-from ...finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
-from ...outcome import Outcome
-from ...page import Plot, Table
-from ...plots import workprecision_costs
+from ...report.page import Plot, Table
+from ...solving.amounts import short
+from ...solving.outcome import Outcome
+from ...solving.store import stored_size
+from ...solving.task import Task
 from ...statistics.costs import Law, NoLaw
-from ...store import stored_size
-from ...task import Task
+from ...statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from .convergence import Ladder, costs_of, described, settings_of
 from .cost_fit import GROWING, LABELS, MEMORY_FROM, STEPS, CostFit, fits_of
 from .cost_ladders import AXES, ladders
 from .diagram import Diagram, reported
+from .figures import costs as workprecision_costs
 from .forecasts import LARGEST, MEMORIES, Forecast, forecasts
 from .reference import Outcomes
 

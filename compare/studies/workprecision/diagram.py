@@ -8,13 +8,13 @@ from typing import Any, Protocol
 import xarray
 from pandas import DataFrame
 
-from ...amounts import seconds, share, short
-from ...finding import EXACT, REPORTED, Claim, Finding, sentences
-from ...page import Plot, Table
-from ...plots import workprecision
+from ...report.page import Plot, Table
+from ...solving.amounts import seconds, share, short
+from ...solving.task import Task
 from ...statistics.convergence import MeasuredLadder, answers, ladders
-from ...task import Task
+from ...statistics.finding import EXACT, REPORTED, Claim, Finding, sentences
 from .convergence import DIMENSIONS, Convergence, orders_table, steps_table
+from .figures import errors as workprecision
 from .reference import Outcomes
 
 # Wanted errors of which tables say what they take, and the one of which findings do.

@@ -12,12 +12,12 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Scene
 
-from ...rectangle import FAILED, NOT_ASKED, SOLVED
+from ...solving.parameter_grid import FAILED, NOT_ASKED, SOLVED
+from ...solving.task import SceneTask, Task, draws_of
 from ...statistics.intervals import Estimated, skewness
 from ...statistics.jackknife import mean_ratio
 from ...statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter
-from ...task import SceneTask, Task, draws_of
-from ..trust.corrected import CorrectedMDR
+from ...trustmap.corrected import CorrectedMDR
 from .convergence import costs_of, described
 from .reference import Known, Outcomes, Quantity
 from .timed_solve import COSTS, TimedSolve, work

@@ -6,8 +6,8 @@ from math import isfinite, nan
 
 import numpy as np
 
-from ...amounts import HOUR
-from ...rectangle import SOLVED
+from ...solving.amounts import HOUR
+from ...solving.parameter_grid import SOLVED
 from ...statistics.costs import REPEATABLE, Law, NoLaw, held_out
 from .cost_fit import MEMORY_FROM, CostFit
 

@@ -10,7 +10,7 @@ import numpy as np
 from bem3d import BEM
 from scene import Program, Stage
 
-from ...exact import indentation
+from ...models.exact import indentation
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
 from .diagram import convergence, reported

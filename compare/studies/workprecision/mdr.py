@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from mdr1d import MDR
 from scene.scales import elastic_contact
 
-from ...exact import foundation, indentation
+from ...models.exact import foundation, indentation
 from .convergence import Convergence, Ladder
 from .diagram import convergence
 from .reference import FORCE, FRICTION, Known, closed_form, finer

@@ -8,16 +8,17 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ...amounts import share
-from ...finding import HALVED, Claim, Finding
-from ...page import Plot, Table
-from ...plots import workprecision_models, workprecision_surfaces
+from ...report.page import Plot, Table
+from ...solving.amounts import share
+from ...statistics.finding import HALVED, Claim, Finding
 from ...statistics.sampling import cheapest
 from . import regimes
 from .answers import LEVELS, answers_table, cells, least_known, regimes_of, rough_means
 from .convergence import DIMENSIONS, steps_table
 from .diagram import Diagram, reported
 from .ensemble import plans_table
+from .figures import models as workprecision_models
+from .figures import surfaces as workprecision_surfaces
 
 # Wanted errors of which findings say what they take.
 WANTED = (0.1, 0.01)

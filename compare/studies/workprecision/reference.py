@@ -9,10 +9,10 @@ import numpy as np
 from bem3d import BEM
 from scene import Scene, Slide
 
-from ...exact.slow import mean_lag, slow_friction_by_curvature
-from ...finding import EXACT, EXTRAPOLATED, HALVED
-from ...outcome import Outcome, Row
-from ...task import SceneTask, Task
+from ...models.exact.slow import mean_lag, slow_friction_by_curvature
+from ...solving.outcome import Outcome, Row
+from ...solving.task import SceneTask, Task
+from ...statistics.finding import EXACT, EXTRAPOLATED, HALVED
 from .timed_solve import OnGrid, work
 
 Outcomes = Mapping[Task, Outcome]

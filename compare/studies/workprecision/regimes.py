@@ -8,7 +8,7 @@ from mdr1d import MDR
 from scene import Indent, Scene, Slide, StandardLinearSolid
 from scene.scales import elastic_contact
 
-from .. import contacts
+from ..claims import contacts
 from .convergence import Convergence, Ladder
 from .ensemble import Ensemble, corrected_solve
 from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from scene import Cone, Indent, Kelvin, Program, Scene, Slide, Sphere, Stage, StandardLinearSolid
 
-from .. import contacts
+from ..claims import contacts
 
 # quick: few contacts on short ladders; standard: all contacts on short ladders; full: all on long ladders.
 SIZES = QUICK, STANDARD, FULL = "quick", "standard", "full"

@@ -8,12 +8,12 @@ import xarray
 
 from scene.reading import InvalidInput
 
-from ...declaration import Study
-from ...finding import Finding
-from ...library import Listing
-from ...outcome import Outcome
-from ...page import Block, Findings, Plot, Section, Text
-from ...task import Batch, Task
+from ...library.ready import Listing
+from ...report.page import Block, Findings, Plot, Section, Text
+from ...solving.outcome import Outcome
+from ...solving.task import Batch, Task
+from ...statistics.finding import Finding
+from ..study import Study
 from . import elastic, extent, marching, mdr, precision, sliding
 from .costs import COSTS_DIAGRAM
 from .diagram import Diagram, advice

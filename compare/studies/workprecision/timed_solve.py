@@ -13,8 +13,8 @@ import numpy as np
 from bem3d.engine import Engine
 from scene import Plane, Result, Scene, SelfAffine, SolveError, Solver
 
-from ...outcome import Outcome, Row, row
-from ...task import SCENES, SceneTask
+from ...solving.outcome import Outcome, Row, row
+from ...solving.task import SCENES, SceneTask
 
 # A solve is repeated until so many seconds have gone, at least and at most as often as said; once, if it is long.
 SECONDS, LEAST, MOST, LONG = 1.0, 3, 50, 6.0

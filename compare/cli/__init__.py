@@ -1,0 +1,1 @@
+"""The command line: options from the signatures of compare.commands, progress, completion."""

@@ -1,0 +1,247 @@
+"""The command `crosscheck`: every function of `compare.commands` as a command, its docstring as the help."""
+
+import inspect
+import json
+import os
+import re
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .. import commands
+from ..library import ready as library
+from ..report.plots.journals import JOURNALS
+from ..solving.docstrings import documented
+from .completion import completion
+from .console import FAILED, MISTAKE, said_to_people, say
+
+# Help is plain text: as markup of rich, what stands in brackets, units too, would be taken for a style and lost.
+app = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"max_content_width": 100},
+)
+
+# What stands on a command line for what a function takes.
+TYPES = {
+    "str": str,
+    "str | None": str | None,
+    "int": int,
+    "int | None": int | None,
+    "float": float,
+    "bool": bool,
+    "Asked": str,
+    "Asked | Mapping[str, Asked] | None": str | None,
+    "float | None": float | None,
+    "str | float | None": str | None,
+    "Measurements": Path,
+    "str | Path": Path,
+    "str | Path | None": Path | None,
+    "Surface": Path,
+    "str | float | Sequence[str | float] | None": list[str] | None,
+    "Sequence[str | float] | None": list[str] | None,
+    "Any": str | None,
+}
+# Arguments by their place, though they may be absent.
+PLACED = ("scene", "name", "file", "kind")
+# What a Python call states and a command line cannot.
+PYTHON_ONLY = {"quantities", "progress", "options"}
+SHARED = {"workers": None, "scheduler": None, "format": "html", "figures": "png", "report": True, "yes": False}
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command.
+
+    function : of the same name in Python
+    said : what is printed of what it returns
+    details : help of the option that prints the details of what it returns; empty where it has none
+    """
+
+    function: Callable[..., Any]
+    said: Callable[[Any], str] = str
+    name: str = ""
+    details: str = ""
+
+    @property
+    def title(self) -> str:
+        """Name on the command line."""
+        return self.name or self.function.__name__
+
+    @property
+    def solves(self) -> bool:
+        """Whether the command has the options of all commands that solve."""
+        return "options" in inspect.signature(self.function).parameters
+
+    @property
+    def tells(self) -> bool:
+        """Whether it can tell how far it is."""
+        return self.solves or "progress" in inspect.signature(self.function).parameters
+
+    def callback(self) -> Callable[..., None]:
+        """Function with a signature that typer turns into arguments and options."""
+        found = inspect.signature(self.function).parameters
+        own = {name: (each.annotation, each.default) for name, each in found.items() if name not in PYTHON_ONLY}
+        if self.solves:
+            shared = {name: each.__forward_arg__ for name, each in commands.Options.__annotations__.items()}
+            own |= {name: (shared[name], default) for name, default in SHARED.items()}
+        about, said = documented(self.function.__doc__)
+        texts = documented(commands.__doc__)[1] | said
+        parameters = [
+            _parameter(name, *each, texts[name], completion(self.title, name)) for name, each in own.items()
+        ]
+        if self.solves:
+            parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
+        elif self.details:
+            details = typer.Option("-v", "--verbose", help=self.details)
+            parameters += [_keyword("verbose", Annotated[bool, details])]
+
+        def called(**given: Any) -> None:
+            self(**given)
+
+        called.__doc__ = about
+        called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        called.__annotations__ = {each.name: each.annotation for each in parameters}
+        return called
+
+    def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
+        """Do the command, print what came of it, and end with its status."""
+        output = f"--output {given.get('output')}"
+        with warnings.catch_warnings(), said_to_people(output, solves=self.solves):
+            # What Python is warned of stands at the top of what is printed.
+            warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
+            if self.tells and not (quiet or json):
+                from ..solving.terminal import Preparing  # slow, and only what solves needs it
+
+                with Preparing(lines=verbose) as given["progress"]:
+                    found = self.function(**given)
+            else:
+                found = self.function(**given)
+        swept = getattr(found, "swept", None)
+        if swept is not None and swept.reused and not swept.solved and not (quiet or json):
+            say(f"0 tasks solved, {swept.reused} reused")
+        for line in getattr(found, "faults", ()):
+            say(f"crosscheck: {line}", error=True)
+        if quiet or json:
+            for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
+                say(f"crosscheck: {line}", error=True)
+        if json:
+            say(_as_json(found))
+        elif not quiet:
+            say(found.details if verbose and hasattr(found, "details") else self.said(found))
+        if getattr(found, "failed", False):
+            raise typer.Exit(FAILED)
+        if not getattr(found, "feasible", True):
+            raise typer.Exit(MISTAKE)
+
+
+def _parameter(
+    name: str, annotation: str, default: Any, text: str, completed: Callable[[str], list[str]] | None
+) -> inspect.Parameter:
+    """Argument or option of a command.
+
+    text : what the docstring says of it, with more on Python alone
+    completed : what a shell completes
+    """
+    kind = TYPES[annotation]
+    text = text.partition(". From Python")[0]
+    if name == "journal":
+        text += f": {', '.join(JOURNALS)}"
+    text = f"{text[:1].upper()}{text[1:]}."
+    if default is inspect.Parameter.empty or name in PLACED:
+        told = typer.Argument(help=text, autocompletion=completed)
+    elif kind is bool and default:
+        told = typer.Option(f"--{name}/--no-{name}", help=text)
+    else:
+        told = typer.Option(
+            f"--{name.replace('_', '-')}",
+            help=text,
+            min=1 if name == "workers" else None,
+            autocompletion=completed,
+        )
+    if isinstance(default, str) and kind in (Path, Path | None):
+        default = Path(default)
+    return _keyword(name, Annotated[kind, told], default)
+
+
+def _keyword(name, annotation, default=False):
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+
+def _as_json(found: Any) -> str:
+    if hasattr(found, "findings"):
+        rows = json.loads(found.findings.to_json(orient="records", double_precision=15))
+        page = str(found.path) if found.path else None
+        told = {"page": page, "doubts": list(found.page.first), "findings": rows}
+        return json.dumps(told, indent=1)
+    return json.dumps({name: str(each) for name, each in dict(found).items()}, indent=1)
+
+
+def _paths(found: Any) -> str:
+    folders = sorted({str(path.parent.resolve()) for path in found})
+    return "\n".join([*(f"  {path.name}" for path in found), f"{len(found)} files: {', '.join(folders)}"])
+
+
+def _written_ready(path: Path) -> str:
+    text = path.read_text(encoding="utf-8")
+    command = next(each.command for each in library.ready().values() if each.text == text)
+    return f"{path} is written. Next: crosscheck {command} {path}"
+
+
+def _schema(found: Mapping[str, Any]) -> str:
+    return json.dumps(found, indent=1, ensure_ascii=False)
+
+
+COMMANDS = (
+    Command(commands.run),
+    Command(commands.trust),
+    Command(commands.study),
+    Command(commands.paper),
+    Command(commands.workprecision),
+    Command(commands.stability),
+    Command(commands.regress),
+    Command(commands.mastercurve),
+    Command(commands.topography),
+    Command(commands.plan, details="Print settings, grids, kernels, arrays, and the advice on 1D as well."),
+    Command(commands.ready, name="list", details="Print what each scene and each study is about."),
+    Command(commands.new, said=_written_ready),
+    Command(commands.schema, said=_schema),
+    Command(commands.figures, said=_paths),
+    Command(commands.export, said=_paths),
+    Command(commands.draw),
+    Command(commands.animate, said=lambda path: f"Animation: {path.resolve()}"),
+)
+for _each in COMMANDS:
+    app.command(_each.title)(_each.callback())
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        say(version("mdr-bem-crosscheck"))
+        raise typer.Exit
+
+
+@app.callback()
+def crosscheck(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """How far the one-dimensional method can be trusted for rough, viscoelastic contacts."""
+
+
+def main() -> None:
+    """Entry point of the console command."""
+    # The matrices of the judge are small: threads of BLAS would wait for one another on a busy machine.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    app()

@@ -1,0 +1,59 @@
+"""Output of a command for people, and every mistake in a line."""
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import typer
+
+FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
+
+
+def say(text: str, error: bool = False) -> None:
+    """Print a text, with nothing in it that controls a terminal."""
+    if not all(map(str.isprintable, text.split("\n"))):
+        from scene.printable import printable  # slow, and few texts need it
+
+        text = printable(text)
+    typer.echo(text, err=error)
+
+
+@contextmanager
+def said_to_people(output: str, solves: bool) -> Iterator[None]:
+    """Report every mistake and every interrupt in one line, with the exit status that goes with it.
+
+    output : the option that names the folder, with its value
+    solves : whether something may have been stored before it went wrong
+    """
+    for number in (getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)):
+        if signal.getsignal(number) is signal.SIG_DFL:  # and not ignored, as by nohup
+            signal.signal(number, signal.default_int_handler)
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        say("Interrupted. Solved contacts are kept: the same command resumes from there.", error=True)
+        raise typer.Exit(INTERRUPTED) from interrupt
+    except (ValueError, LookupError, RuntimeError) as error:
+        from scene import Refused, SolveError
+        from scene.reading import InvalidInput
+
+        if not isinstance(error, InvalidInput | Refused | SolveError):
+            raise
+        say(f"crosscheck: {error}", error=True)
+        raise typer.Exit(FAILED if isinstance(error, SolveError) else MISTAKE) from error
+    except MemoryError as error:
+        from scene import OutOfMemory
+
+        told = str(error) if isinstance(error, OutOfMemory) else f"memory ran out {error}".strip()
+        say(f"crosscheck: {told}", error=True)
+        raise typer.Exit(FAILED) from error
+    except OSError as error:
+        from scene.printable import brief
+
+        from ..solving.store import Unwritable
+
+        early = isinstance(error, Unwritable) or not solves
+        where = f"{output}: " if isinstance(error, Unwritable) else ""
+        told = f"{brief(str(error.filename))}: {error.strerror}" if error.filename else str(error)
+        say(f"crosscheck: {where}{told}{'' if early else '. Solved contacts are kept.'}", error=True)
+        raise typer.Exit(MISTAKE if early else FAILED) from error

@@ -1,0 +1,1 @@
+"""Scenes and studies to begin with, and how a scene that a user names is found and read."""

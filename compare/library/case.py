@@ -1,0 +1,214 @@
+"""A case: one scene, how it departs from the paper, what is varied around it, and the settings of both solvers."""
+
+from dataclasses import fields
+from importlib.resources import as_file, files
+from math import sqrt
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import AfterValidator, Field, TypeAdapter, model_validator
+from pydantic.dataclasses import dataclass
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Coulomb, Doubt, Heating, Indent, Layer, Refused, Scene, Slide
+from scene.indenter import Indenter
+from scene.motion import Motion
+from scene.printable import brief
+from scene.protocol import trusted
+from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
+from scene.reading import read
+from scene.rheology import Elastomer
+from scene.roughness import Roughness
+from scene.scales import elastic_contact
+from scene.scene import fit_together
+from scene.temperature import Temperature
+from scene.terms import terms_of
+
+from ..solving.cost import MOST_DRAWS, MOST_VALUES
+
+Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
+Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
+Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
+
+
+class NotCompared(Refused):
+    """The scene is of a kind that nothing compares, whatever its numbers; a solver may solve it from Python."""
+
+
+def _distinct(study):
+    for name in ("speeds", "pressing", "load_speeds", "depths"):
+        values = getattr(study, name)
+        if values is not None and len(set(values)) < len(values):
+            raise ValueError(f"{name} = {brief(repr(list(values)))}: a value stands there twice, once is allowed")
+    return study
+
+
+def _rough(roughness):
+    """Roughness of no height is none."""
+    return None if roughness is None or roughness.flat else roughness
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Study:
+    """Variations around the scene. Whatever is absent follows from the scene; see `Case.plan`.
+
+    speeds : of the curve of friction against speed [m/s]
+    pressing : factors on the scene's load (or depth) for the curves of friction against load
+    load_speeds : speeds of those curves [m/s]
+    depths : of the force-depth curve, factors on the smooth elastic depth of the scene
+    surfaces : rough surfaces averaged in three dimensions, 1 to 10,000
+    profiles : rough profiles averaged in one dimension, 1 to 10,000
+    """
+
+    speeds: Speeds | None = None
+    pressing: Factors | None = None
+    load_speeds: Speeds | None = None
+    depths: Factors | None = None
+    surfaces: Draws = 3
+    profiles: Draws = 50
+
+    _no_value_twice = model_validator(mode="after")(_distinct)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Values that are solved at: those of Study, and smooth_speeds [m/s] of the smooth body."""
+
+    speeds: tuple[float, ...]
+    pressing: tuple[float, ...]
+    load_speeds: tuple[float, ...]
+    depths: tuple[float, ...]
+    smooth_speeds: tuple[float, ...]
+    surfaces: int
+    profiles: int
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Case:
+    """The content of a case file. A file that holds a scene and nothing else is a case.
+
+    title, notes : for the report, notes in a sentence each
+    departures : of a case of the paper: sentences that say how the case departs from it
+    indenter, elastomer, motion, roughness, layer, temperature, heating, interface : of the scene
+    study : what is varied around it
+    bem, mdr : settings of the solvers in three dimensions and in one
+    """
+
+    title: str = ""
+    notes: tuple[str, ...] = ()
+    departures: tuple[str, ...] = ()
+    indenter: Indenter
+    elastomer: Elastomer
+    motion: Motion
+    roughness: Annotated[Roughness | None, AfterValidator(_rough)] = None
+    layer: Layer | None = None
+    temperature: Temperature | None = None
+    heating: Heating | None = None
+    interface: Coulomb | None = None
+    study: Study = Study()
+    bem: BEM = BEM(points=128)
+    mdr: MDR = MDR(points=5000)
+
+    _fits = model_validator(mode="after")(fit_together)
+
+    @property
+    def scene(self) -> Scene:
+        return Scene(**{field.name: getattr(self, field.name) for field in fields(Scene)})
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """The case as JSON can hold it; a map of heights that was measured is held whole."""
+        content = TypeAdapter(Case).dump_python(self, mode="json")
+        for name, part in vars(self).items():
+            if hasattr(part, "heights"):
+                content[name] |= {"heights": np.asarray(part.heights.heights).tolist()}
+        return content
+
+    @property
+    def doubts(self) -> tuple[Doubt, ...]:
+        """Doubts about the scene, and about how well the grids of both solvers show it."""
+        return tuple(dict.fromkeys([*self.mdr.doubts(self.scene), *self.bem.doubts(self.scene)]))
+
+    @property
+    def slides(self) -> bool:
+        """Whether there is friction to speak of: sliding, on a solid that relaxes."""
+        return isinstance(self.motion, Slide) and len(self.scene.solid.retardation()[2]) > 0
+
+    def refuse(self) -> None:
+        """Raise NotCompared, with the reasons, if a solver lacks a part of the scene, or nothing compares it."""
+        if not isinstance(self.motion, Indent | Slide):
+            raise NotCompared(
+                f"motion = {type(self.motion).__name__}: crosscheck compares bodies that are pressed in (Indent) "
+                "or slide steadily (Slide); solve other motions from Python, with each solver"
+            )
+        if self.interface is not None and isinstance(self.motion, Slide):
+            raise NotCompared(
+                "interface = Coulomb with motion = Slide: crosscheck compares the loss in the elastomer, to which "
+                "the interface adds coefficient * F_N in both solvers; leave interface out, or solve the scene "
+                "from Python, where the measure friction_in_elastomer is the loss"
+            )
+        for solver in (self.mdr, self.bem):
+            with trusted():
+                reasons = [why for term in terms_of(solver.terms, self.scene) for why in term.refusals(self.scene)]
+            if reasons:
+                raise NotCompared(f"{solver.name} cannot solve this scene: {'; '.join(reasons)}")
+
+    def plan(self) -> Plan:
+        """Plan of what is given in [study], the rest derived from the scene.
+
+        Speeds are multiples of the scene's own (at rest: of a tenth of a/tau); the curves of friction against load
+        span two decades of load; only what slides has speeds. Raises Refused.
+        """
+        self.refuse()
+        given, contact = self.study, elastic_contact(self.scene)
+        depths = given.depths or (0.25, 0.5, 1.0, 1.5, 2.0)
+        pressing = given.pressing or self._pressing()
+        surfaces, profiles = (given.surfaces, given.profiles) if self.roughness else (1, 1)
+        if not self.slides:
+            return Plan((), (), (), depths, (), surfaces, profiles)
+        times = self.scene.solid.retardation()[2]
+        natural = contact.radius / float(max(times))
+        own = self.motion.speed or natural / 10
+        return Plan(
+            speeds=given.speeds or tuple(own * f for f in (0.03, 0.1, 0.3, 1.0, 3.0, 10.0)),
+            pressing=pressing,
+            load_speeds=given.load_speeds or (own / 3, own, own * 3),
+            depths=depths,
+            smooth_speeds=tuple(natural * f for f in (0.01, 0.1, 1.0, 10.0, 100.0)) if len(times) == 1 else (),
+            surfaces=surfaces,
+            profiles=profiles,
+        )
+
+    def _pressing(self):
+        loads = (0.1, 1 / sqrt(10), 1.0, sqrt(10), 10.0)
+        if self.motion.load is not None:
+            return loads
+        n = self.indenter.exponent
+        return tuple(load ** (n / (n + 1)) for load in loads)
+
+
+def doubted(*cases: Case) -> tuple[str, ...]:
+    """Doubts about cases as sentences; of one number and limit the first alone."""
+    told: dict[tuple[str, float], str] = {}
+    for each in (doubt for case in cases for doubt in case.doubts):
+        told.setdefault((each.name, each.limit), str(each))
+    return tuple(told.values())
+
+
+def read_case(path: str | Path) -> Case:
+    """A case from a TOML file; without a title it is called by the file's name. Raises InvalidInput, Refused."""
+    case = read(path, Case)
+    case.refuse()
+    return case
+
+
+def shipped_cases() -> dict[str, Case]:
+    """The cases that come with the package, by name: the paper's rough sphere and rough cone."""
+    folder = files("compare.library") / "scenes"
+    cases = {}
+    for name in ("paper-sphere", "paper-cone"):
+        with as_file(folder / f"{name}.toml") as path:
+            cases[name] = read_case(path)
+    return cases

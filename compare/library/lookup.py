@@ -1,0 +1,87 @@
+"""Scenes that a user gives: by path, by the name of a ready one, or as objects."""
+
+from collections.abc import Mapping
+from dataclasses import fields
+from importlib.resources import files
+from os.path import isdir, lexists
+from pathlib import Path
+from typing import TypeAlias
+
+from scene import Scene
+from scene.files import Unreadable, checked
+from scene.printable import brief
+from scene.reading import MOST, InvalidInput, parsed, read, text_of
+
+from ..solving.suggest import suggestion
+from .case import Case, read_case, shipped_cases
+from .ready import FOLDERS, ready
+
+COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
+# A scene as a file, as the name of a ready one, or as an object.
+Asked: TypeAlias = str | Path | Case | Scene
+
+
+def named_cases(asked: Asked | Mapping[str, Asked] | None = None) -> dict[str, Case]:
+    """Cases by name: one, several by their names, or the paper's sphere and cone where nothing is asked.
+
+    Raises InvalidInput, and Refused of a case that cannot be compared.
+    """
+    if asked is None:
+        return shipped_cases()
+    if isinstance(asked, str | Path):
+        path = located(asked)
+        return {path.stem: read_case(path)}
+    several = asked if isinstance(asked, Mapping) else {"scene": asked}
+    cases = {name: case_of(each) for name, each in several.items()}
+    for case in cases.values():
+        case.refuse()
+    return cases
+
+
+def case_of(asked: Asked) -> Case:
+    """One case, whether or not both solvers can solve it. Raises InvalidInput."""
+    if isinstance(asked, Case):
+        return asked
+    if isinstance(asked, Scene):
+        return Case(**{each.name: getattr(asked, each.name) for each in fields(Scene)})
+    return read(located(asked), Case)
+
+
+def located(asked: str | Path, kind: str = "scene") -> Path:
+    """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
+    path, every, name = Path(asked), ready(), brief(str(asked))
+    # A folder may be called as a ready one is: that of an earlier run.
+    if not (isdir(path) and str(asked) in every):
+        try:
+            checked(path, MOST)
+        except Unreadable as error:
+            if isdir(path):
+                raise InvalidInput(f"{name}: is a folder, and no {kind}") from error
+            if lexists(path):
+                raise InvalidInput(str(error)) from error
+            # A name is sought among the ready ones too, and in no folder.
+            nowhere = isinstance(error.__cause__, FileNotFoundError)
+            missing = f"{name}: no such file" if nowhere else str(error)
+        else:
+            if (other := _other_kind(path, kind)) is not None:
+                raise InvalidInput(f"{name}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {name}")
+            return path
+    known = [each.name for each in every.values() if each.kind == kind]
+    if str(asked) in known:
+        return Path(str(files("compare.library"))) / FOLDERS[kind] / f"{asked}.toml"
+    if str(asked) in every:
+        found = every[str(asked)]
+        raise InvalidInput(f"{asked}: is a ready {found.kind}, and no {kind}: crosscheck {found.command} {asked}")
+    beside = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
+    raise InvalidInput(f"{missing}, and no ready {kind}{suggestion(str(asked), [*known, *beside])}")
+
+
+def _other_kind(path: Path, kind: str) -> str | None:
+    """Kind of a file that is not of this kind: a study has series, a scene its motion; None if that is open."""
+    try:
+        tables = parsed(text_of(path), path)
+    except InvalidInput:
+        return None  # whoever reads it says what is wrong
+    has = {"scene": "motion" in tables, "study": "series" in tables}
+    other = "study" if kind == "scene" else "scene"
+    return other if has[other] and not has[kind] else None

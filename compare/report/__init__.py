@@ -1,0 +1,1 @@
+"""Reports: pages and their forms, the look of figures, manifests, exports."""

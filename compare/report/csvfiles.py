@@ -1,0 +1,62 @@
+"""Tables as CSV files: every digit is written, and what is read back is the same table."""
+
+import io
+from pathlib import Path
+
+import pandas
+from pandas import DataFrame, RangeIndex, Series
+
+from scene.files import Unreadable, content
+from scene.printable import brief
+from scene.reading import InvalidInput
+
+from ..solving.store import write
+
+NOT_KNOWN = "nan"
+# Of a table that is read; those of a page have some megabytes and at most some dozens of columns.
+MOST_BYTES, MOST_COLUMNS = 2**28, 1000
+
+
+def text(frame: DataFrame) -> str:
+    """A table as the text of its file; the index is left out."""
+    return frame.to_csv(index=False, na_rep=NOT_KNOWN, lineterminator="\n")
+
+
+def write_text(path: Path, written: str) -> None:
+    """Write a text whole or not at all; the folder is made. Raises OSError."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write(path, lambda file: file.write(written.encode()))
+
+
+def read(path: Path) -> DataFrame:
+    """A table from its file, numbers exact.
+
+    Raises InvalidInput where there is none, it is damaged, or it is larger than MOST_BYTES and MOST_COLUMNS.
+    """
+    try:
+        text = content(path, MOST_BYTES).decode()
+        if not text.strip():
+            return DataFrame()
+        if (columns := text.partition("\n")[0].count(",") + 1) > MOST_COLUMNS:
+            raise ValueError(f"{columns} columns, and at most {MOST_COLUMNS} are read")
+        # Which digits a reader of numbers keeps differs between versions of pandas; Python keeps all of them.
+        words = pandas.read_csv(io.StringIO(text), dtype=str, keep_default_na=False)
+        if not isinstance(words.index, RangeIndex):  # pandas takes what stands in front for names of rows
+            raise ValueError("its rows are longer than its head")
+        return words.apply(_numbers)
+    except Unreadable as error:
+        raise InvalidInput(str(error)) from error
+    except (ValueError, MemoryError) as error:
+        raise InvalidInput(f"{path}: is not a table that a command has written: {brief(str(error))}") from error
+
+
+def _numbers(column: Series) -> Series:
+    """A column of words as whole numbers, as numbers or as truth values where all of them are."""
+    if set(column) <= {"True", "False"} and len(column):
+        return column == "True"
+    for kind, dtype in ((int, "int64"), (float, "float64")):
+        try:
+            return Series([kind(word) for word in column], column.index, dtype, name=column.name)
+        except (ValueError, OverflowError):  # also of whole numbers that are too long
+            continue
+    return column

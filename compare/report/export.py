@@ -1,0 +1,126 @@
+"""Results of a folder for others: CSV with units in its heads, LaTeX for a paper, surfaces for ParaView."""
+
+from collections.abc import Iterator
+from operator import methodcaller
+from pathlib import Path
+
+import xarray
+from pandas import DataFrame
+
+from scene.printable import brief
+from scene.reading import InvalidInput
+
+from ..solving import netcdf, parameter_grid, store
+from ..solving.suggest import known
+from ..solving.vocabulary import entry
+from . import csvfiles, manifest, vtk
+from .render import latex
+
+FORMS = {"csv": ".csv", "latex": ".tex", "vtk": vtk.ENDING}
+TABLES = "tables"
+# No paper has room for more rows, or for more columns.
+MOST_ROWS, MOST_COLUMNS = 100, 12
+# Columns of findings that a paper has room for.
+PRINTED = ("sentence", "where", "dimension", "expected", "tolerance", "value", "low", "high", "verdict", "unit")
+
+
+def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
+    """Write results into files; returns them.
+
+    folder : that a command left, or that has such folders, or a file of results
+    to : "csv", every digit and a unit behind each name; "latex", rounded, for booktabs, without what no page
+        has room for; or "vtk", the surfaces for ParaView
+    output : where to; `tables` in the folder, or beside the file, if absent
+
+    Raises InvalidInput where there is nothing of the kind or a file is damaged, Refused of vtk without its extra,
+    OSError for what cannot be written.
+    """
+    known("to", to, FORMS)
+    if to == "vtk":
+        vtk.refuse()
+    folder = Path(folder)
+    if output is None:
+        output = manifest.inside(folder.parent if folder.is_file() else folder, TABLES)
+    if to == "vtk":
+        return _surfaces(folder, Path(output))
+    written = []
+    for name, frame in dict(_tables(folder)).items():
+        if to == "latex":
+            frame = _printable(frame)
+        if not frame.empty:
+            written.append(manifest.inside(Path(output), f"{name}{FORMS[to]}"))
+            csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else _csv(frame))
+    if not written:
+        raise InvalidInput(f"{brief(str(folder))}: holds no table that {to} could show")
+    return written
+
+
+def _surfaces(folder: Path, output: Path) -> list[Path]:
+    """Write a file for each Dataset with fields over y and x."""
+    written = []
+    for node in netcdf.load(folder).subtree:
+        if content := vtk.content(node.to_dataset(inherit=False)):
+            written.append(manifest.inside(output, f"{node.path.strip('/') or folder.stem}{vtk.ENDING}"))
+            store.make(written[-1].parent)
+            store.write(written[-1], methodcaller("write", content))
+    if not written:
+        raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
+    return written
+
+
+def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
+    """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
+    if not folder.is_file():
+        for each in manifest.folders(folder):
+            place = each.path.relative_to(folder)
+            for name in each.manifest.tables:
+                yield (place / name).as_posix(), csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
+        if not any(folder.rglob(netcdf.NAME)):
+            return
+    for node in netcdf.load(folder).subtree:
+        yield from _flat(node.path.strip("/") or Path(folder).stem, node.to_dataset(inherit=False))
+
+
+def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]:
+    """A Dataset as one table for each set of dimensions, a row a point; what was not asked for is left out."""
+    families: dict[tuple, list] = {}
+    for variable, values in dataset.data_vars.items():
+        families.setdefault(values.dims, []).append(variable)
+    for dims, variables in families.items():
+        if not dims:
+            continue
+        frame = dataset[variables].to_dataframe().reset_index()
+        if "status" in frame:
+            frame = frame[frame["status"] != parameter_grid.NOT_ASKED]
+        most = len(variables) == max(map(len, families.values()))
+        yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
+
+
+def _printable(frame: DataFrame) -> DataFrame:
+    """Table that a paper has room for; nothing of one that is too long or too wide."""
+    if set(PRINTED) <= set(frame.columns):
+        frame = frame[list(PRINTED)]
+    fits = len(frame) <= MOST_ROWS and len(frame.columns) <= MOST_COLUMNS
+    return frame if fits else DataFrame()
+
+
+def _latex(frame: DataFrame, name: str) -> str:
+    try:
+        return latex.table(frame, _title(name), f"tab:{name}")
+    # Of columns that are not what their names say.
+    except (TypeError, ValueError, ArithmeticError) as error:
+        raise InvalidInput(f"table {name} cannot be printed: {brief(str(error))}") from error
+
+
+def _csv(frame: DataFrame) -> str:
+    return csvfiles.text(frame.rename(columns={name: _head(str(name)) for name in frame.columns}))
+
+
+def _head(name: str) -> str:
+    """Name of a column with its unit."""
+    found = entry(name)
+    return name if found is None or found.unit in ("", "1") else f"{name} [{found.unit}]"
+
+
+def _title(name: str) -> str:
+    return name.replace("-", " ").replace("_", " ").replace("/", ": ").capitalize()

@@ -1,0 +1,145 @@
+"""Page: what a command has to say, as a list of blocks that every renderer shows in its own way."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..statistics.finding import Finding
+
+Tables: TypeAlias = Mapping[str, DataFrame]
+
+
+@dataclass(frozen=True)
+class Text:
+    """Paragraphs in Markdown: emphasis, `code`, links, lists, formulas in LaTeX between dollars."""
+
+    markdown: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table that people read; its CSV file is the frame with every digit.
+
+    name : of its file, without .csv, with the folder below that of the page: "sphere/points"
+    frame : columns whose names the vocabulary knows
+    caption : one sentence
+    long : whether the page shows a link to the file alone, as nobody reads so many rows
+    """
+
+    name: str
+    frame: DataFrame
+    caption: str = ""
+    long: bool = False
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Findings as a table: claim, verdict, value with its interval, the number claimed, and the reason."""
+
+    findings: Sequence[Finding]
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A figure as a function of tables. The CSV files beside it are these tables.
+
+    name : of its files, without ending, with the folder below that of the page: "sphere/friction-load"
+    draw : function of the tables and the options that returns a matplotlib Figure: a module function of
+        `compare.report.plots`, so that it can be drawn again from the files alone
+    tables : by name; a table is written to a CSV file of that name beside the figure
+    caption : what it shows, in at most 60 words
+    alternative : what is to be seen, for those who cannot see it
+    options : further keyword arguments of `draw` that JSON can hold
+    """
+
+    name: str
+    draw: Callable[..., Figure]
+    tables: Tables
+    caption: str
+    alternative: str = ""
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def folder(self) -> str:
+        """Folder of its files below that of the page, with a slash at the end; empty of that folder itself."""
+        return self.name[: self.name.rfind("/") + 1]
+
+    @property
+    def files(self) -> Tables:
+        """Tables of the plot by the names of their files, without .csv, with the folder."""
+        return {f"{self.folder}{name}": frame for name, frame in self.tables.items()}
+
+    def figure(self) -> Figure:
+        """The figure, drawn from the tables in the style that is applied."""
+        return self.draw(self.tables, **self.options)
+
+
+@dataclass(frozen=True)
+class Section:
+    """Blocks under a heading, in the order of reading."""
+
+    title: str
+    blocks: Sequence["Block"]
+
+    def __post_init__(self):
+        object.__setattr__(self, "blocks", in_order(self.blocks))
+
+
+Block: TypeAlias = Text | Table | Findings | Plot | Section
+# Order of reading on every page and in every section: figures before tables, and sections last.
+ORDER = (Text, Plot, Findings, Table, Section)
+
+
+def in_order(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Blocks in the order of reading; blocks of one kind keep theirs."""
+    return tuple(sorted(blocks, key=lambda block: ORDER.index(type(block))))
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page, in the order of reading: doubts, the answer, figures, findings, other tables, sections.
+
+    title : of the page
+    answer : a sentence for each claim, generated from all findings
+    blocks : of the page below the answer; those given are put in the order of reading
+    about : facts on how it was made, by name: versions, machine, times
+    doubts : sentences that stand before the answer: doubts about what was asked, contacts without an answer
+    notes : sentences that follow them, on what was read
+    """
+
+    title: str
+    answer: Sequence[str]
+    blocks: Sequence[Block]
+    about: Mapping[str, str] = field(default_factory=dict)
+    doubts: Sequence[str] = ()
+    notes: Sequence[str] = ()
+
+    def __post_init__(self):
+        object.__setattr__(self, "blocks", in_order(self.blocks))
+
+    @property
+    def first(self) -> list[str]:
+        """Doubts and notes, each with the word that says which it is."""
+        return [*(f"Doubtful: {each}" for each in self.doubts), *(f"Note: {each}." for each in self.notes)]
+
+    def tables(self) -> Iterator[tuple[str, DataFrame]]:
+        """Name of its file, without .csv, and frame of every table that is shown or drawn; some come twice."""
+        yield from ((table.name, table.frame) for table in self.every(Table))
+        for plot in self.every(Plot):
+            yield from plot.files.items()
+
+    def every(self, kind: type) -> Iterator[Any]:
+        """Blocks of one kind, in sections too, in their order."""
+
+        def below(blocks):
+            for block in blocks:
+                if isinstance(block, Section):
+                    yield from below(block.blocks)
+                elif isinstance(block, kind):
+                    yield block
+
+        return below(self.blocks)

@@ -1,0 +1,82 @@
+"""A page as plain text, which a command prints: doubts, the answer, findings and short tables."""
+
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+
+from ...statistics.finding import Finding
+from ..page import Findings, Page, Plot, Section, Table, Text
+from . import prose
+from .columns import columns
+
+WIDTH = 100
+# Of tables that a terminal can show.
+MOST_ROWS, WIDEST = 40, 200
+
+
+def text(page: Page, path: Path | None = None) -> str:
+    """The page; path : of its file, named at the end."""
+    parts = [
+        _headed(page.title, "="),
+        *map(_filled, page.first),
+        *map(_filled, page.answer),
+        *_blocks(page.blocks, "-"),
+    ]
+    if path is not None:
+        parts.append(f"Page: {path.resolve()}")
+    return "\n\n".join(part for part in parts if part)
+
+
+def _blocks(blocks, rule) -> Iterator[str]:
+    for block in blocks:
+        match block:
+            case Text(markdown):
+                yield "\n".join(
+                    _filled(line, 2 * line.startswith("- ")) for line in prose.converted(markdown, {}).split("\n")
+                )
+            case Table() if not block.long and len(block.frame) <= MOST_ROWS:
+                shown = _table(block.frame)
+                if max(map(len, shown.splitlines()), default=0) <= WIDEST:
+                    yield "\n".join(part for part in (_filled(block.caption), shown) if part)
+            case Findings(findings, caption):
+                yield "\n".join([*([_filled(caption)] if caption else []), *_findings(findings)])
+            case Section(title, inside):
+                parts = [part for part in _blocks(inside, "") if part]
+                if parts:
+                    yield "\n\n".join([_headed(title, rule), *parts])
+            case Plot() | Table():
+                pass
+
+
+def _findings(findings) -> Iterator[str]:
+    """Each claim, and below it a line for each place: verdict, place, number found, reason."""
+    claims: dict[tuple[str, str], list[Finding]] = {}
+    for each in findings:
+        claims.setdefault((each.claim.sentence, each.claimed), []).append(each)
+    for (claim, claimed), found in claims.items():
+        yield _filled(f"{claim}{f' (claimed {claimed})' if claimed else ''}:", 2)
+        for each in found:
+            place = " ".join(part for part in (each.dimension, each.where) if part)
+            reason = f"; {each.why}" if each.why else ""
+            yield _filled(f"  {each.verdict:<9}  {place}: {each.found()}{reason}", 13)
+
+
+def _table(frame) -> str:
+    shown = columns(frame)
+    cells = [[each.title, *(text.replace("\n", " ") for text in each.texts)] for each in shown]
+    widths = [max(map(len, column)) for column in cells]
+    sides = [str.rjust if each.numeric else str.ljust for each in shown]
+    return "\n".join(
+        "  ".join(side(cell, width) for side, cell, width in zip(sides, row, widths, strict=True)).rstrip()
+        for row in zip(*cells, strict=True)
+    )
+
+
+def _headed(title, rule):
+    return f"{title}\n{rule * len(title)}" if rule else title
+
+
+def _filled(words, indent=0):
+    return textwrap.fill(
+        words, WIDTH, subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False
+    )

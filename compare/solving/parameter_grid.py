@@ -1,0 +1,298 @@
+"""Rectangle: contacts of one scene at every speed and every load or depth, and what they came to as Datasets."""
+
+# xarray is imported where a Dataset is made: to count contacts, as `crosscheck plan` does, takes none.
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+from math import inf, nan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Indent, Program, Refused, Scene, Slide, Solver, Stage
+from scene.motion import PRESSES, UNITS, Motion
+from scene.protocol import trusted, why_not
+from scene.quantities import SPEED, WHOLE, argument
+from scene.scales import elastic_contact
+
+from .continuation import Path, by_contact, joined
+from .cost import Cost
+from .outcome import Outcome, Row
+from .task import SceneTask, Task, draws_of
+from .vocabulary import attributes
+
+if TYPE_CHECKING:
+    import xarray
+
+FINE, COARSE = "fine", "coarse"
+# Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
+SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
+ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
+MOST_ASKED = 1000  # lines drawn, whether each fits its grid
+# What a solver gives of every contact, by the names of a Dataset.
+NUMBERS = {
+    "normal_force": "normal_force",
+    "depth_reached": "depth",
+    "friction_force": "friction_force",
+    "residual": "residual",
+    "applications": "applications",
+    "seconds": "seconds",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rectangle:
+    """Contacts of one scene at every speed and every load or depth, each solver on its grids, on the same draws.
+
+    scene : its motion says whether a load or a depth is prescribed; a Program is pressed in from nothing at a
+        constant rate, every other scene slides steadily or, at speed 0, is at rest
+    speeds : of sliding, or rates of pressing in [m/s]; 0 is rest
+    values : loads [N] or depths [m] that are prescribed
+    grids : settings of a solver by the name of the grid, by the name of the solver
+    draws : number of rough surfaces by the name of the solver; 1 if absent
+    keeps_fields : whether the fields of the first draw on the fine grid are kept, for pictures
+    """
+
+    scene: Scene
+    speeds: tuple[float, ...]
+    values: tuple[float, ...]
+    grids: Mapping[str, Mapping[str, Solver]]
+    draws: Mapping[str, int]
+    keeps_fields: bool = False
+
+    def __post_init__(self):
+        for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
+            object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
+        draws = {solver: argument("draws", count, WHOLE.value) for solver, count in self.draws.items()}
+        object.__setattr__(self, "draws", draws)
+
+    @property
+    def prescribed(self) -> str:
+        """Name of what is prescribed: "load" or "depth"."""
+        return self.scene.motion.pressed_by
+
+    @property
+    def cost(self) -> Cost:
+        """Cost of all contacts, by counting."""
+        points, draws = len(self.speeds) * len(self.values), self.draws if self.random else {}
+        costs = [
+            Cost(points * draws.get(name, 1), points * draws.get(name, 1) * work_of(solver, self.scene))
+            for name, grids in self.grids.items()
+            for solver in grids.values()
+        ]
+        fine = (each for grids in self.grids.values() for name, each in grids.items() if name == FINE)
+        planes = (each.points**2 for each in fine if self.keeps_fields and isinstance(each, BEM))
+        # Pressure and gap, in the store and in the file of results.
+        return sum(costs, Cost(kept=sum(32 * points for points in planes)))
+
+    @property
+    def random(self) -> bool:
+        """Whether the body has draws: rough surfaces that differ by their seed."""
+        return hasattr(self.scene.roughness, "seed")
+
+    def at(self, value: float, speed: float = 0.0) -> Scene:
+        """The scene under one load or depth, at rest or at a speed."""
+        pressed: dict[str, Any] = {self.prescribed: value}
+        motion: Motion
+        if speed and isinstance(self.scene.motion, Program):
+            motion = Program(stages=(Stage(duration=value / speed, **pressed),))
+        else:
+            motion = Slide(speed=speed, **pressed) if speed else Indent(**pressed)
+        return replace(self.scene, motion=motion)
+
+    @property
+    def corners(self) -> list[Scene]:
+        """Scenes at the greatest and the least load or depth and speed, that with the widest contact first."""
+        speeds, values = (sorted({min(each), max(each)}) for each in (self.speeds, self.values))
+        return [self.at(value, speed) for value in reversed(values) for speed in speeds]
+
+    def refuse(self) -> None:
+        """Raise as `refuse` of this rectangle alone."""
+        refuse([self])
+
+    def tasks(self) -> list[SceneTask | Path]:
+        """Every task, each once: all profiles of a 1D contact, and all speeds on a surface in 3D."""
+        return tasks_of({"": self})
+
+    def datasets(self, outcomes: Mapping[Task, Outcome]) -> dict[str, xarray.Dataset]:
+        """Datasets by the name of the solver, with the dimensions grid, speed, load or depth, and draw.
+
+        A smooth body has no draw. `status` tells failed from not asked, `reason` why a solve failed. Where nothing
+        touches, the force is 0, and friction and contact are NaN.
+        """
+        rows: dict[str, list[Row]] = {name: [] for name in self.grids}
+        answers = by_contact(outcomes)
+        for name, contacts in self.contacts:
+            rows[name] += [row for each in contacts for row in answers[each].rows]
+        return {name: self._dataset(name, found) for name, found in rows.items()}
+
+    def fields(self, outcomes: Mapping[Task, Outcome]) -> dict[str, Mapping[str, np.ndarray]]:
+        """Fields that were kept of the first contact, by the name of the solver."""
+        kept = ((name, outcomes[first].fields) for name, (first, *_) in self.contacts if first.keeps_fields)
+        return {name: fields for name, fields in kept if fields}
+
+    @cached_property
+    def contacts(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
+        """Solver's name and contacts of every point, by grid, speed and value; kept, as scenes are many.
+
+        All profiles of a 1D contact are one, each surface in 3D is one.
+        """
+        found = []
+        own = self.speeds[0], self.values[0]
+        for name, grids in self.grids.items():
+            for (grid, solver), speed, value in product(grids.items(), self.speeds, self.values):
+                scenes = draws_of(self.at(value, speed), self.draws.get(name, 1))
+                together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
+                first = self.keeps_fields and grid == FINE and (speed, value) == own
+                contacts = tuple(
+                    SceneTask(
+                        solver, each, keeps_fields=first and not k, work=len(each) * work_of(solver, each[0])
+                    )
+                    for k, each in enumerate(together)
+                )
+                found.append((name, contacts))
+        return tuple(found)
+
+    def _dataset(self, name, rows):
+        import xarray
+
+        grids = self.grids[name]
+        shape = len(grids), len(self.speeds), len(self.values), -1
+
+        def array(number, kind=float):
+            return np.array([number(row) for row in rows], kind).reshape(shape)
+
+        status = array(
+            lambda row: FAILED if row.reason is not None else EMPTY if row.normal_force == 0 else SOLVED, object
+        )
+        touched = status == SOLVED
+        values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
+        for measure in sorted({measure for row in rows for measure in row.measures}):
+            values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
+        values["friction_force"] = np.where(touched, values["friction_force"], nan)
+        reasons = array(lambda row: row.reason or "", object)
+        dims = ["grid", "speed", self.prescribed, "draw"]
+        coordinates = {
+            "grid": list(grids),
+            "speed": list(self.speeds),
+            self.prescribed: list(self.values),
+            "points": ("grid", [getattr(solver, "points", 0) for solver in grids.values()]),
+        }
+        if self.random:
+            first = self.scene.roughness.seed
+            coordinates["draw"] = list(range(first, first + status.shape[-1]))
+        else:
+            dims = dims[:3]
+
+        def variable(values, label):
+            return xarray.Variable(dims, values if self.random else values[..., 0], attributes(label, self.scene))
+
+        made = {label: variable(found, label) for label, found in values.items()}
+        made |= {"status": variable(status, "status"), "reason": variable(reasons, "reason")}
+        dataset = xarray.Dataset(made, coordinates, {"solver": name})
+        for label in dataset.coords:
+            dataset[label].attrs = attributes(str(label), self.scene)
+        return dataset
+
+
+def on_two_grids(*solvers: MDR | BEM) -> dict[str, dict[str, Solver]]:
+    """Settings of solvers on their own grid and on one of half the points, and of half the steps in time."""
+    return {
+        each.name: {FINE: each, COARSE: replace(each, points=each.points // 2, steps=max(1, each.steps // 2))}
+        for each in solvers
+    }
+
+
+def refuse(rectangles: Iterable[Rectangle]) -> None:
+    """Raise Refused where a solver cannot solve a contact of these, SolveError where numbers are too far apart.
+
+    Of each solver the reasons are told against the widest contact that it cannot solve: what mends that mends all.
+    Asked at the corners of a rectangle, between which nothing else is lacking; of the widest contact also what is
+    foreseen of its solve, and, where one line hardly fits its grid, whether every other does.
+    """
+    asked = [(each, grids) for each in rectangles for grids in each.grids.values()]
+    asked.sort(key=lambda pair: -_width(pair[0].corners[0]))
+    told: dict[str, str] = {}
+    with trusted():
+        for rectangle, grids in asked:
+            for solver in (each for each in grids.values() if each.name not in told):
+                if reason := _reason(solver, rectangle):
+                    told[solver.name] = reason
+    if told:
+        raise Refused("; ".join(told.values()))
+
+
+def _reason(solver, rectangle):
+    """Why a solver cannot solve all of a rectangle; empty where nothing is known."""
+    widest, *others = rectangle.corners
+    if why := why_not(solver, widest):
+        return _against(solver, widest, why)
+    draws: tuple[Scene, ...] = ()
+    if isinstance(solver, MDR) and replace(solver, points=max(8, int(solver.points / ROOM))).refusals(widest):
+        draws = draws_of(widest, min(rectangle.draws.get(solver.name, 1), MOST_ASKED))
+    for scene in (*others, *draws[1:]):
+        if why := solver.refusals(scene):
+            return _against(solver, scene, why)
+    return ""
+
+
+def _against(solver, scene, why):
+    pressed, motion = scene.motion.pressed_by, scene.motion
+    speed = f" at {motion.speed:.3g} m/s" if getattr(motion, "speed", 0.0) else ""
+    points = f" on {solver.points} points" if hasattr(solver, "points") else ""
+    place = f"{pressed} = {motion.greatest:.3g} {UNITS[pressed]}{speed}{points}"
+    return f"{solver.name} cannot solve this scene with {place}: {'; '.join(why)}"
+
+
+def _width(scene):
+    """Radius of the smooth relaxed contact [m]; infinite beyond the range of numbers."""
+    motion = scene.motion
+    try:
+        return elastic_contact(replace(scene, motion=motion.held) if isinstance(motion, Program) else scene).radius
+    except ArithmeticError:
+        return inf
+
+
+def tasks_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask | Path]:
+    """Tasks of several rectangles: those that cross share the contacts where they do."""
+    return joined(contacts_of(rectangles))
+
+
+def contacts_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
+    """Contacts of several rectangles, each once."""
+    found: dict[SceneTask, SceneTask] = {}
+    for rectangle in rectangles.values():
+        for contact in (each for _, contacts in rectangle.contacts for each in contacts):
+            if contact not in found or contact.keeps_fields:
+                found[contact] = contact
+    return list(found.values())
+
+
+def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+    """Everything solved of some rectangles: a Dataset for each rectangle and solver, at /rectangle/solver."""
+    import xarray
+
+    answers = by_contact(outcomes)
+    parts = {
+        f"/{name}/{solver}": dataset
+        for name, rectangle in rectangles.items()
+        for solver, dataset in rectangle.datasets(answers).items()
+    }
+    return xarray.DataTree.from_dict(parts)
+
+
+def work_of(solver, scene):
+    """Cost of a contact in passes over a point of a grid, roughly."""
+    if isinstance(solver, MDR):
+        # As measured: a mode costs a tenth of all else.
+        each = solver.points * 5.0 * (1 + scene.solid.relaxation()[2].size / 10)
+    elif isinstance(solver, BEM):
+        each = solver.points**2.2 * 50.0
+    else:
+        return 1.0
+    return each * (solver.steps if isinstance(scene.motion, Program) else 1)

@@ -1,0 +1,413 @@
+"""Store: what has been solved, as lines of one file, named by everything that an answer depends on."""
+
+import errno
+import hashlib
+import io
+import json
+import math
+import os
+import re
+import tempfile
+from base64 import b64decode, b64encode
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from stat import S_ISREG
+from typing import IO, Any
+
+import numpy as np
+
+from scene import files
+
+from .outcome import NUMBERS, Outcome, Row
+from .task import Task
+
+try:
+    import fcntl
+except ImportError:  # Windows: two runs at once may solve a task twice
+    fcntl = None  # type: ignore[assignment]
+
+FILE = "answers.txt"
+TRACE = ".fault.txt"  # of how a task broke, behind its key
+PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
+# Of a file that is being written: name of the file, process, and some letters.
+TEMPORARY = re.compile(r"\..+\.([1-9][0-9]*)\.[a-z0-9_]{8}")
+DIGEST = 32  # letters of a digest
+SOURCES = {".py", ".json", ".gz"}  # what answers are made of
+HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
+# Of the file, of a line in it (a longer one is passed over), and of the fields of a task.
+MOST_BYTES, MOST_LINE, MOST_FIELDS = 2**34, 2**26, 2**32
+KINDS = "iufb"  # of the numbers of fields
+
+
+class Unwritable(OSError):
+    """A folder or a file cannot be written into; said before anything is solved."""
+
+
+class Store:
+    """A folder of outcomes, a line of its file each; fields, which are large, are files beside it.
+
+    Each line carries a digest: one that is damaged or cut off counts as absent and touches no other. Nothing is
+    ever changed in place, so that a kill costs at most the line that was being written.
+    """
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        self.path = folder / FILE
+        self._places: dict[str, tuple[int, int]] = {}
+        self._end = 0
+        self._file: int | None = None
+
+    def get(self, task: Task) -> Outcome | None:
+        """The stored outcome of a task by this code, or None: also for a task that keeps fields not there."""
+        name = key(task)
+        self._read_on()
+        if name not in self._places:
+            return None
+        try:
+            outcome = self._outcome(name, task.keeps_fields)
+            return outcome if task.fits(outcome) else None
+        # What something else has written here raises nearly anything.
+        except Exception:
+            return None
+
+    def put(self, task: Task, outcome: Outcome) -> None:
+        """Add an outcome. The folder must be open for `writing`.
+
+        Raises OSError, which names the file; TypeError, ValueError for what no file can hold.
+        """
+        name = key(task)
+        fields = _packed(outcome.fields) if outcome.fields or task.keeps_fields else None
+        line = _line(name, _text(task, outcome, fields))
+        if self._file is None:
+            with self.writing():
+                self._add(name, line, fields)
+        else:
+            self._add(name, line, fields)
+
+    def __len__(self) -> int:
+        """Number of outcomes, whatever code they are of."""
+        self._read_on()
+        return len(self._places)
+
+    def by_other_code(self, tasks: Iterable[Task]) -> int:
+        """Number of the tasks whose question other code has answered, and this code has not."""
+        self._read_on()
+        questions = {name[:DIGEST] for name in self._places}
+        return sum((name := key(task)) not in self._places and name[:DIGEST] in questions for task in tasks)
+
+    def trace(self, task: Task) -> Path:
+        """File with the traceback of a task that broke."""
+        return self.folder / f"{key(task)}{TRACE}"
+
+    @contextmanager
+    def writing(self, wait: Callable[[], bool] = lambda: True, say: Callable[[str], Any] = str) -> Iterator[bool]:
+        """The folder for this run alone; what a killed run left half written is cleared.
+
+        wait : called again and again while another run has the folder; it stops the waiting by False
+        say : is told what a person wants to know: that another run is waited for, or that nothing keeps it out
+
+        Gives whether the folder could be had. Raises OSError, which names the file.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with _named(self.path):
+            file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
+        try:
+            status = os.fstat(file)
+            if not S_ISREG(status.st_mode) or status.st_size > MOST_BYTES:
+                reason = f"is no regular file of at most {MOST_BYTES / 1e9:.3g} GB"
+                raise OSError(errno.EINVAL, reason, str(self.path))
+            had = _locked(file, wait, say)
+            if had:
+                self._file = file
+                self._mend()
+            yield had
+        finally:
+            self._file = None
+            os.close(file)
+
+    def _mend(self):
+        """Cut off a line without an end, which was being written as its run was killed."""
+        self._read_on()
+        if os.fstat(self._file).st_size > self._end:
+            with _named(self.path):
+                os.ftruncate(self._file, self._end)
+
+    def _add(self, name, line, fields):
+        if fields is not None:
+            write(self.folder / f"{name}.npz", lambda file: file.write(fields))
+        start = os.fstat(self._file).st_size
+        # Two ends of a line: where one is damaged, the other still keeps this line and the next apart.
+        written = line + b"\n\n"
+        with _named(self.path):
+            try:
+                if os.write(self._file, written) < len(written):
+                    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            except OSError:
+                with suppress(OSError):
+                    os.ftruncate(self._file, start)
+                raise
+
+    def _read_on(self):
+        """Find the lines that came since the last look; a line still being written is left for the next."""
+        try:
+            if self.path.stat().st_size == self._end:
+                return
+            with files.checked(self.path, MOST_BYTES).open("rb") as file:
+                file.seek(self._end)
+                while first := file.readline(MOST_LINE):
+                    last, end = first, self._end + len(first)
+                    while last and not last.endswith(b"\n"):
+                        last = file.readline(MOST_LINE)
+                        end += len(last)
+                    if not last:
+                        break
+                    if last is first and len(first) > HEAD:
+                        name = first[DIGEST + 1 : HEAD].decode(errors="replace")
+                        self._places[name] = self._end, len(first) - 1
+                    self._end = end
+        except (OSError, files.Unreadable):
+            return
+
+    def _outcome(self, name, keeps):
+        start, length = self._places[name]
+        with self.path.open("rb") as file:
+            file.seek(start)
+            line = file.read(length)
+        text = line[HEAD + 1 :]
+        if line != _line(name, text):
+            raise ValueError("the line is damaged")
+        content = json.loads(text, object_hook=_unnamed)
+        fields = {}
+        if keeps:
+            packed = files.content(self.folder / f"{name}.npz", MOST_FIELDS)
+            if _digest(packed) != content["fields"]:
+                raise ValueError("the fields are damaged")
+            fields = dict(zip(content["names"], _unpacked(packed), strict=True))
+        return Outcome(_rows(content), fields)
+
+
+def _locked(file, wait, say):
+    """Whether a file is locked for this process; the system gives it back however the process ends."""
+    if fcntl is None:
+        return True
+    told = False
+    while True:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return True
+        except BlockingIOError:
+            if not told:
+                say("another run solves in this folder: waiting for it")
+            told = True
+            if not wait():
+                return False
+        except OSError as error:
+            say(f"this folder cannot be locked ({error.strerror}), as on some network drives: run one at a time")
+            return True
+
+
+def key(task: Task) -> str:
+    """Name of a task's outcome: digest of its question, then of the code that answers it and of versions."""
+    return f"{_digest(canonical(task.question).encode())}-{_code_digest(tuple(task.packages))}"
+
+
+def _line(name, text):
+    covered = name.encode() + b" " + text
+    return _digest(covered).encode() + b" " + covered
+
+
+def _text(task, outcome, fields):
+    """An outcome as JSON: numbers of all rows in columns, bit for bit."""
+    rows = outcome.rows
+    measures = list(dict.fromkeys(name for row in rows for name in row.measures))
+    columns = [[getattr(row, name) for row in rows] for name in NUMBERS]
+    columns += [[row.measures.get(name, math.nan) for row in rows] for name in measures]
+    content = {
+        "label": task.label,
+        "rows": len(rows),
+        "numbers": b64encode(np.array(columns, "<f8").tobytes()).decode(),
+        "measures": measures,
+        "absent": [[k for k, row in enumerate(rows) if name not in row.measures] for name in measures],
+        "settings": [dict(row.settings) for row in rows],
+        "reasons": {k: row.reason for k, row in enumerate(rows) if row.reason is not None},
+    }
+    if fields is not None:
+        content |= {"names": list(outcome.fields), "fields": _digest(fields)}
+    return canonical(content).encode()
+
+
+def _rows(content):
+    count, measures = content["rows"], content["measures"]
+    numbers = np.frombuffer(b64decode(content["numbers"]), "<f8").reshape(len(NUMBERS) + len(measures), count)
+    columns = numbers.tolist()
+    taken = list(zip(measures, columns[len(NUMBERS) :], map(set, content["absent"]), strict=True))
+    if not all(isinstance(each, str) for each in (*measures, *content["reasons"].values())):
+        raise ValueError("a name or a reason is no text")
+    return tuple(
+        Row(
+            *(column[k] for column in columns[: len(NUMBERS)]),
+            {name: column[k] for name, column, absent in taken if k not in absent},
+            dict(content["settings"][k]),
+            content["reasons"].get(str(k)),
+        )
+        for k in range(count)
+    )
+
+
+def _packed(fields):
+    """Fields as the bytes of a NumPy archive, named by their number. Raises TypeError for what it cannot hold."""
+    arrays = {name: np.asarray(values) for name, values in fields.items()}
+    for name, values in arrays.items():
+        if values.dtype.kind not in KINDS:
+            raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
+    packed = io.BytesIO()
+    np.savez(packed, **{f"{k}": values for k, values in enumerate(arrays.values())})
+    return packed.getvalue()
+
+
+def _unpacked(packed):
+    """The arrays of an archive of `_packed`, in their order. Raises nearly anything of another archive."""
+    with np.load(io.BytesIO(packed), allow_pickle=False) as kept:
+        if sum(member.file_size for member in kept.zip.infolist()) > len(packed):
+            raise ValueError("it unpacks to more than it takes")
+        arrays = [kept[f"{k}"] for k in range(len(kept.files))]
+    if any(values.dtype.kind not in KINDS for values in arrays):
+        raise ValueError("fields are numbers")
+    return arrays
+
+
+def stored_size(task: Task, outcome: Outcome) -> int:
+    """Bytes that an outcome takes in a store."""
+    fields = _packed(outcome.fields) if outcome.fields or task.keeps_fields else None
+    return len(_line(key(task), _text(task, outcome, fields))) + len(fields or b"")
+
+
+def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
+    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
+
+    Raises OSError, which names the file.
+    """
+    _clear(path.parent)
+    with _named(path):
+        if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
+            raise OSError(errno.EINVAL, "is no regular file, and is not written over")
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.{os.getpid()}.")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                fill(file)
+            os.chmod(name, 0o644)
+            os.replace(name, path)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(name)
+            raise
+
+
+def make(folder: Path) -> None:
+    """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with _named(folder), tempfile.TemporaryFile(dir=folder):
+        pass
+
+
+@contextmanager
+def _named(path):
+    """Errors of the system name the file that a person knows."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+@cache
+def _clear(folder: Path) -> None:
+    """Clear a folder of what processes left that ended while they wrote; once a process."""
+    for path in folder.glob(".*"):
+        if (left := TEMPORARY.fullmatch(path.name)) and _ended(int(left[1])):
+            with suppress(OSError):
+                path.unlink()
+
+
+def _ended(process):
+    """Whether a process has ended, as far as this machine knows."""
+    if os.name != "posix":
+        return False
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return True
+    except PermissionError:
+        pass
+    return False
+
+
+def canonical(value: Any) -> str:
+    """JSON that is the same for equal values on every platform; numbers that JSON lacks are named."""
+    try:
+        return _json(value)
+    except ValueError:
+        return _json(_finite(value))
+
+
+def _json(value):
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _finite(value):
+    if isinstance(value, float) and not math.isfinite(value):
+        return {"not finite": repr(value)}
+    if isinstance(value, Mapping):
+        return {name: _finite(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    return value
+
+
+def _unnamed(value):
+    return float(value["not finite"]) if value.keys() == {"not finite"} else value
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:DIGEST]
+
+
+def code_digest(folder: Path) -> str:
+    """Digest of every source below a folder, what was measured included, or of one file: names and content."""
+    files = (path for path in folder.rglob("*") if path.suffix in SOURCES)
+    sources = {path.relative_to(folder).as_posix(): path for path in files}
+    whole = hashlib.sha256()
+    for name, path in sorted(sources.items() if folder.is_dir() else [(folder.name, folder)]):
+        content = path.read_bytes()
+        whole.update(f"{name}\0{len(content)}\0".encode())
+        whole.update(content)
+    return whole.hexdigest()
+
+
+def code_of(packages: Sequence[str]) -> dict[str, dict[str, str]]:
+    """Digests of the code of packages, and versions."""
+    return {"code": {name: _package_digest(name) for name in packages}, "versions": _versions()}
+
+
+@cache
+def _code_digest(packages):
+    return _digest(canonical(code_of(packages)).encode())
+
+
+@cache
+def _versions():
+    return {package: version(package) for package in PACKAGES}
+
+
+@cache
+def _package_digest(package):
+    """Read once a process: the code that runs is the code that was imported."""
+    spec = find_spec(package)
+    return code_digest(
+        Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
+    )

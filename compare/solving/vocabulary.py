@@ -1,0 +1,365 @@
+"""Vocabulary of the judge: unit and definition of every variable of a Dataset and every column of a table."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from scene import Scene
+from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
+
+from .docstrings import documented
+
+
+@dataclass(frozen=True)
+class Term(Entry):
+    """Entry with its formula in LaTeX, and the equation of the theory or of the paper that it comes from."""
+
+    formula: str = ""
+    source: str = ""
+
+
+# Words of the judge: a line is "name : text [unit] | formula | source", without what is not there.
+_WORDS = r"""
+Of Datasets: coordinates, and what scene.vocabulary has under another name.
+grid : Which grid of the solver: fine, as the settings say, or coarse, with half the points a side.
+points : Points of the grid along a side. [1]
+speed : Speed of sliding that was prescribed, or rate of pressing in; 0 is rest. [m/s]
+depth : Depth that was prescribed, above zero into the elastomer. [m]
+draw : Seed of the rough surface. [1]
+status : Whether a contact was solved, has no contact, failed, or was not asked for.
+reason : Why a solve failed; empty where it did not.
+
+Of hard cases and of stored quantities.
+check : Number measured of a hard case, which must not exceed its bound.
+found : Number of a check; of a refusal, how many of the words it must say are missing. [1]
+allowed : Bound of a check, from the law of the case. [1]
+message : Error that came of what must be refused; in brackets what came instead of one.
+quantity : Name of a ratio of two answers to one question.
+side : Which of the two answers: numerator or denominator of the ratio.
+measured : Number of one answer that a ratio is made of, in its SI unit.
+stored : Ratio as the baseline has it. [1]
+
+Of solids.
+omega : Angular frequency. [rad/s]
+storage : Storage modulus G' in shear. [Pa]
+loss : Loss modulus G'' in shear. [Pa]
+modulus : Relaxation modulus G(t) in shear. [Pa]
+compliance : Creep compliance J(t) in shear. [1/Pa]
+
+Of findings.
+claim : Name of the claim, which never changes.
+sentence : The claim in words.
+meaning : How the number is measured, and what a deviation from it says.
+where : Case, series or diagram in which it was measured.
+dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
+    corrected: over the ratio that the trust map foretells.
+verdict : holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it does;
+    undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value
+    the verdict is whether the number is within its bound.
+value : Number measured, in brackets its interval of 95 %: scatter of surfaces, wider at both ends by the error of
+    the grid.
+low : Lower end of the interval of 95 %: scatter of surfaces, widened by the error of the grid.
+high : Upper end of the interval of 95 %: scatter of surfaces, widened by the error of the grid.
+unit : Unit of the number; 1 of a ratio.
+expected : Number that is claimed.
+tolerance : How far from the number claimed still counts as it.
+scatter_low : Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
+scatter_high : Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
+grid_error : Error of discretisation, by which the interval is wider at both ends.
+grid_method : How the error of the grid is known: change on halving the points, extrapolated, exact, or unknown.
+draws : Number of rough surfaces behind a number; 0 of smooth bodies. [1]
+regime : Range of the dimensionless groups in which a number was measured.
+plot : Figure that shows it.
+
+Of the trust map: ratios of 1D over 3D, foretold and measured.
+advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D;
+    none beyond every linear theory.
+surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none where
+    one surface says nothing. [1]
+surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none
+    where one surface says nothing. [1]
+group : Name of a dimensionless group of a rough scene.
+groups : Dimensionless groups, logarithms but for shape, prescribed, hurst and shares. [1]
+point : Number of a scene in the design of the campaign. [1]
+logarithm : Logarithm of the ratio of the means in 1D and in 3D. [1]
+line_error : Relative standard error of the mean over profiles in 1D. [1]
+smooth : Logarithm of the ratio of the smooth body. [1]
+
+Of points, and of curves through them.
+solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
+    boundary elements, 3D. exact: closed form.
+body : Rough, or smooth: the same body without its roughness.
+curve : Curve that a point belongs to.
+friction : Coefficient of friction: mean friction force over mean normal force. [1] | \mu = F_x/F_N | theory, Eq. 2
+friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
+
+Of what accuracy costs: laws of cost, forecasts, surfaces on several grids, and what an error asks for.
+kind : Kind of forecast: a held-out cost, or the largest grid that fits.
+what : Thing forecast, in words.
+held : Whether a forecast held: the cost found lies in its interval.
+cost : Cost that a law describes: time, memory or operator applications.
+variable : Column of the table of steps that holds the cost.
+overhead : Part of the cost that does not grow, in its unit.
+centre : Points at which the factor of the law is the cost above its overhead. [1]
+scatter : Relative scatter: of costs about their law, or of one surface about the mean. [1]
+lowest : Fewest points that the law was fitted to. [1]
+highest : Most points that the law was fitted to. [1]
+least : Least cost of a ladder without a law, in its unit.
+most : Greatest cost of a ladder without a law, in its unit; of an interval, its upper end.
+at_most : Points at which the cost of a ladder without a law is greatest. [1]
+along : Setting that grows from step to step.
+bytes_a_point : Memory over the points of the grid. [B]
+seconds_an_application : Processor time over operator applications. [s]
+over_limit : Processor time over that of the Fourier products alone. [1]
+stored_bytes : Size of the file that holds the answer. [B]
+wanted : Relative error that is wanted. [1]
+model : Dimensionality that reaches the error in the least time.
+settings : Settings that reach the error.
+best_known : Least relative error that was reached. [1]
+floor : Relative error that is left however fine the settings are. [1]
+converges : Whether the error falls without end as settings become finer.
+truth : Best estimate of the true answer, in its unit.
+scale : Number that errors are relative to, in the unit of the answer.
+truth_standard_error : Standard error of the best estimate over surfaces, relative. [1]
+truth_freedom : Degrees of freedom of that standard error. [1]
+truth_grid_error : Error of discretisation of the best estimate, relative. [1]
+plan : Sampling plan: points a side, or two grids of which the coarser has most surfaces.
+coarser_points : Points a side of the coarser of two grids; 0 without one. [1]
+bias : Relative error that more surfaces do not take away. [1]
+setup : Processor time before the first surface: that of the trust map. [s]
+scatter_freedom : Degrees of freedom of the scatter. [1]
+failed : Solves that ended with an error. [1]
+first_surfaces : Surfaces on the coarser grid of a plan. [1]
+cheapest : Whether the plan reaches the error in the least time of all.
+reached : Mean depth that was reached, above zero into the elastomer. [m]
+surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
+failures : Solves that ended with an error and are left out of the means. [1]
+drag : Friction over real contact, over that under the least load. [1]
+contact_law : Real contact over that under the least load, by the paper. [1] |  | Popov et al. 2014, Eq. 17
+drag_law : Friction over real contact, likewise. [1]
+slope_law : Rms slope of what touches, likewise. [1]
+contact : Real contact, where pressure is not zero: a length [m] in 1D, an area [m²] in 3D.
+friction_spread : Friction by traction less friction by energy lost, over the friction force, mean over surfaces.
+    [1] | \lvert F_\mathrm{traction} - F_\mathrm{loss}\rvert/\lvert F_x\rvert | theory, Eq. 5d
+log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1] |  | Popov et al. 2014, Eq. 23
+log_lift : Shift of a curve along ln mu, beside that along ln F_N, onto the common curve. [1]
+log_time_shift : Shift ln a_T of a temperature along ln v, by which its friction is that of the reference. [1] |
+    \ln a_T | theory, Eq. 21
+reduced_speed : Speed times a_T, the shift of its temperature. [m/s] | v\,a_T | theory, Eq. 21
+law : Law of the shifts with the temperature: WLF or Arrhenius.
+shifted_force : Normal force times the shift of its curve. [N]
+shifted_friction : Friction coefficient times the shift of its curve along friction. [1]
+curves : Set of curves that are shifted onto one.
+power : Power of the speed: fitted to the shifts, expected, or that of a law.
+exponent : Exponent of a power of the speed. [1]
+misfit : Rms of ln mu about one curve, without what scatter adds. [1]
+decided : Whether the shifts mean anything: not where curves do not collapse, nor where they part.
+shifted_as : Whether a figure shows curves shifted as fitted, or as expected.
+reference_speed : Speed whose curve is not shifted. [m/s]
+degree : Degree of the common polynomial. [1]
+holds : Whether every condition of the laws holds at a point.
+
+Of measured maps.
+q : Wave number; of a ring, the mean of its waves. [rad/m]
+density_2d : Two-sided spectral density C_2D, mean over directions. [m⁴]
+density_1d : Two-sided spectral density C_1D of the line scans along x, mean over the rows. [m³]
+density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_\mathrm{1D} = \pi q\,C_\mathrm{2D}
+waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
+in_band : Whether a wave number lies in the band in which the power law was fitted.
+ratio : Number in one dimension over that in three. [1]
+friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map foretells it. [1]
+depth_ratio : Depth in one dimension over that in three, as the trust map foretells it. [1]
+force_ratio : Normal force in one dimension over that in three, as the trust map foretells it. [1]
+deviation : Number in one dimension over that in three, less one. [1]
+v_tau_over_a : Speed times retardation time over the radius of the smooth relaxed contact. [1]
+friction_over_slope : Friction over the slope of the body at the edge of the contact. [1]
+friction_over_slope_low_speed : Friction over the slope of the body at the edge of the contact, to first order in
+    the speed. [1]
+eq_19 : Coefficient of friction of Eq. 19 at the same load and speed, in one dimension. [1]
+indenter : Height of the rigid indenter above the undeformed surface. [m]
+surface : Height of the surface of the elastomer above the undeformed one. [m]
+touching : Whether indenter and elastomer touch.
+line_force_1d : Force per length of the springs, mean over a strip along x. [N/m]
+line_force_3d : Pressure integrated over y, mean over a strip along x. [N/m]
+
+Of series of contacts, and of the figures of a study.
+off_curve : ln of friction less that of the common curve at the shifted force. [1]
+rms : rms of ln of friction about the common curve, with scatter of surfaces. [1]
+points_left_out : Points that were not fitted, as fewer than half of the surfaces have an answer. [1]
+surfaces_left_out : Surfaces that were not fitted, as a solve failed at some point that is. [1]
+theory : ln of the shift p(v) that the loss at the shortest wave predicts. [1] |  | Popov et al. 2014, Eq. 22
+rough : Depth [m] under the load, or force [N] at the depth, of the rough body at rest.
+closed_form : Depth [m] or force [N] of the smooth body in closed form.
+rough_deviation : rough less closed_form: of depths over the rms height, of forces over closed_form. [1]
+smooth_deviation : smooth less closed_form: of depths over the rms height, of forces over closed_form. [1]
+difference : 1D less 3D: of depths over the closed form, of forces over that in 3D. [1]
+rough_difference : Force on the rough body in 1D over that in 3D, less one. [1]
+smooth_difference : Force on the smooth body in 1D over that in 3D, less one. [1]
+stiffness : Difference of forces over difference of depths, between neighbouring contacts. [N/m]
+rate : Rate of pressing in. [m/s]
+smooth_normal_force : Normal force on the body without its roughness. [N]
+friction_1d_over_3d : Coefficient of friction in 1D over that in 3D. [1]
+friction_over_plateau : Friction over that of the plateau. [1] | \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
+contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]
+contact_over_period : Diameter of the smooth relaxed contact over the period of the roughness. [1]
+fails : Number of findings that fail. [1]
+undecided : Number of findings that are undecided. [1]
+series : Title of the series.
+shape : Shape of the bodies.
+
+Dimensionless groups.
+depth_over_height : Depth of the smooth relaxed contact over the rms height of the roughness. [1] | d/h_0
+shortest_in_contact : Radius of the smooth relaxed contact times the highest wave number of the roughness. [1] | a
+    q_s
+pressure_over_slope : Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D. [1] |
+    F_N/(\pi a^2 E^* h^{\prime})
+memory_over_contact : Length slid in the mean lag τ of the solid over the radius of the contact. [1] | v\tau/a
+memory_over_shortest : Length slid in the mean lag τ times the highest wave number. [1] | v\tau q_s
+xi : Variable of the law; friction over its plateau in the limit of low speed. [1] | \xi = \frac{v\tau s}{\sqrt{2}}
+    \left(\frac{8 G_0}{F_N}\right)^{n/(n+1)} \left(\frac{n+1}{c n}\right)^{1/(n+1)} | Popov et al. 2014, Eq. 18
+normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1] |
+    \tilde\mu = \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
+alpha : Exponent of the law that joins low speed and plateau. [1] |
+    \tilde\mu = (1 + \xi^{-\alpha})^{-1/\alpha} | Popov et al. 2014, Eq. 19
+
+Of cost and accuracy.
+relative_error : Error of a quantity against a closed form, or against a far finer solution whose own error is
+    stated. [1] | \lvert y/y_\mathrm{true} - 1\rvert
+reference_error : Relative error of the reference; what is at or below it is only known to be as good as that. [1]
+processor : Processor time of one thread from the scene to the result: the least of several repeats, each alone in
+    a process that has loaded compiled code. [s]
+wall : Least time of repeated solves by the clock. [s]
+memory : By how much a solve raises the peak memory of its process. [B]
+order : Power of the setting with which the error falls. [1]
+change : Relative change of a quantity from half the points to all. [1]
+padded_product : Least processor time of one product in Fourier space, padded with zeros. [s]
+plain_product : Least processor time of one product in Fourier space. [s]
+repeats : How often the solve was repeated. [1]
+
+Of the paper.
+contact_span : Distance from the first to the last point of real contact. [m]
+sweeps : Sweeps along the profile. [1]
+study : Parameter that is varied while all others are held.
+step : Number of the value of the parameter. [1]
+parameter : Value of the parameter that is varied, in its SI unit; angles in radians.
+hurst : Hurst exponent of the roughness. [1]
+macroscopic_modulus : Modulus on the scale of the contact over the static one. [1] | \lvert G(v/a)\rvert/G_0
+points_fitted : Points that a straight line through the logarithms was fitted to.
+slope : Slope of the line, the exponent of ξ. [1]
+factor : Factor of the power law. [1]
+worst : Largest deviation of μ̃ from ξ, relative. [1]
+deviation_from_eq_19 : Deviation of μ̃ from Eq. 19 with α = 1.5, relative. [1]
+normalised_friction_of_planes : μ̃ where every place of the contact is a rough plane. [1]
+alpha_of_planes : Best α where every place of the contact is a rough plane. [1]
+farthest_from_best_fit : Deviation of the farthest point from Eq. 19 with the best α, relative. [1]
+plateau : μ̃ at the greatest ξ over Eq. 19 there. [1]
+loss_exponent : Power β of the frequency with which the loss modulus grows. [1]
+relaxation_time : Time τ of the elastomer. [s]
+simulated : Coefficient of friction, mean over profiles. [1]
+smooth : Coefficient of friction of the smooth body. [1]
+shortest_wave : Coefficient of friction of Eq. 22 with the loss of the shortest wave. [1]
+every_wave : Coefficient of friction of Eq. 22 with the loss of every wave at its own frequency. [1]
+every_wave_and_smooth_body : Friction of Eq. 22 with the loss of every wave and of the smooth body. [1]
+smooth_half_width : Half of the width of the smooth contact at rest. [m]
+smooth_depth : Depth of the smooth contact at rest. [m]
+conditions_broken : Conditions of the laws that break.
+rubber : Number of the elastomer in the study of loss moduli.
+angle : Angle of the side of the cone against the plane. [rad]
+radius : Radius of the sphere. [m]
+modulus : Static shear modulus of the elastomer. [Pa]
+profiles : Number of rough profiles over which a mean is taken. [1]
+count : Number of contacts behind a mean. [1]
+alpha_by_logarithms : Best α by deviations of the logarithm of μ̃. [1]
+alpha_by_differences : Best α by deviations of μ̃ itself. [1]
+alpha_by_chi_square : Best α by deviations over the scatter of profiles. [1]
+alpha_by_worst_point : Best α by the deviation of the farthest point. [1]
+least_modulus : Least modulus on the scale of the contact over the static one. [1]
+greatest_modulus : Greatest modulus on the scale of the contact over the static one. [1]
+exponent_expected : Power of the speed in the shift of Eq. 23. [1]
+exponent_whole : Power of the speed in the shifts of the whole friction. [1]
+exponent_excess : Power of the speed in the shifts of the friction beyond that of the smooth body. [1]
+exponent_of_shortest_wave : Power of the speed in the shifts of Eq. 22 with the shortest wave. [1]
+exponent_of_every_wave : Power of the speed in the shifts of Eq. 22 with every wave. [1]
+exponent_of_every_wave_and_smooth_body : Power of the speed in the shifts of Eq. 22 with every wave and the smooth
+    body. [1]
+collapse_whole : Misfit of the curves of the whole friction about one curve. [1]
+collapse_excess : Misfit of the curves of the friction beyond that of the smooth body. [1]
+
+Of accuracy and cost.
+ladder : Settings of one solver, each finer than the one before.
+setting : Number that is refined along the ladder: points, or steps in time. [1]
+steps : Number of settings of a ladder, or of steps in time. [1]
+constant : Factor of the power law of the error. [1]
+standard_error : Standard error of the order. [1]
+estimate : Error that the solver itself expects. [1]
+precision : Floating-point numbers of the solve: single or double.
+extent : Side of the grid over the width of the contact. [1]
+reference : Solution that errors are measured against.
+"""
+
+
+def _term(line: str) -> Term:
+    said, formula, source = (*line.split(" | "), "", "")[:3]
+    text, unit = re.fullmatch(r"(.*?)(?: \[([^\]]*)\])?", said).groups("")
+    return Term(unit, text, formula=formula, source=source)
+
+
+LABELS: Mapping[str, Entry] = {
+    **{name: _term(line) for name, line in documented(_WORDS)[1].items()},
+    "load": Entry("N", "Normal force that was prescribed.", along_line="N/m"),
+    "force": Entry("N", "Mean normal force.", along_line="N/m"),
+    "depth_reached": NUMBERS["depth"],
+}
+
+# What an ending adds to the meaning of a name.
+ENDINGS = {
+    "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
+    "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
+    "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",
+    "_deviation": "Standard deviation of one surface. ",
+    "_surface": "Of one surface, not of the mean. ",
+    "_corrected": "Corrected by the trust map. ",
+    "_least": "Lower end of the interval of 95 %. ",
+    "_most": "Upper end of the interval of 95 %. ",
+    "_1d": "In one dimension (MDR). ",
+    "_3d": "In three dimensions (BEM). ",
+}
+
+
+def stem(name: str) -> str:
+    """Name that an entry is found under: without its ending where the whole has none."""
+    for ending in ENDINGS:
+        if name.endswith(ending) and _entry(name) is None:
+            return stem(name.removesuffix(ending))
+    return name
+
+
+def entry(name: str) -> Term | None:
+    """Entry of a name, of the judge first and then of the solvers; None of a name that explains itself."""
+    whose = stem(name)
+    found = _entry(whose)
+    if found is None or whose == name:
+        return found
+    said = "".join(text for ending, text in ENDINGS.items() if ending in name.removeprefix(whose))
+    return replace(found, text=said + found.text)
+
+
+def _entry(name):
+    found = LABELS.get(name) or NUMBERS.get(name) or MEASURES.get(name) or FIELDS.get(name)
+    return Term(**vars(found)) if found else None
+
+
+def head(name: str) -> str:
+    """Name of a column in words, with its unit."""
+    found, plain = entry(name), name.replace("_", " ")
+    return plain if found is None or found.unit in ("", "1") else f"{plain} [{found.unit.replace('^2', '²')}]"
+
+
+def attributes(name: str, scene: Scene | None = None) -> dict[str, str]:
+    """Attributes of a variable of a Dataset: units, long name and definition."""
+    found, plain = entry(name), name.replace("_", " ")
+    if found is None:
+        return {"long_name": plain}
+    indenter = "" if scene is None else scene.indenter.type
+    said = {"units": found.unit_under(indenter), "long_name": plain, "comment": found.text}
+    return {name: text for name, text in said.items() if text}

@@ -1,0 +1,1 @@
+"""A scene that moves: crosscheck animate."""

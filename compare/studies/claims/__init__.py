@@ -1,0 +1,1 @@
+"""The paper's claims on many contacts: crosscheck study."""

@@ -1,0 +1,188 @@
+"""Claims that studies judge, each by its id, and what measures them: powers, geometric means, places along xi."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import nan
+from typing import Any
+
+import numpy as np
+
+from ...statistics.finding import BOTH, Claim
+
+# How far from what is claimed still counts as it: what a reader of a diagram over decades of friction would not
+# see, and less than what any measured roughness is known to.
+TOLERANCE = 0.05
+# How close theory and solution are where theory is exact.
+CLOSED = 0.01
+_RATIO = "Ratio of the coefficients, 1D over 3D, geometric mean over the loads or depths."
+_PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
+_REST_DEPTH = (
+    "the depth under a load is the same in 1D and 3D",
+    "rms over loads of the difference of depths, over that of the smooth body.",
+)
+_REST_FORCE = "the force at a depth is the same in 1D and 3D", "rms over depths of ln of the ratio of forces."
+_DEEP, _SHALLOW = "At rest, rough, h0 at most 0.1 d", "At rest, rough, h0 above 0.1 d"
+# Sentence and meaning of each claim by its id; by the number claimed, NaN where it differs from place to place,
+# and by how far from it still counts.
+_TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
+    (nan, TOLERANCE): {
+        "eq17.speed-exponent": (
+            "Eq. 17: at low speed friction grows with the speed as the loss at the shortest wave does",
+            "d ln mu / d ln v between the two slowest speeds, mean over the loads or depths.",
+        ),
+        "eq17.load-exponent": (
+            "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))",
+            "d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law leaves out "
+            "the slope of the macroscopic shape.",
+        ),
+    },
+    (nan, 2 * TOLERANCE): {
+        "why17.contact-exponent": (
+            "Behind Eq. 17: real contact grows with the load as the nominal contact does",
+            "d ln of the length of real contact (1D), or of its area (3D), over d ln F_N, at the slowest speed, "
+            "least squares over the loads or depths. The paper takes contact for full, and its length for 2a.",
+        ),
+    },
+    (0.0, 2 * TOLERANCE): {
+        "why17.drag-exponent": (
+            "Behind Eq. 17: friction over the real contact is the same at every load",
+            "d ln of the friction force over the length (1D) or area (3D) of real contact, over d ln F_N, at the "
+            "slowest speed, least squares over the loads or depths. With the exponent of the contact it makes up "
+            "that of friction.",
+        ),
+        "why17.slope-exponent": (
+            "Behind Eq. 17: what touches is as steep at every load",
+            "d ln of the rms slope over the real contact, over d ln F_N, at the slowest speed, least squares over "
+            "the loads or depths.",
+        ),
+        "eq19.law": (
+            "Eq. 19: friction follows the law at all speeds and loads",
+            "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
+        ),
+        "eq18.one-curve": (
+            "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
+            "rms of ln mu about one curve through all points of several series, none shifted, without what "
+            "scatter adds.",
+        ),
+    },
+    (1.0, TOLERANCE): {
+        "eq17.level": (
+            "Eq. 17: friction at low speed has the level of the law",
+            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope as "
+            "this dimensionality has it and every wave taken for the shortest.",
+        ),
+        "limit.slow": (
+            "Friction at the slowest speed is that of the exact limit of low speed",
+            "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
+            "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads "
+            "or depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
+            "friction is found by that mean where the contact trails by less than a quarter of a pixel "
+            "(docs/explanation/theory.md, Eq. 5e): the check is then of the pressure found in sliding.",
+        ),
+        "eq14.plateau": (
+            "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
+            "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or "
+            "depths at which xi is large.",
+        ),
+        "eq19.level": (
+            "Eq. 19: friction at the knee has the level of the law",
+            "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1, geometric mean over the "
+            "loads or depths.",
+        ),
+        "eq14.slope-exponent": (
+            "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
+            "at which all are at that limit, but for what Eq. 19 still lacks of it.",
+        ),
+        "pair.friction-slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
+        "pair.friction-knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
+        "pair.friction-fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
+        "pair.smooth": (
+            "Smooth, at the slowest speed: friction in 1D is that in 3D",
+            f"{_RATIO} It tends to 2 as the speed tends to zero.",
+        ),
+    },
+    (2.0, 2 * TOLERANCE): {
+        "eq17.slope-exponent": (
+            "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
+            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
+            "at which all are at that limit, but for what Eq. 19 still lacks of it.",
+        ),
+    },
+    (0.0, TOLERANCE): {
+        "eq14.load-exponent": (
+            "Eq. 14: at high speed friction does not depend on the load",
+            "d ln mu / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
+            "depths at which xi is large.",
+        ),
+        "eq19.load-exponent": (
+            "Eq. 19: at the knee friction falls with the load as the law does",
+            "d ln mu / d ln F_N at the speed at which xi is closest to 1, less that of the law there, least "
+            "squares over the loads or depths.",
+        ),
+        "rest.depth-deep": (f"{_DEEP}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
+        "rest.depth-shallow": (f"{_SHALLOW}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
+        "rest.force-deep": (f"{_DEEP}: {_REST_FORCE[0]}", _REST_FORCE[1]),
+        "rest.force-shallow": (f"{_SHALLOW}: {_REST_FORCE[0]}", _REST_FORCE[1]),
+        "rest.stiffness": (
+            "At rest, rough: the stiffness is the same in 1D and 3D",
+            "rms over neighbouring loads or depths of ln of the ratio of dF/dd.",
+        ),
+        "pressed-in.slow": (
+            "Pressed in at the slowest rate, rough: the force at the greatest depth is the same in 1D and 3D",
+            _PRESSED,
+        ),
+        "pressed-in.fast": (
+            "Pressed in at the fastest rate, rough: the force at the greatest depth is the same in 1D and 3D",
+            _PRESSED,
+        ),
+    },
+    (0.0, CLOSED): {
+        "smooth.rest-depth": (
+            "Smooth bodies at rest have the depth of Galin and Sneddon",
+            "rms over the loads of the relative deviation from the closed form.",
+        ),
+        "smooth.rest-force": (
+            "Smooth bodies at rest have the force of Galin and Sneddon",
+            "rms over the depths of the relative deviation from the closed form.",
+        ),
+        "smooth.pressed-in": (
+            "Smooth bodies pressed into a viscoelastic solid have the force of Lee and Radok",
+            "rms over rates and depths of the relative deviation from the closed form at the depth reached.",
+        ),
+    },
+}
+CLAIMS = {
+    name: Claim(name, sentence, expected, tolerance, meaning)
+    for (expected, tolerance), texts in _TEXTS.items()
+    for name, (sentence, meaning) in texts.items()
+}
+
+
+def claim(name: str, measure: Callable[[Any], Any], dimension: str = BOTH, expected: float | None = None) -> Claim:
+    """Claim of an id with what measures it in one place.
+
+    expected : number that the law has there; that of the claim if absent
+    """
+    found = CLAIMS[name]
+    number = found.expected if expected is None else expected
+    return replace(found, measure=measure, dimension=dimension, expected=number)
+
+
+def power(abscissae: np.ndarray, values: np.ndarray) -> float:
+    """d ln y / d ln x, least squares; NaN where any of them has no logarithm."""
+    x, y = np.log(abscissae), np.log(values)
+    lever = x - x.mean()
+    return float(lever @ y / (lever @ lever))
+
+
+def geometric(ratios: np.ndarray) -> float:
+    """Geometric mean."""
+    return float(np.exp(np.mean(np.log(ratios))))
+
+
+def at_xi(values: np.ndarray, words: str) -> str:
+    """Regime in words, behind the range of xi in which a number was measured."""
+    known = np.asarray(values)[np.isfinite(values)]
+    reached = f"{known.min():.2g} to {known.max():.2g}" if known.size else "unknown"
+    return f"xi {reached}; {words}"

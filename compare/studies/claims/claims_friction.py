@@ -1,0 +1,193 @@
+"""Claims on friction of one series: laws in each dimensionality, one against three, shifts onto one curve."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+from math import nan
+
+import numpy as np
+
+from ...solving.parameter_grid import COARSE, FINE
+from ...statistics import eq23
+from ...statistics.collapse import Collapse, collapse
+from ...statistics.finding import UNDECIDED, Claim, Finding
+from ...statistics.frictioncurves import SimulatedCurves
+from ...statistics.jackknife import friction, mean, mean_ratio, measured
+from .claims import at_xi, claim, geometric, power
+from .laws import Laws, slow_drag
+from .series import CONTACT, ROUGH, SMOOTH, SOLVERS, Contacts, sliding
+
+# Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is
+# off its limit by less than the tolerance. Above FAST Eq. 19 is within 12 % of its plateau.
+SLOW, FAST = 0.1, 3.0
+# Ratio of xi to 1, or of 1 to xi, up to which the closest speed is at the knee.
+AT_THE_KNEE = 3.0
+
+
+def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
+    """Findings on a series that slides, except those on the shifts of its curves."""
+    found = []
+    for solver, dimension in SOLVERS.items():
+        words = laws[solver].words
+        for name, measure, xi, expected in _one_sided(contacts.series, solver, laws[solver]):
+            each = claim(name, partial(_of_one, measure, solver), dimension, expected)
+            regime = words if xi is None else at_xi(xi, words)
+            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name[:3] == "why" else "levels"
+            found.append(finding(each, contacts, ROUGH, regime, solver, plot=plot))
+    words = laws["BEM"].words
+    for name, place in _places(laws["BEM"]):
+        regime = at_xi(laws["BEM"].xi[place], words)
+        found.append(finding(claim(name, partial(_ratio, place)), contacts, ROUGH, regime))
+    return [*found, finding(claim("pair.smooth", partial(_ratio, 0)), contacts, SMOOTH, words)]
+
+
+def _of_one(measure, solver, sample):
+    return measure(sample[solver])
+
+
+def _ratio(place, sample):
+    """Friction in 1D over 3D at a speed, geometric mean over the loads or depths."""
+    one, three = (friction(sample[solver])[1:][place] for solver in SOLVERS)
+    return geometric(one / three)
+
+
+def finding(
+    each: Claim, contacts: Contacts, body: str, regime: str, *solvers: str, plot: str = "levels"
+) -> Finding:
+    """Finding of a claim on one body of a series.
+
+    solvers : those whose surfaces are left out; both if absent
+    plot : name of the plot that shows it, in the folder of the series
+    """
+    fine, coarse = (contacts.sample(grid, body, *(solvers or SOLVERS)) for grid in (FINE, COARSE))
+    return measured(each, fine, coarse, contacts.series.name, regime, f"{contacts.series.folder}/{plot}")
+
+
+def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray | None, float | None]]:
+    """Claims of the paper on friction in one dimensionality.
+
+    Each by its id, with what measures it on the answers of the solver, xi where it is measured, and the number
+    that the law has there; None of a law at all points, and of the number of the claim itself.
+    """
+
+    def mu(answers):
+        return friction(answers)[1:]
+
+    def xi(answers):
+        return laws.xi_under(mean(answers, "normal_force")[1:])
+
+    def over_law(answers):
+        return mu(answers) / laws.law_of(xi(answers))
+
+    def against_load(answers, values, place, chosen=slice(None)):
+        return power(mean(answers, "normal_force")[1:][place][chosen], values[chosen])
+
+    def speed_exponent(answers):
+        slow, next_to_it = mu(answers)[:2]
+        return float(np.mean(np.log(next_to_it / slow)) / np.log(series.speeds[1] / series.speeds[0]))
+
+    def with_load(quantity):
+        return lambda it: power(mean(it, "normal_force")[1], quantity(it))
+
+    def over_limit(answers):
+        rest = answers.isel(speed=0)
+        force = rest["normal_force"].transpose(..., "draw").values
+        limit = series.speeds[0] * mean_ratio(slow_drag(series.scene.solid, solver, rest), force).value
+        return geometric(mu(answers)[0] / limit)
+
+    slowest, fast = laws.xi[0], laws.xi[-1] >= FAST
+    known = slowest[np.isfinite(slowest)]
+    if len(laws.speeds) > 1 and laws.slowest_loss <= SLOW and known.size and known.max() <= SLOW:
+        yield "eq17.speed-exponent", speed_exponent, slowest, float(laws.loss_exponent[0])
+        if len(series.values) > 1:
+            exponent = laws.exponent_of_load
+            yield "eq17.load-exponent", with_load(lambda it: mu(it)[0]), slowest, exponent
+            for name, (variable, below) in behind(solver).items():
+                law = nominal_exponent(solver, exponent) if name == "contact" else None
+                measure = with_load(partial(_slowest, variable, below))
+                yield f"why17.{name}-exponent", measure, slowest, law
+        yield "eq17.level", lambda it: geometric(mu(it)[0] / (laws.plateau * xi(it)[0])), slowest, None
+        # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
+        if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
+            yield "limit.slow", over_limit, slowest, None
+    if (knee := _closest_to_one(laws)[1]) is not None:
+        yield "eq19.level", lambda it: geometric(over_law(it)[knee]), laws.xi[knee], None
+        if len(series.values) > 1:
+            yield "eq19.load-exponent", lambda it: against_load(it, over_law(it)[knee], knee), laws.xi[knee], None
+    if fast.any():
+        reached = laws.xi[-1][fast]
+        yield "eq14.plateau", lambda it: geometric(over_law(it)[-1][fast]), reached, None
+        if fast.sum() > 1:
+            yield "eq14.load-exponent", lambda it: against_load(it, over_law(it)[-1], -1, fast), reached, None
+    yield "eq19.law", lambda it: np.log(mu(it) / laws.law_of(xi(it))), None, None
+
+
+def _slowest(variable, below, answers):
+    return mean(answers, variable, below)[1]
+
+
+def behind(solver: str) -> dict[str, tuple[str, str | None]]:
+    """Causes of the load in slow friction: a variable, or its ratio to another; by the names of claims."""
+    contact = CONTACT[solver]
+    return {
+        "contact": (contact, None),
+        "drag": ("friction_force", contact),
+        "slope": ("rms_slope_contact", None),
+    }
+
+
+def nominal_exponent(solver: str, of_friction: float) -> float:
+    """d ln of the nominal contact, a length (1D) or an area (3D), over d ln F_N; of_friction : of Eq. 17."""
+    return (1 + of_friction) * (1 if solver == "MDR" else 2)
+
+
+def _places(laws) -> Iterator[tuple[str, int]]:
+    """Claims by where the median of xi lies at a speed; each speed is asked once."""
+    middle, knee = _closest_to_one(laws)
+    last = len(middle) - 1
+    if middle[0] < 1 and knee != 0:
+        yield "pair.friction-slow", 0
+    if knee is not None:
+        yield "pair.friction-knee", knee
+    if middle[last] > 1 and knee != last:
+        yield "pair.friction-fast", last
+
+
+def _closest_to_one(laws) -> tuple[np.ndarray, int | None]:
+    """Median of xi at each speed, and the place of the speed at the knee, None without any."""
+    known = [row[np.isfinite(row)] for row in laws.xi]
+    middle = np.array([np.exp(np.median(np.log(row))) if row.size else nan for row in known])
+    away = np.nan_to_num(np.abs(np.log(middle)), nan=np.inf)
+    closest = int(np.argmin(away))
+    return middle, closest if away[closest] <= np.log(AT_THE_KNEE) else None
+
+
+def collapses(contacts: Contacts, solver: str) -> tuple[Collapse, Collapse] | None:
+    """Collapse of the curves of the rough body on both grids; None where points are too few."""
+    try:
+        fine, coarse = (collapse(curves(contacts, solver, grid)) for grid in (FINE, COARSE))
+    except ValueError:
+        return None
+    return fine, coarse
+
+
+def curves(contacts: Contacts, solver: str, grid: str = FINE) -> SimulatedCurves:
+    """Friction of the rough body that slides."""
+    return SimulatedCurves.of(sliding(contacts(solver, ROUGH, grid)))
+
+
+def shift_findings(
+    contacts: Contacts, solver: str, both: tuple[Collapse, Collapse] | None, laws: Laws
+) -> Iterator[Finding]:
+    """Whether curves fall onto one, with the shifts that are best and with those predicted."""
+    series, dimension = contacts.series, SOLVERS[solver]
+    words, draws = laws.words, series.draws[solver]
+    plots = f"{series.folder}/collapse", f"{series.folder}/shifts"
+    if both is not None:
+        shifts = dict(zip(series.speeds, laws.shifts.tolist(), strict=True))
+        found = list(eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots))
+        # Shifts onto a curve that may be none are not drawn.
+        undecided = found[0].verdict == UNDECIDED and not eq23.raised(*both)
+        yield from (replace(each, plot=plots[0]) if undecided else each for each in found)
+    elif eq23.shiftable(len(series.speeds), len(series.values)):
+        yield eq23.too_few(dimension, series.name, draws, words, plots[0])

@@ -1,0 +1,153 @@
+"""Laws at every point of a series: those of the paper, and the exact limits of low speed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import nan
+
+import numpy as np
+import xarray
+
+from mdr1d import equations
+
+from ...models import exact
+from ...statistics.jackknife import mean_ratio
+from .regime import SYMBOLS, ratios, words
+from .series import Contacts, Series, sliding
+
+# Relative spread of exponents up to which they are one.
+SAME = 0.02
+# Measures that the dimensionless groups of a point need.
+GROUPED = ("rms_slope", "pixel", "contact_area", "contact_length")
+
+
+@dataclass(frozen=True)
+class Laws:
+    """Laws for one solver on a series that slides, arrays (speeds, values) unless stated.
+
+    speeds : (speeds,) [m/s]
+    ratios : dimensionless groups of each point by name, see `regime.ratios`; NaN where every solve failed
+    load : mean over surfaces, or prescribed [N]
+    exponent_of_load : of xi, -n/(n+1)
+    xi : friction at low speed over the plateau, Eq. 18 with the loss of the solid at the shortest wave
+    wave_number : the highest of the roughness [rad/m]
+    slowest_loss : loss tangent there at the slowest speed
+    loss_exponent : d ln G'' / d ln omega there, (speeds - 1,), from one speed to the next
+    plateau : mu of Eq. 14 [1]
+    shifts : ln p(v) that Eq. 23 predicts, (speeds,), up to a constant
+    exponent : d ln p / d ln v of it; NaN where it is no power of the speed
+    """
+
+    speeds: np.ndarray
+    ratios: Mapping[str, np.ndarray]
+    load: np.ndarray
+    exponent_of_load: float
+    xi: np.ndarray
+    wave_number: float
+    slowest_loss: float
+    loss_exponent: np.ndarray
+    plateau: float
+    shifts: np.ndarray
+    exponent: float
+
+    @property
+    def words(self) -> str:
+        """Ranges of the groups of all points."""
+        return words(self.ratios)
+
+    def xi_under(self, load: np.ndarray) -> np.ndarray:
+        """xi at other loads [N], (speeds, values)."""
+        return self.xi * (load / self.load) ** self.exponent_of_load
+
+    @property
+    def law(self) -> np.ndarray:
+        """mu of Eq. 19."""
+        return self.law_of(self.xi)
+
+    def law_of(self, xi: np.ndarray) -> np.ndarray:
+        """mu of Eq. 19 at any xi; NaN where that is."""
+        return np.where(np.isfinite(xi), self.plateau * equations.interpolation(np.nan_to_num(xi)), nan)
+
+
+def laws(contacts: Contacts, solver: str) -> Laws | None:
+    """Laws for the rough body that slides; None where no solve has an answer.
+
+    The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
+    solver's own measure.
+    """
+    series, answers = contacts.series, sliding(contacts(solver))
+    groups = regimes(series, answers)
+    if not np.isfinite(groups["depth_over_height"]).any():
+        return None
+    scene, speeds = series.scene, np.array(series.speeds)
+    solid, body = scene.solid, scene.indenter
+    slope = float(np.nanmean(answers["rms_slope"].values))
+    highest = scene.roughness.q_max(float(np.nanmean(answers["pixel"].values)))
+    c, n = body.mdr_coefficient, body.exponent
+    # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
+    modulus = solid.indentation_modulus / 4
+
+    def loss(omega):
+        return modulus / solid.static_modulus * solid.complex_modulus(omega).imag
+
+    load = mean_ratio(_draws(answers, "normal_force")).value
+    if series.prescribed == "load":
+        load = np.where(np.isfinite(load), load, series.values)
+    one = equations.one_frequency_friction(
+        np.nan_to_num(load, nan=1.0), modulus, loss, highest, speeds[:, None], slope, c, n
+    )
+    xi = np.where(np.isfinite(load), one / equations.plateau(slope), nan)
+    shift = equations.force_shift(speeds, modulus, loss, highest, slope, c, n)
+    rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
+    slowest = solid.complex_modulus(highest * speeds[0])
+    return Laws(
+        speeds=speeds,
+        ratios=groups,
+        load=load,
+        exponent_of_load=-n / (n + 1),
+        xi=xi,
+        wave_number=highest,
+        slowest_loss=float(slowest.imag / slowest.real),
+        loss_exponent=np.diff(np.log(loss(highest * speeds))) / np.diff(np.log(speeds)),
+        plateau=float(equations.plateau(slope)),
+        shifts=np.log(shift),
+        exponent=_power(rates),
+    )
+
+
+def regimes(series: Series, answers: xarray.Dataset) -> dict[str, np.ndarray]:
+    """Groups of each rough contact of one grid by name, (speeds, values), from means over the surfaces.
+
+    NaN where it is pressed in at a rate, which has none, and where every solve failed.
+    """
+    force = _draws(answers, "normal_force")
+    measures = {name: _draws(answers, name) for name in GROUPED if name in answers}
+    found = {name: np.full(force.shape[:2], nan) for name in SYMBOLS}
+    for i, speed in enumerate(answers["speed"].values.tolist()):
+        for j, value in enumerate(series.values):
+            known = np.isfinite(force[i, j])
+            if known.any() and not (speed and series.pressed_in):
+                here = {name: float(values[i, j][known].mean()) for name, values in measures.items()}
+                for name, ratio in ratios(series.at(value, speed), here).items():
+                    found[name][i, j] = ratio
+    return found
+
+
+def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:
+    """Friction force over speed as that tends to zero [N s/m], (values, draws), from the contact at rest."""
+    lag = exact.mean_lag(elastomer)
+    if solver == "BEM":
+        load, curvature = (_draws(rest, name) for name in ("normal_force", "curvature_by_pressure"))
+        return exact.slow_friction_by_curvature(1.0, lag, load, curvature)
+    slope, length = (_draws(rest, name) for name in ("rms_slope_contact", "contact_length"))
+    return exact.slow_friction_by_slope(1.0, lag, elastomer.indentation_modulus, slope, length)
+
+
+def _draws(answers, name):
+    """Variable with the draws along the last axis; smooth bodies have one."""
+    values = answers[name]
+    return values.transpose(..., "draw").values if "draw" in values.dims else values.values[..., None]
+
+
+def _power(rates):
+    """The exponent, where it is the same between all speeds."""
+    return float(rates.mean()) if rates.size and np.ptp(rates) <= SAME * abs(rates.mean()) else nan

@@ -1,0 +1,147 @@
+"""Series of a study: one scene at every speed and every load or depth, rough and smooth, on the same surfaces."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import cast
+
+import xarray
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Program, Scene
+from scene.reading import InvalidInput
+
+from ...library.describe import slug
+from ...solving.parameter_grid import FINE, Rectangle, on_two_grids
+from ...statistics.jackknife import Sample
+
+ROUGH, SMOOTH = BODIES = "rough", "smooth"
+# Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
+# each, all that compares the dimensionalities, and what compares several series.
+COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = KINDS = "collapse", "friction", "depth", "dimensions", "families"
+SOLVERS = {"MDR": "1D", "BEM": "3D"}
+# What touches, a length [m] or an area [m²].
+CONTACT = {"MDR": "contact_length", "BEM": "contact_area"}
+# Variables that claims are measured on; others are not copied for every draw that is left out.
+MEASURED = ("normal_force", "friction_force", "depth_reached")
+AT_REST = ("curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area")
+
+
+@dataclass(frozen=True)
+class Series:
+    """One rough scene at every speed and every load or depth, and the same body without its roughness.
+
+    name, title : of the folder, and for people
+    scene : its motion says whether load or depth is prescribed; that of a Program is pressed in from nothing at a
+        constant rate, and all other scenes slide. Every scene is also solved at rest
+    speeds : of sliding, or the rates of pressing in [m/s]; none where only rest is asked for
+    values : loads [N] or depths [m]
+    surfaces, profiles : drawn in three and in one dimension, with the seeds from that of the scene on
+    bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
+    note : what is to be said of it on the page
+    claims : which kinds of claims are judged, out of KINDS
+    """
+
+    name: str
+    title: str
+    scene: Scene
+    speeds: tuple[float, ...]
+    values: tuple[float, ...]
+    surfaces: int
+    profiles: int
+    bem: BEM
+    mdr: MDR
+    note: str = ""
+    claims: tuple[str, ...] = KINDS
+
+    @property
+    def folder(self) -> str:
+        """Folder of its figures and tables below that of the page."""
+        return slug(self.name)
+
+    @property
+    def prescribed(self) -> str:
+        """Name of what is prescribed: "load" or "depth"."""
+        return self.scene.motion.pressed_by
+
+    @property
+    def draws(self) -> dict[str, int]:
+        """Number of profiles or surfaces by the name of the solver."""
+        return {"MDR": self.profiles, "BEM": self.surfaces}
+
+    @property
+    def pressed_in(self) -> bool:
+        """Whether speeds are rates of pressing in."""
+        return isinstance(self.scene.motion, Program)
+
+    @property
+    def slides(self) -> bool:
+        """Whether speeds are those of sliding."""
+        return bool(self.speeds) and not self.pressed_in
+
+    @cached_property
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Rectangles of the rough and of the smooth body, by "series/body"; the first speed is rest.
+
+        Raises InvalidInput if the scene has no roughness.
+        """
+        if self.scene.roughness is None:
+            raise InvalidInput(f"{self.title}: a series asks what roughness does, and this scene has none")
+        rough = Rectangle(
+            scene=self.scene,
+            speeds=(0.0, *self.speeds),
+            values=self.values,
+            grids=on_two_grids(self.mdr, self.bem),
+            draws=self.draws,
+        )
+        smooth = replace(rough, scene=replace(self.scene, roughness=None))
+        return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
+
+    def at(self, value: float, speed: float = 0.0) -> Scene:
+        """The rough scene under one load or depth, at rest or at a speed."""
+        return self.rectangles[f"{self.name}/{ROUGH}"].at(value, speed)
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Answers of one series: its Datasets of /series/body/solver, and samples of them for claims."""
+
+    series: Series
+    answers: xarray.DataTree
+
+    def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> xarray.Dataset:
+        """Dataset on one grid, rest first."""
+        return self.datasets[solver, body].sel(grid=grid)
+
+    @cached_property
+    def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:
+        """Datasets on both grids, by solver and body."""
+        places = {(solver, body): f"{self.series.name}/{body}/{solver}" for solver in SOLVERS for body in BODIES}
+        nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
+        return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
+
+    def sample(self, grid: str, body: str, *solvers: str) -> Sample:
+        """Datasets by the name of the solver, of which draws can be left out; always the same object."""
+        key = grid, body, solvers
+        if key not in self._samples:
+            self._samples[key] = Sample({solver: _measured(self(solver, body, grid)) for solver in solvers})
+        return self._samples[key]
+
+    @cached_property
+    def _samples(self):
+        return {}
+
+
+def sliding(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Dataset without the bodies at rest."""
+    return dataset.isel(speed=slice(1, None))
+
+
+def resting(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Dataset of the bodies at rest alone."""
+    return dataset.isel(speed=0)
+
+
+def _measured(dataset):
+    return dataset[[name for name in (*MEASURED, *AT_REST) if name in dataset]]

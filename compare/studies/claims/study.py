@@ -1,0 +1,309 @@
+"""Claims of the paper judged on series of contacts: `crosscheck study`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from os.path import lexists
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from scene.reading import InvalidInput, text_of
+
+from ...library.describe import described, slug
+from ...library.lookup import located
+from ...library.ready import ready, studies
+from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import Rectangle, refuse
+from ...solving.suggest import known
+from ...solving.task import Task
+from ...statistics import eq23
+from ...statistics.finding import REPORTED, VERDICTS, Finding, claimed, sentences
+from ..study import Study
+from .catalogue import SIZES, STUDIES, ReadyStudy
+from .families import family_findings
+from .figures import tables as study_plots
+from .judgement import JudgedSeries, judge_series
+from .points import failures, points
+from .series import SOLVERS, Contacts, Series
+from .study_file import study_of
+
+ALL = "all"
+UNMATCHED = (
+    "The roughness is a line in 1D and a surface in 3D. The rule of the method, "
+    r"$C_\mathrm{1D} = \pi q\,C_\mathrm{2D}$, ties their spectra; it keeps the rms height and the rms of the full "
+    "gradient. Real contact is a length in 1D and an area in 3D, and no claim compares them."
+)
+
+
+@dataclass(frozen=True)
+class JudgedStudy:
+    """A study, judged: its series one after the other, and findings on several of them together."""
+
+    series: tuple[JudgedSeries, ...]
+    together: tuple[Finding, ...]
+
+    @property
+    def findings(self) -> list[Finding]:
+        """Findings on every series, then on all together."""
+        return [*(each for judged in self.series for each in judged.findings), *self.together]
+
+
+@dataclass(frozen=True)
+class ClaimStudy(Study):
+    """A study of the catalogue, or of a file, at a size.
+
+    name : of its folder
+    study : the question
+    size : a name of SIZES
+    source : text of the file of a study that does not come with the package
+    """
+
+    name: str
+    study: ReadyStudy
+    size: str
+    source: str | None = None
+    _judged: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    command = "study"
+
+    @classmethod
+    def of(cls, name: str | Path, size: str = "quick") -> "ClaimStudy | AllStudies":
+        """The study of a name that comes with the package, all of them, or that of a file.
+
+        Raises InvalidInput, Refused.
+        """
+        known("size", size, SIZES)
+        found: ClaimStudy | AllStudies
+        if name == ALL:
+            found = AllStudies(tuple(cls(each, study, size) for each, study in STUDIES.items()))
+        elif name in STUDIES:
+            found = cls(str(name), STUDIES[str(name)], size)
+        else:
+            path = _located(name)
+            text = text_of(path)
+            found = cls(path.stem, study_of(text, str(path)), size, text)
+        refuse(found.rectangles().values())
+        return found
+
+    @property
+    def title(self) -> str:  # type: ignore[override]
+        return self.study.title
+
+    @property
+    def about(self) -> str:  # type: ignore[override]
+        return self.study.about
+
+    @property
+    def place(self) -> str:  # type: ignore[override]
+        return slug(f"{self.name}-{self.size}")
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        own = {} if self.source is None else {"source": self.source}
+        return {"name": self.name, "size": self.size} | own
+
+    @cached_property
+    def series(self) -> tuple[Series, ...]:
+        """Series that are solved at this size."""
+        return tuple(self.study.series(SIZES[self.size]))
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Rectangles of the rough and of the smooth body of every series, by "series/body"."""
+        return {name: each for series in self.series for name, each in series.rectangles.items()}
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Everything that was solved, at /series/body/solver; a series has title and note as attributes."""
+        tree = super().answers(outcomes)
+        for each in self.series:
+            tree[each.name].attrs = {"title": each.title, "note": each.note, "prescribed": each.prescribed}
+        return tree
+
+    def judged(self, answers: xarray.DataTree) -> JudgedStudy:
+        """Every series and all together, judged once for the same answers."""
+        if self._judged.get("answers") is not answers:
+            series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
+            self._judged.update(answers=answers, found=JudgedStudy(series, tuple(family_findings(series))))
+        return self._judged["found"]
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        return self.judged(answers).findings
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone.
+
+        First come the places where friction itself is shifted.
+        """
+        return [*eq23.answers(findings), *sentences(claimed(findings))]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """Verdicts, an overview of them, and findings on several series; then each series."""
+        judged = self.judged(answers)
+        whole = [plot for plot in plots if not plot.folder]
+        blocks: list[Block] = [*whole[:1]]
+        if overview := list(_overview(findings)):
+            blocks.append(
+                Table("overview", DataFrame(overview), "Findings of each verdict, by claim and dimensionality.")
+            )
+        if judged.together:
+            blocks.append(Section("Several series together", [*whole[1:], Findings(judged.together)]))
+        return blocks + [
+            Section(_numbered(number, each), list(_section(each, plots)))
+            for number, each in enumerate(judged.series, 1)
+        ]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """The question, what differs between the dimensionalities, and the contacts of each series."""
+        return [Text(self.about), Text(UNMATCHED)] + [
+            Section(
+                f"Contacts of {_numbered(number, each)}", [Text("\n".join(f"- {line}" for line in _asked(each)))]
+            )
+            for number, each in enumerate(self.judged(answers).series, 1)
+        ]
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
+        """Figures of the study, then of each series in its folder."""
+        judged = self.judged(answers)
+        found = list(study_plots.plots_of_study(judged.series, findings, bool(judged.together)))
+        return found + [plot for each in judged.series for plot in study_plots.plots_of_series(each)]
+
+
+@dataclass(frozen=True)
+class AllStudies(Study):
+    """All studies of the catalogue on one page: the answer, and verdicts; their own pages show every series."""
+
+    studies: tuple[ClaimStudy, ...]
+
+    command, title = "study", "The laws of the paper in one and in three dimensions"
+    about = (
+        "The claims are those of Popov, Voll, Li, Chai and Popov, Sci. Rep. 4, 3750 (2014). Each is judged in one "
+        "dimension and in three, on the same scenes. A claim holds if its whole interval of 95 % lies within the "
+        "tolerance and fails if none of it does; otherwise, or where an error is unknown, it is undecided. The "
+        "scatter is found by leaving out each surface in turn, at all points at once, and the interval is wider "
+        "at both ends by the change on halving the grid. The page of each study, `crosscheck study NAME`, shows "
+        "every series with its figures and points."
+    )
+
+    @property
+    def place(self) -> str:  # type: ignore[override]
+        return slug(f"{ALL}-{self.studies[0].size}")
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return {"name": ALL, "size": self.studies[0].size}
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Rectangles of every study, by "study/series/body"."""
+        return {f"{each.name}/{name}": found for each in self.studies for name, found in each.rectangles().items()}
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        return [found for each in self.studies for found in self._own(each, answers)]
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        return sentences(claimed(findings))
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
+        """Verdicts of each study, and its series against one variable."""
+        found = []
+        for each in self.studies:
+            judged = each.judged(answers.children[each.name])
+            plots = study_plots.plots_of_study(judged.series, judged.findings, bool(judged.together))
+            found += [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
+        return found
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        """A section for each study: its figures and findings."""
+        found = []
+        for each in self.studies:
+            own = [plot for plot in plots if plot.folder == f"{each.name}/"]
+            found.append(Section(each.title, [*own, Findings(claimed(self._own(each, answers)))]))
+        return found
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Rule of the verdict, what differs between the dimensionalities, and each question with its command."""
+        questions = (
+            f"- {each.title} {each.about} `crosscheck study {each.name} --size {each.size}`"
+            for each in self.studies
+        )
+        return [Text(self.about), Text(UNMATCHED), Text("\n".join(questions))]
+
+    def _own(self, each, answers):
+        """Findings of one study, each with the study in front of its place and its plot."""
+        found = each.findings(answers.children[each.name])
+        return [replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found]
+
+
+def _located(name: str | Path) -> Path:
+    """File of a study of one's own. Raises InvalidInput that says what there is."""
+    try:
+        return located(name, "study")
+    except InvalidInput as error:
+        if not lexists(name) and str(name) not in ready():
+            known("NAME", str(name), [*studies(), ALL], str(error))
+        raise
+
+
+def _overview(findings: Sequence[Finding]) -> Iterator[dict]:
+    """Number of findings of each verdict, for each claim and dimensionality."""
+    verdicts: dict[tuple[str, str], list[Finding]] = {}
+    for each in claimed(findings):
+        verdicts.setdefault((each.claim.id, each.row["dimension"]), []).append(each)
+    for (_, dimension), own in verdicts.items():
+        counts = {name: sum(each.verdict == name for each in own) for name in VERDICTS if name != REPORTED}
+        yield {"sentence": own[0].claim.sentence, "dimension": dimension, **counts}
+
+
+def _numbered(number: int, judged: JudgedSeries) -> str:
+    return f"{number}. {judged.series.title}"
+
+
+def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
+    """Figures of a series, its findings, points, and solves that failed."""
+    series = judged.series
+    yield from (plot for plot in plots if plot.folder == f"{series.folder}/")
+    if judged.findings:
+        yield Findings(judged.findings)
+    else:
+        yield Text("No claim can be judged on this series, or none is made of it.")
+    yield Table(
+        f"{series.folder}/points",
+        points(judged.contacts),
+        "Means over surfaces with intervals of 95 %.",
+        long=True,
+    )
+    failed = failures(judged.contacts)
+    if len(failed):
+        yield Table(f"{series.folder}/failed", failed, f"{len(failed)} solves failed and are left out.", long=True)
+
+
+def _asked(judged: JudgedSeries) -> Iterator[str]:
+    """Lines on a series: scene, points, draws and grids; slopes and regime, which were measured."""
+    series, scene = judged.series, judged.series.scene
+    if series.note:
+        yield series.note
+    yield f"contact: {described(scene.indenter)}; {described(scene.elastomer)}; {described(scene.roughness)}"
+    moved = "at rest"
+    if series.speeds:
+        kind = "rates of pressing in" if series.pressed_in else "speeds"
+        moved = f"{len(series.speeds)} {kind}, {series.speeds[0]:.3g} to {series.speeds[-1]:.3g} m/s, and at rest"
+    unit = {"load": "N", "depth": "m"}[series.prescribed]
+    least, greatest = series.values[0], series.values[-1]
+    yield f"{moved}; {len(series.values)} {series.prescribed}s, {least:.3g} to {greatest:.3g} {unit}"
+    yield (
+        f"{series.profiles} profiles of {series.mdr.points} points in 1D, {series.surfaces} surfaces of "
+        f"{series.bem.points}² in 3D, each also on half the points a side"
+    )
+    for solver, dimension in SOLVERS.items():
+        answers = judged.contacts(solver)
+        known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)
+        if np.isfinite(known).any():
+            words = f"; {judged.laws[solver].words}" if judged.laws else ""
+            yield f"{dimension}: rms slope {np.nanmean(known):.3g}{words}"

@@ -1,0 +1,85 @@
+"""The surface of a drawing as one page that a browser turns and enlarges, offline: by plotly, an extra."""
+
+from collections.abc import Mapping
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from scene import Refused
+
+from ...report.page import Plot
+from ...report.plots import touching
+from ...report.plots.prefixes import prefixed
+from ...solving.store import write as write_whole
+from .figure import SURFACE
+
+NAME = "surface.html"
+EXTRA = 'pip install "mdr-bem-crosscheck[interactive]"'
+FREE = "rgb(226,222,206)"  # of the surface where nothing presses
+LONGEST = 1.8  # side of the surface, in units of plotly
+
+
+def refuse() -> None:
+    """Raise Refused where plotly is not installed."""
+    if find_spec("plotly") is None:
+        raise Refused(f"interactive: the page is made by plotly, which is not installed: {EXTRA}")
+
+
+def write(plot: Plot, folder: Path) -> Path:
+    """Write the surface of a plot of `plots.draw` as an HTML file that needs nothing else; returns its path."""
+    path = folder / NAME
+    text = _page(plot.tables[SURFACE], plot.options)
+    write_whole(path, lambda file: file.write(text.encode()))
+    return path
+
+
+def _page(table, options: Mapping[str, Any]) -> str:
+    from plotly import graph_objects
+
+    fields = {name: touching.rectangle(table, "y", "x", name) for name in ("displacement", "pressure", "gap")}
+    x, y = (getattr(fields["gap"], name).to_numpy() for name in ("columns", "index"))
+    (along, x_unit), (high, z_unit), (up, pascal) = (
+        prefixed([*x, *y], "m"),
+        prefixed(fields["displacement"], "m"),
+        prefixed(options["highest"], "Pa"),
+    )
+    surface = graph_objects.Surface(
+        x=along * x,
+        y=along * y,
+        z=-high * fields["displacement"].to_numpy(),
+        surfacecolor=up * fields["pressure"].to_numpy(),
+        customdata=high * fields["gap"].to_numpy(),
+        cmin=0.0,
+        cmax=up * options["highest"],
+        colorscale=[
+            [0.0, FREE],
+            [0.01, FREE],
+            [0.02, "#fde725"],
+            [0.33, "#35b779"],
+            [0.66, "#31688e"],
+            [1.0, "#440154"],
+        ],
+        colorbar={"title": f"pressure [{pascal}]"},
+        hovertemplate=(
+            f"x %{{x:.4g}} {x_unit}, y %{{y:.4g}} {x_unit}<br>height %{{z:.4g}} {z_unit}<br>"
+            f"pressure %{{surfacecolor:.4g}} {pascal}<br>gap %{{customdata:.4g}} {z_unit}<extra></extra>"
+        ),
+    )
+    wide, deep = x[-1] - x[0], y[-1] - y[0]
+    tall = options["enlarged"] * np.ptp(fields["displacement"].to_numpy())
+    unit = max(wide, deep) / LONGEST
+    slides = {1: ", indenter slides along −x", -1: ", indenter slides along +x"}.get(options["sliding"], "")
+    layout = {
+        "title": f"Deformed surface, heights × {options['enlarged']:g}{slides}",
+        "scene": {
+            "xaxis_title": f"x [{x_unit}]",
+            "yaxis_title": f"y [{x_unit}]",
+            "zaxis": {"title": f"height [{z_unit}]", "nticks": 3},
+            "camera": {"eye": {"x": 0.6, "y": -1.5, "z": 1.1}},
+            "aspectmode": "manual",
+            "aspectratio": {"x": wide / unit, "y": deep / unit, "z": tall / unit},
+        },
+    }
+    return graph_objects.Figure(surface, layout).to_html(include_plotlyjs=True, default_height="95vh")

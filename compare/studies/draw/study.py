@@ -1,0 +1,188 @@
+"""A contact as a picture: `crosscheck draw`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray
+
+from scene import Refused, SolveError, Solver, notes
+from scene.protocol import foresee
+
+from ...library.case import Case, doubted
+from ...library.lookup import Asked, case_of
+from ...report.page import Block, Plot, Text
+from ...report.views import View, view
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import work_of
+from ...solving.task import Batch, SceneTask, Task
+from ...solving.vocabulary import attributes
+from ...statistics import griderror
+from ...statistics.finding import Claim, Finding
+from ..study import Study
+from . import figure as plots
+from . import interactive as turning
+
+SURFACE, ROW = "surface", "row"
+NUMBERS = ("normal_force", "depth", "friction_force")
+APART = Claim(
+    "draw.apart",
+    "The part of the normal force that 1D puts at another x than 3D",
+    meaning="Half of the sum of differences of force between strips along x, each model over its own force.",
+)
+
+
+@dataclass(frozen=True)
+class Drawing(Study):
+    """One contact in three dimensions, with the row of springs where one dimension can solve it.
+
+    case : scene, and settings of the solvers
+    tasks : of BEM, and of MDR unless it refuses
+    refused : why there is no row of springs; empty where there is one
+    interactive : whether the page links one of the surface that turns
+    """
+
+    case: Case
+    tasks: tuple[SceneTask, ...]
+    refused: str = ""
+    interactive: bool = False
+
+    command, title = "draw", "One contact"
+
+    @classmethod
+    def of(cls, scene: Asked, interactive: bool = False) -> "Drawing":
+        """Drawing of a scene. Raises InvalidInput, and Refused of what no picture shows."""
+        case = case_of(scene)
+        if case.heating is not None and case.heating.feedback is not None:
+            raise Refused(
+                "heating.feedback: the surface is drawn at a temperature that is given, leave feedback out"
+            )
+        tasks, refused = [_task(case.bem, case)], ""
+        try:
+            tasks.append(_task(case.mdr, case))
+        except Refused as error:
+            refused = str(error)
+        return cls(case, tuple(tasks), refused, interactive)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return {"case": self.case.inputs}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return notes(self.case.scene)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        return doubted(self.case)
+
+    def batches(self) -> Sequence[Batch]:
+        return (Batch(self.tasks),)
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """The surface around the contact, wake included, and the row of springs.
+
+        Raises SolveError where a solve failed, and where nothing touches in three dimensions.
+        """
+        found = {task.solver.name: outcomes[task] for task in self.tasks}
+        for name, outcome in found.items():
+            if outcome.rows[0].reason:
+                raise SolveError(f"{name}: {outcome.rows[0].reason}")
+        seen = view(
+            self.case.scene, self.case.bem, {name: each.fields for name, each in found.items() if each.fields}
+        )
+        if seen is None or seen.space is None or not seen.space.touching.any():
+            raise SolveError("nothing touches in 3D, so there is nothing to draw: press deeper")
+        surface, row = datasets(seen, found["MDR"].fields if "MDR" in found else {})
+        parts = {f"/{SURFACE}": surface} | ({} if row is None else {f"/{ROW}": row})
+        for dataset, outcome in zip(parts.values(), found.values(), strict=True):
+            for name in NUMBERS:
+                value = getattr(outcome.rows[0], name)
+                dataset[name] = (), value, attributes(name, self.case.scene)
+            if griderror.MEASURE in outcome.rows[0].measures:
+                error = outcome.rows[0].measures[griderror.MEASURE]
+                dataset[griderror.MEASURE] = (), error, attributes(griderror.MEASURE, self.case.scene)
+        return xarray.DataTree.from_dict(parts)
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """What 1D gives over what 3D gives, and how far apart the forces of both stand; nothing is claimed."""
+        surface, row = _parts(answers)
+        if row is None:
+            return []
+        ratios = {}
+        if surface["normal_force"] > 0 and row["normal_force"] > 0:
+            pressed = "normal_force" if self.case.motion.pressed_by == "depth" else "depth"
+            ratios = {pressed: float(row[pressed] / surface[pressed])}
+            if self.case.slides:
+                one, three = (float(each["friction_force"] / each["normal_force"]) for each in (row, surface))
+                ratios["friction coefficient"] = one / three
+        claims = [
+            Claim(f"draw.{name.split('_')[-1].split()[0]}", f"The {name.replace('_', ' ')} in 1D over that in 3D")
+            for name in ratios
+        ]
+        values = [*ratios.values()]
+        if row.get("line_force", np.zeros(1)).any():
+            lines = plots.line_forces(surface, row).drop(columns="x")
+            claims.append(APART)
+            values.append(float((lines / lines.sum()).diff(axis=1).iloc[:, 1].abs().sum() / 2))
+        return [Finding(claim, value, plot=plots.NAME) for claim, value in zip(claims, values, strict=True)]
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        return [plots.plot(self.case.scene, *_parts(answers))]
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        return [f"{each.claim.sentence}: {each.found()}." for each in findings]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
+        if self.interactive:
+            said.append(Text(f"The surface, to be turned in a browser: [{turning.NAME}]({turning.NAME})."))
+        return [*plots, *said]
+
+
+def _task(solver: Solver, case: Case) -> SceneTask:
+    foresee(solver, case.scene)
+    return SceneTask(solver, (case.scene,), keeps_fields=True, work=work_of(solver, case.scene))
+
+
+def _parts(answers):
+    """Datasets of the surface, and of the row of springs or None."""
+    return tuple(answers[name].to_dataset() if name in answers else None for name in (SURFACE, ROW))
+
+
+def datasets(seen: View, line: Mapping[str, np.ndarray]) -> tuple[xarray.Dataset, xarray.Dataset | None]:
+    """The part of a contact worth seeing: the surface around it, and the row of springs where there is one.
+
+    line : fields of the answer of MDR
+    """
+    return _surface(seen), None if seen.line is None else _row(seen, line)
+
+
+def _surface(seen: View) -> xarray.Dataset:
+    """The part of the surface worth seeing (y, x), x where indenter and surface are seen."""
+    around = seen.space.around
+    fields = {"displacement": around.displacement, "gap": seen.space.gap, "pressure": seen.space.pressure}
+    whole = xarray.Dataset(
+        {name: (("y", "x"), values, attributes(name)) for name, values in fields.items()},
+        {"x": ("x", around.x + around.lag, attributes("x")), "y": ("y", around.y, attributes("y"))},
+    )
+    aside = whole if whole.sizes["y"] == 1 else whole.sel(y=slice(-seen.aside, seen.aside))
+    return aside.sel(x=slice(*seen.span))
+
+
+def _row(seen: View, fields: Mapping[str, np.ndarray]) -> xarray.Dataset:
+    """The row of springs (x): what is known of it beyond its own grid carries no force."""
+    line = seen.line
+    columns = {"indenter": line.indenter, "surface": line.surface, "touching": line.touching}
+    if "line_force" in fields:
+        first = int(np.searchsorted(line.x, fields["x"][0]))
+        after = len(line.x) - first - len(fields["x"])
+        columns["line_force"] = np.pad(fields["line_force"], (first, after))
+    whole = xarray.Dataset(
+        {name: ("x", values, attributes(name)) for name, values in columns.items()},
+        {"x": ("x", line.x, attributes("x"))},
+    )
+    return whole.sel(x=slice(*seen.span))

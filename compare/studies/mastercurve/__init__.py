@@ -1,0 +1,1 @@
+"""Measured friction shifted onto one curve: crosscheck mastercurve."""

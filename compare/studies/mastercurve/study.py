@@ -1,0 +1,234 @@
+"""Friction that a user measured at several loads and speeds, shifted onto one curve: `crosscheck mastercurve`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import isfinite, nan
+from typing import Any
+
+import xarray
+from pandas import DataFrame
+
+from scene.printable import brief
+from scene.quantities import BARE, argument
+from scene.reading import InvalidInput
+
+from ...report.page import Block, Findings, Plot, Table, Text
+from ...report.plots import shifted_curves
+from ...solving.outcome import Outcome
+from ...solving.task import Batch, Task
+from ...statistics import eq23
+from ...statistics.collapse import Alignment, Collapse, collapse
+from ...statistics.finding import Finding, claimed, sentences
+from ...statistics.measuredcurves import check, curves_of, in_order
+from ...statistics.pooling import WARMTH, Pooled, pooled
+from ...statistics.shiftlaws import ShiftLaw, law_of
+from ...statistics.temperatureshifts import TemperatureShifts
+from ..study import Study
+from . import temperature_figure as temperature_shifts
+from . import temperatures
+from .measurements import MeasuredFriction, Measurements
+from .temperatures import Constants
+
+TOLERANCE = (
+    0.05  # relative: loads within it are one, and speeds; wider than devices scatter, less than people step
+)
+WIDEST = 0.5
+MEASURED = "measured"
+
+# Claims of Eq. 23 in the words of a measurement, by their own names.
+CLAIMS = {
+    eq23.COLLAPSE.id: ("mastercurve.horizontal", "Shifts along the load bring the curves onto one"),
+    eq23.VERTICAL.id: ("mastercurve.vertical", "No shift along friction is needed beside them"),
+    eq23.UNSHIFTED.id: ("mastercurve.unshifted", "Misfit to one curve before shifting"),
+    eq23.VERTICAL_ALONE.id: ("mastercurve.vertical-alone", "Misfit to one curve with shifts along friction alone"),
+    eq23.BOTH.id: ("mastercurve.both", "Misfit to one curve with both shifts"),
+    eq23.ALONE.id: ("mastercurve.exponent", "Exponent of the shift along the load as a power of the speed"),
+    eq23.BESIDE.id: ("mastercurve.exponent-beside-vertical", eq23.BESIDE.sentence),
+    eq23.NOT_SHIFTED.id: (
+        "mastercurve.vertical-exponent",
+        "Exponent of the shift along friction, beside that along the load, as a power of the speed",
+    ),
+}
+NOT_REPEATED = "no point was measured more than once: the scatter is not known, and part of a misfit"
+EXPONENTS = (eq23.ALONE.id, eq23.BESIDE.id, eq23.NOT_SHIFTED.id)
+
+
+@dataclass(frozen=True, eq=False)
+class Mastercurve(Study):
+    """Shifts of measured friction.
+
+    friction : measurements
+    tolerance : relative; loads that lie within it of one another are one, and so are speeds
+    constants : of WLF, as stated
+    """
+
+    friction: MeasuredFriction
+    tolerance: float = TOLERANCE
+    constants: Constants = field(default_factory=Constants)
+
+    command = "mastercurve"
+
+    @classmethod
+    def of(cls, table: Measurements, tolerance: float = TOLERANCE, **constants: Any) -> "Mastercurve":
+        """The study of a table. Raises InvalidInput naming the table, the place and what is allowed.
+
+        constants : c1, c2 and reference of WLF, where they are known
+        """
+        try:
+            tolerance = argument("tolerance", tolerance, BARE.value)
+            if not 0 <= tolerance <= WIDEST:
+                raise ValueError(f"tolerance = {tolerance:g}: it must lie between 0 and {WIDEST:g}")
+        except ValueError as error:
+            raise InvalidInput(str(error)) from error
+        friction, stated = MeasuredFriction.of(table), Constants(**constants)
+        if stated.given and "temperature" not in friction.data:
+            raise InvalidInput(
+                f"{friction.name}: {', '.join(stated.given)} ask for a column of temperature, as T [degC]"
+            )
+        study = cls(friction, tolerance, stated)
+        try:
+            study.collapse  # noqa: B018
+        except InvalidInput:
+            raise
+        except ValueError as error:
+            said, name = str(error), brief(friction.source)
+            raise InvalidInput(said if said.startswith(name) else f"{name}: {said}") from error
+        return study
+
+    @property
+    def title(self) -> str:  # type: ignore[override]
+        return f"Friction of {self.friction.name} on one curve"
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return {"table": self.friction.source, "tolerance": self.tolerance, **self.constants.given}
+
+    @property
+    def data(self) -> xarray.Dataset:
+        """The table as a Dataset with a measurement a row."""
+        return self.friction.data
+
+    @cached_property
+    def pooled(self) -> Pooled:
+        """Measurements as points."""
+        data = self.data
+        warmth = data["temperature"].values if "temperature" in data else None
+        friction, load, speed = (data[name].values for name in ("friction_coefficient", "normal_force", "speed"))
+        found = pooled(friction, load, speed, warmth, self.tolerance)
+        check(found)
+        return found
+
+    @cached_property
+    def shifts(self) -> TemperatureShifts | None:
+        """Shifts of temperatures along the speed; None of one temperature or none."""
+        return temperatures.shifts_of(self.pooled, self.constants)
+
+    @cached_property
+    def law(self) -> ShiftLaw | None:
+        """Law of the shifts that were found; None where none were."""
+        return law_of(self.shifts) if self.shifts is not None and self.shifts.found else None
+
+    @cached_property
+    def collapse(self) -> Collapse:
+        """Shifts of the curves."""
+        return collapse(curves_of(self.pooled, self.shifts))
+
+    def batches(self) -> Sequence[Batch]:
+        return ()
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        return xarray.DataTree.from_dict({f"/{MEASURED}": self.data})
+
+    @cached_property
+    def lead(self) -> Alignment:
+        """Alignment that is the answer: by both shifts where friction itself is shifted, else along the load."""
+        return self.collapse.both if eq23.raised(self.collapse) else self.collapse.horizontal
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
+        found, plots = self.collapse, (shifted_curves.NAME,) * 2
+        warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
+        raw = {
+            eq23.COLLAPSE.id: found.horizontal.rms,
+            eq23.UNSHIFTED.id: found.unshifted.rms,
+            eq23.VERTICAL_ALONE.id: found.vertical.rms,
+        }
+        findings = []
+        for each in eq23.findings(
+            found, None, MEASURED, where=self.friction.name, draws=0, plots=plots, every=True
+        ):
+            name, sentence = CLAIMS[each.claim.id]
+            if each.claim.id in EXPONENTS and (why := temperatures.unshifted(self.shifts, warm)):
+                each = replace(each, value=nan, scatter=(nan, nan), reason=why)
+            elif not isfinite(found.scatter):
+                known = each.value if each.claim is eq23.ALONE else raw.get(each.claim.id, nan)
+                each = replace(each, value=known, reason=NOT_REPEATED)
+            findings.append(replace(each, claim=replace(each.claim, id=name, sentence=sentence)))
+        return [*findings, *warm]
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        named = {each.claim.id: each for each in findings}
+        across, along, alone, collapsed = (
+            named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
+        )
+        lines = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
+        told = sentences([each for each in claimed(findings) if each.claim.id != temperatures.TOGETHER.id])
+        if self.lead is self.collapse.both and isfinite(across.value):
+            return [eq23.answer(across, along, alone, collapsed).capitalize(), *told, *lines]
+        return [*told, *sentences([alone]), *lines]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was read of the table and not used."""
+        if "temperature" not in self.data or self.shifts is not None:
+            return self.friction.notes
+        return (*self.friction.notes, temperatures.ONE.format(self.pooled.points[0].temperature))
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        shown = shifted_curves.ShiftedCurves(
+            self.friction.name, self.collapse, findings[0], lead=self.lead, warmth=self._curves()
+        )
+        plots = [shifted_curves.plot([shown])]
+        if self.shifts is not None:
+            plots.append(temperature_shifts.plot(self.pooled, self.shifts, self.law))
+        return [each for each in plots if each]
+
+    def _curves(self):
+        """Temperature and measured speed of each curve, in the order of the collapse; None of one temperature."""
+        if self.shifts is None:
+            return None
+        first = [self.pooled.points[places[0]] for _, places in in_order(self.pooled, self.shifts)]
+        return DataFrame(
+            {"temperature": [each.temperature for each in first], "speed": [each.speed for each in first]}
+        )
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        told = "Natural logarithms of the shifts, with intervals of 95 %."
+        shifts = self.collapse.shifts(self.lead)
+        if self.shifts is not None and (warm := self._curves()) is not None:
+            shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
+            warmth = temperature_shifts.shifts_table(self.shifts)
+            return [*plots, Findings(findings), Table("time-shifts", warmth, told), Table("shifts", shifts, told)]
+        return [*plots, Findings(findings), Table("shifts", shifts, told)]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Number and range of the measurements, and what counts as one point."""
+        loads, speeds = self.data["normal_force"].values, self.data["speed"].values
+        reach = [f"{each.min():.3g} to {each.max():.3g}" for each in (speeds, loads)]
+        points = self.pooled.points
+        counts = (
+            f"{loads.size} measurements of {len(points)} points at {len(self.collapse.speeds)} speeds from "
+            f"{self.friction.source}: speeds of {reach[0]} m/s, loads of {reach[1]} N."
+        )
+        if not self.tolerance:
+            return [Text(f"{counts} Only equal loads and speeds are one.")]
+        warm = f", temperatures within {WARMTH:g} K" if "temperature" in self.data else ""
+        return [
+            Text(
+                f"{counts} Loads within {100 * self.tolerance:.3g} % of one another are one, and so are speeds"
+                f"{warm}: the mean of each point and its friction there count."
+            )
+        ]

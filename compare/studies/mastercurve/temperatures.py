@@ -1,0 +1,146 @@
+"""What measured friction at several temperatures says of their shifts along the speed."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from pydantic import TypeAdapter, ValidationError
+
+from scene.reading import InvalidInput, mistakes
+from scene.temperature import WLF
+
+from ...statistics import eq23
+from ...statistics.finding import EXACT, FAILS, Claim, Finding, sentences
+from ...statistics.measuredcurves import isotherms
+from ...statistics.pooling import Pooled
+from ...statistics.shiftlaws import NONE, ShiftLaw
+from ...statistics.temperatureshifts import TemperatureShifts, found, stated
+from . import temperature_figure as temperature_shifts
+from .measurements import COLDEST
+
+TOGETHER = Claim(
+    id="mastercurve.temperatures",
+    sentence="Shifts along the speed bring the temperatures together",
+    expected=0.0,
+    tolerance=eq23.TOLERANCE,
+    meaning="rms of ln mu about one function of load and shifted speed, without what scatter adds. Each "
+    "temperature has one shift along the logarithm of the speed.",
+)
+APART = Claim("mastercurve.temperatures-unshifted", "Misfit of the temperatures before shifting along the speed")
+C1 = Claim("mastercurve.c1", "Constant c1 of WLF that the shifts ask for")
+C2 = Claim("mastercurve.c2", "Constant c2 of WLF that the shifts ask for", unit="K")
+ENERGY = Claim("mastercurve.activation-energy", "Activation energy of the shifts", unit="J/mol")
+NOT_TOGETHER = "none, as no shifts along the speed bring the temperatures together"
+ONE = "one temperature, {:.4g} K: nothing is shifted along the speed"
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Constants of WLF as a user states them; all or none.
+
+    c1, c2, reference : as `scene.WLF` has them, strings with units too
+    """
+
+    c1: Any = None
+    c2: Any = None
+    reference: Any = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """Constants that the user states, by name."""
+        return {each.name: value for each in fields(self) if (value := getattr(self, each.name)) is not None}
+
+    def shifts(self, temperatures: np.ndarray) -> np.ndarray:
+        """ln a_T at temperatures [K]. Raises InvalidInput."""
+        return np.array([self._at(float(each)).log_shift for each in temperatures])
+
+    def _at(self, temperature):
+        content = {"type": "wlf", "temperature": temperature} | {
+            name: _bare(value) for name, value in self.given.items()
+        }
+        adapter = TypeAdapter(WLF)
+        try:
+            law = adapter.validate_python(content)
+        except ValidationError as error:
+            raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+        if law.reference < COLDEST:
+            raise InvalidInput(f'reference = {law.reference:g} K: is degC meant? Write "{law.reference:g} degC"')
+        return law
+
+
+def _bare(value):
+    """A number out of a command line, where it has no unit; anything else as it is."""
+    try:
+        return float(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
+    """Shifts of points at several temperatures, stated or found; None of one. Raises ValueError, InvalidInput."""
+    each = isotherms(pooled)
+    if len(each) < 2:
+        return None
+    if constants.given:
+        shifts = constants.shifts(np.array([one.temperature for one in each]))
+        return stated(each, shifts, pooled.loads, pooled.freedom)
+    return found(each, pooled.loads, pooled.freedom)
+
+
+def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Iterator[Finding]:
+    """Whether the temperatures come together, and the constants of the laws of shifts that were found."""
+    sentence = TOGETHER.sentence if shifts.found else "The stated shifts of WLF bring the temperatures together"
+    place: dict[str, Any] = {"where": where, "plot": temperature_shifts.NAME}
+    together = eq23.finding(replace(TOGETHER, sentence=sentence), shifts.misfit, reason=shifts.inseparable)
+    for each in (together, eq23.finding(APART, shifts.unshifted)):
+        yield replace(each, dimension="measured", **place)
+    if law is None:
+        return
+    reference = f"reference {law.reference:.5g} K"
+    for claim, number, why in (
+        (C1, law.c1, law.reason),
+        (C2, law.c2, law.reason),
+        (ENERGY, law.activation_energy, law.against),
+    ):
+        why = shifts.inseparable or why
+        if why and (claim is not ENERGY or shifts.inseparable):
+            number = NONE
+        yield Finding(
+            claim,
+            number.value,
+            scatter=(number.low, number.high),
+            grid=0.0,
+            grid_method=EXACT,
+            reason=why,
+            dimension="measured",
+            regime=reference,
+            **place,
+        )
+
+
+def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> str:
+    """Reason why no speed is one that its temperature shifts, and no exponent is told; empty where it is."""
+    if any(each.claim.id == TOGETHER.id and each.verdict == FAILS for each in findings):
+        return NOT_TOGETHER
+    return shifts.inseparable if shifts else ""
+
+
+def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Sequence[Finding]) -> list[str]:
+    """Whether the temperatures come together, and by which law of their shifts."""
+    named = {each.claim.id: each for each in findings}
+    told = sentences([named[TOGETHER.id]])
+    if law is None or unshifted(shifts, findings):
+        return told
+    c1, c2, energy = (named[claim.id].found(3) for claim in (C1, C2, ENERGY))
+    at = f"at {law.reference:.5g} K"
+    if not law.reason:
+        told.append(f"Their shifts follow WLF with c1 = {c1} and c2 = {c2} {at}.")
+        told.append(
+            f"Arrhenius is ruled out: {law.against}." if law.against else f"Arrhenius does as well: {energy}."
+        )
+    elif not law.against:
+        told.append(f"Their shifts allow the law of Arrhenius with {energy}; those of WLF: {law.reason}.")
+    else:
+        told.append(f"No law of their shifts is told: {law.reason}.")
+    return told

@@ -1,0 +1,128 @@
+"""The one path from a study to its page: solve, judge, draw, write."""
+
+import errno
+import os
+from dataclasses import replace
+from pathlib import Path
+
+from scene import SolveError
+from scene.reading import InvalidInput
+
+from ..report import manifest, render
+from ..report.page import Plot
+from ..solving import netcdf, runner
+from ..solving.runner import Progress, SweepResult
+from ..solving.store import Store, Unwritable, make
+from ..solving.suggest import known
+from ..solving.workers import counted
+from .report import SOLVED, Report, faults
+from .study import Study
+
+
+class Broken(SolveError):
+    """So many tasks broke that nothing can be judged."""
+
+
+def run(
+    study: Study,
+    output: str | Path,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    format: str = "html",
+    figures: str = "png",
+    report: bool = True,
+    yes: bool = False,
+    progress: Progress | None = None,
+) -> Report:
+    """Do a study from its tasks to its page; what the folder has is not solved again.
+
+    output : folder of the page and of what has been solved
+    workers : processes; as many as processors if absent
+    scheduler : address of a scheduler of dask.distributed, whose workers solve then
+    format : of the page, "html", "markdown" or "latex"
+    figures : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
+    report : whether the page and its figures are written; findings and results always are
+    yes : agree to what takes more than a day
+    progress : told how far it is
+
+    Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
+    solved, where the folder cannot be written; Broken where so many tasks broke that nothing can be judged.
+    """
+    output, progress = Path(output), progress or Progress()
+    forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figures.split(",") if form.strip())]))
+    known("format", format, render.FORMATS)
+    for form in forms:
+        known("figures", form, render.FORMS)
+    cost, count = study.cost(), counted(workers)
+    cost.refuse(count, yes)
+    below = manifest.inside(output, study.place) if study.place else output
+    if Path(study.place).parts[:1] == (SOLVED,):
+        raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
+    _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
+    if cost.contacts:
+        progress.told(str(cost))
+    swept = _solve(study.batches(), output, workers, scheduler, progress)
+    try:
+        answers = study.answers(swept.outcomes)
+        findings = study.findings(answers)
+        unsolved = study.unsolved(_whole(swept))
+        page = study.page(answers, findings)
+        page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=study.notes)
+    except (SolveError, ValueError, ArithmeticError, LookupError) as error:
+        # What is made of NaN alone raises nearly anything, and would hide what matters.
+        if not swept.faults:
+            raise
+        whole = len(swept.faults) == len(swept.outcomes)
+        what = (
+            "nothing was solved"
+            if whole
+            else f"the solved contacts cannot be judged without the broken ones: {error}"
+        )
+        raise Broken("; ".join([what, *faults(swept, output)])) from error
+    manifest.remove(below)
+    netcdf.write(below / netcdf.NAME, answers)
+    path = None
+    if report:
+        with progress.writing(len(list(page.every(Plot)))) as told:
+            path = render.write(page, findings, below, format, forms, told)
+    else:
+        for name in render.FILES:  # of an earlier run, whose findings these are no longer
+            (below / name).unlink(missing_ok=True)
+        render.write_tables(page, findings, below)
+    manifest.stamp(below, study, page, swept, os.path.relpath(output / SOLVED, below))
+    return Report(study, answers, findings, page, swept, output, path, unsolved)
+
+
+def _whole(swept):
+    """Outcomes of the tasks that did not break."""
+    return {task: outcome for task, outcome in swept.outcomes.items() if task not in swept.faults}
+
+
+def _solve(batches, output, workers, scheduler, progress) -> SweepResult:
+    """Solve what the folder does not have. Timed tasks are solved here, one by one, whatever the scheduler."""
+    swept = SweepResult({}, 0, 0, 0.0)
+    for batch in batches:
+        if not batch.tasks:
+            continue
+        store = Store(output / SOLVED)
+        with progress.solving() as told:
+            if batch.timed:
+                found = runner.sweep(batch.tasks, store, progress=told, fresh=True)
+            else:
+                found = runner.sweep(batch.tasks, store, workers, told, scheduler=scheduler)
+        swept = swept.joined(found)
+    return swept
+
+
+def _make_folders(folder, below, place):
+    """Make every folder that is written into. Raises Unwritable."""
+    try:
+        for path in (folder, *(folder / name for name in (*below, place) if name)):
+            if path.exists() and not path.is_dir():
+                raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))
+            make(path)
+        for path in (folder / place / name for name in (*render.FILES, netcdf.NAME, manifest.NAME)):
+            if path.is_dir():
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    except OSError as error:
+        raise Unwritable(error.errno, error.strerror, error.filename) from error

@@ -1,0 +1,175 @@
+"""Plan of a scene: what both solvers would simulate, what that costs, and what the 1D answer would be worth."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import isinf
+from pathlib import Path
+from textwrap import fill
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Refused, Scene, SolveError, markup, notes
+from scene.costs import two_digits
+from scene.plan import Plan, size
+from scene.printable import brief
+from scene.protocol import foresee
+from scene.reading import InvalidInput
+
+from ..library.case import Case, NotCompared, doubted
+from ..library.lookup import Asked, case_of
+from ..solving.amounts import duration, pascals, seconds
+from ..solving.cost import Cost
+from ..trustmap.verdict import Trust, trust
+from .run.curves import DIMENSIONS, curves
+
+WIDTH = 100
+WHOLE = {"break_long_words": False, "break_on_hyphens": False}
+INDENT = 11  # of the lines, after their names
+
+
+class Plans(dict[str, Plan | str | Trust]):
+    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, six lines.
+
+    scene : the scene that is planned
+    cost : what all contacts of `crosscheck run` take; the reason where it solves none
+    refused : whether that refuses the numbers of a scene of a kind that it compares
+    doubts : about the scene, and notes on what was read for it, as sentences
+    """
+
+    def __init__(
+        self,
+        plans: Mapping[str, Plan | str | Trust],
+        scene: Scene,
+        cost: Cost | str,
+        refused: bool = False,
+        doubts: Sequence[str] = (),
+    ) -> None:
+        super().__init__(plans)
+        self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
+
+    def draw(self, file: str | Path) -> Path:
+        """Draw G', G'' of the solid into a .png, .pdf or .svg file; returns its path.
+
+        Raises InvalidInput for other files, and OSError.
+        """
+        # Only figures need what draws them.
+        from ..report.plots import solid
+        from ..report.plots.rendering import FORMS, picture
+        from ..solving.store import write
+
+        path = Path(file)
+        form = path.suffix.lower().lstrip(".")
+        if form not in FORMS:
+            raise InvalidInput(f"figure = {brief(str(file))}: a file that ends in .{', .'.join(FORMS)}")
+        content = picture(solid.plot(self.scene), (form,)).files[form]
+        write(path, lambda held: held.write(content))
+        return path
+
+    @property
+    def feasible(self) -> bool:
+        """Whether any solver would solve it, and `crosscheck run` would not refuse it for its numbers."""
+        return bool(self._plans) and not self.refused
+
+    @property
+    def details(self) -> str:
+        """Every kernel, array and grid, and what 1D is worth: what `crosscheck plan -v` prints."""
+        return "\n\n".join([_lines(self._summary()), *map(str, self.values())])
+
+    def __str__(self) -> str:
+        return _lines(self._summary())
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        parts = (markup.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values())
+        return "".join([markup.table(list(self._summary())), *parts])
+
+    @property
+    def _plans(self) -> dict[str, Plan]:
+        return {name: each for name, each in self.items() if isinstance(each, Plan)}
+
+    def _summary(self) -> Iterator[tuple[str, str]]:
+        """Names and texts of doubts and notes, of the six lines, then the reasons against the scene."""
+        yield from (("doubtful", each) for each in self.doubts)
+        yield from (("note", each) for each in notes(self.scene))
+        if plans := self._plans:
+            contacts, time = "1, from Python: crosscheck run does not compare this scene, as said below", ""
+            if self.refused:
+                contacts = "none by crosscheck run, which refuses this scene"
+            elif isinstance(self.cost, Cost):
+                contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
+                time = f"about {duration(self.cost.seconds)} on one processor; "
+            yield "contacts", contacts
+            yield "time", f"{time}this contact {self._by_dimension(_seconds)}"
+            yield "memory", f"{self._by_dimension(lambda plan: size(plan.memory))}, at most, in each process"
+            yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
+            left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
+            yield "left out", ", ".join(left) or "nothing"
+        yield "modulus", _stiffness(self.scene)
+        # What refuses all contacts refuses this one too, with values that work for all of them.
+        told = self.cost if isinstance(self.cost, str) else ""
+        reasons = {name: each for name, each in self.items() if isinstance(each, str)}
+        for name, each in reasons.items():
+            if not (self.refused and f"{name} cannot solve" in told):
+                yield "refused", each
+        if told and (self.refused or not reasons):
+            yield "refused" if self.refused else "alone", told
+
+    def _by_dimension(self, told: Callable[[Plan], str]) -> str:
+        return ", ".join(f"{told(plan)} in {DIMENSIONS[name]}" for name, plan in self._plans.items())
+
+
+def _stiffness(scene):
+    """Shear and Young's modulus of the solid at rest and at the instant, in words."""
+    rest, instant = scene.solid.static_modulus, scene.solid.glassy_modulus
+    stiffer = 2 * (1 + scene.solid.poisson_ratio)
+    at_rest = f"shear G = {pascals(rest)}, Young's E = {pascals(stiffer * rest)} at rest"
+    if isinf(instant):
+        return f"{at_rest}; infinite at the instant, by a dashpot"
+    if instant == rest:
+        return f"{at_rest} and at the instant"
+    return f"{at_rest}; {pascals(instant)}, {pascals(stiffer * instant)} at the instant"
+
+
+def plans(asked: Asked) -> Plans:
+    """The plans of a case, of a scene alone, of a file or of a ready scene, whether or not both can solve it.
+
+    Raises InvalidInput.
+    """
+    case = case_of(asked)
+    made: dict[str, Plan | str | Trust] = {
+        solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
+    }
+    cost, refused = _cost(case)
+    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubted(case))
+
+
+def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
+    """The plan of a solver, or its reasons against the scene."""
+    try:
+        foresee(solver, scene)
+        return solver.plan(scene)
+    except Refused as reasons:
+        return str(reasons)
+    except SolveError as reason:
+        return f"{solver.name} would not get through this scene: {reason}"
+
+
+def _cost(case: Case) -> tuple[Cost | str, bool]:
+    """Cost of all contacts that `crosscheck run` solves, or why it solves none, and whether that is a refusal."""
+    try:
+        return sum((each.cost for each in curves(case).values()), Cost()), False
+    except NotCompared as reason:
+        return str(reason), False
+    except Refused as reason:
+        return str(reason), True
+
+
+def _seconds(plan: Plan) -> str:
+    expected = plan.seconds.value
+    return "an unknown time" if expected is None else seconds(float(two_digits(expected)))
+
+
+def _lines(summary):
+    return "\n".join(
+        fill(f"{name:<{INDENT}s}{text}", WIDTH, subsequent_indent=INDENT * " ", **WHOLE) for name, text in summary
+    )

@@ -1,0 +1,1 @@
+"""Accuracy against stored values: crosscheck regress."""

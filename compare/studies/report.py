@@ -1,0 +1,129 @@
+"""Report: what a study came to, which shows itself on a terminal and in a notebook."""
+
+from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from io import BytesIO
+from pathlib import Path
+
+import xarray
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..report import render
+from ..report.page import Page, Plot
+from ..report.plots import style
+from ..solving.runner import SweepResult
+from ..solving.store import TRACE
+from ..solving.unsolved import NONE_UNSOLVED, Unsolved
+from ..statistics import finding
+from ..statistics.finding import Finding
+from .study import Study
+
+SOLVED = "solved"  # folder of what has been solved, below that of the page
+SHOWN = 3  # reasons that are said of tasks that broke
+SCREEN = 110  # dots per inch of what a notebook shows
+
+
+@dataclass(frozen=True, repr=False)
+class Report:
+    """Report of a study. Printed, it is what the command prints; in a notebook, tables and figures.
+
+    study : the question
+    answers : everything that was solved, an xarray.DataTree with a Dataset for each rectangle and solver
+    claims : findings one by one; `findings` has them as a DataFrame
+    page : the page, with its plots
+    swept : number of tasks that were solved and reused, and what broke
+    output : folder of the page and of what has been solved
+    path : file of the page; None if none was written
+    unsolved : contacts without an answer
+    """
+
+    study: Study
+    answers: xarray.DataTree
+    claims: Sequence[Finding]
+    page: Page
+    swept: SweepResult
+    output: Path
+    path: Path | None = None
+    unsolved: Unsolved = NONE_UNSOLVED
+
+    @property
+    def findings(self) -> DataFrame:
+        """Findings as a DataFrame, the same columns whatever command they come from."""
+        return finding.table(self.claims)
+
+    @property
+    def figures(self) -> "Figures":
+        """Figures by name, each drawn when it is taken out; a notebook shows them."""
+        return Figures(tuple(self.page.every(Plot)))
+
+    @property
+    def failed(self) -> bool:
+        """Whether a task broke, many contacts or a scene's own have no answer, or what has to hold does not."""
+        return bool(self.swept.faults) or self.unsolved.serious or self.study.failed(self.claims)
+
+    @property
+    def doubts(self) -> Sequence[str]:
+        """Doubts, and contacts without an answer, as they stand before the answer."""
+        return self.page.doubts
+
+    @property
+    def faults(self) -> list[str]:
+        """Lines on tasks that broke."""
+        return faults(self.swept, self.output)
+
+    def __str__(self) -> str:
+        return render.terminal.text(self.page, self.path)
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        return render.notebook.fragment(self.page, self.path)
+
+
+@dataclass(frozen=True, repr=False)
+class Figures(Mapping[str, Figure]):
+    """Figures by name, each drawn when it is taken out."""
+
+    plots: tuple[Plot, ...]
+
+    def __getitem__(self, name: str) -> Figure:
+        plot = {each.name: each for each in self.plots}[name]
+        with style.applied():
+            figure = plot.figure()
+        figure._repr_png_ = lambda: _png(figure)  # type: ignore[attr-defined]
+        return figure
+
+    def __iter__(self) -> Iterator[str]:
+        return (plot.name for plot in self.plots)
+
+    def __len__(self) -> int:
+        return len(self.plots)
+
+    def __repr__(self) -> str:
+        return f"Figures({', '.join(self)})"
+
+    def _repr_html_(self) -> str:
+        shown = ((name, b64encode(_png(self[name])).decode()) for name in self)
+        return "".join(
+            f'<p><img alt="{escape(name)}" src="data:image/png;base64,{image}"></p>' for name, image in shown
+        )
+
+
+def _png(figure):
+    image = BytesIO()
+    with style.applied():
+        figure.savefig(image, format="png", dpi=SCREEN)
+    return image.getvalue()
+
+
+def faults(swept: SweepResult, output: Path) -> list[str]:
+    """Number of tasks that broke, the first reasons, and where the tracebacks are; empty where none broke."""
+    if not swept.faults:
+        return []
+    lines = [f"{len(swept.faults)} of {len(swept.outcomes)} tasks broke, which is a fault of the program"]
+    told = {reason: task.label for task, reason in reversed(list(swept.faults.items()))}
+    lines += [f"{label}: {reason}" for reason, label in reversed(told.items())][:SHOWN]
+    return [*lines, f"tracebacks: {(output / SOLVED).resolve()}/*{TRACE}"]

@@ -1,0 +1,1 @@
+"""Scenes in one and in three dimensions: crosscheck run."""

@@ -1,0 +1,287 @@
+"""Claims on one scene in one and in three dimensions, and their findings on its curves."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+from math import isfinite, nan
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from ...library.case import Case
+from ...solving.parameter_grid import COARSE, FINE
+from ...statistics import eq23, means
+from ...statistics.collapse import Collapse, collapse
+from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
+from ...statistics.frictioncurves import SimulatedCurves
+from ...statistics.jackknife import Sample, mean
+from ...statistics.means import FRICTION, Compared, compared
+from ..claims.points import stacked
+from .curves import (
+    CURVES,
+    DIMENSIONS,
+    LOAD,
+    OWN,
+    ROUGH_DEPTH,
+    SMOOTH_DEPTH,
+    SMOOTH_SPEED,
+    SPEED,
+    predicted_exponent,
+    scaled_speed,
+)
+
+TOLERANCE = 0.05
+AS_HALVED = "The change on halving understates the error by 1 / (1 - 2^-p) at order p: twice at first order."
+
+SLOW = Claim(
+    "run.friction.smooth-slow",
+    "Slow friction of the smooth body is twice as high in 1D as in 3D",
+    2.0,
+    2 * TOLERANCE,
+    "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
+)
+OWN_FRICTION = Claim(
+    "run.friction.own",
+    "Friction of the scene as it stands is the same in 1D and 3D",
+    1.0,
+    TOLERANCE,
+    "Friction in 1D over 3D, ratio of the means over surfaces.",
+)
+ROUGH_FORCE = Claim(
+    "run.force-depth.rough",
+    "The force on the rough body at the same depth is the same in 1D and 3D",
+    0.0,
+    TOLERANCE,
+    "Force in 1D over 3D less one, at rest; ratio of the means over surfaces, at every depth.",
+)
+SMOOTH_FORCE = Claim(
+    "run.force-depth.smooth",
+    "The force on the smooth body at the same depth is the same in 1D and 3D",
+    0.0,
+    TOLERANCE,
+    "Force in 1D over 3D less one, at rest, at every depth.",
+)
+# Numbers that tell how far those above can be trusted.
+AT_SPEEDS = Claim("run.friction.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
+CLOSED_FORM = Claim(
+    "run.force-depth.exact",
+    "Force on the smooth body over the closed form, less one",
+    meaning="At rest, where the closed form is the truth.",
+)
+GRID = Claim(
+    "run.grid",
+    "Change of the scene's own answer from half the points to all",
+    meaning=f"Relative, of friction, else of the depth under a load or the force at a depth. {AS_HALVED}",
+)
+SPREAD = Claim(
+    "run.friction.spread",
+    "Spread of both estimates of 3D friction",
+    meaning="Friction by traction less friction by energy lost, over friction: an indicator of the error of "
+    "discretisation, no bound.",
+    dimension="3D",
+)
+
+
+@dataclass(frozen=True)
+class Shifted:
+    """Curves of friction against load of one solver, shifted onto one.
+
+    collapse : on the fine grid; findings : on it
+    """
+
+    solver: str
+    collapse: Collapse
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
+class CaseFindings:
+    """Findings, curves and points of one case.
+
+    name : of the case; folder : of its figures
+    datasets : by "curve/solver"
+    """
+
+    name: str
+    folder: str
+    case: Case
+    datasets: Mapping[str, xarray.Dataset]
+
+    @cached_property
+    def claims(self) -> list[Finding]:
+        """Findings on claims, then numbers that tell how far these can be trusted."""
+        return [
+            *self._slow(),
+            *self._own(),
+            *self.forces(ROUGH_FORCE).values(),
+            *self.forces(SMOOTH_FORCE).values(),
+            *(each for shifted in self.shifted for each in shifted.findings),
+            *self._unshifted(),
+            *self.at_speeds.values(),
+            *self._closed_form(),
+            *self._grid(),
+            *self._spread(),
+        ]
+
+    def _slow(self):
+        """Friction of the smooth body at its lowest speed."""
+        if speeds := self._speeds(SMOOTH_SPEED):
+            lowest = int(np.argmin(speeds))
+            regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
+            found = self._friction(SMOOTH_SPEED)
+            yield self._finding(SLOW, found, (lowest, 0), plot="smooth-limit", regime=regime)
+
+    def _own(self):
+        """Friction of the scene as it stands."""
+        if self.case.slides and self.case.motion.speed > 0:
+            yield self._finding(OWN_FRICTION, self._friction(OWN), (0, 0), plot="friction-speed")
+
+    @cached_property
+    def at_speeds(self) -> dict[float, Finding]:
+        """Friction at every speed."""
+        speeds = self._speeds(SPEED)
+        found = self._friction(SPEED) if speeds else None
+        return {speed: self._at_speed(AT_SPEEDS, found, k, speed) for k, speed in enumerate(speeds)}
+
+    def forces(self, claim: Claim) -> dict[float, Finding]:
+        """Force at every depth at which anything touches in three dimensions, 1D over 3D less one."""
+        curve = ROUGH_DEPTH if claim is ROUGH_FORCE else SMOOTH_DEPTH
+        return self._deviations(claim, curve, "MDR", "BEM") if f"{curve}/BEM" in self.datasets else {}
+
+    def _closed_form(self):
+        """Force on the smooth body over the closed form, less one."""
+        if f"{SMOOTH_DEPTH}/exact" in self.datasets:
+            for solver, dimension in DIMENSIONS.items():
+                yield from self._deviations(CLOSED_FORM, SMOOTH_DEPTH, solver, "exact", dimension).values()
+
+    def _grid(self):
+        """Change of the scene's own answer from half the points to all."""
+        names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
+        names = FRICTION if self.case.slides and self.case.motion.speed > 0 else names
+        for solver, dimension in DIMENSIONS.items():
+            number = self._ratio(OWN, (solver,), *names)
+            value = float((number.grid / np.abs(number.value))[0, 0])
+            yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension)
+
+    def _spread(self):
+        """Spread of both estimates of friction in three dimensions, at every speed."""
+        speeds = self._speeds(SPEED)
+        if speeds and "friction_spread" in self.datasets[f"{SPEED}/BEM"]:
+            found = self._ratio(SPEED, ("BEM",), "friction_spread", size=True)
+            known = [(k, speed) for k, speed in enumerate(speeds) if isfinite(found.value[k, 0])]
+            yield from (replace(self._at_speed(SPREAD, found, k, speed), size=True) for k, speed in known)
+
+    @cached_property
+    def shifted(self) -> list[Shifted]:
+        """Curves of friction against load shifted onto one, of each solver where there are points enough."""
+        found = []
+        for solver, dimension in DIMENSIONS.items():
+            fine, coarse = (self._collapse(solver, grid) for grid in (FINE, COARSE))
+            if fine is None:
+                continue
+            exponent = predicted_exponent(self.case)
+            shifts = exponent * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
+            told = eq23.findings(
+                fine,
+                coarse,
+                dimension,
+                shifts,
+                exponent,
+                where=self.name,
+                draws=0 if self.case.roughness is None else fine.data.surfaces,
+                plots=(f"{self.folder}/collapse", f"{self.folder}/collapse"),
+                horizontal=coarse is None,
+            )
+            if coarse is None:  # for want of an answer: data without a grid are exact, this is not
+                told = (replace(each, grid=nan, grid_method=UNKNOWN) for each in told)
+            found.append(Shifted(solver, fine, tuple(told)))
+        return found
+
+    def _unshifted(self):
+        """Curves that cannot be shifted for want of answers."""
+        asked = self.datasets.get(f"{LOAD}/BEM")
+        if asked is not None and eq23.shiftable(asked.sizes["speed"], asked.sizes[means.pressed(asked)]):
+            known = {each.solver for each in self.shifted}
+            yield from (eq23.too_few(DIMENSIONS[each], self.name) for each in DIMENSIONS if each not in known)
+
+    @cached_property
+    def points(self) -> DataFrame:
+        """Every point of every curve on the fine grid, a row each."""
+        frames = {}
+        for curve, solver in product(CURVES, (*DIMENSIONS, "exact")):
+            if (dataset := self.datasets.get(f"{curve}/{solver}")) is not None:
+                rough = "draw" in dataset.dims or (self.case.roughness and "smooth" not in curve)
+                frames[curve, solver, "rough" if rough else "smooth"] = means.means(dataset)
+        every = stacked(frames, "curve", "solver", "body")
+        first = [name for name in ("curve", "solver", "body", "points", "speed", "load", "depth") if name in every]
+        return every[[*first, *(name for name in every if name not in first)]]
+
+    @cached_property
+    def failures(self) -> DataFrame:
+        """Every solve that failed, with its reason."""
+        found = {tuple(place.split("/")): means.failures(dataset) for place, dataset in self.datasets.items()}
+        return stacked(found, "curve", "solver")
+
+    def _speeds(self, curve):
+        """Speeds of a curve; none if it was not asked for."""
+        asked = self.datasets.get(f"{curve}/BEM")
+        return [] if asked is None else asked["speed"].values.tolist()
+
+    def _friction(self, curve) -> Compared:
+        return self._ratio(curve, ("MDR", "BEM"), *FRICTION)
+
+    def _ratio(self, curve, solvers, over, under=None, size=False) -> Compared:
+        """A mean, or a ratio of two means, of one solver, or of one over another, at every point of a curve."""
+        names = [over] if under is None else [over, under]
+        datasets = {solver: self.datasets[f"{curve}/{solver}"][names] for solver in solvers}
+
+        def ratio(sample):
+            values = [mean(sample[solver], over, under) for solver in solvers]
+            return values[0] / values[1] if len(values) > 1 else values[0]
+
+        on_both = all(COARSE in each["grid"].values for each in datasets.values())
+        fine = Sample({name: each.sel(grid=FINE) for name, each in datasets.items()})
+        coarse = {name: each.sel(grid=COARSE) for name, each in datasets.items()} if on_both else None
+        return compared(ratio, fine, coarse, size)
+
+    def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
+        """Force of one over that of another less one, by depth."""
+        reference = self.datasets[f"{curve}/{below}"]
+        touched, depths = means.touches(reference)[0], reference["depth"].values.tolist()
+        found = self._ratio(curve, (above, below), "normal_force")
+        place = {"plot": "force-depth", "less": 1.0, "dimension": dimension}
+        return {
+            depth: self._finding(claim, found, (0, k), f"{depth * 1e6:.3g} µm", **place)
+            for k, depth in enumerate(depths)
+            if touched[k]
+        }
+
+    def _at_speed(self, claim, found, place, speed):
+        return self._finding(claim, found, (place, 0), f"v = {speed:.3g} m/s", "friction-speed")
+
+    def _finding(self, claim, found, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
+        value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
+        return Finding(
+            claim=claim,
+            value=value - less,
+            scatter=(low - less, high - less),
+            grid=grid,
+            grid_method=HALVED if isfinite(grid) else UNKNOWN,
+            where=f"{self.name}, {place}" if place else self.name,
+            draws=found.draws,
+            regime=regime,
+            plot=f"{self.folder}/{plot}" if plot else "",
+            dimension=dimension,
+        )
+
+    def _collapse(self, solver, grid) -> Collapse | None:
+        """None with too few speeds or points."""
+        dataset = self.datasets.get(f"{LOAD}/{solver}")
+        if dataset is None or grid not in dataset["grid"].values:
+            return None
+        try:
+            return collapse(SimulatedCurves.of(dataset.sel(grid=grid)))
+        except ValueError:
+            return None

@@ -1,0 +1,136 @@
+"""Curves around one scene: its own contact, force against depth, friction against speed and against load."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from pydantic import ValidationError
+
+from mdr1d import equations
+from scene import Indent, Refused, Scene, SolveError, Solver
+from scene.protocol import trusted, why_not
+from scene.scales import elastic_contact
+
+from ...library.case import Case
+from ...models import exact
+from ...solving.parameter_grid import COARSE, FINE, Rectangle, on_two_grids, refuse
+
+DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
+OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
+ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
+CURVES = {
+    OWN: "The scene as it stands",
+    ROUGH_DEPTH: "Force against depth, rough",
+    SMOOTH_DEPTH: "Force against depth, smooth",
+    SPEED: "Friction against speed",
+    LOAD: "Friction against load",
+    SMOOTH_SPEED: "Friction of the smooth body against speed",
+}
+
+
+def curves(case: Case) -> dict[str, Rectangle]:
+    """Rectangles of a case by name, all of which both solvers can solve, as far as that is known beforehand.
+
+    Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
+    """
+    try:
+        found = _curves(case)
+        refuse(found.values())
+    except (ArithmeticError, SolveError, ValidationError) as error:
+        # The case is valid; what follows from it is not.
+        raise Refused("its numbers are so far apart that the contact leaves their range") from error
+    return found
+
+
+def _curves(case):
+    plan, scene, motion = case.plan(), case.scene, case.motion
+    smooth = replace(scene, roughness=None)
+    found = {OWN: _rectangle(case, scene, (motion.speed,), (motion.greatest,), keeps_fields=True)}
+    depths = tuple(factor * elastic_contact(scene).depth for factor in plan.depths)
+    indented = Indent(depth=depths[0])
+    if case.roughness:
+        found[ROUGH_DEPTH] = _rectangle(case, replace(scene, motion=indented), (0.0,), depths)
+    pressed = _rectangle(case, replace(smooth, motion=indented), (0.0,), depths)
+    closed_form = exact.Exact()
+    if not closed_form.refusals(pressed.scene):
+        known: dict[str, dict[str, Solver]] = {closed_form.name: {FINE: closed_form, COARSE: closed_form}}
+        pressed = replace(pressed, grids={**pressed.grids, **known})
+    found[SMOOTH_DEPTH] = pressed
+    if plan.speeds:
+        found[SPEED] = _rectangle(case, scene, plan.speeds, (motion.greatest,))
+        loads = tuple(motion.greatest * factor for factor in plan.pressing)
+        found[LOAD] = _rectangle(case, scene, plan.load_speeds, loads)
+    if plan.smooth_speeds:
+        found[SMOOTH_SPEED] = _rectangle(case, smooth, plan.smooth_speeds, (motion.greatest,))
+    return found
+
+
+def predicted_exponent(case: Case) -> float:
+    """d ln p / d ln v that Eq. 23 predicts for the shortest wave of the case, or of its 1D grid's cut-off."""
+    speeds, rough = case.plan().load_speeds, case.roughness
+    if rough is None or len(speeds) < 2:
+        return equations.force_shift_exponent(1.0, case.indenter.exponent)
+    q_max = rough.q_max(rough.longest / case.mdr.points)
+    beta = exact.loss_exponent(case.scene.solid, q_max, speeds)
+    return equations.force_shift_exponent(beta, case.indenter.exponent)
+
+
+def friction_law(case: Case, load, speed, rms_slope):
+    """Coefficient of friction of Eq. 19 at loads [N] and speeds [m/s]."""
+    time = float(case.scene.solid.retardation()[2].max())
+    shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
+    # Eqs. 18 and 19 are written for a Poisson ratio of 1/2.
+    modulus = case.scene.solid.indentation_modulus / 4
+    xi = equations.similarity_variable(load, modulus, time, speed, rms_slope, *shape)
+    return equations.plateau(rms_slope) * equations.interpolation(xi)
+
+
+def scaled_speed(case: Case, speed: float) -> float:
+    """v tau / a with the radius of the smooth relaxed contact; tau is the retardation time of the one mode."""
+    return speed * float(case.scene.solid.retardation()[2][0]) / elastic_contact(case.scene).radius
+
+
+def slow_friction(case: Case) -> Mapping[str, float]:
+    """Friction of the smooth body over the slope at the contact's edge, per v tau / a at low speed, by solver."""
+    contact = elastic_contact(case.scene)
+    shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
+    speed = contact.radius / float(case.scene.solid.retardation()[2][0])
+    lag, modulus = exact.mean_lag(case.scene.solid), case.scene.solid.indentation_modulus
+    laws = {"MDR": exact.slow_friction_1d, "BEM": exact.slow_friction_3d}
+    return {
+        solver: law(speed, contact.radius, lag, modulus, *shape) / contact.load / edge_slope(case)
+        for solver, law in laws.items()
+    }
+
+
+def edge_slope(case: Case) -> float:
+    """Slope of the smooth body at the edge of the smooth relaxed contact."""
+    return exact.edge_slope(case.indenter, elastic_contact(case.scene).radius)
+
+
+def _rectangle(case: Case, scene: Scene, speeds, values, keeps_fields=False) -> Rectangle:
+    """Contacts on the grid of each solver, and on half its points where that is a grid of the same surface."""
+    plan = case.plan()
+    found = Rectangle(
+        scene=scene,
+        speeds=tuple(speeds),
+        values=tuple(values),
+        grids={each.name: {FINE: each} for each in (case.mdr, case.bem)},
+        draws={case.mdr.name: plan.profiles, case.bem.name: plan.surfaces},
+        keeps_fields=keeps_fields,
+    )
+    # A grid that cuts the roughness off has another surface on half the points.
+    if scene.roughness is not None and scene.roughness.shortest is None:
+        return found
+    return replace(found, grids={each.name: _halved(each, found.corners) for each in (case.mdr, case.bem)})
+
+
+def _halved(solver, scenes) -> dict[str, Solver]:
+    """A solver on its grid, and on half the points if it then solves all of some scenes, the widest first."""
+    try:
+        grids = on_two_grids(solver)[solver.name]
+    except ValidationError:
+        return {FINE: solver}
+    coarse = grids[COARSE]
+    with trusted():
+        refused = any(map(coarse.refusals, scenes)) or why_not(coarse, scenes[0])
+    return {FINE: solver} if refused else grids

@@ -1,0 +1,116 @@
+"""Normal force at rest at given depths: what roughness adds to it, and one dimension against three."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pandas import DataFrame, concat
+
+from ....report.page import Plot, Tables
+from ....report.plots import style
+from ....report.plots.curves import averaged, intervals, of_curves
+from ....report.plots.lettering import lettered
+from ....statistics.finding import Finding
+
+NAME = "force-depth"
+DEVIATIONS = f"{NAME}-deviations"
+MICRONS = 1e6
+# Neighbouring markers are drawn apart by this factor of the depth, either way.
+APART = 1.02
+
+
+def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], folder: str = "") -> Plot | None:
+    """Plot of force against depth; None without points.
+
+    deviations : body, depth [m], and the finding on 1D over 3D less one
+    """
+    own = of_curves(points, points["curve"].str.startswith(NAME))
+    if own.empty:
+        return None
+    rows = [
+        {"body": body, "depth": depth, "deviation": found.value, "deviation_low": low, "deviation_high": high}
+        for body, depth, found in deviations
+        for low, high in [found.interval]
+    ]
+    names = ["body", "depth", "deviation", "deviation_low", "deviation_high"]
+    caption = (
+        "Force at a depth at rest: (a) over that on the smooth body in closed form, or else in 3D, less one; (b) "
+        f"in 1D over that in 3D, less one. An arrow marks a bar that goes on. {averaged(own)}"
+    )
+    alternative = "Deviations of force fall with depth, of rough bodies from the smooth one and of 1D from 3D."
+    tables = {NAME: own, DEVIATIONS: DataFrame(rows, columns=names)}
+    return Plot(f"{folder}{NAME}", figure, tables, caption, alternative)
+
+
+def figure(tables: Tables) -> Figure:
+    """Above: force less that on the smooth body. Below: 1D over 3D."""
+    points = tables[NAME]
+    drawing = style.canvas("single", 3.9)
+    above, below = drawing.subplots(2, 1, sharex=True)
+    above.set(ylabel="force / smooth - 1 [%]", xscale="log")
+    above.axhline(0, **style.line(0.6, 0.55))
+    style.span(above, MICRONS * points["depth"])
+    _over_smooth(above, points)
+    _deviations(below, tables[DEVIATIONS])
+    below.set(xlabel="depth [µm]", ylabel="force 1D / 3D - 1 [%]")
+    lettered((above, below))
+    style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 2)
+    style.decades(above, below)
+    return drawing
+
+
+def _over_smooth(axes: Axes, points: DataFrame) -> None:
+    """Force over that on the smooth body at the same depth, less one, in both dimensionalities."""
+    smooth = points[points["body"] == "smooth"].sort_values("depth")
+    known = next((own for solver in ("exact", "BEM") if len(own := smooth[smooth["solver"] == solver])), smooth)
+    if known.empty:
+        return
+    rows, names = [], ["normal_force", "normal_force_low", "normal_force_high"]
+    hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
+    for index, solver in enumerate(("MDR", "BEM")):
+        for body, look in (("smooth", hollow), ("rough", {})):
+            curve = points[(points["solver"] == solver) & (points["body"] == body)]
+            force = np.interp(curve["depth"], known["depth"], known["normal_force"])
+            if len(curve):
+                own = 100 * (curve[names].div(force, axis=0) - 1)
+                x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - 1)
+                label = f"{style.LABEL[solver]}, {body}"
+                intervals(axes, x, own, "normal_force", **style.look(solver, label=label, **look))
+                rows += [own.set_axis(x)] if body == "rough" else []
+    if rows:
+        _limit(axes, *concat(rows).reset_index().to_numpy(float).T)
+
+
+def _deviations(axes: Axes, found: DataFrame) -> None:
+    axes.axhline(0, **style.line(0.6, 0.55))
+    looks: dict[str, dict[str, Any]] = {
+        "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
+        "smooth": {"color": style.grey(0.45), "marker": "D", "linestyle": ":"},
+    }
+    for body, look in looks.items():
+        curve = found[found["body"] == body]
+        if len(curve):
+            intervals(axes, MICRONS * curve["depth"], curve, "deviation", 100, label=body, **look)
+        if body == "rough" and len(curve):
+            names = ["depth", "deviation", "deviation_low", "deviation_high"]
+            _limit(axes, *(curve[names].to_numpy(float) * [MICRONS, 100, 100, 100]).T)
+    if len(found):
+        axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
+
+
+def _limit(axes, depths, values, low, high):
+    """Limits from all values and the shorter half of the bars; an arrow where a bar goes on beyond them."""
+    if not np.isfinite(high - low).any():
+        return
+    short = (high - low) <= np.nanmedian(high - low)
+    bottom = min(0, np.nanmin(np.where(short, low, values)))
+    top = max(0, np.nanmax(np.where(short, high, values)))
+    margin = 0.15 * (top - bottom) or 1.0
+    bottom, top = bottom - margin, top + margin
+    axes.set_ylim(bottom, top)
+    for edge, marker, beyond in ((bottom, "v", low < bottom), (top, "^", high > top)):
+        look = {"color": style.ink(), "markersize": style.mark(), "clip_on": False, "linestyle": "none"}
+        if beyond.any():  # a line without points counts in the layout, at the corner of the figure
+            axes.plot(depths[beyond], np.full(beyond.sum(), edge), marker=marker, **look)

@@ -1,0 +1,145 @@
+"""Coefficient of friction against speed, and against load at several speeds, in one and in three dimensions."""
+
+from collections.abc import Callable, Sequence
+from math import nan
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ....report.page import Plot, Tables
+from ....report.plots import style
+from ....report.plots.curves import averaged, intervals, of_curves
+from ....report.plots.lettering import clear, lettered
+from ....statistics.finding import Finding
+
+SPEED, LOAD = "friction-speed", "friction-load"
+RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
+EQ_19 = "Eq. 19 with exponent 1.5 and the rms slope of the 1D profiles, without the slope of the smooth shape."
+# Neighbouring markers are drawn apart by this factor of the speed, either way.
+APART = 1.04
+# mu of Eq. 19 at loads [N], speeds [m/s] and an rms slope.
+Law = Callable[[Any, Any, float], Any]
+
+
+def against_speed(
+    points: DataFrame, ratios: Sequence[tuple[float, Finding]], law: Law, held: str, folder: str = ""
+) -> Plot | None:
+    """Plot of friction against speed; None unless something slides.
+
+    ratios : speed [m/s], and the finding on 1D over 3D
+    law : Eq. 19; held : what is prescribed at all speeds, in words
+    """
+    own = of_curves(points, points["curve"] == SPEED)
+    if own.empty:
+        return None
+    rows = [
+        {"speed": speed, "ratio": found.value, "ratio_low": low, "ratio_high": high}
+        for speed, found in ratios
+        for low, high in [found.interval]
+    ]
+    tables = {SPEED: own, RATIO: DataFrame(rows), LAW: _law(own, law)}
+    told = f" Dotted: {EQ_19}" if len(tables[LAW]) else ""
+    caption = f"Coefficient of friction against speed at a {held}; below, 1D over 3D.{told} {averaged(own)}"
+    alternative = "Friction of both models rises to a maximum and falls; below, their ratio."
+    return Plot(f"{folder}{SPEED}", speed_figure, tables, caption, alternative)
+
+
+def speed_figure(tables: Tables) -> Figure:
+    """Above: friction. Below: 1D over 3D."""
+    points, ratios, law = tables[SPEED], tables[RATIO], tables[LAW]
+    drawing = style.canvas("single", 3.9)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
+    above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
+    style.span(above, points["speed"])
+    for index, (solver, curve) in enumerate(points.sort_values("speed").groupby("solver", sort=False)):
+        look = style.look(str(solver), markersize=style.mark(0.7), capsize=style.mark(0.7))
+        intervals(above, curve["speed"] * APART ** (2 * index - 1), curve, "friction_coefficient", **look)
+    lowest = above.get_ylim()[0]
+    if len(law):
+        look = style.line(0.3, 0.9, label="Eq. 19, roughness alone")
+        above.plot(law["speed"], law["friction_coefficient"], ":", **look)
+    # Where the smooth shape rules, Eq. 19 lies decades below: it must not press the curves together.
+    above.set_ylim(bottom=max(above.get_ylim()[0], lowest / 3))
+    above.legend()
+    below.axhline(1, **style.line(0.6, 0.55))
+    look = {"color": style.ink(), "marker": "o", "markersize": style.mark(0.7), "capsize": style.mark(0.7)}
+    intervals(below, ratios["speed"], ratios, "ratio", **look)
+    below.set(xlabel="speed [m/s]", ylabel="1D / 3D [1]", ylim=(0, None))
+    lettered((above, below))
+    style.decades(above, below)
+    clear(drawing, (above,))
+    return drawing
+
+
+def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
+    """Plot of friction against load at several speeds; None unless something slides."""
+    own = of_curves(points, points["curve"] == LOAD)
+    if own.empty:
+        return None
+    slope = _slope(own)
+    known = (own["solver"] == "MDR") & np.isfinite(slope)
+    own = own.assign(eq_19=nan)
+    if known.any():
+        own.loc[known, "eq_19"] = law(own["normal_force"][known], own["speed"][known], slope)
+    pressed = "" if "load" in own else " The depth is prescribed: loads are means."
+    told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
+    caption = (
+        f"Coefficient of friction against normal force, a curve for each speed.{pressed}{told} {averaged(own)}"
+    )
+    alternative = "Friction of both models against load in two panels of the same axes, a curve for each speed."
+    return Plot(f"{folder}{LOAD}", load_figure, {LOAD: own}, caption, alternative)
+
+
+def load_figure(tables: Tables) -> Figure:
+    """Left 1D, right 3D, the same axes."""
+    points = tables[LOAD]
+    drawing = style.canvas("double", 2.9)
+    panels = drawing.subplots(1, 2, sharex=True, sharey=True)
+    panels[0].set(xscale="log", yscale="log")
+    style.span(panels[0], points["normal_force"][points["normal_force"] > 0])
+    for axes, solver in zip(panels, ("MDR", "BEM"), strict=True):
+        axes.set(xlabel="normal force [N]", title=style.LABEL[solver])
+        curves = list(points[points["solver"] == solver].groupby("speed"))
+        for shade, form, (speed, curve) in zip(
+            style.shades(solver, len(curves)), style.forms(), curves, strict=False
+        ):
+            look = style.look(solver, color=shade, **form, label=f"{speed:.3g} m/s", capsize=style.mark(0.6))
+            own = curve.sort_values("normal_force")
+            intervals(axes, own["normal_force"], own, "friction_coefficient", **look)
+    _eq_19(panels[0], points[points["eq_19"].notna()])
+    for axes in panels:
+        axes.legend()
+    style.decades(*panels)
+    panels[0].set_ylabel("coefficient of friction [1]")
+    lettered(panels)
+    clear(drawing, panels)
+    return drawing
+
+
+def _eq_19(axes, points):
+    """Eq. 19 at each speed, without pressing the curves together where it lies far below them."""
+    lowest, curves = axes.get_ylim()[0], list(points.groupby("speed"))
+    for shade, (_, curve) in zip(style.shades("MDR", len(curves)), curves, strict=True):
+        curve = curve.sort_values("normal_force")
+        axes.plot(curve["normal_force"], curve["eq_19"], ":", color=shade, linewidth=style.width(1.1))
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], lowest / 3))
+    if curves:  # one entry for the lines of all speeds
+        seen = "" if points["eq_19"].max() > axes.get_ylim()[0] else ": below"
+        axes.plot([], [], ":", **style.line(0.3, 1.1, label=f"Eq. 19 at each speed{seen}"))
+
+
+def _slope(points) -> float:
+    """Rms slope of the 1D profiles; NaN of a smooth body."""
+    profiles = points[points["solver"] == "MDR"]
+    return float(profiles["rms_slope"].iloc[0]) if "rms_slope" in profiles and len(profiles) else nan
+
+
+def _law(points, law) -> DataFrame:
+    """Eq. 19 over the speeds; empty of a smooth body, where a depth is prescribed, or at one speed."""
+    slope = _slope(points)
+    if not np.isfinite(slope) or "load" not in points or points["speed"].nunique() < 2:
+        return DataFrame(columns=["speed", "friction_coefficient"])
+    speed = np.geomspace(points["speed"].min(), points["speed"].max(), 101)
+    return DataFrame({"speed": speed, "friction_coefficient": law(points["load"].iloc[0], speed, slope)})

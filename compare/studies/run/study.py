@@ -1,0 +1,338 @@
+"""Scenes in one and in three dimensions: `crosscheck run`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from pandas import DataFrame
+
+from scene import Refused, Scene, notes
+from scene.vocabulary import FIELDS as DEFINED
+
+from ...library.case import Case, NotCompared, doubted
+from ...library.describe import described, folders
+from ...library.lookup import Asked, named_cases
+from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...report.plots import contact_maps, shifted_curves
+from ...report.views import view
+from ...solving import parameter_grid
+from ...solving.continuation import by_contact
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import Rectangle
+from ...solving.task import SceneTask, Task
+from ...solving.vocabulary import attributes
+from ...statistics import eq23, finding
+from ...statistics.finding import Finding
+from ...statistics.means import with_spread
+from ...trustmap.verdict import Trust, trust
+from ..study import Study
+from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
+from .curves import (
+    CURVES,
+    DIMENSIONS,
+    OWN,
+    curves,
+    edge_slope,
+    friction_law,
+    predicted_exponent,
+    scaled_speed,
+    slow_friction,
+)
+from .figures import force_depth, friction_curves, smooth_limit
+
+FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"
+
+
+@dataclass(frozen=True)
+class Run(Study):
+    """Scenes, each with the curves around it.
+
+    cases : by name
+    """
+
+    cases: Mapping[str, Case]
+    _found: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    command, title = "run", "One dimension against three"
+
+    @classmethod
+    def of(cls, scene: Asked | Mapping[str, Asked] | None = None) -> "Run":
+        """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
+        asked = scene if isinstance(scene, str | Path) else "scene"
+        try:
+            run = cls(named_cases(scene))
+            run.rectangles()
+        except NotCompared as error:
+            if not isinstance(scene, str | Path):
+                raise
+            alone = (
+                "crosscheck plan says what each solver makes of it, and crosscheck animate shows motion in time"
+            )
+            raise NotCompared(f"{error}. So {scene} cannot be compared; {alone}") from error
+        except Refused as error:
+            raise Refused(f"{asked}: {error}") from error
+        return run
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return {"cases": {name: case.inputs for name, case in self.cases.items()}}
+
+    @cached_property
+    def doubts(self) -> tuple[str, ...]:
+        """Doubts about the scene of each case as it stands, with its name where there are several."""
+        found = {name: doubted(case) for name, case in self.cases.items()}
+        named = len(self.cases) > 1
+        return tuple(f"{name}: {each}" if named else each for name, told in found.items() for each in told)
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on what was read for the scenes."""
+        return tuple(dict.fromkeys(note for case in self.cases.values() for note in notes(case.scene)))
+
+    @property
+    def own(self) -> Sequence[SceneTask]:
+        """First contact of each case in each solver, on the fine grid."""
+        found = [dict(reversed(curves[OWN].contacts)) for curves in self._curves.values()]
+        return [contacts[0] for each in found for contacts in each.values()]
+
+    @cached_property
+    def folders(self) -> Mapping[str, str]:
+        """Folders of the cases, by name. Raises InvalidInput where two share one."""
+        return folders(self.cases, "case")
+
+    @cached_property
+    def _curves(self) -> Mapping[str, Mapping[str, Rectangle]]:
+        return {name: curves(case) for name, case in self.cases.items()}
+
+    def rectangles(self) -> Mapping[str, Rectangle]:
+        """Every curve of every case, by "case/curve"."""
+        return {
+            f"{self.folders[name]}/{curve}": each
+            for name, found in self._curves.items()
+            for curve, each in found.items()
+        }
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Every curve, the fields of each scene's own contact, and the processor time of each solver."""
+        parts: dict[str, xarray.Dataset] = {}
+        outcomes = by_contact(outcomes)
+        for name, found in self._curves.items():
+            folder = self.folders[name]
+            for solver, kept in found[OWN].fields(outcomes).items():
+                parts[f"/{folder}/{FIELDS}/{solver}"] = _fields(kept, self.cases[name].indenter.type)
+            parts[f"/{folder}/{TIMES}"] = _times(parameter_grid.contacts_of(found), outcomes)
+        return xarray.DataTree.from_dict(
+            {node.path: node.to_dataset(inherit=False) for node in super().answers(outcomes).subtree} | parts
+        )
+
+    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
+        return [each for case in self.judged(answers) for each in case.claims]
+
+    def judged(self, answers: xarray.DataTree) -> Sequence[CaseFindings]:
+        """Findings, curves and points of each case."""
+        if self._found.get("answers") is not answers:
+            self._found.update(answers=answers, cases=[self._judged(name, answers) for name in self.cases])
+        return self._found["cases"]
+
+    def _judged(self, name, answers) -> CaseFindings:
+        below = answers[self.folders[name]]
+        datasets = {
+            f"{node.parent.name}/{node.name}": with_spread(node.to_dataset(inherit=False))
+            for node in below.subtree
+            if node.parent is not None and node.parent.name in CURVES
+        }
+        return CaseFindings(name, self.folders[name], self.cases[name], datasets)
+
+    @cached_property
+    def trusts(self) -> Mapping[str, Trust]:
+        """Advice of the trust map on 1D, by case: foretold, and not from what is solved here."""
+        return {name: trust(case.scene) for name, case in self.cases.items()}
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        worth = [
+            f"Trust map, {quantity} of {name}: {each}"
+            for name, found in self.trusts.items()
+            for quantity, each in found.worths.items()
+        ]
+        return [*eq23.answers(findings), *finding.sentences(finding.claimed(findings)), *worth]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
+    ) -> Sequence[Block]:
+        cases = self.judged(answers)
+        sections = [
+            Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
+            for case in cases
+        ]
+        if len(cases) == 1:
+            return sections
+        every = Table("summary", summary(cases), "Number and verdict, or counts of verdicts, of each case.")
+        return [*sections, Section("Every claim in every case", [every])]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        """Scene and settings of each case, and how a case of the paper departs from it."""
+        return [block for name, case in self.cases.items() for block in _setting(case.title or name, case)]
+
+
+def _blocks(found: CaseFindings, answers, trusted: Trust) -> list[Block]:
+    folder = f"{found.folder}/"
+    others = [each for each in found.claims if each.verdict == finding.REPORTED]
+    blocks: list[Block] = [
+        *_plots(found, answers),
+        Findings(
+            finding.claimed(found.claims),
+            "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid.",
+        ),
+        Findings(others, "Numbers that tell how far these can be trusted."),
+        Table(f"{folder}trust", trusted.table(), "Advice of the trust map on 1D, foretold without solving."),
+        Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
+    ]
+    if len(found.failures):
+        blocks.append(Table(f"{folder}failures", found.failures, "Solves without an answer."))
+    times = answers[TIMES].to_dataset(inherit=False).to_dataframe().reset_index()
+    return [
+        *blocks,
+        Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included."),
+    ]
+
+
+def summary(cases: Sequence[CaseFindings]) -> DataFrame:
+    """A row for each claim and dimension, a column for each case: number and verdict, or counts of verdicts."""
+    rows: dict[tuple[str, str], dict[str, list[Finding]]] = {}
+    for case in cases:
+        for each in finding.claimed(case.claims):
+            place = each.claim.sentence, each.dimension or each.claim.dimension
+            rows.setdefault(place, {}).setdefault(case.name, []).append(each)
+    return DataFrame(
+        [
+            {"sentence": sentence, "dimension": dimension}
+            | {case.name: _cell(found.get(case.name, [])) for case in cases}
+            for (sentence, dimension), found in rows.items()
+        ],
+        columns=["sentence", "dimension", *(case.name for case in cases)],
+    )
+
+
+def _cell(found: Sequence[Finding]) -> str:
+    """One number with its verdict, or how often each verdict stands; empty without any."""
+    if len(found) == 1:
+        return f"{finding.number(found[0])}, {found[0].verdict}"
+    counts = {name: sum(each.verdict == name for each in found) for name in finding.VERDICTS}
+    return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
+
+
+def _setting(title: str, case: Case) -> Iterator[Block]:
+    """Scene in words, averages, grids and notes of a case; departures only of a case of the paper."""
+    plan = case.plan()
+    parts = [(each.name, getattr(case, each.name)) for each in fields(Scene)]
+    lines = [f"{name}: {described(part)}" for name, part in parts if part is not None]
+    counts = (
+        f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
+    )
+    lines.append(f"averaged: {counts}")
+    lines.append(f"grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
+    yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
+    if case.departures:
+        yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
+
+
+def _list(lines: Sequence[str]) -> Text:
+    return Text("\n".join(f"- {line}" for line in lines))
+
+
+def _plots(found: CaseFindings, answers) -> list[Plot]:
+    """Figures of a case."""
+    case, folder, points = found.case, f"{found.folder}/", found.points
+    motion, law = case.motion, partial(friction_law, case)
+    below = answers.children.get(FIELDS, xarray.DataTree()).children
+    fields = {
+        solver: {str(name): each.values for name, each in node.variables.items()} for solver, node in below.items()
+    }
+    load, depth = f"load of {motion.greatest:g} N", f"depth of {motion.greatest * 1e6:g} µm"
+    pressed = load if motion.load is not None else depth
+    forces = [
+        (body, depth, each)
+        for claim, body in ((ROUGH_FORCE, "rough"), (SMOOTH_FORCE, "smooth"))
+        for depth, each in found.forces(claim).items()
+    ]
+    plots = [
+        contact_maps.plot(view(case.scene, case.bem, fields), folder),
+        force_depth.plot(points, forces, folder),
+        friction_curves.against_speed(points, list(found.at_speeds.items()), law, pressed, folder),
+        friction_curves.against_load(points, law, folder),
+        _shifted_curves(found),
+        _smooth_limit(found),
+    ]
+    return [each for each in plots if each is not None]
+
+
+def _shifted_curves(found: CaseFindings) -> Plot | None:
+    """Friction against load shifted onto one curve."""
+    expected = predicted_exponent(found.case)
+    rows = [
+        shifted_curves.ShiftedCurves(
+            DIMENSIONS[each.solver],
+            each.collapse,
+            each.findings[0],
+            expected,
+            lead=eq23.leading(each.collapse, each.findings),
+        )
+        for each in found.shifted
+    ]
+    plot = shifted_curves.plot(rows, COLLAPSE)
+    return plot and replace(plot, name=f"{found.folder}/{COLLAPSE}")
+
+
+def _smooth_limit(found: CaseFindings) -> Plot | None:
+    """Friction of the smooth body from slow to fast."""
+    points = found.points[found.points["curve"] == SMOOTH_SPEED]
+    if points.empty:
+        return None
+    table = DataFrame(
+        {
+            "solver": points["solver"],
+            "v_tau_over_a": [scaled_speed(found.case, speed) for speed in points["speed"]],
+            "speed": points["speed"],
+            "friction_coefficient": points["friction_coefficient"],
+            "friction_over_slope": points["friction_coefficient"] / edge_slope(found.case),
+        }
+    )
+    return smooth_limit.plot(table, slow_friction(found.case), f"{found.folder}/")
+
+
+def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
+    """Fields of one contact along the axes of the vocabulary, where all of them agree on how long those are."""
+    # A field that is called like an axis is that axis, or there is none.
+    axes = {name: np.asarray(values) for name, values in kept.items() if DEFINED[name].axes == (name,)}
+    lengths = {name: values.size if values.ndim == 1 else -1 for name, values in axes.items()}
+    variables = {}
+    for name, values in kept.items():
+        entry, values = DEFINED[name], np.asarray(values)
+        dims = entry.axes
+        if len(dims) > values.ndim:
+            dims = tuple(axis for axis in dims if axis != "y")
+        agree = len(dims) == values.ndim and all(
+            lengths.setdefault(axis, size) == size for axis, size in zip(dims, values.shape, strict=True)
+        )
+        if not agree:
+            dims = tuple(f"{name}_{axis}" for axis in range(values.ndim))
+        plain = name.replace("_", " ")
+        said = {"units": entry.unit_under(indenter), "long_name": plain, "comment": entry.text}
+        variables[name] = dims, values, said if agree else {"long_name": plain}
+    return xarray.Dataset(variables)
+
+
+def _times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
+    """Processor time of all solves by solver, each contact once."""
+    spent: dict[str, float] = {}
+    for each in contacts:
+        seconds = float(np.nansum([row.seconds for row in outcomes[each].rows]))
+        spent[each.solver.name] = spent.get(each.solver.name, 0.0) + seconds
+    solvers = xarray.Variable("solver", list(spent), attributes("solver"))
+    return xarray.Dataset(
+        {"seconds": ("solver", list(spent.values()), attributes("seconds"))}, {"solver": solvers}
+    )

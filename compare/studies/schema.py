@@ -1,0 +1,76 @@
+"""JSON schemas of the files that a user writes, for editors: names, allowed values and units as one types."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter
+from pydantic.json_schema import GenerateJsonSchema
+
+from ..solving.docstrings import documented
+from ..solving.store import write
+from ..solving.suggest import known
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
+_BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
+
+
+def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
+    """JSON schema, draft 2020-12, of a "scene" or "study" file. Raises InvalidInput for other kinds.
+
+    output : file that it is written into; none if absent
+    """
+    known("KIND", kind, KINDS)
+    # Only the schema itself needs what it describes.
+    from ..library.case import Case
+    from .claims.study_file import StudyFile
+
+    what = {"scene": Case, "study": StudyFile}[kind]
+    found = TypeAdapter(what).json_schema(schema_generator=_Documented, ref_template="#/$defs/{model}")
+    made = {"$schema": DIALECT, **_said_in_full(found), "title": KINDS[kind]}
+    if output is not None:
+        text = json.dumps(made, indent=1, ensure_ascii=False)
+        write(Path(output), lambda file: file.write(f"{text}\n".encode()))
+    return made
+
+
+class _Documented(GenerateJsonSchema):
+    """Schema with the docstrings of each class and its fields, and with types stated where they decide."""
+
+    def dataclass_schema(self, schema):
+        found = super().dataclass_schema(schema)
+        about, fields = documented(schema["cls"].__doc__)
+        for name, text in fields.items():
+            if name in found.get("properties", {}):
+                described = found["properties"][name]
+                allowed = described.get("description")
+                found["properties"][name] = described | {"description": f"{text}: {allowed}" if allowed else text}
+        return found | ({"description": about} if about else {})
+
+    def tagged_union_schema(self, schema):
+        found = super().tagged_union_schema(schema)
+        if found.pop("discriminator", None) is not None:  # of OpenAPI, and no part of JSON schema
+            for part in (self.get_schema_from_definitions(choice["$ref"]) for choice in found["oneOf"]):
+                part["required"] = list(dict.fromkeys(["type", *part.get("required", [])]))
+        return found
+
+
+def _said_in_full(node):
+    """Bounds by their names in JSON schema; without None, which TOML has not, and defaults of whole tables."""
+    if isinstance(node, list):
+        return [_said_in_full(each) for each in node]
+    if not isinstance(node, dict):
+        return node
+    found = {}
+    for name, value in node.items():
+        if name in _BOUNDS and not isinstance(value, dict):
+            found[_BOUNDS[name]] = value
+        elif name == "anyOf":
+            choices = [_said_in_full(each) for each in value if each != {"type": "null"}]
+            found |= choices[0] if len(choices) == 1 else {"anyOf": choices}
+        elif name == "description" and isinstance(value, str):
+            found[name] = ": ".join(dict.fromkeys(filter(None, (value, found.get(name)))))
+        elif not (name == "default" and (value is None or isinstance(value, dict))):
+            found[name] = _said_in_full(value)
+    return found

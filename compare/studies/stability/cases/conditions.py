@@ -1,0 +1,152 @@
+"""The conditions of contact computed anew from an answer, by plain sums; of rough surfaces, on those it drew.
+
+In three dimensions gap = A p + z - d with the influence of a pixel under constant pressure; Love, Phil. Trans. R.
+Soc. A 228, 377 (1929). Retarded displacement is that of a pixel left behind, integrated over the way since with
+exp(-s/l)/l. Under a flow the gap is seen -arg(J(q))/q behind the pixels' centres, q = pi/pixel (docs, theory).
+"""
+
+from itertools import pairwise
+
+import numpy as np
+
+from bem3d.surface import RoughSurface
+from scene import Plane, Result
+
+from .hardcase import Check
+
+FAR = 300.0  # pixels from which 1/r and its first correction have more digits than the exact form
+NODES = np.polynomial.legendre.leggauss(20)
+
+
+def conditions(answer: Result, allowed: float, where: str = "3D") -> tuple[Check, ...]:
+    """Conditions of contact of an answer in three dimensions: p >= 0, gap >= 0, p gap = 0, each over its scale.
+
+    allowed : over the depth of the lowest height, or what the heights in contact span where that is more
+    """
+    pressure = answer.fields["pressure"]
+    heights, gap = _gap(answer)
+    touched = pressure > 0
+    scale = max(answer.depth, float(heights[touched].max())) - float(heights.min())
+    return (
+        Check(f"{where}: suction over peak pressure", max(-pressure.min() / pressure.max(), 0.0), 0.0),
+        Check(f"{where}: penetration, point by point", max(-gap.min() / scale, 0.0), allowed),
+        Check(f"{where}: gap under pressure, point by point", np.abs(gap[touched]).max() / scale, allowed),
+    )
+
+
+def flow(answer: Result) -> tuple[float, np.ndarray, np.ndarray]:
+    """Modes of the elastomer: share of compliance that follows at once, shares (K,) and memories (K,) [pixel]."""
+    scene, pixel = answer.scene, answer.measures["pixel"]
+    instantaneous, compliances, times = scene.solid.retardation()
+    relaxed = instantaneous + compliances.sum()
+    lengths = scene.motion.speed * times / pixel
+    if scene.motion.speed == 0 or not len(times):
+        return 1.0, np.empty(0), np.empty(0)
+    return instantaneous / relaxed, compliances / relaxed, lengths
+
+
+def collocation(instantaneous, shares, lengths) -> float:
+    """Distance behind a pixel's centre at which the gap is seen [pixel]."""
+    compliance = instantaneous + np.sum(shares / (1 + 1j * np.pi * lengths))
+    return float(-np.angle(compliance) / np.pi)
+
+
+def _gap(answer):
+    """Heights and gap [m] at the points of collocation."""
+    scene, fields, pixel = answer.scene, answer.fields, answer.measures["pixel"]
+    response = flow(answer)
+    shift = collocation(*response)
+    x, y = fields["x"] + shift * pixel, fields["y"]
+    heights = scene.indenter.height(x[None, :], y[:, None])
+    if scene.roughness is not None:
+        heights = heights + RoughSurface.of(scene.roughness, scene.roughness.q_max(pixel)).heights(x, y)
+    pressure = fields["pressure"] / scene.solid.indentation_modulus
+    displaced = _repeating if isinstance(scene.indenter, Plane) else _free
+    return heights, displaced(pressure, *response, shift) * pixel + heights - answer.depth
+
+
+def _repeating(pressure, instantaneous, shares, lengths, shift):
+    """Displacement, free of mean, wave by wave [pixel]."""
+    q_y, q_x = (2 * np.pi * np.fft.fftfreq(n) for n in pressure.shape)
+    q = np.hypot(q_y[:, None], q_x)
+    q[0, 0] = np.inf
+    compliance = instantaneous + np.sum(shares / (1 + 1j * q_x[:, None] * lengths), axis=1)
+    return np.fft.ifft2(2 / q * compliance * np.exp(1j * q_x * shift) * np.fft.fft2(pressure)).real
+
+
+def _free(pressure, instantaneous, shares, lengths, shift):
+    """Displacement of a free half-space [pixel], as a plain sum over pixels."""
+    ny, nx = pressure.shape
+    x = np.arange(1 - nx, nx) + shift
+    kernel = instantaneous * influence(x, ny)
+    if len(lengths):
+        kernel = kernel + retarded(x, ny, shares, lengths)
+    displaced = np.zeros(pressure.shape)
+    for row, other in np.ndindex(ny, ny):
+        if pressure[other].any():
+            displaced[row] += np.convolve(pressure[other], kernel[:, abs(row - other)])[nx - 1 : 2 * nx - 1]
+    return displaced
+
+
+def influence(x, ny) -> np.ndarray:
+    """Displacement over p/E* [pixel] by a square pixel at the origin: x of any shape, y = 0..ny-1 -> (..., ny)."""
+    x, y = np.broadcast_arrays(np.asarray(x)[..., None], np.arange(ny, dtype=float))
+    r = np.hypot(x, y)
+    near = sum(along * across * _corner(x + along / 2, y + across / 2) for along in (-1, 1) for across in (-1, 1))
+    with np.errstate(divide="ignore"):
+        far = 1 / r + 1 / (24 * r**3)
+    return np.where(r < FAR, near, far) / np.pi
+
+
+def _corner(x, y):
+    """Double primitive of 1/r."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        along = np.where(x == 0, 0.0, x * np.arcsinh(y / np.abs(x)))
+        across = np.where(y == 0, 0.0, y * np.arcsinh(x / np.abs(y)))
+    return along + across
+
+
+def retarded(x, ny, shares, lengths):
+    """Kernel convolved downstream with sum_k shares exp(-s/l)/l.
+
+    The kernel has kinks at the pixels' edges, which lie alike in every pixel for all x; panels end there.
+    """
+    total = np.zeros((*x.shape, ny))
+    for share, length in zip(shares, lengths, strict=True):
+        edges = np.arange(np.ceil(x.max() + 2)) + (x[0] + 0.5) % 1
+        doubled = length * 2.0 ** np.arange(-12, 6)
+        beyond = 2.0 ** np.arange(np.log2(x.max() + 2), np.log2(max(40 * length, x.max() + 4)))
+        cuts = np.unique(np.concatenate([[0.0, 40 * length], edges, doubled, beyond]))
+        cuts = cuts[cuts <= 40 * length]
+        t, w = (NODES[0] + 1) / 2, NODES[1] / 2
+        # Dense at both ends of a panel, where the kernel has its kinks.
+        t, w = t**3 * (10 - 15 * t + 6 * t**2), w * 30 * t**2 * (1 - t) ** 2
+        widths = np.diff(cuts)[:, None]
+        s = (cuts[:-1, None] + widths * t).ravel()
+        weights = (widths * w).ravel() * np.exp(-s / length) / length
+        for column, at in enumerate(x):
+            total[column] += share * (weights @ influence(at - s, ny))
+    return total
+
+
+def kelvin_surface(answer: Result) -> np.ndarray:
+    """Displacement [m] (N,) of a one-dimensional Kelvin foundation under the profile of an answer.
+
+    u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)), l = v tau, with the maximum inside an interval of a
+    profile that is linear there, where (d - g) + l g' = 0 changes its sign.
+    """
+    scene, heights = answer.scene, answer.fields["profile"]
+    memory = scene.motion.speed * scene.elastomer.relaxation_time
+    pixel, approach = answer.measures["pixel"], answer.depth - heights
+    decay = np.exp(-pixel / memory)
+    surface = np.empty(len(heights))
+    surface[0] = max(approach[0], 0.0)
+    for i, (here, there) in enumerate(pairwise(approach)):
+        reached = [surface[i] * decay, there, 0.0]
+        slope = (there - here) / pixel
+        if slope < 0:
+            top = (-memory * slope - here) / slope  # here + slope t = -memory slope
+            if 0 < top < pixel:
+                reached.append(-memory * slope * np.exp(-(pixel - top) / memory))
+        surface[i + 1] = max(reached)
+    return surface

@@ -1,0 +1,1 @@
+"""One scene at many speeds and loads: crosscheck sweep."""

@@ -1,0 +1,1 @@
+"""Measured surfaces: crosscheck topography."""

@@ -1,0 +1,74 @@
+"""Spectra of a measured map: averaged over directions with the power law in it, and of lines."""
+
+from math import pi
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ...report.page import Plot, Tables
+from ...report.plots import style
+from ...report.plots.lettering import clear
+from ...statistics.spectra import NOTHING, Description, mapped
+
+NAME = "topography"
+
+
+def plot(found: Description) -> Plot:
+    """The plot of the spectra of a map."""
+    rings, rows, law = found.rings, found.rows, found.law
+    tables = {
+        NAME: DataFrame(
+            {"q": rings.q, "density_2d": rings.density, "waves": rings.waves, "density_1d_mapped": mapped(rings)}
+        ),
+        f"{NAME}-rows": DataFrame({"q": rows.q, "density_1d": rows.density}),
+        f"{NAME}-law": DataFrame({"q": [], "density_2d": [], "in_band": []}),
+    }
+    fitted = ""
+    if law is not None:
+        start, end = 2 * pi / law.longest, 2 * pi / law.shortest
+        q = np.union1d(np.geomspace(rings.q[0], end, 101), [start])
+        tables[f"{NAME}-law"] = DataFrame({"q": q, "density_2d": law.density(q), "in_band": q >= start})
+        fitted = (
+            f" Line, power law with a Hurst exponent of {law.hurst:.3f} ({law.low:.3f} to {law.high:.3f}, 95 %), "
+            "fitted in the shaded band."
+        )
+    lines, columns = found.topography.heights.shape
+    return Plot(
+        NAME,
+        figure,
+        tables,
+        f"Two-sided spectra of a map of {columns} x {lines} pixels. (a) Averaged over directions.{fitted} (b) Of "
+        "lines: the mean over all rows, and by the rule of the MDR.",
+        "Spectra of the map that fall with the wave number, in two and in one dimension.",
+        {"hurst": None if law is None else law.hurst},
+    )
+
+
+def figure(tables: Tables, hurst: float | None = None) -> Figure:
+    """Left: C_2D of the rings with the law and its band. Right: C_1D of the rows, and by the rule of the MDR."""
+    rings, rows, law = (tables[name] for name in (NAME, f"{NAME}-rows", f"{NAME}-law"))
+    drawing = style.canvas("double", 2.8)
+    left, right = drawing.subplots(1, 2)
+    dots = {"linestyle": "none", "marker": "o"}
+    own = {**dots, "color": style.ink(), "markersize": style.mark(0.9)}
+    left.plot(rings["q"], rings["density_2d"], label="map, mean over directions", **own)
+    if len(law):
+        band = law["q"][law["in_band"].astype(bool)]
+        left.plot(law["q"], law["density_2d"], color=style.COLOUR["BEM"], label=f"H = {hurst:.2f}")
+        left.axvspan(band.min(), band.max(), color=style.grey(0.93), zorder=0)
+    left.set(ylabel=r"$C_{2D}$ [m$^4$]", title="(a)")
+    # Nothing is hundreds of decades below the axes.
+    drawn = rows["density_1d"].clip(lower=NOTHING * rows["density_1d"].max())
+    right.plot(rows["q"], drawn, label="rows of the map", **style.line(0.5, 0.8))
+    by_mdr = {**dots, "color": style.COLOUR["MDR"], "label": r"$\pi q\, C_{2D}$"}
+    right.plot(rings["q"], rings["density_1d_mapped"], **by_mdr)
+    right.set(ylabel=r"$C_{1D}$ [m$^3$]", title="(b)")
+    for axes in (left, right):
+        axes.set(xscale="log", yscale="log", xlabel="wave number q [rad/m]")
+        axes.legend(loc="lower left")
+    style.decades(left, right)
+    left.set_ylim(bottom=rings["density_2d"].min() / 3)
+    right.set_ylim(bottom=rings["density_1d_mapped"].min() / 3)
+    clear(drawing, (left, right))
+    return drawing

@@ -1,0 +1,197 @@
+"""Heights, slopes and spectra of a map that a user measured: `crosscheck topography`."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import nan
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+import xarray
+from pydantic import TypeAdapter, ValidationError
+
+from scene import Topography
+from scene.files import reading_once
+from scene.quantities import METRE, argument
+from scene.reading import InvalidInput, mistakes
+
+from ...report.page import Block, Findings, Plot, Text
+from ...solving.outcome import Outcome
+from ...solving.task import Batch, Task
+from ...solving.vocabulary import attributes
+from ...statistics.finding import EXACT, Claim, Finding, sentences
+from ...statistics.spectra import Description, describe
+from ..study import Study
+from . import figure as plots
+
+Side: TypeAlias = str | float
+Surface: TypeAlias = Any  # a path, or heights as an array of any library
+WAVES = "Rms of the derivatives of its waves."
+DIFFERENCES = "Rms of the differences between neighbours over a pixel."
+EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
+
+
+def _in_metres(pixel):
+    """Side of a pixel as one number [m] or two. Raises InvalidInput."""
+    try:
+        found = argument("pixel", pixel, METRE.values)
+    except ValueError as error:
+        raise InvalidInput(str(error)) from None
+    return tuple(found.tolist()) if np.ndim(found) else float(found)
+
+
+def _law(name: str) -> Callable[[Description], float]:
+    """A number of the self-affine law, NaN where there is none."""
+    return lambda found: getattr(found.law, name, nan)
+
+
+# Name, sentence, meaning, unit, and number out of a Description.
+NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] = (
+    ("rms-height", "Rms height", "Rms of the pixels, levelled.", "m", lambda it: it.rms_height),
+    ("rms-slope", "Rms slope of the full gradient, spectral", WAVES, "1", lambda it: it.rms_slope_spectral),
+    ("rms-slope-x", "Rms slope along x, spectral", WAVES, "1", lambda it: it.spectral_slopes[0]),
+    ("rms-slope-y", "Rms slope along y, spectral", WAVES, "1", lambda it: it.spectral_slopes[1]),
+    (
+        "rms-difference",
+        "Rms slope of the full gradient, by differences",
+        DIFFERENCES,
+        "1",
+        lambda it: it.rms_slope,
+    ),
+    ("rms-difference-x", "Rms slope along x, by differences", DIFFERENCES, "1", lambda it: it.slopes[0]),
+    ("rms-difference-y", "Rms slope along y, by differences", DIFFERENCES, "1", lambda it: it.slopes[1]),
+    ("hurst", "Hurst exponent", EXPONENT, "1", _law("hurst")),
+    ("longest", "Longest wavelength of the self-affine band", "", "m", _law("longest")),
+    ("shortest", "Shortest wavelength of the self-affine band", "", "m", _law("shortest")),
+)
+
+
+@dataclass(frozen=True)
+class Map(Study):
+    """Description of a measured map of heights.
+
+    given : path of the heights, or the heights
+    stated : the other fields of a scene's `Topography`
+    """
+
+    given: Surface
+    stated: Mapping[str, Any]
+
+    command = "topography"
+
+    @classmethod
+    def of(cls, file: Surface, pixel: Side | Sequence[Side] | None = None, **stated: Any) -> "Map":
+        """The study of a file or of heights. Raises InvalidInput for what a field of `Topography` does not allow.
+
+        pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
+            default
+        """
+        sides = tuple(pixel) if isinstance(pixel, list | tuple) else pixel
+        if not isinstance(sides, str | tuple | None):
+            sides = _in_metres(sides)
+        if isinstance(sides, tuple) and len(sides) < 2:
+            sides = sides[0] if sides else None
+        stated |= {"pixel": sides, "crop": stated.get("crop") or None}
+        study = cls(file, {name: value for name, value in stated.items() if value is not None})
+        study.description  # noqa: B018
+        return study
+
+    @property
+    def name(self) -> str:
+        """Name of the file, or of what holds the heights."""
+        return Path(self.given).name if isinstance(self.given, str | Path) else type(self.given).__name__
+
+    @property
+    def title(self) -> str:  # type: ignore[override]
+        return f"Topography of {self.name}"
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        held = self.description.topography.heights
+        named = {"file": str(self.given)} if isinstance(self.given, str | Path) else {"heights": held.digest}
+        plain = {name: each if isinstance(each, str | float) else str(each) for name, each in self.stated.items()}
+        return named | plain
+
+    @cached_property
+    def description(self) -> Description:
+        """Sizes, slopes and spectra. Raises InvalidInput."""
+        path = isinstance(self.given, str | Path)
+        content, adapter = {"file" if path else "heights": self.given, **self.stated}, TypeAdapter(Topography)
+        # Once: what is looked at for mistakes is read again for each.
+        with reading_once():
+            try:
+                return describe(adapter.validate_python(content))
+            except ValidationError as error:
+                lines = mistakes(error, content, adapter)
+            except ValueError as error:
+                lines = [str(error)]
+        named = (each if str(self.given) in each or not path else f"{self.given}: {each}" for each in lines)
+        raise InvalidInput("\n".join(named))
+
+    def batches(self) -> Sequence[Batch]:
+        return ()
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Spectra of the map: on rings of wave numbers, and of its rows."""
+        rings, rows = self.description.rings, self.description.rows
+        spectra = {
+            "/rings": ("ring", {"q": rings.q, "density_2d": rings.density, "waves": rings.waves}),
+            "/rows": ("wave", {"q": rows.q, "density_1d": rows.density}),
+        }
+        return xarray.DataTree.from_dict(
+            {
+                place: xarray.Dataset({name: (dim, values, attributes(name)) for name, values in columns.items()})
+                for place, (dim, columns) in spectra.items()
+            }
+        )
+
+    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+        """Height, slopes, and the self-affine law with its interval; nothing is claimed of them."""
+        found, law, findings = self.description, self.description.law, []
+        for name, sentence, meaning, unit, number in NUMBERS:
+            claim = Claim(f"topography.{name}", sentence, meaning=meaning, unit=unit)
+            told: dict[str, Any] = {
+                "value": float(number(found)),
+                "where": self.name,
+                "plot": plots.NAME,
+                "dimension": "measured",
+            }
+            if name == "hurst":
+                told |= {"regime": found.band, "reason": "; ".join(found.warnings)}
+                if law is not None:
+                    told |= {"scatter": (law.low, law.high), "grid": 0.0, "grid_method": EXACT}
+            findings.append(Finding(claim, **told))
+        return findings
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self.description.topography.notes
+
+    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+        told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
+        warnings = [f"Warning: {each}." for each in self.description.warnings]
+        return [*warnings, *sentences([each for each in findings if each.claim.id in told])]
+
+    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+        return [plots.plot(self.description)]
+
+    def blocks(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
+    ) -> Sequence[Block]:
+        return [*plots, Findings(findings)]
+
+    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+        return [Text("\n\n".join(self.lines()))]
+
+    def lines(self) -> list[str]:
+        """Size of the map, what was done to it, and the band of the law."""
+        found, map_ = self.description, self.description.topography
+        (rows, columns), (x, y), (px, py) = map_.heights.shape, map_.size, map_.pixel
+        return [
+            f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
+            f'level: "{map_.level}" taken off; repeat: "{map_.repeat}"; peaks: "{map_.peaks}"',
+            *([f"waves shorter than {map_.shortest_kept:.4g} m are left out"] if map_.shortest_kept else []),
+            *map_.notes,
+            *([f"self-affine band: {found.band}"] if found.band else []),
+        ]

@@ -1,0 +1,258 @@
+"""Error against processor time: a panel for each contact and quantity, the settings written at the points."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import ceil, isfinite
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator
+from pandas import DataFrame
+
+from ....report.page import Plot, Tables
+from ....report.plots import style
+from ....report.plots.lettering import Letter, letter, write
+from ....solving.amounts import digits
+from ....statistics.convergence import MeasuredLadder, ladders
+
+# Columns of panels, their size [inch], and how many of them a figure of several quantities has at most.
+COLUMNS, HEIGHT, MOST = 3, 2.2, 9
+# Errors below are those of rounding, and drawn there.
+LEAST = 1e-16
+# Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
+BESIDE = (
+    {"color": "#009E73", "marker": "^", "linestyle": ":"},
+    {"color": "#CC79A7", "marker": "v", "linestyle": "-."},
+    {"color": "#56B4E9", "marker": "D", "linestyle": (0, (5, 1, 1, 1, 1, 1))},
+    {"color": "#E69F00", "marker": "P", "linestyle": (0, (3, 1))},
+    {"color": "0.45", "marker": "x", "linestyle": (0, (1, 3))},
+)
+
+
+def plots(name: str, tables: Tables) -> Iterator[Plot]:
+    """Plots of a diagram, of its table of steps and of its table of orders: one for each question, see `parts`."""
+    table = next(iter(tables))
+    told = (
+        "Relative error against processor time of one solve, the least of its repeats; settings at the points "
+        "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
+        "of a ladder of points."
+    )
+    alternative = "Panels of falling curves: relative error over processor time."
+    for part, options in parts(name, tables[table]).items():
+        yield Plot(part, figure, tables, told, alternative, {"steps": table, **options})
+    if any(len(each.estimates) > 1 for each in panels(tables[table])):
+        told += " Every estimate of the first ladder."
+        yield Plot(f"{name}-estimates", figure, tables, told, alternative, {"steps": table, "estimates": True})
+
+
+def parts(name: str, steps: DataFrame) -> dict[str, dict[str, Any]]:
+    """Names of the plots of answers of a diagram, with their options: one, or of many panels one for friction and
+    one for what else is measured."""
+    drawn = panels(steps)
+    if len(drawn) <= MOST:
+        return {name: {}}
+    quantities = dict.fromkeys(each.first.quantity for each in drawn)
+    kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
+    return {f"{name}-{kind}": {"quantities": own} for kind, own in kinds.items() if quantities.keys() & own}
+
+
+def part_of(name: str, steps: DataFrame, quantity: str) -> str:
+    """Name of the plot that shows a quantity of a diagram."""
+    found = parts(name, steps).items()
+    return next(part for part, options in found if quantity in options.get("quantities", [quantity]))
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A contact by one quantity.
+
+    curves : all ladders by the first estimate, and the first of them by the others too
+    """
+
+    curves: tuple[MeasuredLadder, ...]
+
+    @property
+    def first(self) -> MeasuredLadder:
+        """First ladder by the first estimate."""
+        return self.curves[0]
+
+    @property
+    def estimates(self) -> list[str]:
+        """Estimates of the quantity, that of the answer first."""
+        return list(dict.fromkeys(each.estimate for each in self.curves))
+
+    @property
+    def answers(self) -> list[MeasuredLadder]:
+        """Curves of the first estimate."""
+        return [each for each in self.curves if each.estimate == self.first.estimate]
+
+
+def panels(steps: DataFrame) -> list[Panel]:
+    """Panels in the order of contacts and quantities."""
+    groups: dict[tuple[str, str], list[MeasuredLadder]] = {}
+    for each in ladders(steps):
+        groups.setdefault((each.contact, each.label), []).append(each)
+    found = []
+    for first, *others in groups.values():
+        kept = [each for each in others if first.estimate == each.estimate or first.ladder == each.ladder]
+        found.append(Panel((first, *sorted(kept, key=lambda each: each.estimate != first.estimate))))
+    return found
+
+
+def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float], float]]:
+    """Place and setting of each step that was solved; errors below the least are drawn there."""
+    steps = zip(each.processor, np.maximum(each.errors, least), each.values, strict=True)
+    return [((x, y), value) for x, y, value in steps if isfinite(x) and isfinite(y)]
+
+
+def figure(tables: Tables, steps: str, quantities: list[str] | None = None, estimates: bool = False) -> Figure:
+    """All panels, and one legend below.
+
+    steps : name of the table; quantities : that are shown, all if absent
+    estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
+    """
+    drawn = [each for each in panels(tables[steps]) if quantities is None or each.first.quantity in quantities]
+    if estimates:
+        several = [each for each in drawn if len(each.estimates) > 1]
+        drawn = [Panel(tuple(own for own in each.curves if own.ladder == each.first.ladder)) for each in several]
+    else:
+        drawn = [Panel(tuple(each.answers)) for each in drawn]
+    columns = min(COLUMNS, len(drawn)) if len(drawn) != 4 else 2
+    rows = ceil(len(drawn) / columns)
+    drawing = style.canvas("double", rows * HEIGHT + 0.6)
+    looks, all_axes = _looks(drawn), []
+    for k, panel in enumerate(drawn):
+        axes = drawing.add_subplot(rows, columns, k + 1)
+        style.head(axes, f"({letter(k)}) {panel.first.title}\n{panel.first.label}", columns)
+        _panel(axes, panel, looks)
+        axes.set(xlabel="processor time [s]", ylabel="relative error [1]")
+        all_axes.append(axes)
+    _legend(drawing, drawn, looks)
+    style.lay_out(drawing)
+    for axes, panel in zip(all_axes, drawn, strict=True):
+        write(axes, list(_letters(panel)), style.tiny())
+    return drawing
+
+
+def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
+    """Colour, marker and line of each ladder by its label, the same in all panels."""
+    solvers: dict[str, dict[str, None]] = {}
+    for panel in drawn:
+        for curve in panel.curves:
+            solvers.setdefault(curve.solver, {})[curve.ladder] = None
+    looks = {}
+    for solver, labels in solvers.items():
+        start = style.SERIES_MARKERS.index(style.MARKER.get(solver, "o"))
+        for k, (label, colour) in enumerate(zip(labels, style.shades(solver, max(len(labels), 2)), strict=False)):
+            own = style.COLOUR[solver] if k == 0 else colour if k > 1 else style.shades(solver, 2)[0]
+            looks[label] = {
+                "color": own,
+                "marker": style.SERIES_MARKERS[(start + 2 * k) % len(style.SERIES_MARKERS)],
+                "linestyle": style.SERIES_LINES[k % len(style.SERIES_LINES)],
+            }
+    return looks
+
+
+def _panel(axes: Axes, panel, looks):
+    axes.set(xscale="log", yscale="log")
+    solved = [curve for curve in panel.curves if np.isfinite(curve.errors).any()]
+    own = panel.first.reference_error
+    for curve in solved:
+        look, errors = dict(_look(panel, curve, looks)), np.maximum(curve.errors, LEAST)
+        marker, hollow = look.pop("marker"), (errors <= own) & (curve.estimate != "indicator")
+        axes.plot(curve.processor, errors, **look)
+        dots(axes, curve.processor, errors, hollow, marker, look["color"])
+    if not solved:
+        axes.text(0.5, 0.5, "not solved", transform=axes.transAxes, ha="center", va="center")
+        return
+    _room(axes, panel)
+    if own > 0:
+        hidden(axes, axes.get_ylim()[0], own)
+    for curve in panel.answers:
+        if _falls(curve):
+            guide(axes, *_power(curve))
+    failed = [f"{curve.setting} {digits(value)}" for curve in panel.answers for value, _ in curve.failures]
+    if failed:
+        corner(axes, f"failed: {', '.join(failed)}")
+
+
+def _falls(curve):
+    """Whether a power is fitted to the errors of a ladder of points."""
+    return curve.setting == "points" and curve.order.order > 0
+
+
+def _power(curve):
+    """Times, and errors by the power."""
+    solved = np.isfinite(curve.processor)
+    return curve.processor[solved], curve.order.at(curve.values[solved])
+
+
+def dots(
+    axes: Axes, x: np.ndarray, y: np.ndarray, hollow: np.ndarray, marker: str, colour, size: float = 1.0
+) -> None:
+    """Markers at points, hollow where the error of the reference hides them."""
+    for part, face in ((hollow, style.paper()), (~hollow, colour)):
+        own = {"marker": marker, "markersize": style.mark(size), "color": colour, "markerfacecolor": face}
+        axes.plot(x[part], y[part], linestyle="none", zorder=3, **own)
+
+
+def hidden(axes: Axes, least: float, error: float) -> None:
+    """Band of errors that are not told from that of the reference."""
+    axes.axhspan(least, error, color=style.grey(0.9), zorder=0, linewidth=0)
+
+
+def guide(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:
+    """The power that errors follow."""
+    axes.plot(x, y, **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
+
+
+def corner(axes: Axes, text: str) -> None:
+    """A small text in the lower left corner."""
+    look: dict[str, Any] = {"fontsize": style.tiny(), "color": style.grey(0.3), "va": "bottom"}
+    axes.text(0.02, 0.02, text, transform=axes.transAxes, **look)
+
+
+def _look(panel, curve, looks):
+    k = panel.estimates.index(curve.estimate)
+    return looks[curve.ladder] if k == 0 else {**BESIDE[(k - 1) % len(BESIDE)], "linewidth": style.width(0.7)}
+
+
+def _room(axes, panel):
+    """Limits around all points, with room for what is written; at least a decade of errors."""
+    x = np.concatenate([curve.processor for curve in panel.curves])
+    y = np.maximum(np.concatenate([curve.errors for curve in panel.curves]), LEAST)
+    low, high = np.nanmin(y), np.nanmax(y)
+    if panel.first.reference_error > 0:
+        low = min(low, panel.first.reference_error)
+    room = max((high / low) ** 0.16, 10 ** (0.5 - np.log10(high / low) / 2))
+    axes.set_ylim(low / room, high * room)
+    low, high = np.nanmin(x), np.nanmax(x)
+    room = max((high / low) ** 0.12, 1.3)
+    axes.set_xlim(low / room, high * room)
+    style.decades(axes)
+    span = high / low
+    # Multiples of powers of ten that are written, the fewer the more decades there are.
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5) if span < 5 else (1, 2, 5) if span < 30 else (1,)))
+
+
+def _letters(panel) -> Iterator[Letter]:
+    """Settings at the points, then the exponents of the powers at their ends."""
+    for curve in panel.answers:
+        for point, value in marks(curve, LEAST):
+            yield Letter(digits(value), point)
+    for curve in panel.answers:
+        if _falls(curve):
+            x, y = _power(curve)
+            yield Letter(f"$n^{{-{curve.order.order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35), needed=False)
+
+
+def _legend(drawing, drawn, looks):
+    entries = dict(looks)
+    for panel in drawn:
+        for k, estimate in enumerate(panel.estimates[1:]):
+            entries.setdefault(estimate, {**BESIDE[k % len(BESIDE)], "linewidth": style.width(0.7)})
+    handles = [Line2D([], [], **look, label=label, markersize=style.mark()) for label, look in entries.items()]
+    style.legend(drawing, handles, "outside lower center", len(handles))

@@ -1,0 +1,185 @@
+"""The answers in numbers: the tables of docs/results/answers.md and the numbers of README.md, of stored findings.
+
+python docs/measure/answers.py         writes them again
+python docs/measure/answers.py again   does `crosscheck run` first, and stores its findings and first lines
+"""
+
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import fast
+import pandas
+import slow
+import spectrum
+import trust
+from pandas import DataFrame
+from tables import replaced, table
+
+import compare
+from compare.report.csvfiles import text, write_text
+from compare.statistics.digits import interval, number
+
+PAGE = Path(__file__).parents[1] / "results" / "answers.md"
+DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
+RUN = DOCS / "answers" / "run.csv"
+KNOWN = 1e-2  # of a number: an interval this narrow is not shown
+LINES = 3  # parts of what the command prints that README.md shows
+BODIES, SCENES = ("sphere", "cone"), ("paper-sphere", "paper-cone")
+# Claims of the tables in words, by their names.
+OF_RUN = {
+    ("run.friction.smooth-slow", "1D/3D"): "friction 1D / 3D, smooth body at low speed; in the limit 2",
+    ("run.friction.own", "1D/3D"): "friction 1D / 3D, rough body, 0.1 m/s, 1 N; claimed 1",
+    ("eq23.predicted", "1D"): "misfit of the curves shifted as Eq. 22 predicts, in 1D",
+    ("eq23.predicted", "3D"): "misfit of the curves shifted as Eq. 22 predicts, in 3D",
+    ("eq23.collapse", "1D"): "misfit of the curves shifted at best, in 1D",
+    ("eq23.collapse", "3D"): "misfit of the curves shifted at best, in 3D",
+}
+OF_PAPER = {
+    "paper.eq17.exponent": "exponent of ξ at low speed, where the conditions of Eq. 17 hold; claimed 1",
+    "paper.eq17.exponent.any-slope": "exponent of ξ at low speed, whatever the slope of the body",
+    "paper.eq17.exponent.slope-kept": "exponent of ξ at low speed, with the slope of the body kept",
+    "paper.eq19.alpha": "α of Eq. 19; claimed 1.5",
+    "paper.eq14.plateau": "plateau over √2 times the rms slope, Eq. 14; claimed 1",
+}
+OF_STUDY = {
+    "Eq. 23: shifts along the load bring friction at all speeds onto one curve": "misfit, shifted at best",
+    "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve": (
+        "misfit, shifted as Eq. 22 predicts"
+    ),
+    "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))": (
+        "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)"
+    ),
+    "Eq. 14: at high speed friction is sqrt(2) times the rms slope": "plateau over that of Eq. 14; claimed 1",
+}
+IN_REGIME = {
+    "eq17.load-exponent": "the same exponent in the regime of the paper",
+    "eq17.level": "friction at low speed there over that of Eq. 17; claimed 1",
+}
+AT_SPEED = {
+    "eq14.plateau": "plateau there over that of Eq. 14; claimed 1",
+    "eq23.collapse": "misfit there, shifted at best",
+    "eq23.predicted": "misfit there, shifted as Eq. 22 predicts",
+}
+MISFITS = ("eq23", "Eq. 23", "Eqs. 22")
+
+
+def parts() -> Mapping[tuple[Path, str], str]:
+    """Text between two comments, by the page and the name of the comment."""
+    run = pandas.read_csv(RUN)
+    slow_found, fast_found = (pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast))
+    return {
+        (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
+        (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
+        (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
+        (PAGE, "costs"): table("to know friction in 3D|within 10 %|within 1 %|error that 1D keeps", _costs()),
+        (PAGE, "spectrum"): _of_spectrum(),
+        (README, "answer"): _answer(run),
+        (README, "slow"): slow.answer(slow_found),
+        (README, "fast"): fast.answer(fast_found),
+        (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",
+        (slow.PAGE, "slow"): slow.answer(slow_found),
+        (fast.PAGE, "fast"): fast.answer(fast_found),
+        **trust.parts(),
+    }
+
+
+def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
+    for (claim, dimension), words in OF_RUN.items():
+        yield words, *(_cell(_row(found, claim, scene, dimension)) for scene in SCENES)
+    for depth, place in (("shallow", 0), ("deep", -1)):
+        forces = [
+            found[found["claim"].eq("run.force-depth.rough") & found["where"].str.startswith(s)] for s in SCENES
+        ]
+        cells = (_cell(each.iloc[place], percent=True) for each in forces)
+        yield f"force 1D / 3D of the rough body at the same depth, less one, {depth}", *cells
+
+
+def _of_paper(found: DataFrame) -> Iterator[tuple[str, ...]]:
+    for claim, words in OF_PAPER.items():
+        rows = found[found["claim"] == claim]
+        if len(rows) == 1:
+            yield words, _cell(rows.iloc[0]), "both bodies in one fit"
+        else:
+            yield words, *(_cell(_row(found, claim, body, "1D")) for body in BODIES)
+
+
+def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[str, ...]]:
+    found = pandas.read_csv(DOCS / "study" / "standard" / "collapse.csv").rename(columns={"series": "where"})
+    places = [(body, dimension) for dimension in ("1D", "3D") for body in BODIES]
+    for sentence, words in OF_STUDY.items():
+        yield words, *(_cell(_row(found, sentence, body, dimension)) for body, dimension in places)
+    for claims, of_regime in ((IN_REGIME, slow_found), (AT_SPEED, fast_found)):
+        for claim, words in claims.items():
+            yield words, *(_cell(_row(of_regime, claim, body, dimension)) for body, dimension in places)
+
+
+def _of_spectrum() -> str:
+    """A sentence for each body."""
+    found = pandas.read_csv(spectrum.PAGE.with_suffix(".csv"))
+    return " ".join(spectrum.sentence(shape, found[found["shape"] == shape]) for shape in BODIES)
+
+
+def _costs() -> Iterator[tuple[str, ...]]:
+    found = pandas.read_csv(DOCS / "workprecision" / "workprecision-models-answers-friction.csv")
+    for regime, rows in found.groupby("regime", sort=False):
+        reached = (_reached(rows[rows["wanted"] == wanted].iloc[0]) for wanted in (0.1, 0.01))
+        kept, least, most = (100 * rows.iloc[0][name] for name in ("floor_1d", "floor_1d_least", "floor_1d_most"))
+        # Of smooth bodies the interval is that of rounding beside the number.
+        known = number(kept, 3) if most - least < KNOWN * kept else interval(kept, least, most)
+        yield regime, *reached, f"{known} %"
+
+
+def _reached(row) -> str:
+    known = isinstance(row["settings"], str)
+    return f"{row['model']}, {row['settings']}: {number(row['seconds'], 2)} s" if known else "not reached"
+
+
+def _answer(run: DataFrame) -> str:
+    """Three sentences in one list, of the smooth body, of friction and of its correction."""
+    smooth = run[run["claim"] == "run.force-depth.smooth"]["value"].abs().max()
+    slow_body, rough = (_row(run, f"run.friction.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
+    return "\n".join(
+        [
+            f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",
+            f"- **Friction: do not trust it as it stands.** 1D has {_number(slow_body)} times the friction of a "
+            f"slow, smooth sphere, and {_number(rough)} times that of the rough sphere of the paper.",
+            trust.corrected(),
+        ]
+    )
+
+
+def _row(found: DataFrame, claim: str, where: str, dimension: str):
+    chosen = found["claim"].eq(claim) & found["where"].eq(where) & found["dimension"].eq(dimension)
+    (row,) = (row for _, row in found[chosen].iterrows())
+    return row
+
+
+def _number(row, percent: bool = False) -> str:
+    scale, unit = (100, " %") if percent else (1, "")
+    return interval(*(scale * row[name] for name in ("value", "low", "high"))) + unit
+
+
+def _cell(row, percent: bool = False) -> str:
+    """Verdict and number; a misfit in percent, and never below zero."""
+    misfit = row["claim"].startswith(MISFITS)
+    return f"{row['verdict']}: {_number({**row, 'low': max(row['low'], 0)} if misfit else row, percent or misfit)}"
+
+
+def run_again() -> None:
+    """Store the findings of the main job, and its title and first sentences as a terminal shows them."""
+    report = compare.run(progress="lines")
+    write_text(RUN, text(report.findings))
+    write_text(RUN.with_suffix(".txt"), "\n\n".join(str(report).split("\n\n")[:LINES]) + "\n")
+
+
+def main(again: bool = False) -> None:
+    """Write all of them."""
+    if again:
+        run_again()
+    for (page, name), part in parts().items():
+        replaced(page, name, part)
+
+
+if __name__ == "__main__":
+    main(again=sys.argv[1:] == ["again"])

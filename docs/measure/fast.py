@@ -1,0 +1,169 @@
+"""The knee and the plateau in the paper's own regime: the numbers and the figure of results/fast.md.
+
+They are those of `crosscheck study steep-all-speeds` and `steep-on-fine-grids`, both with `--size standard`, in
+whose folder they are solved. From nothing it takes two hours on two cores.
+"""
+
+from math import hypot
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+from tables import replaced, table
+
+import compare
+from compare.report.csvfiles import text, write_text
+from compare.report.plots import style
+from compare.report.plots.shades import SPEED, bar, between
+from compare.statistics.finding import verdict
+from compare.statistics.jackknife import mean_ratio
+
+PAGE = Path(__file__).parents[1] / "results" / "fast.md"
+README = PAGE.parents[2] / "README.md"
+STUDIES = "steep-all-speeds", "steep-on-fine-grids"
+EXPONENT = {"sphere": 1.5, "cone": 2.0}  # (n + 1)/n: p(v) of a Kelvin solid is v to the power of minus that
+COLUMNS = "claim", "where", "dimension", "value", "low", "high", "draws", "verdict"
+COLLAPSE = {
+    "eq23.collapse": "shifted along the load at best, curves miss one another by",
+    "eq23.predicted": "shifted by p(v) of the theory, by",
+    "eq23.vertical-alone": "shifted along friction alone, by",
+}
+# What is corrected by finer grids, and where: the place of the speed among those of the fine grids.
+CORRECTED = {
+    "eq19.level": ("at the knee: friction over the law", 0),
+    "eq19.load-exponent": ("at the knee: power of the load, less that of the law", 0),
+    "eq14.plateau": ("on the plateau: friction over the law", 1),
+    "eq14.load-exponent": ("on the plateau: power of the load, less that of the law", 1),
+}
+ANSWER = (
+    "From low speed to the plateau, curves shifted as Eq. 23 predicts miss one another by {} % (sphere) and {} % "
+    "(cone) in 1D, by {} % and {} % in 3D; the plateau is {} and {} times that of Eq. 14."
+)
+
+
+def main() -> None:
+    """Solve what is not solved yet, and write the numbers, the figure and the answers."""
+    reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
+    trees = [compare.load(report.path.parent) for report in reports]
+    found, fine = (report.findings for report in reports)
+    rows = []
+    for body in EXPONENT:
+        for dimension in ("1D", "3D"):
+            rows += [_plain(found, claim, dimension, body) for claim in COLLAPSE]
+            rows += [
+                _plain(found, claim, dimension, body)
+                if dimension == "1D"
+                else _corrected(found, fine, trees, claim, place, body)
+                for claim, (_, place) in CORRECTED.items()
+            ]
+    told = DataFrame(rows)
+    write_text(PAGE.with_suffix(".csv"), text(told))
+    columns = [(body, dimension) for body in EXPONENT for dimension in ("1D", "3D")]
+    words = COLLAPSE | {claim: name for claim, (name, _) in CORRECTED.items()}
+    header = "|".join(["", *(f"{body}, {dimension}" for body, dimension in columns)])
+    replaced(
+        PAGE,
+        "numbers",
+        table(
+            header,
+            (
+                (name, *(_said(told, claim, dimension, body, claim in COLLAPSE) for body, dimension in columns))
+                for claim, name in words.items()
+            ),
+        ),
+    )
+    for page in (PAGE, README):
+        replaced(page, "fast", answer(told))
+    with style.applied():
+        _figure(trees[0]).savefig(PAGE.with_suffix(".png"), dpi=200)
+
+
+def answer(told: DataFrame) -> str:
+    """The answer in one sentence."""
+    in_1d = [_said(told, "eq23.predicted", "1D", body, True).split(" ")[0] for body in EXPONENT]
+    in_3d = [_said(told, "eq23.predicted", "3D", body, True).replace(" %", "") for body in EXPONENT]
+    return ANSWER.format(*in_1d, *in_3d, *(_said(told, "eq14.plateau", "3D", body, False) for body in EXPONENT))
+
+
+def _plain(found, claim, dimension, body):
+    """A finding as it stands."""
+    chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
+    (row,) = found[chosen].itertuples()
+    return {name: getattr(row, name) for name in COLUMNS}
+
+
+def _corrected(found, fine, trees, claim, place, body):
+    """A number of many surfaces on the coarse grid, brought to the finest by the few that were solved on both.
+
+    The interval holds the scatter of the many, that of the change, and the last change of the grid.
+    """
+    many, few = (
+        each[(each["claim"] == claim) & (each["dimension"] == "3D") & (each["where"] == body)].iloc[0]
+        for each in (found, fine)
+    )
+    coarse, finest = (_friction(tree, body) for tree in trees)
+    places = [int(np.argmin(abs(np.log(coarse[0] / speed)))) for speed in finest[0]]
+    load, change = finest[1], np.log(finest[2][place] / coarse[2][places[place]][[0, -1], : finest[2].shape[-1]])
+    lever = np.log(load) - np.log(load).mean()
+    each = lever @ change / (lever @ lever) if claim.endswith("exponent") else change.mean(axis=0)
+    moved = mean_ratio(each)
+    changed = np.array([moved.value, *moved.interval()])
+    value, *ends = many["value"] + changed if claim.endswith("exponent") else many["value"] * np.exp(changed)
+    scatter = many["scatter_low"] - many["value"], many["scatter_high"] - many["value"]
+    below, above = (hypot(one, end - value) + few["grid_error"] for one, end in zip(scatter, ends, strict=True))
+    return {
+        "claim": claim,
+        "where": body,
+        "dimension": "3D",
+        "value": value,
+        "low": value - below,
+        "high": value + above,
+        "draws": many["draws"],
+        "verdict": verdict(many["expected"], many["tolerance"], value - below, value + above),
+    }
+
+
+def _friction(tree, body):
+    """Speeds, loads, and friction of each surface (speeds, loads, surfaces) on the finer grid of a study."""
+    sliding = tree[f"{body}/rough/BEM"].to_dataset(inherit=False).sel(grid="fine").isel(speed=slice(1, None))
+    coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "draw")
+    return sliding["speed"].values, sliding["load"].values, coefficient.values
+
+
+def _said(told: DataFrame, claim: str, dimension: str, body: str, percent: bool) -> str:
+    """Value with its interval."""
+    chosen = (told["claim"] == claim) & (told["dimension"] == dimension) & (told["where"] == body)
+    (row,) = told[chosen].itertuples()
+    scale, digits = (100, 1) if percent else (1, 3)
+    value, low, high = (f"{scale * each:.{digits}f}".replace("-", "−") for each in (row.value, row.low, row.high))
+    return f"{value}{' %' if percent else ''} ({low} to {high})"
+
+
+def _figure(tree) -> Figure:
+    """Mean friction against the load shifted by p(v), a colour a speed; in 1D above, in 3D below."""
+    drawing = style.canvas("double", 4.0)
+    panels = drawing.subplots(2, len(EXPONENT), sharex="col", sharey=True)
+    small = {"markersize": style.mark(0.6), "linewidth": style.width(0.8)}
+    for column, (body, exponent) in enumerate(EXPONENT.items()):
+        for axes, (solver, name) in zip(panels[:, column], {"MDR": "1D", "BEM": "3D"}.items(), strict=True):
+            sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(grid="fine")
+            mean = sliding.isel(speed=slice(1, None)).mean("draw")
+            speeds = mean["speed"].values
+            scale = between(speeds)
+            for place, speed in enumerate(speeds):
+                here = mean.isel(speed=place)
+                load, friction = here["normal_force"].values, here["friction_force"].values
+                shifted = load * (speed / speeds[0]) ** -exponent
+                axes.plot(shifted, friction / load, "o-", color=SPEED(scale(speed)), **small)
+            letter = "abcd"[2 * (solver == "BEM") + column]
+            axes.set(xscale="log", yscale="log", title=f"({letter}) {body}, {name}")
+        panels[1, column].set_xlabel("load times p(v) over that of the slowest [N]")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("friction coefficient μ [1]")
+    bar(drawing, panels, SPEED, scale, "speed [m/s]")
+    return drawing
+
+
+if __name__ == "__main__":
+    main()

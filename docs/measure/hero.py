@@ -1,0 +1,120 @@
+"""The figure of the README: a rough contact in three dimensions and in one, and friction against load in both.
+
+The contact is the steep sphere of docs/results/slow.md, in the regime of the paper. It is solved each time, in
+seconds; friction is read from hero.csv, and solved again, in
+minutes, where that is deleted.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pandas import DataFrame
+from PIL import Image
+
+from bem3d import BEM, Trail
+from compare.report.csvfiles import read, text, write_text
+from compare.report.page import Plot
+from compare.report.plots import style
+from compare.report.views import view
+from compare.solving.task import draws_of
+from compare.studies.claims.contacts import STEEP
+from compare.studies.draw import figure as draw
+from compare.studies.draw.study import datasets
+from mdr1d import MDR, equations
+from scene import Slide
+
+PAGE = Path(__file__).parents[1] / "results" / "hero.png"
+NUMBERS = PAGE.with_suffix(".csv")
+SCENE, (LEAST, MOST) = STEEP["sphere"]
+LOADS, SPEEDS = np.geomspace(LEAST, MOST, 4), (1e-4, 2e-4, 4e-4, 8e-4)
+LINE, SPACE = MDR(points=5000), BEM(points=480)
+DRAWS = {LINE: 30, SPACE: 3}
+SHOWN = replace(SCENE, motion=Slide(speed=4e-4, load=0.4))
+SPAN, WIDTH = 2e-3, 1440  # of the springs, to either side [m]; of the file, in pixels
+
+
+def main() -> None:
+    """Solve what is missing, draw, and write the figure."""
+    if not NUMBERS.exists():
+        write_text(NUMBERS, text(DataFrame(solved())))
+    fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
+    seen = view(SHOWN, SPACE, fields)
+    with style.applied():
+        drawing = figure(draw.plot(SHOWN, *datasets(seen, fields["MDR"])), read(NUMBERS))
+        image = BytesIO()
+        drawing.savefig(image, dpi=WIDTH / drawing.get_figwidth())
+    Image.open(image).convert("RGB").save(PAGE, optimize=True)
+
+
+def figure(plot: Plot, numbers: DataFrame) -> Figure:
+    """(a) The surface in 3D, (b) the row of springs, (c) and (d) friction of both against the shifted load."""
+    drawing = style.canvas("double", 2.9)
+    left, middle, right = drawing.subfigures(1, 3, squeeze=False, width_ratios=(1.75, 0.75, 1.05))[0]
+    tables, options = plot.tables, plot.options
+    draw.surface(
+        left, left.subplots(), tables[draw.SURFACE], options["enlarged"], options["highest"], 1, "(a) 3D: surface"
+    )
+    springs, lines = middle.subplots(), tables[draw.LINES]
+    draw.row(springs, tables[draw.ROW], lines[lines["x"].abs() < SPAN].iloc[::2], (-SPAN, SPAN))
+    springs.set_title("(b) 1D: springs")
+    above, below = right.subplots(2, 1, sharex=True, sharey=True)
+    for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):
+        against_load(axes, numbers[numbers["solver"] == solver], solver)
+        axes.set_title(title)
+    below.text(0.012, 9e-4, "Eq. 17", fontsize=style.small(), ha="center", va="top")
+    for speed, chosen in numbers[numbers["solver"] == "BEM"].groupby("speed"):
+        last = chosen.iloc[-1]
+        look = {"textcoords": "offset points", "fontsize": style.small(), "va": "center"}
+        text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
+        below.annotate(text, (shifted(last["load"], speed), last["friction"]), xytext=(5, 1), **look)
+    below.set_xlabel("load $F_N\\,p(v)$ [N]")
+    right.supylabel("friction coefficient μ", fontsize=style.size())
+    return drawing
+
+
+def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
+    """Friction at each speed against the load that Eq. 23 shifts to the lowest one; dashed, Eq. 17."""
+    for speed, colour, form in zip(SPEEDS, style.shades(solver, len(SPEEDS)), style.forms(), strict=False):
+        chosen = numbers[numbers["speed"] == speed]
+        axes.loglog(
+            shifted(chosen["load"], speed), chosen["friction"], color=colour, marker=form["marker"], linestyle="-"
+        )
+    loads = shifted(np.array([LEAST, MOST]), np.array([SPEEDS[-1], SPEEDS[0]]))
+    slope, solid = SCENE.roughness.rms_slope(2 * np.pi / SCENE.roughness.shortest), SCENE.elastomer
+    law = equations.low_speed_friction(
+        loads, solid.modulus, solid.relaxation_time, SPEEDS[0], slope, SCENE.indenter.mdr_coefficient, 2
+    )
+    axes.plot(loads, law, **style.line(0.3, 0.7, linestyle=(0, (5, 3)), zorder=1))
+    axes.set(xlim=(6e-3, 2.2), ylim=(8e-5, 6e-2))
+
+
+def shifted(load, speed):
+    """Load times p(v) of Eq. 23 in the limit of low speed, p = 1 at the lowest speed."""
+    return load * (speed / SPEEDS[0]) ** equations.force_shift_exponent(1.0, SCENE.indenter.exponent)
+
+
+def solved() -> Iterator[dict[str, float | str]]:
+    """Mean friction over mean load of some rough surfaces, at each speed and load in each model."""
+    for solver, draws in DRAWS.items():
+        trails = [Trail() for _ in range(draws)]
+        for load in LOADS:
+            for speed in SPEEDS:
+                scenes = draws_of(replace(SCENE, motion=Slide(speed=speed, load=float(load))), draws)
+                results = [
+                    solver.solve(scene, *([trail] if solver is SPACE else []))
+                    for scene, trail in zip(scenes, trails, strict=True)
+                ]
+                force, friction = (
+                    sum(getattr(each, name) for each in results) for name in ("normal_force", "friction_force")
+                )
+                print(solver.name, load, speed, friction / force, flush=True)
+                yield {"solver": solver.name, "speed": speed, "load": load, "friction": friction / force}
+
+
+if __name__ == "__main__":
+    main()

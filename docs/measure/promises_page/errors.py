@@ -1,0 +1,316 @@
+"""Error of friction that an answer states, against finer grids: fitted to many, and tested on many others."""
+
+import csv
+import gzip
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isnan, nan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linprog
+from scipy.sparse import csr_matrix, hstack, identity
+from scipy.stats import beta
+
+from bem3d import BEM, frictionerror
+from bem3d.costs import band
+from bem3d.grid import Grid
+from bem3d.problem import Problem
+from compare.solving.outcome import Outcome, Row, row
+from compare.solving.task import SCENES, SceneTask, Task
+from mdr1d import MDR
+from scene import Refused, Scene, SolveError
+
+from . import scenes
+
+EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # a scene of a kind for so many seeds
+POINTS = (20, 120)  # of the grids that are judged, beside REFERENCE[0]
+REFERENCE = 128, 256, 512  # points, the last of which tell the truth
+ORDERS = 0.7, 2.0  # between which the order is taken at which the last error falls
+WAVES = 2.2, 40.0  # nodes on the shortest wave of judged lines
+EXTENT = 8 * scenes.RADIUS  # of lines [m]
+FINER_LINES = 8, 16  # times the nodes of a judged line
+LEARNED_POINTS = 16, 20, 24, 27, 32, 40, 48, 64, 80, 96, 112, 128  # of grids that are learned from
+KNOWN = 1 / 3, 3e-5  # of the error, or at all: what the truth is known to where it judges
+SHARE, WIDENED = 0.95, 0.96  # of the answers that a bound is to hold: wanted, and of those it was not fitted to
+FOLDS = 5
+LEAST = 1e-6  # error that is told from none
+KINDS = tuple(f"{body}, {speed}" for body in ("smooth", "rough") for speed in ("slow", "fast"))
+FEWEST = 40  # answers of a region
+PIXELS = 0.0, 3.0, 5.0, 8.0, 16.0, np.inf  # a wave
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A scene on a grid to be judged, and the same on finer grids."""
+
+    kind: str
+    task: SceneTask
+    finer: tuple[SceneTask, ...]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self.task.scenes[0]
+
+    @property
+    def tasks(self) -> tuple[Task, ...]:
+        """The judged answer and those on finer grids."""
+        return (self.task, *self.finer)
+
+
+def judged(seeds: range) -> Iterator[Judged]:
+    """Contacts in three dimensions of some seeds: on a random grid, and on the coarsest of the reference."""
+    for kind in scenes.KINDS:
+        for seed in seeds[:: EVERY[kind]]:
+            scene = scenes.drawn(kind, seed)
+            finer = reference(scene)
+            points = 2 * int(np.random.default_rng([seed, 7]).integers(*POINTS) // 2)
+            for task in (_task(BEM(points=points), scene), finer[0]):
+                if not task.solver.refusals(scene):
+                    yield Judged(kind, task, finer)
+
+
+def judged_lines(seeds: range) -> Iterator[Judged]:
+    """Contacts in one dimension: a third smooth, and a fifth of the rough ones cut off by their grid."""
+    for seed in seeds:
+        kind, draw = ("smooth", "rough", "rough")[seed % 3], np.random.default_rng([seed, 8])
+        scene = scenes.drawn(kind, seed)
+        points, extent = int(10 ** draw.uniform(1.5, 4)), EXTENT
+        if scene.roughness is not None:
+            waves = 10 ** draw.uniform(*np.log10(WAVES))
+            points = int(waves * extent / scene.roughness.shortest)
+        same = scene
+        if scene.roughness is not None and draw.random() < 0.2:
+            points = int(10 ** draw.uniform(1.5, 3.5))
+            scene = replace(scene, roughness=replace(scene.roughness, shortest=None))
+            period = int(np.ceil(scene.roughness.longest * points / extent * (1 - 1e-12)))
+            same = replace(
+                scene, roughness=replace(scene.roughness, shortest=2 * scene.roughness.longest / period)
+            )
+        finer = tuple(_task(MDR(points=times * points, extent=extent), same) for times in FINER_LINES)
+        yield Judged(kind, _task(MDR(points=points, extent=extent), scene), finer)
+
+
+def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict[str, Any]]:
+    """A row for each contact that slides with friction, is answered, and whose truth is known well enough."""
+    found = []
+    for each in every:
+        answer, *finer = (outcomes[task].rows[0] for task in each.tasks)
+        if answer.reason is not None or not answer.friction_force:
+            continue
+        truth, unsure = settled([row.friction_coefficient for row in finer if row.reason is None])
+        error = abs(answer.friction_coefficient / truth - 1)
+        share, least = KNOWN
+        if not unsure <= max(share * error, least):
+            continue
+        waves = answer.measures.get("points_per_shortest_wave", nan)
+        found.append(
+            {
+                "model": each.task.solver.name,
+                "body": each.kind,
+                "solid": type(each.scene.elastomer).__name__,
+                "speed": band(each.finer[0].scenes[0]),
+                "waves": float(f"{waves:.4g}"),
+                "points": each.task.solver.points,
+                "error": float(f"{error:.4g}"),
+                "bound": float(f"{answer.measures['friction_error']:.4g}"),
+            }
+        )
+    return found
+
+
+def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
+    """Coverage by model and region: of all, by solid, speed, body and pixels a wave, and by pairs of these."""
+    for model in dict.fromkeys(each["model"] for each in found):
+        own = [each for each in found if each["model"] == model]
+        yield _coverage(model, "all", own)
+        for names in (("solid",), ("speed",), ("body",), ("pixels",), ("solid", "speed"), ("speed", "pixels")):
+            groups: dict[str, list] = {}
+            for each in own:
+                label = {**each, "pixels": _pixels(each["waves"])}
+                groups.setdefault(", ".join(label[name] for name in names), []).append(each)
+            for label, group in sorted(groups.items()):
+                if len(group) >= FEWEST:
+                    yield _coverage(model, label, group)
+
+
+class OneRow:
+    """A task with the answer to one scene."""
+
+    keeps_fields = False
+
+    def failed(self, reason: str) -> Outcome:
+        """One row, with the reason."""
+        return Outcome((Row(reason=reason),))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether there is one row."""
+        return len(outcome.rows) == 1
+
+
+@dataclass(frozen=True)
+class Signed(OneRow):
+    """A task: the signs of the error of an answer, as measures of its row."""
+
+    solver: BEM
+    scene: Scene
+    work: float = 1e6
+    packages = ("scene", "bem3d", __name__)
+
+    @property
+    def label(self) -> str:
+        """Short description for people."""
+        return f"signs on {self.solver.points} points, {type(self.scene.indenter).__name__.lower()}"
+
+    @property
+    def question(self) -> Mapping:
+        """The scene and the points."""
+        (scene,) = SCENES.dump_python((self.scene,), mode="json")
+        return {"signs": scene, "points": self.solver.points}
+
+    def solve(self) -> Outcome:
+        """Answer; NaN with its reason where there is none."""
+        try:
+            result = self.solver.solve(self.scene)
+        except (Refused, SolveError) as reason:
+            return self.failed(str(reason))
+        problem, settings = Problem(self.scene, self.solver.engine), result.settings
+        grid = Grid(self.solver.points, settings["extent"], settings["centre"], width=problem.width)
+        _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
+        return Outcome((replace(row(result), measures={} if seen is None else dict(seen.numbers)),))
+
+
+def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:
+    """Scenes by name, each on several grids, with the finer ones that tell the truth."""
+    for kind in scenes.KINDS:
+        for seed in seeds[:: EVERY[kind]]:
+            scene = scenes.drawn(kind, seed)
+            for points in LEARNED_POINTS:
+                yield f"{kind}{seed}", Signed(BEM(points=points), scene), reference(scene)
+
+
+def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) -> None:
+    """Write the table of signs and errors of every answer that has friction and whose truth is known."""
+    found = []
+    for name, task, finer in every:
+        answer = outcomes[task].rows[0]
+        truth, unsure = settled([outcomes[each].rows[0].friction_coefficient for each in finer])
+        error, (share, least) = abs(answer.friction_coefficient / truth - 1), KNOWN
+        if answer.measures and unsure <= max(share * error, least):
+            slow = "slow" if answer.measures["slowness"] > 1 / 2 else "fast"
+            kind = f"{'rough' if answer.measures['wave'] else 'smooth'}, {slow}"
+            numbers = {each: f"{value:.4g}" for each, value in answer.measures.items() if each != "one"}
+            error, residual = f"{error:.4g}", f"{answer.residual:.2g}"
+            found.append({"scene": name, "kind": kind, "error": error, "residual": residual, **numbers})
+    with gzip.GzipFile(path, "wb", mtime=0) as packed, io.TextIOWrapper(packed, newline="") as file:
+        lines = csv.DictWriter(file, list(found[0]), lineterminator="\n")
+        lines.writeheader()
+        lines.writerows(found)
+
+
+def learned(path: Path) -> int:
+    """Number of answers that were learned from."""
+    return len(_table(path))
+
+
+def refitted(path: Path) -> dict[str, dict[str, float]]:
+    """Weights of the signs by kind of contact, from a table of signs and errors.
+
+    The quantile SHARE of what the error is beside the residual, widened by what holds WIDENED of the answers to
+    scenes that were left out of a fit, a fold of them at a time.
+    """
+    table, weights = _table(path), {}
+    names = [name for name in table[0] if name not in ("scene", "kind", "error", "residual")]
+    scenes_of = list(dict.fromkeys(row["scene"] for row in table))
+    fold = {scene: k % FOLDS for k, scene in enumerate(scenes_of)}
+    for kind in KINDS:
+        own = [row for row in table if row["kind"] == kind]
+        signs = np.array([[1.0, *(float(row[name]) for name in names)] for row in own])
+        error, residual = (np.array([float(row[name]) for row in own]) for name in ("error", "residual"))
+        left, folds = 3 * residual, np.array([fold[row["scene"]] for row in own])
+        assert frictionerror.OF_TOLERANCE == 3
+        values, short = np.log(np.maximum(error - left, LEAST)), np.empty(len(own))
+        for k in range(FOLDS):
+            bound = np.exp(signs[folds == k] @ _quantile(signs[folds != k], values[folds != k], SHARE))
+            short[folds == k] = np.log(np.maximum(error, LEAST / 10)[folds == k] / (bound + left[folds == k]))
+        found = _quantile(signs, values, SHARE)
+        found[0] += max(0.0, float(np.quantile(short, WIDENED)))
+        weights[kind] = dict(zip(["one", *names], found.tolist(), strict=True))
+    return weights
+
+
+def write(weights: Mapping[str, Mapping[str, float]]) -> None:
+    """Write the weights where three dimensions read them."""
+    with frictionerror.FITTED.open("w", encoding="utf-8", newline="") as file:
+        lines = csv.writer(file, lineterminator="\n")
+        lines.writerow(["sign", *weights])
+        for name in next(iter(weights.values())):
+            lines.writerow([name, *(f"{own[name]:.4g}" for own in weights.values())])
+
+
+def _table(path):
+    with gzip.open(path, "rt", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def _quantile(table, values, share):
+    """Weights of the columns of a table (n, k) by quantile regression; it prefers small ones."""
+    count, names = table.shape
+    small = np.full(2 * names, 1e-4 * count)
+    prices = np.concatenate([small, np.full(count, share), np.full(count, 1 - share)])
+    slack = identity(count)
+    system = hstack([csr_matrix(table), csr_matrix(-table), slack, -slack]).tocsc()
+    solution = linprog(prices, A_eq=system, b_eq=values, method="highs").x
+    return solution[:names] - solution[names : 2 * names]
+
+
+def _task(solver, scene: Scene) -> SceneTask:
+    points = solver.points
+    return SceneTask(solver, (scene,), work=points**2.2 * 50.0 if isinstance(solver, BEM) else 100.0 * points)
+
+
+def reference(scene: Scene) -> tuple[SceneTask, ...]:
+    """Tasks from which the truth of a scene in three dimensions is taken."""
+    return tuple(_task(BEM(points=points), scene) for points in REFERENCE)
+
+
+def settled(values: Sequence[float], unit: float | None = None) -> tuple[float, float]:
+    """What values on ever finer grids tend to, by the order at which they change, and how well that is known.
+
+    unit : over which it is known, if not itself
+    """
+    if len(values) < 2:
+        return nan, np.inf
+    change = values[-1] - values[-2]
+    order = np.mean(ORDERS)
+    if len(values) > 2 and change and (before := values[-2] - values[-3]) / change > 0:
+        order = np.clip(np.log2(before / change), *ORDERS)
+    left = change / (2**order - 1)
+    truth = values[-1] + left
+    return truth, abs(left) / (abs(truth) if unit is None else unit)
+
+
+def _pixels(waves):
+    if isnan(waves):
+        return "smooth"
+    upper = int(np.searchsorted(PIXELS, waves, side="right"))
+    low, high = PIXELS[upper - 1 : upper + 1]
+    return f"{low:g} pixels a wave and more" if np.isinf(high) else f"{low:g} to {high:g} pixels a wave"
+
+
+def _coverage(model, region, group):
+    held, count = sum(each["error"] <= each["bound"] for each in group), len(group)
+    errors, bounds = (np.array([each[name] for each in group]) for name in ("error", "bound"))
+    return {
+        "model": model,
+        "region": region,
+        "answers": count,
+        "held": held,
+        "lower": float(beta.ppf(0.025, held, count - held + 1)) if held else 0.0,
+        "upper": float(beta.ppf(0.975, held + 1, count - held)) if held < count else 1.0,
+        "median_error": float(np.median(errors)),
+        "median_bound": float(np.median(bounds)),
+    }

@@ -1,0 +1,162 @@
+"""What converges of a steep sphere, and what does not: writes docs/results/resolution.md, .csv and .png.
+
+The steep sphere of the studies at 0.4 N, one surface, at rest and at three speeds, on a ladder of grids. What has
+been solved once is in docs/resolution/solved; from nothing it takes half an hour and 1.5 GB of memory.
+"""
+
+from dataclasses import replace
+from math import log2, nan, pi
+from pathlib import Path
+
+import numpy as np
+from pandas import DataFrame
+from rich.console import Console
+from tables import table
+
+from bem3d import BEM
+from compare.report.csvfiles import text, write_text
+from compare.report.plots import style
+from compare.report.plots.lettering import lettered
+from compare.solving.runner import sweep
+from compare.solving.store import Store
+from compare.solving.task import SceneTask
+from compare.solving.terminal import SweepBar
+from compare.studies.claims.contacts import STEEP
+from scene import Indent, Slide
+
+PAGE = Path(__file__).parents[1] / "results" / "resolution.md"
+POINTS, LOAD = (320, 640, 1280, 2560), 0.4
+# v tau q_s: rest, low speed, the knee, and the fastest of the studies.
+SPEEDS = {0.0: "at rest", 0.03: "slow", 3.0: "at the knee", 35.0: "fast"}
+LEAST_ORDER = 0.5  # of which one can be told from three grids
+ESTIMATES = {"curvature": "by curvature", "traction": "by traction", "loss": "by loss", "friction": "as answered"}
+HEADER = (
+    "points|pixels a wave|pixels across a spot|by curvature|by traction|by loss|as answered|depth|real contact"
+)
+INTRODUCTION = """# What converges, and what does not
+
+The steep sphere of the studies (rms slope 0.28, shortest wave 32 µm, h₀ = 3 µm) under 0.4 N, one surface, on grids
+of 2.9 to 23 pixels to the shortest wave. Numbers are over those on the finest grid: friction by each estimate
+([theory](../explanation/theory.md), Eqs. 5c to 5e) over the answer there; at rest the curvature that the
+pressure weighs, which is friction over vτ at low speed. A spot is as wide as a disc with the area over rim of the
+real contact.
+Which estimate is worth its time shows [a contest](contest.md). Written by `python docs/measure/resolution.py`.
+
+![Friction of the steep sphere over that on the finest grid](resolution.png)
+
+"""
+
+
+def main() -> None:
+    """Solve what is not solved yet, and write the page, its table and its figure."""
+    scene, _ = STEEP["sphere"]
+    rough = replace(scene.roughness, seed=1)
+    wave = rough.shortest / (2 * pi * scene.elastomer.relaxation_time)
+    tasks = {}
+    for speed in SPEEDS:
+        motion = Slide(speed=speed * wave, load=LOAD) if speed else Indent(load=LOAD)
+        moving = replace(scene, roughness=rough, motion=motion)
+        tasks |= {(speed, points): SceneTask(BEM(points=points), (moving,), work=points**2) for points in POINTS}
+    with SweepBar(Console()) as progress:
+        swept = sweep(list(tasks.values()), Store(PAGE.with_suffix("") / "solved"), progress=progress)
+    frame = DataFrame([_row(*place, swept.outcomes[task].rows[0]) for place, task in tasks.items()])
+    write_text(PAGE.with_suffix(".csv"), text(frame))
+    with style.applied():
+        _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
+    parts = (
+        f"## {name.capitalize()}\n\n{_table(frame, speed)}\n\n{_orders(frame, speed)}"
+        for speed, name in SPEEDS.items()
+    )
+    write_text(PAGE, "\n\n".join([INTRODUCTION + _summary(frame), *parts]) + "\n")
+
+
+def _row(speed, points, row):
+    """Numbers of one solve; at rest curvature is friction, in 1/m."""
+    known, force = row.measures, row.normal_force
+    friction = {name: known[f"friction_by_{name}"] / force if speed else nan for name in ("traction", "loss")}
+    curvature = known["friction_by_curvature"] / force if speed else known["curvature_by_pressure"]
+    return {
+        "speed": speed,
+        "points": points,
+        "pixels_a_wave": known["points_per_shortest_wave"],
+        "pixels_across_a_spot": 2 * known["spot_radius"] / known["pixel"],
+        "curvature": curvature,
+        **friction,
+        "friction": row.friction_coefficient if speed else curvature,
+        "depth": row.depth,
+        "contact": known["contact_area"],
+    }
+
+
+def _over_the_finest(frame, speed):
+    own = frame[frame["speed"] == speed].sort_values("points")
+    last = own.iloc[-1]
+    over = dict.fromkeys(ESTIMATES, last["friction"]) | {name: last[name] for name in ("depth", "contact")}
+    return own, own[list(over)] / over
+
+
+def _table(frame, speed):
+    own, over = _over_the_finest(frame, speed)
+    rows = zip(own.itertuples(), over.itertuples(index=False), strict=True)
+    return table(
+        HEADER.removeprefix("|"),
+        (
+            (
+                f"{row.points}",
+                f"{row.pixels_a_wave:.1f}",
+                f"{row.pixels_across_a_spot:.1f}",
+                *("" if not np.isfinite(each) else f"{each:.4f}" for each in ratios),
+            )
+            for row, ratios in rows
+        ),
+    )
+
+
+def _orders(frame, speed):
+    """Order of each estimate that counts there, from the last three grids, and what the finest is then off by."""
+    own, _ = _over_the_finest(frame, speed)
+    last, said = own["friction"].values[-1], []
+    for name in ESTIMATES if speed < 1 else ("traction", "loss", "friction"):
+        first, second = np.diff(own[name].values[-3:])
+        if np.isfinite(first) and second and first / second >= 2**LEAST_ORDER:
+            order = log2(first / second)
+            left = second / (2**order - 1) / last
+            said.append(f"{ESTIMATES[name]} {order:.1f}, which leaves {-left:+.2%} on the finest grid")
+        elif np.isfinite(first):
+            changes = f"{first / last:+.2%} and {second / last:+.2%}"
+            said.append(f"{ESTIMATES[name]} none is seen, the last two changes are {changes}")
+    return f"Order in the pixel, from the last three grids: {'; '.join(said)}."
+
+
+def _summary(frame):
+    """What the grids short of the finest are off by, as answered."""
+    parts = []
+    for points in POINTS[:-1]:
+        own = frame[frame["points"] == points]
+        finest = frame[frame["points"] == POINTS[-1]]
+        off = own["friction"].values / finest["friction"].values - 1
+        said = ", ".join(f"{each:+.1%} {name}" for each, name in zip(off, SPEEDS.values(), strict=True))
+        parts.append(f"- {points}², {own['pixels_a_wave'].iloc[0]:.1f} pixels a wave: {said}")
+    return "As answered, friction differs from that on the finest grid by\n\n" + "\n".join(parts)
+
+
+def _figure(frame):
+    drawing = style.canvas("double", 2.6)
+    panels = drawing.subplots(1, len(SPEEDS), sharey=True, sharex=True)
+    for axes, (speed, name) in zip(panels, SPEEDS.items(), strict=True):
+        own, over = _over_the_finest(frame, speed)
+        colours = "#56B4E9", "#009E73", "#CC79A7", style.COLOUR["BEM"]
+        for look, colour, (estimate, words) in zip(style.forms(), colours, ESTIMATES.items(), strict=False):
+            if np.isfinite(over[estimate]).all():
+                axes.plot(own["pixels_a_wave"], over[estimate], color=colour, label=words, **look)
+        axes.axhline(1, **style.line(0.6, 0.65, zorder=0))
+        axes.set(xscale="log", xlabel="pixels a wave [1]", title=name, ylim=(0.6, 1.2))
+    panels[0].set_ylabel("over the finest grid [1]")
+    lettered(panels)
+    style.decades(*panels)
+    style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 4)
+    return drawing
+
+
+if __name__ == "__main__":
+    main()

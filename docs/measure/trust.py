@@ -1,0 +1,160 @@
+"""What the package has of the trust map, made of its campaign: `python docs/measure/trust.py crosscheck-study`.
+
+The folder is that of `crosscheck study trust --size standard`. Written are the measured tables, what is fitted to
+those learned from, beside the modules that read them, and the tables of docs/results/trust.md and the README.
+"""
+
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from tables import replaced
+from tables import table as markdown
+
+import compare
+from compare.studies.trust.scoring import Score
+from compare.studies.trust.statements import advice_rows, coverage_rows, evenly
+from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy
+from compare.trustmap import shipped, table
+from compare.trustmap.model import Model
+from compare.trustmap.ratio import QUANTITIES
+from compare.trustmap.regions import BODIES, SHAPES
+
+PAGE = Path(__file__).parents[1] / "results" / "trust.md"
+README = PAGE.parents[2] / "README.md"
+# Scenes below which a number says how few there are.
+FEW = 20
+# Words of the tables of advice, and what stands for them in the README.
+SHORT = {
+    "multiply by ": "×",
+    ", roughness ": ", ",
+    "the body is deep": "the depth",
+    r"; solve [1-4] %": "",
+    r"; (\d+) scenes": r" (\1)",
+}
+
+
+def ship(answers: xarray.DataTree) -> None:
+    """Write the tables, and models fitted to what these hold: to five digits, as they are read again."""
+    for name, path in ((LEARNED, table.LEARNED), (HELD_OUT, table.HELD_OUT)):
+        path.write_bytes(table.written(table.columns(answers[name].to_dataset())))
+    table.read.cache_clear()
+    learned = table.read(table.LEARNED)
+    models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
+    shipped.FITTED.write_text(shipped.as_json(models) + "\n", encoding="utf-8")
+    shipped.model.cache_clear()
+
+
+@cache
+def scores() -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
+    """Scores of the models that come with the package."""
+    return TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in QUANTITIES})
+
+
+def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
+    """A row for each regime, a cell for each body: factor with the range over scenes, interval, share to solve."""
+    cells: dict[tuple[str, str], dict[str, str]] = {}
+    for row in rows:
+        if row["quantity"] == quantity:
+            cells.setdefault((row["speed"], row["roughness"]), {})[row["body"]] = _cell(row)
+    for (speed, roughness), found in cells.items():
+        yield {"": f"{speed}, roughness {roughness}", **{body: found.get(body, "") for body in BODIES}}
+
+
+def _cell(row):
+    few = f"; {row['scenes']} scenes" if row["scenes"] < FEW else ""
+    return _advised(row) + few
+
+
+def _advised(row):
+    if row["solve"] > 0.5:
+        return f"**solve** ({100 * row['solve']:.0f} %)"
+    kind = "use" if row["use"] > 0.5 else f"multiply by {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
+    solve = round(100 * row["solve"])
+    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; solve {solve} %" if solve else "")
+
+
+def errors(found: Mapping[str, tuple[Score, Mapping[str, np.ndarray]]]) -> Iterator[dict[str, str]]:
+    """A row for each quantity: errors on all held-out scenes that are usable."""
+    for name, (score, _) in found.items():
+        used = score.used
+        own, raw = (np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.own, used.errors))
+        yield {
+            "": name,
+            "held-out scenes": f"{score.usable.size}",
+            "use or multiply": f"{100 * score.usable.mean():.0f} %",
+            "median error, as measured": f"{100 * raw[0]:.2g} %",
+            "nine in ten within, as measured": f"{100 * raw[1]:.2g} %",
+            "both without the scatter of the truth": f"{100 * own[0]:.2g} %, {100 * own[1]:.2g} %",
+            "in their interval of 95 %": f"{100 * used.covered:.1f} %",
+        }
+
+
+def coverage(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
+    """A row for each speed, roughness and what is prescribed, a cell for each body: share inside, of how many."""
+    cells: dict[str, dict[str, str]] = {}
+    for row in rows:
+        if row["quantity"] == quantity:
+            given = "under a load" if row["prescribed"] == "load" else "at a depth"
+            cell = f"{100 * row['in 95 %']:.0f} % of {row['scenes']}"
+            name = f"{row['speed']}, {given}, roughness {row['roughness']}"
+            cells.setdefault(name, {})[row["body"]] = f"**{cell}, fails**" if row["fails"] else cell
+    for name, found in cells.items():
+        yield {"": name, **{body: found.get(body, "") for body in SHAPES}}
+
+
+def told(rows: Iterator[dict[str, str]]) -> str:
+    """Rows as a Markdown table."""
+    first, *others = rows
+    return markdown("|".join(first), (tuple(row.values()) for row in (first, *others)))
+
+
+def parts() -> Mapping[tuple[Path, str], str]:
+    """Text between two comments, by the page and the name of the comment."""
+    found = scores()
+    even, regions = evenly(found), list(coverage_rows(found))
+    rows = list(advice_rows(even))
+    tables = {"advice": partial(advice, rows), "coverage": partial(coverage, regions)}
+    return {
+        **{
+            (PAGE, part): "\n\n".join(f"**{name}**\n\n{told(table_of(name))}" for name in found)
+            for part, table_of in tables.items()
+        },
+        (PAGE, "errors"): told(errors(even)),
+        (README, "friction"): in_short(told(advice(rows, "friction"))),
+    }
+
+
+def in_short(text: str) -> str:
+    """A table of advice in few words: shares to solve from 5 % on, the number of scenes in brackets."""
+    for pattern, brief in SHORT.items():
+        text = re.sub(pattern, brief, text)
+    return text.replace("|  |", "| (scenes, if few) |", 1)
+
+
+def corrected() -> str:
+    """What is left of the errors of friction once it is corrected, in one sentence."""
+    used = evenly(scores())["friction"][0].used
+    measured, alone = (100 * np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.errors, used.own))
+    return (
+        f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen "
+        f"rough contacts is within {measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of ten "
+        f"({alone[0]:.1f} % and {alone[1]:.1f} % without the scatter of the truth)."
+    )
+
+
+def main(folder: Path | None) -> None:
+    """Write everything; without a folder, the tables of the pages alone."""
+    if folder is not None:
+        ship(compare.load(folder / "trust-standard"))
+    for (page, part), text in parts().items():
+        replaced(page, part, text)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else None)

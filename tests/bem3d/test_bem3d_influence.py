@@ -1,0 +1,178 @@
+"""The kernels are integrals of 1/r; whatever computes them must agree with quadrature of the definition."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from bem3d import influence
+from compare.models.exact import line_contact
+
+KERNEL = 1e-9  # of the kernel's peak: the quadrature here; against panels in extended precision it is 1e-11
+ROUNDING = 1e-12
+
+
+def love(x, y):
+    """Displacement by unit pressure on the unit pixel, one integral of 1/(pi r) analytic, one numerical."""
+
+    def along_x(v):
+        return np.arcsinh((x + 0.5) / v) - np.arcsinh((x - 0.5) / v) if v else np.inf
+
+    edges = sorted({y - 0.5, y + 0.5, *(p for p in (0.0,) if abs(y) < 0.5)})
+    return sum(quad(lambda v: along_x(abs(v)), *piece, epsabs=1e-13)[0] for piece in pairwise(edges)) / np.pi
+
+
+def test_elastic_kernel_is_the_integral_of_one_over_r():
+    kernel = influence.elastic(6, 6)
+    assert kernel[0, 6] == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=ROUNDING)
+    for i, j in ((1, 1), (-3, 2), (5, 0)):
+        assert kernel[j, 6 + i] == pytest.approx(love(i, j), rel=1e-9)
+
+
+@pytest.mark.parametrize("length", [0.01, 1.0, 1e3])
+def test_retarded_kernel_is_the_elastic_one_remembered_along_the_flow(length):
+    shift = 0.5 * np.tanh(length)
+    kernel = influence.retarded(16, 16, length, shift)
+
+    def remembered(t, x, j):
+        return np.exp(-t) * love(x - length * t, j)
+
+    for i, j in ((-15, 0), (-2, 1), (0, 0), (1, 0), (1, 1), (9, 3), (15, 15)):
+        x = i + shift
+        kinks = [k / length for k in (x - 0.5, x + 0.5) if 0 < k / length < 40]
+        breaks = sorted({0.0, *np.geomspace(min(1.0, 1 / length) * 1e-3, 40, 12), *kinks})
+        expected = sum(
+            quad(remembered, *piece, args=(x, j), epsabs=1e-11, epsrel=1e-11, limit=200)[0]
+            for piece in pairwise(breaks)
+        )
+        assert kernel[j, 16 + i] == pytest.approx(expected, abs=KERNEL * kernel.max())
+
+
+def test_retarded_kernel_tends_to_the_elastic_one_when_the_memory_is_short():
+    elastic = influence.elastic(16, 16)
+    retarded = influence.retarded(16, 16, 1e-8, 0.0)
+    np.testing.assert_allclose(retarded, elastic, rtol=1e-6)
+
+
+def test_far_downstream_a_short_memory_only_delays_the_elastic_kernel_by_its_length():
+    length = 0.5
+    delayed = influence.retarded(40, 4, length, 0.0)[0, 40 + 30]
+    assert delayed == pytest.approx(1 / np.pi / (30 - length), rel=2e-3)
+
+
+LENGTHS = np.geomspace(1e-4, 1e7, 12)
+SHARES = np.linspace(1.0, 2.0, 12) / 18
+
+
+def graded(start, end, kinks, smallest=-70):
+    """Gauss panels that halve towards every kink."""
+    steps = 2.0 ** np.arange(smallest, 50)
+    cuts = np.concatenate([[start, end], *(k + sign * steps for k in kinks for sign in (1, -1)), list(kinks)])
+    cuts = np.unique(cuts[(cuts >= start) & (cuts <= end)])
+    x, w = np.polynomial.legendre.leggauss(16)
+    half = np.diff(cuts)[:, None] / 2
+    return (cuts[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel()
+
+
+def remembered_line(x, length):
+    """Mean of ln|u| over the pixel at x - s, remembered: mean over s by panels, mean over the pixel as well."""
+    s, weights = graded(0.0, 45 * length, [0.0, *(k for k in (x - 0.5, x + 0.5) if k > 0)])
+    return np.sum(weights * mean_log(x - s) * np.exp(-s / length) / length)
+
+
+def mean_log(x):
+    def primitive(u):
+        return u * np.log(np.where(u == 0, 1, np.abs(u)))
+
+    far = np.abs(x) > 50
+    safe = np.where(far, 0.0, x)
+    distant = np.log(np.abs(np.where(far, x, 1.0))) - 1 / (24 * np.where(far, x, 1.0) ** 2)
+    return np.where(far, distant, primitive(safe + 0.5) - primitive(safe - 0.5) - 1)
+
+
+@pytest.mark.parametrize(("length", "shift"), [(1e-9, 0.0), (0.3, 0.5), (30.0, 0.2), (1e9, 0.5)])
+def test_the_first_column_of_the_retarded_kernel_is_there_at_every_memory(length, shift):
+    """Far upstream a pixel is a point: 1/r remembered, with the pixel's moment."""
+    n = 24
+    kernel = influence.retarded(n, n, length, shift)
+    s, weights = graded(0.0, 45 * length, [0.0])
+    r = np.hypot(shift - n - s, 5)
+    # The next moment of the pixel is 0.01/r^4 of its load.
+    expected = np.sum(weights * (1 / r + 1 / (24 * r**3)) * np.exp(-s / length) / length) / np.pi
+    assert kernel[5, 0] == pytest.approx(expected, rel=1e-7)
+
+
+def test_a_solid_is_the_sum_of_its_modes():
+    expected = 0.25 * influence.elastic(48, 40, 0.2)
+    for share, length in zip(SHARES, LENGTHS, strict=True):
+        expected = expected + share * influence.retarded(48, 40, length, 0.2)
+    kernel = influence.flowing(48, 40, 0.25, SHARES, LENGTHS, 0.2)
+    np.testing.assert_allclose(kernel, expected, rtol=ROUNDING)
+
+
+def test_exact_and_distant_forms_meet():
+    distant, origin = np.array([101.0, -150.0]), np.zeros((1, 1))
+    far = influence.by_pixel(distant, origin, 60)[0]
+    near = influence.by_pixel(np.append(distant, 0.0), origin, 60)[0, :2]  # one column near: all exact
+    assert np.any(near != far)
+    np.testing.assert_allclose(near, far, rtol=1e-8)
+
+
+def test_no_column_is_out_of_line_where_the_number_of_nodes_changes():
+    """Fourth differences of a smooth kernel are smooth: far from the pixel they are (4!/x^5) / pi and no more."""
+    for length in (0.3, 5.0, 1e4):
+        kernel = influence.retarded(200, 130, length, 0.25)
+        for row in (40, 99, 100, 129):
+            jumps = np.abs(np.diff(kernel[row], 4))
+            assert jumps.max() < 30 / np.pi / row**5 * (1 + 1 / length) + 1e-11
+
+
+@pytest.mark.parametrize("length", [1e-9, 0.6, 9.0, 11.0, 1e6])
+@pytest.mark.parametrize("shift", [0.0, 0.3])
+def test_line_kernel_is_the_logarithm_remembered_along_the_flow(length, shift):
+    n, datum = 12, 7.0
+    elastic = influence.line(n, datum, shift)
+    kernel = influence.line_flowing(n, 0.3, [0.7], [length], shift, datum)
+    assert elastic.shape == kernel.shape == (1, 2 * n)
+    for i in (-12, -2, -1, 0, 1, 2, 11):
+        x = i + shift
+        assert elastic[0, n + i] == pytest.approx(-2 / np.pi * (mean_log(x) - np.log(datum)), rel=ROUNDING)
+        expected = 0.3 * mean_log(x) + 0.7 * remembered_line(x, length) - np.log(datum)
+        assert kernel[0, n + i] == pytest.approx(-2 / np.pi * expected, abs=1e-11)
+
+
+def test_a_strip_is_a_row_of_pixels_without_end():
+    """Up to a constant, as only the unending one sinks without bound; the pixels left out by then are 2/(pi n)."""
+    n = 4000
+    rows = influence.elastic(6, n)
+    strip = (rows[0] + 2 * rows[1:].sum(axis=0))[6:]
+    line = influence.line(6, 1.0)[0, 6:]
+    np.testing.assert_allclose(strip - strip[0], line - line[0], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "kernel", [influence.elastic(150, 120), influence.line(150, 3.0)], ids=["elastic", "line"]
+)
+def test_kernels_without_memory_of_direction_are_even_to_the_last_digit(kernel):
+    np.testing.assert_array_equal(kernel[:, 151:], kernel[:, 149:0:-1])
+
+
+@pytest.mark.parametrize("memory", [0.05, 30.0])
+def test_line_kernels_hold_under_the_exact_pressure_of_a_sliding_cylinder(memory):
+    """E_g = 4 E_r, a half-width of 200 pixels: one depth throughout, and its slope does the work of friction."""
+    contact = line_contact.sliding(1.0, 1.0, 4.0, 1.0, memory * 0.01, np.pi / 4 * 1e-4)
+    n, pixel = 480, 0.01 / 200
+    x = (np.arange(n) + 0.5) * pixel + contact.edges[0] - 5 * pixel
+    fine = x[:, None] + pixel * (np.arange(16) - 7.5) / 16
+    pressure = contact.pressure(fine).mean(axis=1)
+    pressure *= contact.line_load / (pressure.sum() * pixel)
+
+    def applied(kernel):
+        return np.convolve(pressure, kernel[0, 1:])[n - 1 : 2 * n - 1] * pixel
+
+    displacement = applied(influence.line_flowing(n, 0.25, [0.75], [contact.memory / pixel], 0.0, 1 / pixel))
+    inside = np.abs(x - contact.centre) < 0.95 * contact.half_width
+    assert np.ptp((displacement + x**2 / 2)[inside]) < 3e-5 * contact.half_width**2 / 2
+    friction = pressure @ np.gradient(displacement, pixel) * pixel
+    assert friction == pytest.approx(contact.friction_coefficient * contact.line_load, rel=2e-3)

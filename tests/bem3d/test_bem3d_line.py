@@ -1,0 +1,108 @@
+"""Line contacts against Hertz, Hunter's closed form and the pressures of a published program."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare.models.exact import line_contact
+from scene import Cylinder, Elastic, Indent, Kelvin, Scene, Slide, StandardLinearSolid
+from scene.scales import elastic_contact
+
+R, MODULUS, TAU, LOAD = 10e-3, 4e6, 1e-3, 10.0
+HALF_WIDTH, PEAK = line_contact.hertz(R, MODULUS, LOAD)
+ACCURACY = 1e-3  # with 100 points across; measured: 7e-4 at worst
+
+
+def solid(stiffening):
+    """f = E_g/E_r - 1 and the retardation time TAU."""
+    if np.isinf(stiffening):
+        return Kelvin(MODULUS / 4, TAU)
+    return StandardLinearSolid(
+        rubbery_modulus=MODULUS / 4,
+        glassy_modulus=MODULUS / 4 * (1 + stiffening),
+        relaxation_time=TAU / (1 + stiffening),
+    )
+
+
+def sliding(stiffening, ratio):
+    """At v tau_c over the relaxed half-width."""
+    return Scene(Cylinder(R), solid(stiffening), Slide(speed=ratio * HALF_WIDTH / TAU, line_load=LOAD))
+
+
+def test_at_rest_it_is_hertz_and_converges():
+    scene = Scene(Cylinder(R), Elastic(MODULUS / 4), Indent(line_load=LOAD))
+    exact = elastic_contact(scene)
+    errors = []
+    for points in (32, 128, 512):
+        result = BEM(points=points, tolerance=1e-9).solve(scene)
+        assert result.normal_force == pytest.approx(LOAD, rel=1e-12)
+        assert result.friction_force == 0
+        assert result.measures["contact_area"] / 2 == pytest.approx(HALF_WIDTH, abs=1.1 * result.measures["pixel"])
+        errors.append(abs(result.depth / exact.depth - 1))
+    assert errors[2] < errors[0] / 16**1.5  # the edge is known to a pixel
+    assert errors[2] < 1e-6
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("stiffening", [1.0, 1e3, np.inf])
+def test_sliding_is_hunters(stiffening, ratio):
+    scene = sliding(stiffening, ratio)
+    glassy = np.inf if np.isinf(stiffening) else MODULUS * (1 + stiffening)
+    exact = line_contact.sliding(R, MODULUS, glassy, TAU, scene.motion.speed, LOAD)
+    result = BEM(points=128).solve(scene)
+    # of a slow contact the friction is a difference of nearly symmetric pressures
+    assert result.friction_coefficient == pytest.approx(exact.friction_coefficient, rel=ACCURACY + 1e-5 / ratio)
+    assert result.measures["contact_area"] / 2 == pytest.approx(exact.half_width, abs=2 * result.measures["pixel"])
+
+
+@pytest.mark.parametrize(("memory", "peak"), [(0.0, 60.32e6), (9e-3, 78.74e6), (2.0, 85.31e6)])
+def test_peak_pressures_of_the_published_program(memory, peak):
+    # combined radius 50 mm, E_g = 1905 MPa, E_g/E_r = 2, 600 N/mm; memory is v tau_c
+    elastomer = StandardLinearSolid(rubbery_modulus=1905e6 / 8, glassy_modulus=1905e6 / 4, relaxation_time=TAU / 2)
+    scene = Scene(Cylinder(50e-3), elastomer, Slide(speed=memory / TAU, line_load=600e3))
+    assert BEM(points=512).solve(scene).fields["pressure"].max() == pytest.approx(peak, rel=2e-4)
+
+
+def test_friction_converges_with_the_pixel():
+    scene = sliding(9.0, 1.0)
+    exact = line_contact.sliding(R, MODULUS, 10 * MODULUS, TAU, scene.motion.speed, LOAD).friction_coefficient
+    errors = [abs(BEM(points=n).solve(scene).friction_coefficient / exact - 1) for n in (32, 128, 512)]
+    assert errors[2] < errors[0] / 8
+    assert errors[2] < 1e-4
+
+
+def test_the_three_estimates_of_friction_agree():
+    measures = BEM(points=256).solve(sliding(9.0, 1.0)).measures
+    one, two, three = (measures[f"friction_by_{name}"] for name in ("traction", "loss", "work"))
+    assert one == pytest.approx(two, rel=1e-3)
+    assert two == pytest.approx(three, rel=1e-3)
+    assert one != two != three
+
+
+def test_answers_scale_exactly_with_the_units():
+    scene, length, force = sliding(9.0, 1.0), 1e-6, 1e9
+    soft, stiff = (getattr(scene.elastomer, f"{name}_modulus") for name in ("rubbery", "glassy"))
+    scale = force / length**2
+    scaled = replace(scene.elastomer, rubbery_modulus=soft * scale, glassy_modulus=stiff * scale)
+    motion = replace(scene.motion, speed=scene.motion.speed * length, line_load=LOAD * force / length)
+    other = BEM(points=64).solve(Scene(Cylinder(R * length), scaled, motion))
+    one = BEM(points=64).solve(scene)
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-9)
+    assert other.depth / length == pytest.approx(one.depth, rel=1e-9)
+
+
+def test_a_line_is_solved_in_double_whatever_the_precision_asked_for():
+    scene = sliding(np.inf, 1.0)
+    single, double = (BEM(points=64, precision=p).solve(scene) for p in ("single", "double"))
+    assert single.friction_coefficient == double.friction_coefficient
+    assert single.settings["precision"] == "double"
+
+
+def test_a_load_that_widens_the_contact_beyond_the_cylinder_is_still_the_linear_answer():
+    scene = Scene(Cylinder(R), Elastic(MODULUS / 4), Indent(line_load=1e6))
+    half_width, _ = line_contact.hertz(R, MODULUS, 1e6)
+    assert half_width > 3 * R
+    result = BEM(points=64).solve(scene)
+    assert result.measures["contact_area"] / 2 == pytest.approx(half_width, rel=0.05)

@@ -1,0 +1,245 @@
+"""Friction at low speed: in three dimensions the curvature under the static pressure, in one the squared slope."""
+
+from dataclasses import replace
+from functools import cache
+from math import nan, pi, sqrt, tan
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from bem3d.friction import Friction
+from compare.models.exact import mean_lag, slow_friction_3d, slow_friction_by_curvature, slow_friction_by_slope
+from mdr1d import MDR
+from scene import (
+    Cone,
+    CrossedWaves,
+    Cylinder,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    Plane,
+    PowerLaw,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+    Wave,
+)
+from scene.scales import elastic_contact
+
+G, TAU, R, THETA = 1e6, 1e-3, 1e-2, 0.1
+KELVIN = Kelvin(modulus=G, relaxation_time=TAU)
+SOLID = StandardLinearSolid(rubbery_modulus=G, glassy_modulus=5 * G, relaxation_time=TAU / 4)
+ROUGH = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-3, shortest=2.5e-4, seed=1)
+ROUGH_SCENES = [
+    Scene(indenter, KELVIN, Indent(load=1.0), ROUGH) for indenter in (Sphere(radius=R), Cone(angle=THETA))
+]
+# Sums of some ten thousand numbers.
+ROUNDING = 1e-12
+# Of second order in the pixel: of smooth bodies on 128 points; of 9 and 18 pixels to the shortest wave.
+SMOOTH, RESOLVED = 1e-4, 3e-3
+# Of first order: of a cone on 256 points.
+TIP = 4e-3
+# Of slow friction on 256 points, which is half of that on 128.
+GRID = 0.01
+
+
+@cache
+def curvature(scene, points=128):
+    return BEM(points=points).solve(scene).measures["curvature_by_pressure"]
+
+
+def slow(scene, loss):
+    """The scene sliding so slowly that its shortest wave has a tangent of loss v tau q_s as given."""
+    q_s = scene.roughness.q_max(nan)
+    return replace(scene, motion=Slide(speed=loss / q_s / mean_lag(scene.elastomer), load=scene.motion.load))
+
+
+@pytest.mark.parametrize("speed", [0.0, 10.0])
+@pytest.mark.parametrize(
+    ("indenter", "pressed"), [(Sphere(radius=R), {"load": 1.0}), (Cylinder(radius=R), {"line_load": 100.0})]
+)
+def test_a_sphere_and_a_cylinder_are_curved_alike_everywhere(indenter, pressed, speed):
+    assert curvature(Scene(indenter, KELVIN, Slide(speed=speed, **pressed)), 64) == pytest.approx(
+        1 / R, rel=ROUNDING
+    )
+
+
+def test_a_contact_that_all_but_fills_its_window_is_curved_as_in_any():
+    scene = Scene(Sphere(radius=R), KELVIN, Indent(load=1.0))
+    measures = BEM(points=64, extent=2.06 * elastic_contact(scene).radius).solve(scene).measures
+    assert round(measures["points_across_contact"]) == 62
+    assert measures["curvature_by_pressure"] == pytest.approx(1 / R, rel=ROUNDING)
+
+
+def test_a_cone_is_curved_by_half_pi_tan_theta_over_a_to_first_order_in_the_pixel():
+    scene = Scene(Cone(angle=THETA), KELVIN, Indent(load=1.0))
+    expected = pi / 2 * tan(THETA) / elastic_contact(scene).radius
+    errors = np.array([curvature(scene, points) / expected - 1 for points in (64, 128, 256)])
+    assert abs(errors[-1]) < TIP
+    np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), 1.0, atol=0.05)
+
+
+@pytest.mark.parametrize("exponent", [1.5, 4.0])
+def test_smooth_bodies_are_curved_as_their_slow_friction_says(exponent):
+    scene = Scene(
+        PowerLaw(coefficient=1.0 * 1e-3 ** (1.5 - exponent), exponent=exponent), KELVIN, Indent(load=1.0)
+    )
+    smooth, body = elastic_contact(scene), scene.indenter
+    friction = slow_friction_3d(1.0, smooth.radius, TAU, 4 * G, body.mdr_coefficient, exponent)
+    assert slow_friction_by_curvature(1.0, TAU, 1.0, curvature(scene)) == pytest.approx(friction, rel=SMOOTH)
+
+
+@pytest.mark.parametrize("scene", ROUGH_SCENES)
+def test_rough_bodies_are_curved_alike_on_any_grid_that_resolves_them(scene):
+    coarse, fine = (curvature(scene, points) for points in (128, 256))
+    assert coarse == pytest.approx(fine, rel=RESOLVED)
+    smooth = curvature(replace(scene, roughness=None))
+    assert fine > 2 * smooth  # the roughness decides
+
+
+@pytest.mark.parametrize(("scene", "elastomer"), [(ROUGH_SCENES[0], KELVIN), (ROUGH_SCENES[1], SOLID)])
+def test_slow_friction_in_three_dimensions_is_the_curvature_under_the_pressure_at_rest(scene, elastomer):
+    ratios = []
+    for loss in (0.01, 1.0):
+        slid = slow(replace(scene, elastomer=elastomer), loss)
+        law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
+        ratios.append(BEM(points=256).solve(slid).friction_force / law)
+    assert ratios[0] == pytest.approx(1.0, abs=GRID)
+    assert ratios[1] < 1 - 2 * GRID  # a law for low speeds alone
+
+
+@pytest.mark.slow
+def test_slow_friction_misses_the_law_by_less_on_a_finer_grid():
+    scene = ROUGH_SCENES[0]
+    slid = slow(scene, 0.01)
+    law = slow_friction_by_curvature(slid.motion.speed, TAU, 1.0, curvature(scene, 512))
+    coarse, fine = (abs(BEM(points=points).solve(slid).friction_force / law - 1) for points in (128, 256))
+    assert fine < 0.6 * coarse
+
+
+@pytest.mark.parametrize(("scene", "elastomer"), [(ROUGH_SCENES[0], KELVIN), (ROUGH_SCENES[1], SOLID)])
+def test_on_a_coarse_grid_slow_friction_is_known_by_curvature_and_not_by_the_energy_lost(scene, elastomer):
+    slid = slow(replace(scene, elastomer=elastomer), 1e-3)
+    law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
+    found = BEM(points=64).solve(slid)
+    error, of_loss = (abs(force / law - 1) for force in (found.friction_force, found.measures["friction_by_loss"]))
+    assert error < of_loss / 2
+    assert of_loss > 0.01
+    # which the indicator of the error says
+    assert found.measures["friction_disagreement"] > 3 * error * found.friction_coefficient
+
+
+def test_a_faint_mode_of_long_memory_keeps_curvature_from_counting():
+    # To first order in the speed its friction would be a hundred times that of the other, and it has next to none.
+    faint = KelvinChain(
+        instantaneous_compliance=0.1 / G, compliances=(1 / G, 1e-6 / G), retardation_times=(TAU, 1e8 * TAU)
+    )
+    scene = Scene(Sphere(radius=R), faint, Slide(speed=1e-6, load=1.0))
+    found = BEM(points=64).solve(scene)
+    assert found.measures["friction_by_curvature"] > 50 * found.friction_force
+    without = replace(faint, compliances=(1 / G,), retardation_times=(TAU,))
+    assert found.friction_force == pytest.approx(
+        BEM(points=64).solve(replace(scene, elastomer=without)).friction_force, rel=0.1
+    )
+
+
+def test_fast_friction_on_a_glassy_solid_owes_nothing_to_the_first_order_in_the_speed():
+    scene = Scene(Sphere(radius=R), SOLID, Slide(speed=1.0, load=1.0))
+    solver = BEM(points=24, extent=4e-3)
+    products = []
+    for speed in (1e5, 1e7, 1e9, 1e12):
+        found = solver.solve(replace(scene, motion=Slide(speed=speed, load=1.0)))
+        assert found.friction_force == pytest.approx(found.measures["friction_by_loss"], rel=1e-3)
+        products.append(speed * found.friction_force)
+    np.testing.assert_allclose(products, products[-1], rtol=1e-3)  # mu falls as 1/v
+
+
+@pytest.mark.parametrize("scene", ROUGH_SCENES)
+def test_the_curvature_of_what_presses_is_of_second_order_in_the_pixel(scene):
+    errors = np.array([abs(curvature(scene, points) / curvature(scene, 512) - 1) for points in (64, 128, 256)])
+    assert (np.log2(errors[:-1] / errors[1:]) > 1.5).all()
+
+
+@pytest.mark.parametrize("scene", ROUGH_SCENES)
+def test_on_two_pixels_a_wave_slow_friction_is_within_two_per_cent_of_a_fine_grid(scene):
+    slow_speed, extent = Slide(speed=1e-6, load=1.0), 3 * elastic_contact(scene).radius
+    scene = replace(scene, motion=slow_speed, roughness=replace(ROUGH, shortest=2.0001 * extent / 48))
+    coarse, fine = (BEM(points=points, extent=extent).solve(scene) for points in (48, 384))
+    assert coarse.measures["points_per_shortest_wave"] == pytest.approx(2.0, rel=1e-3)
+    assert coarse.friction_force == pytest.approx(fine.friction_force, rel=0.02)
+    assert coarse.measures["friction_by_loss"] < 0.9 * fine.friction_force
+
+
+@pytest.mark.parametrize(
+    ("wave", "waves"),
+    [(Wave(amplitude=1e-6, wavelength=1e-3), 1), (CrossedWaves(amplitude=1e-6, wavelength=1e-3), 2)],
+)
+def test_a_wave_in_full_contact_is_curved_as_its_pressure_says(wave, waves):
+    # p = p_mean - E* |q| z / 2 under z of mean square <z^2>: <p d2z/dx2> = E* |q| q_x^2 <z^2> / 2
+    q_x, mean_pressure, points = 2 * pi / 1e-3, 1e6, 64
+    measures = BEM(points=points).solve(Scene(Plane(), KELVIN, Indent(pressure=mean_pressure), wave)).measures
+    assert measures["contact_fraction"] == 1
+    expected = 2 * G * sqrt(waves) * q_x**3 * wave.rms_height**2 / mean_pressure
+    # Of a pressure that is constant on each pixel: of second order.
+    assert measures["curvature_by_pressure"] == pytest.approx(expected, rel=(q_x * 1e-3 / points) ** 2)
+
+
+def test_without_an_edge_slow_friction_is_the_energy_lost():
+    slid = Scene(Plane(), KELVIN, Slide(speed=1e-6, pressure=1e6), CrossedWaves(amplitude=1e-6, wavelength=1e-3))
+    answer = BEM(points=32, tolerance=1e-9).solve(slid)
+    assert answer.measures["contact_fraction"] == 1
+    loss = answer.measures["friction_by_loss"]
+    assert abs(answer.measures["friction_by_curvature"] / loss - 1) < ROUNDING  # to first order in the speed
+    assert abs(answer.friction_force / loss - 1) < ROUNDING
+
+
+@pytest.mark.parametrize(
+    ("lag", "slowness", "most", "force"),
+    [
+        (0.0, 0.0, 0.5, 1.0),
+        (0.0, 0.5, 0.25, 1.0625),
+        (1.0, 0.0, 2.0, 3.0),
+        (0.0, 1.0, 0.125, 1.125),
+        (0.5, 0.0, 1.0, 2.0),
+    ],
+)
+def test_estimates_join_and_disagree_as_far_as_they_count(lag, slowness, most, force):
+    # The loss, 1, beside traction of 3, work of 1.5 and curvature of 1.125.
+    estimates = {"by_traction": 3.0, "by_loss": 1.0, "by_work": 1.5, "by_curvature": 1.125, "mean_curvature": 0.0}
+    found = Friction(**estimates, lag=lag, slowness=slowness)
+    assert (found.disagreement, found.force) == (most, force)
+    assert found.measures(2.0)["friction_disagreement"] == most / 2
+
+
+def test_a_plane_in_partial_contact_follows_the_law_too():
+    scene = Scene(Plane(), KELVIN, Indent(pressure=2e4), replace(ROUGH, shortest=5e-4))
+    at_rest = BEM(points=128).solve(scene)
+    assert 0.1 < at_rest.measures["contact_fraction"] < 0.9
+    slid = replace(scene, motion=Slide(speed=0.02 * 5e-4 / (2 * pi) / TAU, pressure=2e4))
+    law = slid.motion.speed * TAU * at_rest.measures["curvature_by_pressure"]
+    assert BEM(points=128).solve(slid).friction_coefficient == pytest.approx(law, rel=GRID)
+
+
+@pytest.mark.parametrize(
+    ("indenter", "roughness", "elastomer"),
+    [(Sphere(radius=R), None, KELVIN), (Sphere(radius=R), ROUGH, SOLID), (Cone(angle=THETA), None, SOLID)],
+)
+def test_slow_friction_in_one_dimension_is_the_squared_slope_in_the_contact_at_rest(
+    indenter, roughness, elastomer
+):
+    scene = Scene(indenter, elastomer, Indent(load=1.0), roughness)
+    at_rest = MDR().solve(scene).measures
+    speed, lag = 1e-9, mean_lag(elastomer)
+    slope, length = at_rest["rms_slope_contact"], at_rest["contact_length"]
+    law = slow_friction_by_slope(speed, lag, elastomer.indentation_modulus, slope, length)
+    found = MDR().solve(replace(scene, motion=Slide(speed=speed, load=1.0))).friction_force
+    # A picometre of memory, on contacts of ten micrometres at least.
+    assert found == pytest.approx(law, rel=1e-5)
+    if roughness is None:
+        half = elastic_contact(scene).radius
+        body = indenter.mdr_coefficient, indenter.exponent
+        three = slow_friction_3d(speed, half, lag, elastomer.indentation_modulus, *body)
+        assert law == pytest.approx(2 * three, rel=1e-3)  # of a profile linear between 5000 nodes

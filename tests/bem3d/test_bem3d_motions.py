@@ -1,0 +1,386 @@
+"""An indenter that turns back, changes its speed and oscillates over a half-space: wake, mirror, closed forms."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from effects_page import closed_forms as motions
+from effects_page.track import harmonic
+
+import bem3d.timeline
+from bem3d import BEM, marching, upstream
+from bem3d.engine import Engine
+from bem3d.grid import Grid
+from bem3d.history import _Mirrored
+from bem3d.marching import march
+from bem3d.problem import Problem
+from bem3d.timeline import timeline
+from bem3d.upstream import Endless, Repeating, Returning, Sheet
+from compare.models.exact import full_contact
+from scene import (
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Kelvin,
+    Plane,
+    Program,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Wave,
+)
+
+R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3  # sphere, contact radius A at rest at DEPTH
+DEPTH, SPEED = A**2 / R, A / TAU / 2
+SOLID, KELVIN = StandardLinearSolid(G, 5 * G, TAU), Kelvin(G, TAU)
+QUICK = StandardLinearSolid(G, 3 * G, TAU / 3)  # creeps in TAU
+SPHERE = Sphere(R)
+ROUGH = SelfAffine(hurst=0.7, rms_height=4e-6, longest=2e-3, shortest=4e-4, seed=3)
+WAVE = Wave(amplitude=1e-6, wavelength=1e-3)
+FULL = 5 * full_contact.wave_closure(1e-6, 1e-3, Elastic(5 * G), 0.0)  # far above what closes the wave
+
+
+def program(*stages):
+    return Program(stages=tuple(Stage(**stage) for stage in stages))
+
+
+def pressed(by="depth", value=DEPTH):
+    return {"duration": TAU, by: value}
+
+
+def slid(path, speed=SPEED, **given):
+    return {"duration": abs(path / speed), "speed": np.copysign(speed, path), **given}
+
+
+def solved(motion, elastomer=SOLID, roughness=None, indenter=SPHERE, **settings):
+    return BEM(**{"points": 36, "steps": 20} | settings).solve(Scene(indenter, elastomer, motion, roughness))
+
+
+def mirrored(motion):
+    return replace(motion, stages=tuple(replace(stage, speed=-stage.speed) for stage in motion.stages))
+
+
+# Out of the window and back into it, past where it began, and on again; turned within pixels.
+THERE_AND_BACK = program(pressed(), slid(3.01 * A), slid(-4.03 * A), slid(1.7 * A))
+
+
+def missed(roughness):
+    """Of force and friction, by a window that the indenter leaves, against one that it does not."""
+    near, far = (
+        solved(THERE_AND_BACK, SOLID, roughness, tolerance=1e-6, points=32 * times, extent=2.8e-3 * times).fields
+        for times in (1, 3)
+    )
+    names = "normal_force", "friction_force"
+    return [np.abs(near[name] - far[name]).max() / np.abs(far[name]).max() for name in names]
+
+
+@pytest.mark.parametrize("roughness", [pytest.param(None, marks=pytest.mark.slow), ROUGH], ids=["smooth", "rough"])
+def test_what_leaves_the_window_is_found_again_as_if_the_window_had_held_it(roughness):
+    # columns are interpolated from wider sheets: some 1e-4, see the test of what comes into the window
+    force, friction = missed(roughness)
+    assert force < 1e-4
+    assert friction < 4e-4
+
+
+@pytest.mark.slow
+def test_the_wider_sheets_alone_do_not_have_all_of_the_wake(monkeypatch):
+    monkeypatch.setattr(Returning, "_entering", Endless._entering)
+    _, friction = missed(ROUGH)
+    assert friction > 3e-3
+
+
+def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else():
+    motion = program(pressed("load", 0.5), slid(A), slid(-2.003 * A, load=0.4), slid(0.5 * A, 2 * SPEED))
+    one, other = (solved(each, points=32) for each in (motion, mirrored(motion)))
+    signs = dict.fromkeys(("normal_force", "depth", "contact_area"), 1)
+    for name, sign in (signs | dict.fromkeys(("friction_force", "friction_by_work", "path"), -1)).items():
+        scale = np.nanmax(np.abs(one.fields[name]))
+        np.testing.assert_allclose(sign * other.fields[name], one.fields[name], atol=1e-9 * scale)
+    pressure = one.fields["pressure"]
+    np.testing.assert_allclose(other.fields["pressure"][:, ::-1], pressure, atol=1e-9 * pressure.max())
+    assert other.friction_coefficient == pytest.approx(-one.friction_coefficient, rel=1e-9)
+    assert np.nanmax(one.fields["friction_force"] / one.fields["normal_force"]) > 0.01
+
+
+def test_a_rough_indenter_in_a_mirror_slides_the_other_way():
+    motion, grid = program(pressed(), slid(A), slid(-2.003 * A)), Grid(32, 3e-3, (1e-4, 0.0))
+    scene = Scene(Sphere(R), SOLID, motion.held, ROUGH)
+    one = march(Problem(scene, Engine()), motion, grid, 1e-6, 20)
+    other = march(_Mirrored(scene, Engine()), mirrored(motion), replace(grid, centre=(-1e-4, 0.0)), 1e-6, 20)
+    scale = np.abs(one.normal_force).max()
+    np.testing.assert_allclose(other.normal_force, one.normal_force, atol=1e-9 * scale)
+    np.testing.assert_allclose(other.power, one.power, atol=1e-9 * np.abs(one.power).max())
+    np.testing.assert_allclose(other.pressure[:, ::-1], one.pressure, atol=1e-9 * one.pressure.max())
+
+
+def test_the_window_of_an_indenter_that_goes_backwards_is_the_mirror_image():
+    fast = 10 * A / TAU  # a Kelvin body is touched far ahead of where it rests
+    forwards = program(pressed(), slid(A, fast))
+    both = program(pressed(), slid(A, fast), slid(-A, fast))
+    one, other, all_of_them = (solved(each, KELVIN).settings for each in (forwards, mirrored(forwards), both))
+    assert one["centre"][0] < -0.05 * A
+    assert other["centre"][0] == pytest.approx(-one["centre"][0])
+    assert other["extent"] == pytest.approx(one["extent"])
+    assert all_of_them["centre"][0] == pytest.approx(0.0, abs=one["extent"] / 36)
+    assert all_of_them["extent"] > 1.05 * one["extent"]
+
+
+@pytest.mark.parametrize(
+    ("indenter", "roughness", "value", "length"),
+    [
+        pytest.param(Sphere(R), None, {"depth": DEPTH}, A, marks=pytest.mark.slow),
+        (Cylinder(R), None, {"line_load": 100.0}, A),
+        (Plane(), CrossedWaves(amplitude=1e-6, wavelength=1e-4), {"pressure": 1e5}, 1e-4),
+    ],
+    ids=["sphere", "cylinder", "plane"],
+)
+def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(indenter, roughness, value, length):
+    speed = length / TAU
+    steady = BEM(points=48).solve(Scene(indenter, QUICK, Slide(speed=speed, **value), roughness))
+    motion = program({"duration": TAU, **value}, slid(6 * length, speed), slid(-7 * length, speed))
+    result = solved(motion, QUICK, roughness, indenter, points=48)
+    # two discretisations: in the indenter's frame, and on material pixels held for a step
+    assert result.friction_force == pytest.approx(-steady.friction_force, rel=5e-3)
+    assert result.normal_force == pytest.approx(steady.normal_force, rel=1e-3)
+    assert result.measures["friction_by_work"] == pytest.approx(result.friction_force, rel=1e-2)
+    turned = np.searchsorted(result.fields["path"][: np.argmax(result.fields["path"])], 5.7 * length)
+    assert result.fields["friction_force"][turned] == pytest.approx(steady.friction_force, rel=5e-3)
+
+
+def test_an_elastic_solid_feels_no_motion():
+    moved, still = (
+        solved(program(pressed(), *stages), Elastic(G), extent=3e-3)
+        for stages in ([slid(A), slid(-1.503 * A)], [{"duration": TAU}])
+    )
+    assert abs(moved.friction_coefficient) < 1e-3
+    assert moved.normal_force == pytest.approx(still.normal_force, rel=2e-3)
+
+
+@pytest.mark.slow
+def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it():
+    lifted, again = [pressed(), {"duration": 0.2 * TAU, "depth": 0.0}], {"duration": TAU, "depth": DEPTH}
+    away = [slid(4 * A, 4 * A / TAU), slid(-4 * A, 4 * A / TAU)]
+    moved, waited, fresh = (
+        solved(program(*stages), extent=2.8e-3, steps=40)
+        for stages in ([*lifted, *away, again], [*lifted, {"duration": 2 * TAU}, again], [again])
+    )
+    forces = []
+    for result in (moved, waited, fresh):
+        time, force = (result.fields[name] for name in ("time", "normal_force"))
+        forces.append(np.interp(time[-1] - 0.5 * TAU, time, force))
+    assert moved.normal_force == pytest.approx(waited.normal_force, rel=1e-3)
+    assert forces[0] == pytest.approx(forces[1], rel=1e-2)  # between steps of which there are 20 in the ramp
+    assert forces[0] < 0.96 * forces[2]
+
+
+CHANGES = (
+    {"duration": TAU, "pressure": FULL},
+    {"duration": 40 * TAU},
+    slid(0.4e-3, 0.2),
+    slid(0.9e-3, 0.6),
+    slid(-1.1037e-3, 0.2),
+    {"duration": 0.4 * TAU},
+    slid(-0.5e-3, 0.4),
+    slid(0.8e-3, 0.2, amplitude=0.2 * FULL, frequency=0.6 / TAU),
+)
+
+
+@cache
+def transient(points, solid=SOLID):
+    """Greatest and mean error of the friction of a wave in full contact through `CHANGES`, over its greatest."""
+    motion = program(*CHANGES)
+    fields = solved(motion, solid, WAVE, Plane(), points=points, steps=20 * points, tolerance=1e-9).fields
+    moving = fields["time"] > 41 * TAU
+    exact = 1e-6 * motions.wave_friction(1e-6, 1e-3, solid, motion, fields["time"][moving], 41 * TAU)
+    errors = np.abs(fields["friction_force"][moving] - exact) / np.abs(exact).max()
+    assert exact.min() < -0.3 * exact.max() < 0
+    return errors.max(), errors.mean()
+
+
+def test_friction_in_full_contact_follows_its_closed_form_through_every_change_of_the_motion():
+    greatest, mean = transient(64)
+    assert greatest < 2e-3
+    assert mean < 3e-4
+
+
+TWO_MODES = Prony(G, (3 * G, G), (TAU, 0.1 * TAU))
+
+
+@pytest.mark.parametrize(
+    "solid", [SOLID, pytest.param(TWO_MODES, marks=pytest.mark.slow)], ids=["one", "two modes"]
+)
+def test_that_error_is_of_second_order_in_pixel_and_step(solid):
+    points = np.array([16, 32, 64])
+    errors = [transient(int(n), solid)[1] for n in points]
+    assert -np.polyfit(np.log(points), np.log(errors), 1)[0] > 1.6
+
+
+def test_the_closed_form_of_full_contact_ends_in_that_of_steady_sliding():
+    motion = program({"duration": TAU, "pressure": 1.0}, slid(-40 * TAU * 0.3, 0.3))
+    for solid, time in ((TWO_MODES, 41 * TAU), (KELVIN, 2 * TAU)):
+        steady = full_contact.wave_friction(1e-6, 1e-3, solid, 0.3)
+        assert motions.wave_friction(1e-6, 1e-3, solid, motion, [time], TAU) == pytest.approx(-steady, rel=1e-12)
+
+
+FRETTING = program(pressed(), *(slid(0.137 * A * (-1) ** k) for k in range(20)))
+
+
+def test_fretting_has_sheets_for_how_far_it_goes_and_not_for_how_long(monkeypatch):
+    made = []
+    monkeypatch.setattr(marching, "Returning", lambda *given: made.append(Returning(*given)) or made[-1])
+    result = solved(FRETTING, points=32, extent=3e-3)
+    assert len(made[0]._sheets) - 1 == len(upstream.wider_grids(Grid(32, 3e-3), FRETTING.span)) == 2
+    assert len(upstream.wider_grids(Grid(32, 3e-3), FRETTING.length)) == 3
+    # from the fifth cycle on each is the mirror image of the half before it
+    halves = np.split(result.fields["friction_force"][-len(result.fields["time"]) * 4 // 21 :], 2)
+    assert halves[0].max() > 0 > halves[0].min()
+
+
+def test_sheets_double_until_nothing_beyond_the_widest_comes_in_and_what_has_faded_is_left_behind():
+    sheets = upstream.wider_grids(Grid(256, 1.0, (3.0, 0.0)), 1.5)
+    assert [(each.points, each.extent, each.centre) for each in sheets] == [
+        (points, extent, (3.0, 0.0)) for points, extent in ((128, 2.0), (64, 4.0), (32, 8.0))
+    ]
+    assert upstream.wider_grids(Grid(256, 1.0), 0.0) == []
+    there = program(pressed(), slid(1.0, 0.5), slid(-0.25, 0.25))
+    assert upstream.left_behind(there, np.array([1e-3, 1e-4])) == pytest.approx(0.5e-3 * -np.log(1e-17))
+    assert upstream.left_behind(there, np.array([1e3])) == there.span
+
+
+def test_columns_that_come_back_bring_what_they_had_beyond_the_wider_sheets_and_what_has_faded_is_dropped():
+    grid = Grid(16, 16.0)
+    window = Sheet(grid, 1)
+    around = Returning(window, 10.0, lambda at: lambda p: np.zeros(at.shape), lambda time: np.exp([-time]))
+    window.fields[:] = 1 + np.arange(16)
+    around.follow(3.0, 0.0)
+    assert window.fields[0, 0] == pytest.approx([0.0] * 3 + list(range(1, 14)))
+    around.follow(0.0, 2.0)
+    assert window.fields[0, 0] == pytest.approx([*range(1, 14), *(np.exp(-2) * np.array([14, 15, 16]))])
+    around.follow(-2.0, 2.0)
+    assert window.fields[0, 5, -4:] == pytest.approx([*(np.exp(-2) * np.array([15, 16])), 0, 0])
+    behind = around._behind[window]
+    assert (len(behind[1]), len(behind[-1])) == (0, 5)
+    around.follow(-5.0, 45.0)
+    assert len(behind[-1]) == 3
+
+
+def test_a_repeating_surface_wraps_round_both_ways():
+    window = Sheet(Grid(8, 8.0), 1)
+    window.fields[:] = np.arange(8)
+    around = Repeating(window)
+    around.follow(3.0, 0.0)
+    assert list(window.fields[0, 0]) == [5, 6, 7, 0, 1, 2, 3, 4]
+    around.follow(-1.0, 0.0)
+    assert list(window.fields[0, 0]) == [1, 2, 3, 4, 5, 6, 7, 0]
+
+
+HARD = {
+    "within the first contact length": program(pressed(), slid(0.01 * A), slid(-2 * A)),
+    "without load": program(pressed("load", 0.5), slid(A, load=0.0), slid(-1.5 * A), slid(-A, load=0.5)),
+    "while it is pressed in": program(slid(0.5 * A, depth=DEPTH), slid(-A)),
+    "many times": FRETTING,
+}
+
+
+@pytest.mark.parametrize(("motion", "solid"), [*zip(HARD, (SOLID, KELVIN, KELVIN, SOLID), strict=True)])
+def test_reversal(motion, solid):
+    result = solved(HARD[motion], solid, points=32)
+    assert result.friction_coefficient < -1e-3
+    assert np.isfinite(result.fields["friction_force"]).all()
+    if HARD[motion].pressed_by == "load":
+        prescribed = HARD[motion].prescribed(result.fields["time"])
+        np.testing.assert_allclose(result.fields["normal_force"], prescribed, atol=1e-9)
+
+
+@pytest.mark.parametrize(("time", "modulus"), [(1e-9, G), (1e9, 5 * G)])
+def test_the_shortest_and_the_longest_memory_turn_back_as_an_elastic_solid(time, modulus):
+    motion = program(pressed(), slid(A), slid(-1.5 * A))
+    found, elastic = (
+        solved(motion, solid, extent=3e-3) for solid in (StandardLinearSolid(G, 5 * G, time), Elastic(modulus))
+    )
+    np.testing.assert_allclose(found.fields["normal_force"][-5:], elastic.fields["normal_force"][-5:], rtol=1e-4)
+    assert abs(found.friction_coefficient) < 1e-3
+
+
+def response(amplitude, omega, solid):
+    """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
+    frequency, held = omega / (2 * np.pi), 20 * TAU
+    periods = 2 + int(omega * TAU)
+    swing = {"duration": periods / frequency, "amplitude": amplitude, "frequency": frequency}
+    motion = program(pressed(), {"duration": held}, swing)
+    fields = solved(motion, solid, extent=2.6e-3, points=48, tolerance=1e-7).fields
+    start = TAU + held + (periods - 1) / frequency
+    late = fields["time"] >= start
+    # the depth is a sine
+    return harmonic(fields["time"][late] - start, fields["normal_force"][late], omega) / amplitude
+
+
+@pytest.mark.parametrize(
+    ("solid", "omega"),
+    [
+        (SOLID, 1.0),
+        (KELVIN, 5.0),
+        *(pytest.param(*each, marks=pytest.mark.slow) for each in ((SOLID, 5.0), (KELVIN, 1.0), (KELVIN, 0.2))),
+    ],
+    ids=str,
+)
+def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps_its_radius(solid, omega):
+    # 40 steps a period; the radius of 18 pixels is known to half a percent
+    exact = motions.stiffness(A, solid, omega / TAU)
+    found = response(1e-3 * DEPTH, omega / TAU, solid)
+    assert abs(found) == pytest.approx(abs(exact), rel=5e-3)
+    assert np.angle(found / exact) == pytest.approx(0.0, abs=3e-3)
+    assert np.angle(exact) > 0.1
+
+
+@pytest.mark.slow
+def test_a_large_oscillation_meets_less_than_that():
+    assert abs(response(0.1 * DEPTH, 1 / TAU, SOLID)) < 0.97 * abs(motions.stiffness(A, SOLID, 1 / TAU))
+
+
+@pytest.mark.slow
+def test_an_oscillation_is_followed_at_second_order_in_the_step(monkeypatch):
+    # so small that no pixel joins or leaves
+    swing = {"duration": 0.75 * TAU, "amplitude": 1e-4 * DEPTH, "frequency": 1 / TAU}
+    motion = program(pressed(), {"duration": 40 * TAU}, swing)
+    monkeypatch.setattr(bem3d.timeline, "RAMP", 1)
+    counts, forces = np.array([8, 16, 32]), []
+    for count in (*counts, 128):
+        monkeypatch.setattr(bem3d.timeline, "PERIOD", count)
+        fields = solved(motion, extent=3e-3, steps=1, points=32, tolerance=1e-9).fields
+        late = fields["time"] > 41 * TAU
+        forces.append(fields["normal_force"][late].mean())  # of steps that are alike
+    errors = np.abs(np.array(forces[:-1]) - forces[-1])
+    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] > 1.7
+
+
+def test_an_oscillation_has_forty_steps_a_period_at_least_and_its_crest_is_in_the_window():
+    motion = program(
+        pressed("load", 0.3), {"duration": 2.5 * TAU, "amplitude": 0.25, "frequency": 1 / TAU, "speed": 0.1}
+    )
+    result = solved(motion, steps=1)
+    time = result.fields["time"]
+    steps = np.diff(timeline(motion, 1e-4, 1))
+    assert steps[20:].max() <= TAU / 40 * (1 + 1e-9)
+    np.testing.assert_allclose(result.fields["normal_force"], motion.prescribed(time), rtol=1e-9)
+    assert result.fields["normal_force"].max() > 0.549
+
+
+def test_an_amplitude_of_zero_costs_no_step():
+    plain = program(pressed(), slid(A))
+    still = program(pressed(), slid(A, amplitude=0.0, frequency=1e6))
+    assert np.array_equal(timeline(still, 1e-4, 20), timeline(plain, 1e-4, 20))
+
+
+def test_too_many_periods_are_refused_with_what_to_change():
+    swing = {"duration": 1.0, "amplitude": 0.1 * DEPTH, "frequency": 1e6}
+    with pytest.raises(SolveError, match=r"takes 4e\+07 steps .* oscillate for fewer periods"):
+        solved(program(pressed(), swing), extent=3e-3)
+    with pytest.raises(SolveError, match="slide a shorter path, take a larger"):
+        solved(program(pressed(), slid(-1e4)), extent=3e-3)

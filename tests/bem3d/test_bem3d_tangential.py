@@ -1,0 +1,472 @@
+"""Contacts drawn along the surface: closed forms where there are any, and the conditions themselves everywhere."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cupy_stand_in import STAND_IN
+
+from bem3d import BEM, cerruti, engine, stickslip
+from bem3d.engine import Engine
+from bem3d.grid import Grid
+from compare.models.exact import tangential as closed
+from scene import (
+    Coulomb,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    Layer,
+    Plane,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    Wave,
+)
+from scene.scales import elastic_contact
+
+R, G, MU, LOAD = 10e-3, 1e6, 0.4, 1.0
+ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, seed=1)
+CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
+WAVES = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
+TIGHT = 1e-9  # tolerance of solves that are compared with one another
+FORCE = 1e-3  # asked for: of the tangential force at 64 points across the contact
+EXTENT = 3.6e-3  # of contacts of a radius of 1.4 mm
+
+
+def sphere(nu=0.5, roughness=None, coefficient=MU, **drawn):
+    return Scene(Sphere(R), Elastic(G, nu), Shear(load=LOAD, **drawn), roughness, interface=Coulomb(coefficient))
+
+
+def plane(roughness=WAVES, nu=0.5, pressure=1e5, **drawn):
+    return Scene(Plane(), Elastic(G, nu), Shear(pressure=pressure, **drawn), roughness, interface=Coulomb(MU))
+
+
+def at_rest(scene, **pressed):
+    """The same, not drawn."""
+    motion = scene.motion
+    return replace(scene, motion=Indent(**(pressed or {motion.pressed_by: motion.greatest})), interface=None)
+
+
+def greatest(scene, depth):
+    """Displacement [m] at which a smooth body slips everywhere."""
+    return closed.full_slip_displacement(scene.interface.coefficient, depth, scene.solid.poisson_ratio)
+
+
+# -- closed forms
+
+
+@pytest.mark.parametrize("share", [0.1, 0.9])
+def test_a_sphere_without_coupling_is_that_of_cattaneo_and_mindlin(share):
+    scene = sphere(nu=0.0, displacement=1.0)
+    contact = elastic_contact(scene)
+    scene = replace(scene, motion=replace(scene.motion, displacement=share * greatest(scene, contact.depth)))
+    answer = BEM(points=96, extent=3 * contact.radius).solve(scene)
+    fraction = float(closed.force(share))
+    assert answer.friction_force == pytest.approx(MU * LOAD * fraction, rel=2 * FORCE)
+    stick = np.sqrt(answer.measures["stick_area"] / np.pi)
+    # a rim one pixel wide is not known to belong to either
+    assert stick == pytest.approx(contact.radius * closed.stick_radius(fraction), abs=answer.measures["pixel"])
+    r = np.hypot(answer.fields["x"][None, :], answer.fields["y"][:, None]) / contact.radius
+    inside = np.abs(r - closed.stick_radius(fraction)) > 0.1
+    expected = closed.hertz_traction(r, closed.stick_radius(fraction))
+    found = answer.fields["traction_x"] / (MU * answer.fields["pressure"].max())
+    # the pressure itself is 3 % off at the rim of the contact at these points
+    assert np.abs(found - expected)[inside & (r < 0.95)].max() < 0.01
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.5])
+def test_what_sticks_everywhere_is_mindlins_disc_at_any_poisson_ratio(nu):
+    scene = sphere(nu=nu, coefficient=1e6, displacement=1e-9)
+    contact = elastic_contact(scene)
+    stiffness = closed.no_slip_stiffness(G, nu, contact.radius)
+    errors = []
+    for points in (48, 192):
+        answer = BEM(points=points, extent=3 * contact.radius).solve(scene)
+        errors.append(abs(answer.friction_force / (stiffness * 1e-9) - 1))
+        assert answer.measures["slip_area"] == 0
+    # tractions are infinite at the rim: first order in the pixel, whose size the rim is uncertain by
+    assert errors[1] < 0.015
+    assert errors[1] < errors[0] / 2
+    r = np.hypot(answer.fields["x"][None, :], answer.fields["y"][:, None])
+    inside = r < 0.8 * contact.radius
+    expected = closed.no_slip_traction(answer.friction_force, contact.radius, np.where(inside, r, 0.0))
+    assert np.abs(answer.fields["traction_x"] / expected - 1)[inside].max() < 0.02
+    if nu:
+        assert np.abs(answer.fields["traction_y"])[inside].max() < 0.02 * expected.max()
+
+
+@pytest.mark.parametrize("share", [0.2, 0.8])
+def test_a_line_contact_slips_from_both_edges_as_by_cattaneo(share):
+    scene = Scene(Cylinder(R), Elastic(G), Shear(line_load=100.0, force=share * MU * 100), interface=Coulomb(MU))
+    contact = elastic_contact(scene)
+    answer = BEM(points=512, extent=3 * contact.radius).solve(scene)
+    stick = float(closed.line_stick_width(share))
+    assert answer.measures["stick_area"] == pytest.approx(
+        2 * stick * contact.radius, abs=2 * answer.measures["pixel"]
+    )
+    found = answer.fields["traction_x"][0] / (MU * answer.fields["pressure"].max())
+    x = answer.fields["x"] / contact.radius
+    away = (np.abs(np.abs(x) - 1) > 0.05) & (np.abs(np.abs(x) - stick) > 0.05)
+    assert np.abs(found - closed.hertz_traction(x, stick))[away].max() < 5e-3
+    less = elastic_contact(at_rest(scene, line_load=(1 - share) * 100))
+    # counted from the same datum as the depth, so that u = mu (d - d_c)
+    assert answer.measures["tangential_displacement"] == pytest.approx(
+        MU * (contact.depth - less.depth), rel=FORCE
+    )
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9])
+def test_one_wave_slips_as_by_westergaard_and_ciavarella(share):
+    wave, closing = Wave(amplitude=1e-6, wavelength=1e-3), np.pi * 4 * G * 1e-6 / 1e-3
+    force = share * MU * 0.4 * closing * 1e-6
+    answer = BEM(points=512).solve(plane(wave, pressure=0.4 * closing, force=force))
+    expected = closed.wave_displacement(MU, share, 0.4, wave.amplitude)
+    assert answer.measures["tangential_displacement"] == pytest.approx(expected, rel=5e-3)
+    assert answer.friction_force == pytest.approx(force, rel=1e-5)
+
+
+# -- laws of any contact
+
+
+@pytest.mark.parametrize(
+    ("asked", "share"),
+    [
+        (sphere(nu=0.0, roughness=ROUGH, force=0.6 * MU * LOAD), 0.6),
+        (plane(CELL, nu=0.0, pressure=1e4, force=0.95 * MU * 1e-2), 0.95),
+    ],
+    ids=["sphere", "plane"],
+)
+def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(asked, share):
+    # Jaeger and Ciavarella: exact on any grid where tractions displace as pressures do; another algorithm finds it
+    solver = BEM(points=64, extent=EXTENT if asked.motion.pressed_by == "load" else None, tolerance=TIGHT)
+    answer = solver.solve(asked)
+    less = solver.solve(at_rest(asked, **{asked.motion.pressed_by: (1 - share) * asked.motion.greatest}))
+    expected = MU * (answer.fields["pressure"] - less.fields["pressure"])
+    # what both tolerances leave on pixels, of which the shortest waves amplify the gap by points
+    assert np.abs(answer.fields["traction_x"] - expected).max() < 1e-5 * expected.max()
+    assert answer.measures["tangential_displacement"] == pytest.approx(MU * (answer.depth - less.depth), rel=1e-6)
+    assert answer.measures["stick_area"] == pytest.approx(less.measures["contact_area"], rel=0.01)
+
+
+@pytest.mark.parametrize("nu", [-0.8, 0.5])
+def test_the_conditions_of_stick_and_slip_hold(nu):
+    scene = sphere(nu=nu, roughness=ROUGH, force=0.6 * MU * LOAD)
+    answer = BEM(points=40).solve(scene)
+    fields, modulus, pixel = answer.fields, scene.solid.indentation_modulus, answer.measures["pixel"]
+    traction, slip = (np.stack([fields[f"{name}_{axis}"] for axis in "xy"]) for name in ("traction", "slip"))
+    drawn = answer.measures["tangential_displacement"]
+    image = pixel * cerruti.free(Grid(40, 1.0), nu, Engine())(traction / modulus)
+    touched = fields["pressure"] > 0
+    expected = (np.array([drawn, 0.0])[:, None, None] - image) * touched
+    assert np.abs(slip - expected).max() < 1e-9 * drawn
+    size, limit = np.hypot(*traction), MU * fields["pressure"]
+    assert (size <= limit * (1 + 1e-12)).all()
+    sticking = touched & (size < limit * (1 - 1e-9))
+    tolerance = answer.settings["tolerance"] * drawn
+    assert np.hypot(*slip)[sticking].max() <= tolerance
+    rest = touched & ~sticking
+    # where it slips, along the traction on the indenter and forward
+    assert np.abs(slip[0] * traction[1] - slip[1] * traction[0])[rest].max() <= tolerance * size.max()
+    assert (slip * traction).sum(axis=0)[rest].min() >= -tolerance * size.max()
+    assert 0 < answer.measures["stick_area"] < answer.measures["contact_area"]
+    assert traction[0].sum() * pixel**2 == pytest.approx(answer.friction_force, rel=1e-12)
+    assert answer.friction_force == pytest.approx(0.6 * MU * LOAD, rel=answer.settings["tolerance"])
+
+
+def test_a_smooth_sphere_has_the_symmetry_of_its_pull():
+    answer = BEM(points=64).solve(sphere(force=0.5 * MU * LOAD))
+    along, across = answer.fields["traction_x"], answer.fields["traction_y"]
+    for plane, signs in ((along, (1, 1)), (across, (-1, -1))):
+        for axis, sign in enumerate(signs):
+            np.testing.assert_allclose(np.flip(plane, axis), sign * plane, atol=1e-4 * along.max())
+    # incompressible: tractions aside are a tenth of those along, and all is of Cattaneo and Mindlin to 0.3 %
+    assert 0.07 < np.abs(across).max() / along.max() < 0.13
+    u_max = greatest(answer.scene, answer.depth)
+    assert answer.measures["tangential_displacement"] / u_max == pytest.approx(closed.displacement(0.5), rel=3e-3)
+
+
+def test_two_components_tend_to_one_as_the_coupling_vanishes():
+    one, two = (BEM(points=48).solve(sphere(nu=nu, displacement=2e-5)) for nu in (0.0, 1e-9))
+    assert two.friction_force == pytest.approx(one.friction_force, rel=1e-5)
+    assert "traction_y" in two.fields
+    assert "traction_y" not in one.fields
+    assert np.abs(two.fields["traction_y"]).max() < 1e-6 * two.fields["traction_x"].max()
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.5])
+def test_a_displacement_and_the_force_that_it_takes_are_one_state(nu):
+    one = BEM(points=48, tolerance=1e-7).solve(sphere(nu=nu, roughness=ROUGH, displacement=2e-5))
+    other = BEM(points=48, tolerance=1e-7).solve(sphere(nu=nu, roughness=ROUGH, force=one.friction_force))
+    assert other.measures["tangential_displacement"] == pytest.approx(2e-5, rel=1e-5)
+    for name in ("traction_x", "slip_x"):
+        peak = np.abs(one.fields[name]).max()
+        np.testing.assert_allclose(other.fields[name], one.fields[name], atol=1e-4 * peak)
+
+
+@pytest.mark.parametrize(("nu", "short"), [(0.5, 2e-3), (0.5, 1.2e-3), (0.5, 1e-8), (-0.9, 1e-6)])
+def test_a_force_just_short_of_all_that_friction_holds_has_its_displacement_too(nu, short):
+    # with nothing left to stick, tractions that point aside in part make up for what is short
+    solver = BEM(points=48, tolerance=TIGHT)
+    answer = solver.solve(sphere(nu=nu, force=(1 - short) * MU * LOAD))
+    drawn = answer.measures["tangential_displacement"]
+    back = solver.solve(sphere(nu=nu, displacement=drawn))
+    # what the tolerance leaves of the force, and twice that
+    assert 1 - back.friction_force / (MU * LOAD) == pytest.approx(short, rel=1e-4, abs=2 * TIGHT)
+    assert (answer.measures["stick_area"] == 0) == (short < 1.5e-3)
+    size = np.hypot(answer.fields["traction_x"], answer.fields["traction_y"])
+    assert (size <= MU * answer.fields["pressure"] * (1 + 1e-9)).all()
+
+
+@pytest.mark.slow
+def test_the_displacement_grows_with_the_force_up_to_all_that_friction_holds():
+    shares = 1 - np.array([0.05, 0.01, 3e-3, 1.7e-3, 1e-3, 1e-4, 1e-5, 1e-7])
+    answers = [BEM(points=48).solve(sphere(force=share * MU * LOAD)) for share in shares]
+    assert (np.diff([answer.measures["tangential_displacement"] for answer in answers]) > 0).all()
+    assert answers[0].measures["stick_area"] > answers[-1].measures["stick_area"] == 0
+
+
+def test_the_force_grows_with_the_displacement_less_and_less():
+    forces = [
+        BEM(points=48, extent=EXTENT).solve(sphere(roughness=ROUGH, displacement=u)).friction_force
+        for u in np.linspace(1.8e-5, 9e-5, 5)
+    ]
+    gained = np.diff([0.0, *forces])
+    assert (gained > 0).all()
+    assert (np.diff(gained) < 0).all()
+
+
+@pytest.mark.parametrize(("nu", "drawn", "precision"), [(0.0, 1.0, "double"), (0.5, 1e200, "single")])
+def test_all_slips_in_the_end_and_friction_holds_no_more(nu, drawn, precision):
+    answer = BEM(points=48, precision=precision).solve(sphere(nu=nu, displacement=drawn))
+    assert answer.measures["stick_area"] == 0
+    assert answer.measures["tangential_displacement"] == drawn
+    size = np.hypot(answer.fields["traction_x"], answer.fields.get("traction_y", 0.0))
+    np.testing.assert_allclose(size, MU * answer.fields["pressure"], rtol=1e-9)
+    slip = answer.fields["slip_x"][answer.fields["pressure"] > 0]
+    np.testing.assert_allclose(slip, drawn, rtol=1e-4 if nu == 0 else 1e-12)
+    # tractions that point aside as long as the slip is finite: not here
+    assert answer.friction_force == pytest.approx(MU * LOAD, rel=1e-6 if nu == 0 else 1e-9)
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.5])
+@pytest.mark.parametrize("drawn", [1e-300, 1e-163, 1e-12])
+def test_next_to_nothing_displaces_in_proportion(nu, drawn):
+    unit = BEM(points=48).solve(sphere(nu=nu, displacement=1e-15)).friction_force / 1e-15
+    answer = BEM(points=48).solve(sphere(nu=nu, displacement=drawn))
+    # what 1e-12 m makes slip at the rim
+    assert answer.friction_force / drawn == pytest.approx(unit, rel=1e-6)
+    assert answer.measures["tangential_residual"] > 0
+    back = BEM(points=48).solve(sphere(nu=nu, force=answer.friction_force))
+    # to tolerance
+    assert back.measures["tangential_displacement"] == pytest.approx(drawn, rel=1e-4)
+
+
+@pytest.mark.parametrize("drawn", ["displacement", "force"])
+@pytest.mark.parametrize("nu", [0.0, 0.5])
+def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(nu, drawn):
+    pull = {"displacement": 3e-5, "force": 0.6 * MU * LOAD}[drawn]
+    one = BEM(points=32).solve(sphere(nu=nu, roughness=ROUGH, **{drawn: pull}))
+    # of 1e-250 to 1e150; powers of two change no digits
+    for factor in (2.0**-830, 2.0**-40, 2.0**498):
+        scene = sphere(nu=nu, roughness=ROUGH, coefficient=factor * MU, **{drawn: factor * pull})
+        other = BEM(points=32).solve(scene)
+        for name in ("traction_x", "slip_x"):
+            np.testing.assert_array_equal(other.fields[name], factor * one.fields[name])
+        assert other.friction_force == factor * one.friction_force
+        for name in ("tangential_residual", "stick_area", "tangential_applications"):
+            assert other.measures[name] == one.measures[name]
+        assert other.measures["tangential_displacement"] == factor * one.measures["tangential_displacement"]
+
+
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_a_cell_that_touches_everywhere_slips_somewhere_however_little_it_is_drawn(precision):
+    forces = []
+    for drawn in (1e-300, 1e-16):
+        answer = BEM(points=32, precision=precision, tolerance=1e-4).solve(plane(displacement=drawn))
+        assert answer.measures["contact_fraction"] == 1
+        assert answer.measures["slip_area"] > 0
+        # the least pressure holds an even traction of so much, and it is a little more by the sizes of pixels
+        assert answer.friction_force / (MU * answer.fields["pressure"].min() * 1e-6) == pytest.approx(1, rel=0.05)
+        forces.append(answer.friction_force)
+    np.testing.assert_allclose(forces, forces[0], rtol=1e-3)
+
+
+@pytest.mark.parametrize(("length", "modulus"), [(1e-6, 1e3), (1e3, 1e-3)])
+def test_units_do_not_matter(length, modulus):
+    scene = sphere(displacement=2e-5, roughness=ROUGH)
+    rough = {name: getattr(ROUGH, name) * length for name in ("rms_height", "longest", "shortest")}
+    scaled = replace(
+        scene,
+        indenter=Sphere(R * length),
+        elastomer=Elastic(G * modulus),
+        motion=Shear(load=LOAD * modulus * length**2, displacement=2e-5 * length),
+        roughness=replace(ROUGH, **rough),
+    )
+    one, other = (BEM(points=32).solve(each) for each in (scene, scaled))
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-7)
+
+
+def test_the_relaxed_modulus_alone_counts():
+    viscous = replace(sphere(displacement=2e-5), elastomer=Kelvin(G, 1e-3))
+    one, other = (BEM(points=48).solve(scene) for scene in (sphere(displacement=2e-5), viscous))
+    assert one.friction_force == other.friction_force
+
+
+def test_the_mean_slip_of_a_cell_is_how_far_it_was_drawn():
+    # displacements have no mean there
+    answer = BEM(points=64).solve(plane(displacement=2e-8))
+    assert answer.measures["contact_fraction"] == 1
+    assert answer.fields["slip_x"].mean() == pytest.approx(2e-8, rel=1e-4)
+    assert 0 < answer.measures["slip_area"] < answer.measures["contact_area"]
+
+
+def test_an_even_traction_displaces_a_cell_nowhere():
+    answer = BEM(points=64).solve(plane(force=0.01 * MU * 0.1))
+    assert answer.measures["contact_fraction"] == 1
+    assert abs(answer.measures["tangential_displacement"]) < 1e-20
+    assert np.ptp(answer.fields["traction_x"]) < 1e-9 * answer.fields["traction_x"].max()
+
+
+# -- what is absent
+
+
+@pytest.fixture
+def untouched(monkeypatch):
+    """Tangential kernels and products must not be built."""
+
+    def built(*_):
+        raise AssertionError("a tangential kernel was built")
+
+    for name in ("free", "periodic", "preconditioner"):
+        monkeypatch.setattr(cerruti, name, built)
+    monkeypatch.setattr(stickslip, "solve", built)
+
+
+@pytest.mark.parametrize("motion", [Indent(load=LOAD), Slide(speed=0.1, load=LOAD)])
+def test_friction_without_a_pull_builds_nothing_and_changes_no_pressure(motion, untouched):
+    plain = Scene(Sphere(R), Kelvin(G, 1e-3), motion, ROUGH)
+    one, other = (BEM(points=48).solve(scene) for scene in (plain, replace(plain, interface=Coulomb(MU))))
+    np.testing.assert_array_equal(one.fields["pressure"], other.fields["pressure"])
+    assert (one.depth, one.applications, one.residual) == (other.depth, other.applications, other.residual)
+    added = MU * one.normal_force if motion.speed else 0.0
+    assert other.friction_force == one.friction_force + added
+
+
+@pytest.mark.parametrize("drawn", [{"force": 0.0}, {"displacement": 0.0}])
+def test_a_pull_of_nothing_is_the_contact_at_rest(drawn, untouched):
+    scene = sphere(roughness=ROUGH, **drawn)
+    one, other = BEM(points=48).solve(at_rest(scene)), BEM(points=48).solve(scene)
+    for name in ("pressure", "gap"):
+        np.testing.assert_array_equal(one.fields[name], other.fields[name])
+    assert other.friction_force == 0
+    assert not other.fields["traction_x"].any()
+    assert not other.fields["slip_x"].any()
+    assert other.measures["slip_area"] == 0
+    assert (one.depth, one.applications) == (other.depth, other.applications)
+
+
+def test_without_friction_all_slips_at_once(untouched):
+    answer = BEM(points=48).solve(sphere(coefficient=0.0, displacement=1e-6))
+    assert answer.friction_force == 0
+    assert answer.measures["stick_area"] == 0
+    assert (answer.fields["slip_x"][answer.fields["pressure"] > 0] == 1e-6).all()
+
+
+def test_the_pressure_is_that_of_the_contact_at_rest():
+    scene = sphere(roughness=ROUGH, displacement=2e-5)
+    one, other = BEM(points=48).solve(at_rest(scene)), BEM(points=48).solve(scene)
+    np.testing.assert_array_equal(one.fields["pressure"], other.fields["pressure"])
+    assert other.applications == pytest.approx(one.applications + other.measures["tangential_applications"])
+    assert other.friction_force > 0.1 * MU * LOAD
+
+
+def test_friction_of_elastomer_and_interface_add():
+    scene = Scene(Sphere(R), Kelvin(G, 1e-3), Slide(speed=0.1, load=LOAD))
+    loss = BEM(points=48).solve(scene).friction_force
+    answer = BEM(points=48).solve(replace(scene, interface=Coulomb(MU)))
+    assert answer.measures["friction_in_elastomer"] == loss > 0
+    assert answer.measures["friction_in_interface"] == pytest.approx(MU * LOAD, rel=1e-12)
+    assert answer.friction_force == loss + answer.measures["friction_in_interface"]
+
+
+# -- what cannot be
+
+
+@pytest.mark.parametrize(
+    ("coefficient", "force", "most"), [(MU, MU * LOAD, "0.4"), (MU, 2.0, "0.4"), (0.0, 1e-3, "0")]
+)
+def test_a_force_beyond_friction_slides_and_is_an_error(coefficient, force, most):
+    with pytest.raises(SolveError, match=rf"motion.force = {force:g} slides: .* load = {most}; use Slide"):
+        BEM(points=48).solve(sphere(coefficient=coefficient, force=force))
+
+
+PROGRAM = Program(stages=(Stage(duration=1.0, load=LOAD),))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"motion": PROGRAM}, "interface = Coulomb: a history of partial"),
+        ({"layer": Layer(thickness=1e-3)}, "motion = Shear: tangential kernels are those of a half-space"),
+    ],
+)
+def test_what_is_not_simulated_is_refused_by_name(change, said):
+    with pytest.raises(Refused, match=said):
+        BEM(points=48).solve(replace(sphere(displacement=1e-6), **change))
+
+
+def test_tractions_that_do_not_converge_are_an_error(monkeypatch):
+    monkeypatch.setattr(stickslip, "ROUNDS", 1)
+    with pytest.raises(SolveError, match="no converged tractions on 48 x 48 points: after 1 sets of slip"):
+        BEM(points=48).solve(sphere(displacement=3e-5))
+
+
+# -- how it is computed
+
+
+def test_tractions_that_fit_one_another_but_not_the_force_are_no_answer():
+    # separate springs, all alike: any even traction meets every condition but that of the force
+    def springs(planes):
+        return 2.0 * planes
+
+    limits, start = np.ones((4, 5)), np.full((1, 4, 5), 0.1)
+    found = stickslip.solve(springs, lambda planes: planes / 2, limits, start, 1e-9, force=0.5 * limits.size)
+    np.testing.assert_allclose(found.traction, 0.5, rtol=1e-9)
+    assert found.displacement == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("drawn", "most"), [({"force": 0.6 * MU * LOAD}, 120), ({"displacement": 3e-5}, 80)])
+def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
+    answer = BEM(points=128).solve(sphere(roughness=ROUGH, **drawn))
+    tangential = answer.measures["tangential_applications"]
+    # 108 and 70 of single planes were measured, a product of two components counting twice; the pressure takes
+    # 22. Without the slipping points of the coarse grid it is 130 and 90
+    assert tangential < most
+
+
+@pytest.mark.parametrize("other", [{"precision": "single", "tolerance": 1e-4}, {"transforms": "cupy"}], ids=str)
+def test_every_library_gives_the_same_tractions(other, monkeypatch):
+    monkeypatch.setattr(engine, "_cupy", lambda: STAND_IN)
+    scene = sphere(roughness=ROUGH, displacement=2e-5)
+    one, two = BEM(points=49).solve(scene), BEM(points=49, **other).solve(scene)
+    # to tolerance
+    assert two.friction_force == pytest.approx(one.friction_force, rel=2e-4)
+    np.testing.assert_allclose(
+        two.fields["traction_y"], one.fields["traction_y"], atol=2e-3 * one.fields["traction_x"].max()
+    )
+
+
+def test_where_nothing_sticks_the_displacement_is_the_least_at_which_all_but_one_point_slips_forward():
+    image, everywhere = np.array([[1.0, 3.0, 2.0]]), np.ones(3, bool)
+    assert stickslip._level(image, np.ones((1, 3)), everywhere, np) == 3.0
+    along = np.array([[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])
+    assert stickslip._level(np.vstack([image, 5 * image]), along, everywhere, np) == 3.0
+    assert stickslip._level(image, np.ones((1, 3)), np.array([True, False, False]), np) == 2.5

@@ -1,0 +1,47 @@
+"""Samples of figures that commands left, to five digits: python tests/compare/plots/collect.py FOLDER..."""
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+from compare.report import csvfiles, manifest
+
+HERE = Path(__file__).parent
+LARGE = "contact_maps"
+
+
+def collect(folders):
+    """Keep the tables of the smallest figure of each function in a folder named by it, and the manifest of all.
+
+    Maps of contact are left out, as they are too large; they have tests of their own.
+    """
+    path = HERE / manifest.NAME
+    entries = {entry["name"]: entry for entry in json.loads(path.read_text())["plots"]} if path.exists() else {}
+    found = {}
+    for folder in folders:
+        for each in manifest.folders(folder):
+            for plot in each.manifest.plots:
+                place = each.path / plot.name[: plot.name.rfind("/") + 1]
+                files = [place / f"{name}.csv" for name in plot.tables]
+                found.setdefault((plot.module, plot.function), []).append((sum(map(_size, files)), files, plot))
+    for (module, function), plots in found.items():
+        if module.endswith(LARGE):
+            continue
+        _, files, plot = min(plots, key=lambda each: each[0])
+        name = f"{module.rpartition('.')[2]}-{function}"
+        shutil.rmtree(HERE / name, ignore_errors=True)
+        (HERE / name).mkdir()
+        for file in files:
+            csvfiles.read(file).to_csv(HERE / name / file.name, index=False, na_rep="nan", float_format="%.5g")
+        entries[f"{name}/plot"] = plot.model_dump() | {"name": f"{name}/plot"}
+    content = {"command": "run", "inputs": {}, "solved": "", "tables": [], "plots": list(entries.values())}
+    path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n")
+
+
+def _size(file):
+    return file.stat().st_size
+
+
+if __name__ == "__main__":
+    collect(sys.argv[1:])

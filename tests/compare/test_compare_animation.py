@@ -1,0 +1,339 @@
+"""A march as a picture that moves: instants cost nothing unasked, and what is drawn is what was solved."""
+
+import os
+import stat
+import tracemalloc
+from dataclasses import fields, replace
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+from bem3d import BEM
+from compare.library.case import Case
+from compare.report.plots import style
+from compare.solving.store import Store
+from compare.studies.animate import animation
+from compare.studies.animate.figure import MarchFigure
+from compare.studies.animate.film import started
+from mdr1d import MDR
+from scene import (
+    Coulomb,
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    Plane,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+from scene.instants import Frames, nearest
+
+R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
+KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
+A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
+ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
+RUN = Program(stages=(Stage(duration=2 * TAU, load=LOAD), Stage(duration=4 * TAU, speed=0.2)))
+LIFT = Program(stages=(Stage(duration=TAU, load=LOAD), Stage(duration=TAU, load=0.0), Stage(duration=2 * TAU)))
+DIP = Program(stages=(Stage(duration=TAU, depth=5e-5, speed=0.3), Stage(duration=TAU, depth=0.0, speed=-0.3)))
+LINE, SPACE = MDR(points=200, steps=20), BEM(points=32, steps=20)
+RUNNING = Scene(Sphere(R), KELVIN, RUN, ROUGH)
+
+
+@cache
+def film(scene, frames=4):
+    with TemporaryDirectory() as folder:
+        return animation.filmed(scene, LINE, SPACE, frames, Store(Path(folder)), workers=1)
+
+
+def case(scene=RUNNING, line=LINE, space=SPACE):
+    return Case(**{each.name: getattr(scene, each.name) for each in fields(Scene)}, mdr=line, bem=space)
+
+
+@pytest.fixture
+def solved(tmp_path_factory):
+    return tmp_path_factory.mktemp("solved")
+
+
+def texts(drawing):
+    return [text.get_text() for axes in drawing.get_axes() for text in axes.texts]
+
+
+@pytest.mark.parametrize("solver", [LINE, SPACE])
+@pytest.mark.parametrize("motion", [RUN, DIP, pytest.param(LIFT, marks=pytest.mark.slow)])
+def test_instants_are_kept_of_the_same_march_to_the_last_digit(solver, motion):
+    scene = replace(RUNNING, motion=motion)
+    plain, kept = (each.solve(scene) for each in (solver, replace(solver, frames=5)))
+    assert not [name for name in plain.fields if name.startswith("frame")]
+    for name, values in plain.fields.items():
+        np.testing.assert_array_equal(kept.fields[name], values)
+    times = kept.fields["frame_time"]
+    assert len(times) == 5
+    steps = plain.fields["time"]
+    # as near as the steps are to each other, where the longest is a twentieth of a stage
+    wanted = motion.duration * np.arange(1, 6) / 5
+    assert np.abs(times - wanted).max() <= np.diff(steps, prepend=0).max()
+
+
+def test_instants_in_three_dimensions_are_the_contact_then():
+    kept = replace(SPACE, frames=6).solve(RUNNING).fields
+    patch = (kept["x"][1] - kept["x"][0]) ** 2
+    for k, time in enumerate(kept["frame_time"]):
+        step = int(np.argmin(np.abs(kept["time"] - time)))
+        force = kept["frame_pressure"][k].sum() * patch
+        assert force == pytest.approx(kept["normal_force"][step], rel=1e-9)
+    np.testing.assert_array_equal(kept["frame_pressure"][-1], kept["pressure"])
+    assert np.abs(kept["frame_shift"]).max() <= 1.01 * (kept["x"][1] - kept["x"][0])
+    surface = kept["frame_displacement"]
+    assert (surface.max(axis=(1, 2)) > 0).all()
+    # under the deepest point of the indenter the surface is as deep, whatever the roughness lifts
+    assert surface[-1].max() == pytest.approx(kept["frame_depth"][-1], abs=3 * ROUGH.rms_height)
+
+
+def test_instants_in_one_dimension_are_the_elements_then():
+    kept = replace(LINE, frames=6).solve(RUNNING).fields
+    touching = kept["frame_contact"]
+    pressed = kept["frame_depth"][:, None] - kept["frame_profile"]
+    np.testing.assert_allclose(kept["frame_displacement"][touching], pressed[touching], rtol=0, atol=1e-18)
+    for name in ("x", "profile", "displacement", "contact"):
+        np.testing.assert_array_equal(kept[f"frame_{name}"][-1], kept[name])
+
+
+@pytest.mark.parametrize(
+    "solver",
+    [
+        replace(LINE, points=1000),
+        pytest.param(replace(SPACE, points=64, transforms="fftw"), marks=pytest.mark.slow),
+    ],
+)
+def test_instants_that_are_not_asked_for_take_no_memory_and_those_that_are_what_the_plan_says(solver):
+    def most(asked):
+        asked.solve(RUNNING)  # what is loaded once is no part of it
+        tracemalloc.start()
+        try:
+            asked.solve(RUNNING)
+            return tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+
+    plain, kept = solver, replace(solver, frames=40)
+    more = kept.plan(RUNNING).memory - plain.plan(RUNNING).memory
+    assert more > 1e6
+    # of what is asked for: frames are kept at the end of the march, and its peak may lie elsewhere
+    assert 0.3 * more < most(kept) - most(plain) < 1.5 * more
+
+
+def test_instants_are_the_steps_nearest_to_equal_times_and_the_last_is_the_end():
+    times = np.array([0.5, 1.5, 2.5, 3.5])
+    for count, steps in ((4, [0, 1, 2, 3]), (2, [1, 3]), (100, [0, 1, 2, 3]), (0, [])):
+        assert nearest(times, 4.0, count).tolist() == steps
+    assert nearest(np.array([1.0]), 1.0, 7).tolist() == [0]
+
+
+def test_what_is_kept_of_a_step_is_a_copy():
+    frames, values = Frames(np.array([1.0, 2.0]), 2.0, 2), np.zeros(3)
+    frames.keep(time=1.0, values=values)
+    values[:] = 1.0
+    frames.keep(time=2.0, values=values)
+    assert frames.handed_over()["frame_values"].tolist() == [[0, 0, 0], [1, 1, 1]]
+    assert frames.handed_over() == {}
+
+
+def test_a_gif_has_every_instant_for_its_share_of_the_time(tmp_path):
+    path = tmp_path / "run.gif"
+    animation.record(film(RUNNING), path, seconds=1.0)
+    with Image.open(path) as gif:
+        pictures = [(frame.info["duration"], frame.convert("RGB")) for frame in ImageSequence.Iterator(gif)]
+    assert [duration for duration, _ in pictures] == [250] * 4
+    assert {picture.getpixel((0, 0)) for _, picture in pictures} == {(255, 255, 255)}
+    first, last = (np.asarray(pictures[k][1], int) for k in (0, -1))
+    assert (np.abs(first - last).max(axis=2) > 60).mean() > 1e-3
+    assert path.stat().st_size < 1e6
+
+
+@pytest.mark.slow
+def test_the_same_march_is_made_again_from_what_was_solved_with_the_settings_of_the_case(
+    tmp_path, solved, monkeypatch
+):
+    options = {"frames": 2, "seconds": 1.0, "folder": solved, "workers": 1}
+    first = animation.animate(case(), tmp_path / "first.gif", **options).read_bytes()
+    for solver in (MDR, BEM):
+        monkeypatch.setattr(solver, "solve", None)
+    assert animation.animate(case(), tmp_path / "again.gif", **options).read_bytes() == first
+
+
+def test_a_file_that_nothing_could_write_is_refused_before_anything_is_solved(tmp_path, solved, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    for name, said in (("run.avi", "ends in .gif"), ("run.mp4", "takes ffmpeg, which is not on the path")):
+        with pytest.raises(Refused, match=said):
+            animation.animate(RUNNING, tmp_path / name, folder=solved)
+    with pytest.raises(FileNotFoundError, match="no such folder"):
+        animation.animate(RUNNING, tmp_path / "absent" / "run.gif", folder=solved)
+    for frames, seconds in ((0, 1.0), (100, 1.0), (10, 0.0), (10, -1.0), (10, float("nan"))):
+        with pytest.raises(Refused, match="frames = "):
+            animation.animate(RUNNING, tmp_path / "run.gif", frames, seconds, solved)
+    assert not list(solved.iterdir())
+
+
+def fake_ffmpeg(folder, script):
+    program = folder / "ffmpeg"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+
+
+@pytest.mark.slow
+def test_an_mp4_goes_through_ffmpeg_picture_by_picture(tmp_path, monkeypatch):
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    # keeps what it is given: its arguments, and every byte of the pictures
+    fake_ffmpeg(tools, 'for last; do :; done; echo "$@" > "$last"; cat >> "$last"')
+    monkeypatch.setenv("PATH", f"{tools}{os.pathsep}{os.environ['PATH']}")
+    path = tmp_path / "run.mp4"
+    animation.record(film(RUNNING), path, seconds=2.0)
+    arguments, pixels = path.read_bytes().split(b"\n", 1)
+    words = arguments.decode().split()
+    width, height = map(int, words[words.index("-s") + 1].split("x"))
+    assert len(pixels) == 4 * width * height * 4
+    assert float(words[words.index("-framerate") + 1]) == 2.0
+
+
+@pytest.mark.slow
+def test_where_ffmpeg_fails_its_own_words_are_said_and_nothing_is_written(tmp_path, monkeypatch):
+    fake_ffmpeg(tmp_path, 'cat > /dev/null; echo "no encoder" >&2; exit 1')
+    monkeypatch.setenv("PATH", str(tmp_path) + os.pathsep + os.environ["PATH"])
+    with pytest.raises(SolveError, match=r"ffmpeg wrote no run\.mp4: no encoder"):
+        animation.record(film(RUNNING, 2), tmp_path / "run.mp4", seconds=1.0)
+    assert [path.name for path in tmp_path.iterdir()] == ["ffmpeg"]
+
+
+HARD = {
+    "lift": Scene(Sphere(R), KELVIN, LIFT, ROUGH),
+    "dip": Scene(Sphere(R), STANDARD, DIP),
+    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), CELL),
+    "full": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e7), CELL),
+    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
+    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
+    "elastic": Scene(Sphere(R), Elastic(G), Indent(depth=1e-4)),
+}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name == "line" else pytest.mark.slow) for name in HARD]
+)
+def test_every_instant_is_drawn_with_units_to_the_same_scales(name):
+    found = film(HARD[name])
+    assert ("MDR" in found.fields) == (not LINE.refusals(HARD[name]))
+    with style.applied():
+        reel = MarchFigure(found)
+        limits = set()
+        for k in range(len(found.times)):
+            reel.show(k)
+            reel.drawing.draw_without_rendering()
+            axes = reel.drawing.get_axes()
+            limits.add(tuple((each.get_xlim(), each.get_ylim()) for each in axes))
+            for each in axes:
+                for label in (each.get_xlabel(), each.get_ylabel()):
+                    assert not label or label.endswith("]"), label
+    assert len(limits) == 1
+
+
+def test_an_instant_replaces_the_one_before_and_shows_its_pressure_and_its_past():
+    found = film(RUNNING)
+    with style.applied():
+        reel = MarchFigure(found)
+        for k in range(len(found.times)):
+            reel.show(k)
+            pressure, section, profile, load, friction = reel.drawing.get_axes()[:5]
+            (image,) = pressure.images
+            shown = 1e6 * image.get_array().sum()
+            assert shown == pytest.approx(found.fields["BEM"]["frame_pressure"][k].sum(), rel=1e-12)
+            # undisturbed level, surface, contact
+            assert len(section.lines) == len(profile.lines) == 3
+            three, one = load.lines
+            assert three.get_xdata()[-1] == pytest.approx(1e3 * found.times[k], rel=0.1)
+            assert len(friction.lines) == 2
+            assert len(one.get_xdata()) == (found.fields["MDR"]["time"] <= found.times[k]).sum()
+
+
+def test_the_elements_pass_the_indenter_with_the_elastomer():
+    found, phases = film(RUNNING), []
+    pitch = 1e3 * (found.span[1] - found.span[0]) / 48
+    with style.applied():
+        reel = MarchFigure(found)
+        for k in (2, 3):
+            reel.show(k)
+            profile = reel.drawing.get_axes()[2]
+            ends = [path.vertices[0, 0] for rows in profile.collections[:2] for path in rows.get_paths()]
+            phases.append(np.angle(np.mean(np.exp(2j * np.pi * np.array(ends) / pitch))) / (2 * np.pi))
+    passed = 1e3 * np.diff(RUN.path(found.times[2:4]))[0] / pitch
+    # of a distance between elements, which are drawn at the nearest of the 200 nodes of the span
+    assert 0.2 < passed % 1 < 0.8
+    assert (phases[1] - phases[0] - passed + 0.5) % 1 - 0.5 == pytest.approx(0.0, abs=0.1)
+
+
+def test_where_nothing_touches_that_is_said():
+    found = film(HARD["lift"])
+    with style.applied():
+        reel = MarchFigure(found)
+        reel.show(3)
+        said = texts(reel.drawing)
+        assert "at rest, nothing touches" in said
+        assert said.count("nothing touches here") == 2
+        reel.show(0)
+        assert "nothing touches here" not in texts(reel.drawing)
+
+
+@pytest.mark.slow
+def test_a_look_of_ones_own_holds_for_every_instant(tmp_path):
+    found = film(RUNNING, 2)
+    with style.chosen(style.Look(sheet="dark_background")):
+        animation.record(found, tmp_path / "dark.gif", 2.0)
+    with Image.open(tmp_path / "dark.gif") as gif:
+        assert gif.convert("RGB").getpixel((0, 0)) == (0, 0, 0)
+
+
+def test_a_steady_scene_is_begun_from_an_undisturbed_elastomer_and_ends_in_its_own_answer():
+    steady = Scene(Sphere(R), STANDARD, Slide(speed=0.5 * A / TAU, load=LOAD))
+    program = started(steady).motion
+    assert program.duration == pytest.approx(1.2 * 4 * A / steady.motion.speed)
+    assert program.prescribed(0.0) == 0
+    mu = SPACE.solve(replace(steady, motion=program)).friction_coefficient
+    # four radii of path at half a radius of memory; 32 points
+    assert mu == pytest.approx(SPACE.solve(steady).friction_coefficient, rel=2e-2)
+    assert started(RUNNING) is RUNNING
+
+
+def test_what_has_no_beginning_in_time_is_refused():
+    shear = Scene(Sphere(R), KELVIN, Shear(displacement=1e-5, load=LOAD), interface=Coulomb(coefficient=0.3))
+    gap = Scene(Plane(), KELVIN, Slide(speed=0.1, gap=1e-6), CELL)
+    for scene, said in ((shear, "Shear"), (gap, "gap")):
+        with pytest.raises(Refused, match=f"a {said} has no beginning"):
+            started(scene)
+
+
+def test_a_scene_that_both_solvers_refuse_is_refused_with_both_reasons(tmp_path, solved):
+    asked = case(replace(RUNNING, roughness=replace(ROUGH, shortest=1e-7)), space=BEM(points=32, extent=1e-3))
+    with pytest.raises(Refused, match=r"neither solver.*points"):
+        animation.animate(asked, tmp_path / "run.gif", folder=solved)
+
+
+def test_a_march_in_which_nothing_touches_or_that_fails_is_no_picture(solved):
+    barely = Scene(Sphere(R), KELVIN, Program(stages=(Stage(duration=TAU, depth=1e-9),)))
+    for asked, said in (
+        (case(barely, space=replace(SPACE, extent=4 * A)), "BEM: nothing touches"),
+        (case(line=replace(LINE, extent=A)), "MDR: .* extent"),
+    ):
+        with pytest.raises(SolveError, match=said):
+            animation.filmed(asked.scene, asked.mdr, asked.bem, 2, Store(solved), workers=1)

@@ -1,0 +1,244 @@
+"""`crosscheck X` is `compare.X`: the same names, arguments and numbers; nothing is printed."""
+
+import inspect
+import itertools
+import json
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from matplotlib.figure import Figure
+
+import compare
+from bem3d import BEM
+from compare import commands
+from compare.cli.app import COMMANDS, PYTHON_ONLY, SHARED
+from compare.library.case import Case
+from compare.library.case import Study as Varied
+from compare.solving.parameter_grid import Rectangle, on_two_grids
+from compare.statistics.finding import COLUMNS, Claim
+from compare.statistics.jackknife import friction
+from compare.studies import pipeline
+from mdr1d import MDR
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere, markup
+from scene.reading import InvalidInput
+
+SLIDING = Scene(
+    indenter=Sphere(radius=1e-2),
+    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+    motion=Slide(speed=0.1, load=1.0),
+    roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
+)
+TINY = Case(
+    title="A <rough> sphere & more",
+    indenter=SLIDING.indenter,
+    elastomer=SLIDING.elastomer,
+    motion=SLIDING.motion,
+    roughness=SLIDING.roughness,
+    study=Varied(
+        speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,), surfaces=2, profiles=2
+    ),
+    bem=BEM(points=32),
+    mdr=MDR(points=500),
+)
+
+
+class Balanced(HTMLParser):
+    """Tags that open and do not close, or the other way round."""
+
+    VOID = frozenset({"img", "br", "meta", "link", "hr", "input", "col"})
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.crossed = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.crossed.append(tag)
+
+
+def shown(thing):
+    """What a notebook shows: whole HTML without a word that its text could have smuggled in."""
+    text = thing._repr_html_()
+    parsed = Balanced(text)
+    assert not parsed.open
+    assert not parsed.crossed
+    assert "<rough>" not in text
+    return text
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("found")
+
+
+@pytest.fixture(scope="module")
+def found(folder):
+    return compare.run({"tiny": TINY}, folder, workers=1)
+
+
+def test_every_name_of_the_package_is_there_is_listed_and_hides_no_module():
+    there = {path.stem for path in Path(compare.__file__).parent.iterdir()}
+    for name in compare.__all__:
+        assert getattr(compare, name) is not None
+        assert name in dir(compare)
+        assert name not in there, f"compare.{name} would hide the module of that name"
+    with pytest.raises(AttributeError, match="crosschek"):
+        compare.crosschek  # noqa: B018
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
+def test_a_command_and_its_function_have_one_name_and_the_same_arguments_and_defaults(command):
+    name = {"list": "ready"}.get(command.title, command.title)
+    assert getattr(compare, name) is command.function
+    function = inspect.signature(command.function).parameters
+    asked = inspect.signature(command.callback()).parameters
+    own = {each for each in function if each not in PYTHON_ONLY | {"options"}}
+    assert own == set(asked) - set(SHARED) - {"quiet", "verbose", "json"} or not command.solves
+    for each in own:
+        default = asked[each].default
+        assert default == function[each].default or str(default) == str(function[each].default)
+    if command.solves:
+        assert set(SHARED) | {"progress"} == set(commands.Options.__annotations__)
+        defaults = inspect.signature(pipeline.run).parameters
+        assert {each: defaults[each].default for each in SHARED} == SHARED
+
+
+def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd):
+    assert str(found.path.resolve()) in str(found)
+    assert repr(found) == str(found)
+    assert found.page.answer
+    again = compare.run({"tiny": TINY}, folder, report=False)
+    assert capfd.readouterr() == ("", "")
+    assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
+    assert list(again.findings.columns) == list(COLUMNS)
+
+
+def test_a_run_shows_itself_in_a_notebook(found):
+    assert "A &lt;rough&gt; sphere &amp; more" in shown(found)
+
+
+def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
+    figures = found.figures
+    name = next(iter(figures))
+    drawing = figures[name]
+    assert isinstance(drawing, Figure)
+    assert drawing._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(KeyError):
+        figures["tiny/nothing"]
+    assert str(figures).startswith(f"Figures({name}, ")
+
+
+def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder, found):
+    tree = compare.load(folder)
+    datasets = [node for node in tree.subtree if "status" in node]
+    assert any("draw" in node.dims for node in datasets)
+    assert {str(each) for node in datasets for each in node.status.values.ravel()} <= {"solved", "no contact"}
+    content = json.loads((folder / "manifest.json").read_text())
+    assert content["command"] == "run"
+    assert str(folder) not in json.dumps(content)  # it may be moved
+
+
+def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
+    of_scene = compare.plan(SLIDING)
+    assert of_scene.feasible
+    assert {*of_scene} == {"MDR", "BEM", "trust"}
+    assert str(compare.plan(TINY)["BEM"]) == str(TINY.bem.plan(SLIDING))
+    assert all(str(each) in of_scene.details for each in of_scene.values())
+
+
+def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
+    answers = compare.sweep(
+        TINY, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=tmp_path, workers=1, report=False
+    )
+    assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "draw": 2}
+    assert answers.speed.values.tolist() == [0.0, 0.1]
+    assert set(answers.status.values.ravel()) == {"solved"}
+    bem = answers.sel(solver="BEM", grid="fine")
+    assert answers.friction.sel(solver="BEM").values == pytest.approx(friction(bem))
+    assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
+    assert (answers.friction_low <= answers.friction).all()
+    grid = abs(friction(bem) - friction(answers.sel(solver="BEM", grid="coarse")))
+    assert (answers.friction_high.sel(solver="BEM") - answers.friction.sel(solver="BEM") >= grid - 1e-12).all()
+    assert isinstance(compare.friction_plot(answers), Figure)
+    again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
+    xarray.testing.assert_identical(again, answers)
+
+
+def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path):
+    answers = compare.sweep(
+        replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
+    )
+    assert "draw" not in answers.dims
+    assert (answers.friction_high > answers.friction).all()
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"speed": []}, "speed = .*at least one"),
+        ({"speed": [0.1, 0.1]}, "each once"),
+        ({"speed": [-0.1]}, "speed = -0.1"),
+        ({"speed": [0.1], "load": [0.0]}, "load = 0.0"),
+        ({"speed": [0.1], "load": [1.0], "depth": [1e-5]}, "load, depth: both"),
+        ({"speed": [0.1], "draws": 0}, "draws = 0"),
+        ({"speed": [float("nan")]}, "speed = nan"),
+        ({"speed": [True]}, "speed = True"),
+        ({"speed": [10**400]}, "speed = 1000"),
+        ({"speed": None}, "speed = None"),
+        ({"speed": itertools.count(1)}, "speed: more than 1,000 values"),
+    ],
+)
+def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked, message):
+    with pytest.raises(InvalidInput, match=message):
+        compare.sweep(SLIDING, output=tmp_path / "no", **asked)
+    assert not (tmp_path / "no").exists()
+
+
+class Twice(compare.Study):
+    """Whether friction in 1D is twice that in 3D where a smooth sphere slides slowly."""
+
+    title = "The factor of two"
+
+    def rectangles(self):
+        grids = on_two_grids(MDR(points=300), BEM(points=48))
+        smooth = replace(SLIDING, roughness=None)
+        return {"smooth": Rectangle(scene=smooth, speeds=(0.005,), values=(1.0,), grids=grids, draws={})}
+
+    def claims(self):
+        def ratio(sample):
+            return float(friction(sample["smooth/MDR"])[0, 0] / friction(sample["smooth/BEM"])[0, 0])
+
+        return [Claim("two", "Friction in 1D is twice that in 3D", 2.0, 0.2, curves=("smooth",), measure=ratio)]
+
+
+def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
+    report = compare.solve(Twice(), tmp_path, workers=1)
+    assert report.findings.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
+    assert report.path == tmp_path / "report.html"
+    assert compare.load(tmp_path)["smooth/BEM"].sizes["grid"] == 2
+    assert compare.solve(Twice(), tmp_path, report=False).path is None
+
+
+def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
+    result = MDR(points=300).solve(SLIDING)
+    text = shown(result)
+    for name in ("normal_force", "depth", "friction_coefficient", *result.measures, *result.fields):
+        assert f">{name}<" in text
+    assert ">N<" in text
+    hostile = replace(result, settings={"points": "<script>"}, measures={"<b>": 1.0})
+    assert "<script>" not in hostile._repr_html_()
+    assert "<b>" not in hostile._repr_html_()
+
+
+def test_a_long_table_says_how_much_it_leaves_out():
+    assert "and 3 more" in markup.table([(k, k) for k in range(markup.LONGEST + 3)])
+    assert "more" not in markup.table([(k, k) for k in range(markup.LONGEST)])

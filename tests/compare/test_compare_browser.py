@@ -1,0 +1,269 @@
+"""A page in a browser: nothing is fetched, nothing is broken, tables sort, a phone and A4 hold it."""
+
+import re
+import shutil
+from itertools import pairwise
+
+import pytest
+from page_samples import FINDINGS, page
+
+from compare.report import render
+
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser: extra browser")
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path")
+ALONE = (
+    *("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+)
+PHONE, DESK = {"width": 360, "height": 740}, {"width": 1280, "height": 900}
+# Between the margins of A4, at 96 dots per inch; tables of data lie across.
+PAPER = {"width": int((210 - 2 * 12) / 25.4 * 96), "height": 1000}
+LANDSCAPE = {"width": int((297 - 2 * 10) / 25.4 * 96), "height": 700}
+# Of text against what lies behind it, which WCAG 2 asks of level AA.
+CONTRAST = 4.5
+# A picture said in fewer letters says nothing of what is seen.
+SAID = 20
+
+AUDIT = """
+([contrast, said]) => {
+  const faults = [], all = selector => [...document.querySelectorAll(selector)];
+  const fault = (what, element) => faults.push(`${what}: ${element.outerHTML?.slice(0, 90) ?? element}`);
+  for (const image of all("img")) {
+    if (!image.complete || image.naturalWidth === 0) fault("image not loaded", image);
+    if ((image.alt ?? "").length < said) fault("image not said", image);
+  }
+  for (const link of all("a")) {
+    if (!(link.textContent.trim() || link.getAttribute("aria-label"))) fault("link not said", link);
+  }
+  all("th:not([scope])").forEach(head => fault("head without scope", head));
+  const levels = all("h1, h2, h3, h4, h5, h6").map(heading => Number(heading.tagName[1]));
+  if (levels.filter(level => level === 1).length !== 1) fault("h1", levels.join(" "));
+  levels.forEach((level, place) => {
+    if (level > (levels[place - 1] ?? 0) + 1) fault("heading skipped", `${place}`);
+  });
+  if (!document.documentElement.lang) fault("no language", document.documentElement);
+  if (!document.title) fault("no title", document.documentElement);
+  for (const table of all("table")) {
+    const wide = row => [...row.cells].reduce((sum, cell) => sum + cell.colSpan, 0);
+    for (const row of table.rows) if (wide(row) !== wide(table.rows[0])) fault("row of another width", row);
+  }
+  const parts = colour => colour.match(/[\\d.]+/g).map(Number);
+  const light = colour => {
+    const linear = c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+    const [r, g, b] = parts(colour).map(c => linear(c / 255));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const ground = element => {
+    for (let part = element; part; part = part.parentElement) {
+      const colour = getComputedStyle(part).backgroundColor;
+      if ((parts(colour)[3] ?? 1) > 0) return colour;
+    }
+    return "rgb(255, 255, 255)";
+  };
+  const seen = new Set();
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const element = walker.currentNode.parentElement;
+    if (seen.has(element) || !walker.currentNode.textContent.trim()) continue;
+    if (["SCRIPT", "STYLE"].includes(element.tagName)) continue;
+    seen.add(element);
+    const [one, other] = [getComputedStyle(element).color, ground(element)].map(light);
+    const found = (Math.max(one, other) + 0.05) / (Math.min(one, other) + 0.05);
+    if (found < contrast) fault(`contrast ${found.toFixed(1)}`, element);
+  }
+  return faults;
+}
+"""
+WIDE = "document.scrollingElement.scrollWidth - innerWidth"
+OPEN = "for (const part of document.querySelectorAll('details')) part.open = true"
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """The page, as it is written."""
+    return render.write(page(), FINDINGS, tmp_path_factory.mktemp("page"))
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with playwright.sync_playwright() as driver:
+        found = driver.chromium.launch(executable_path=CHROMIUM, args=ALONE)
+        yield found
+        found.close()
+
+
+@pytest.fixture
+def opened(browser):
+    """A page opened offline, and what it complained of and asked the network for."""
+    contexts = []
+
+    def open_page(path, **asked):
+        context = browser.new_context(**{"viewport": DESK, "offline": True} | asked)
+        contexts.append(context)
+        page, complaints = context.new_page(), []
+        page.on("console", lambda said: complaints.append(f"{said.type}: {said.text}"))
+        page.on("pageerror", lambda error: complaints.append(f"error: {error}"))
+        context.on("request", lambda request: complaints.extend(fetched(request.url)))
+        page.goto(path.as_uri())
+        return page, complaints
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+def fetched(url):
+    return [] if url.startswith(("file:", "data:")) else [f"fetched: {url}"]
+
+
+def faults(page, complaints):
+    """Everything that is wrong with a page as it stands; anchors and files are in test_compare_pages.py."""
+    page.evaluate(OPEN)
+    return complaints + page.evaluate(AUDIT, [CONTRAST, SAID])
+
+
+def test_a_page_opens_offline_without_a_fault_by_day_and_by_night(written, opened):
+    shown, complaints = opened(written)
+    assert shown.locator("img").count() == 1
+    for scheme in ("light", "dark"):
+        shown.emulate_media(color_scheme=scheme)
+        assert faults(shown, complaints) == []
+
+
+def test_a_phone_needs_no_sideways_scrolling(written, opened):
+    shown, _ = opened(written, viewport=PHONE)
+    assert shown.evaluate(WIDE) <= 0
+    shown.evaluate(OPEN)
+    assert shown.evaluate(WIDE) <= 0
+
+
+def test_a_page_prints_on_a4_with_all_figures_and_no_table_cut(written, opened):
+    shown, _ = opened(written, viewport=PAPER)
+    shown.emulate_media(media="print")
+    assert shown.evaluate(WIDE) <= 0
+    shown.set_viewport_size(LANDSCAPE)
+    shown.evaluate(OPEN)
+    assert shown.evaluate(WIDE) <= 0
+    clipped = "[...document.querySelectorAll('.table')].filter(t => t.scrollWidth > t.clientWidth + 1).length"
+    assert shown.evaluate(clipped) == 0
+    printed = shown.pdf(prefer_css_page_size=True)
+    (width, height), *_ = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", printed)
+    assert (float(width), float(height)) == pytest.approx((595.3, 841.9), abs=1)
+    assert len(re.findall(rb"/Subtype\s*/Image", printed)) >= 1
+
+
+def keys(shown, table, column):
+    """What stands in a column, as it is sorted by; None where nothing is known."""
+    cells = shown.locator(table).locator(f"tbody tr td:nth-child({column + 1})")
+    read = "cells => cells.map(c => (c.dataset.value ?? c.textContent).trim())"
+    return [None if text in ("", "nan") else text for text in cells.evaluate_all(read)]
+
+
+@pytest.mark.parametrize(
+    ("way", "column", "up"),
+    [
+        ("click", 0, ["a", "b", "c"]),
+        ("Enter", 1, ["9.0", "10.5", None]),
+        ("Space", 2, ["1.0", "30.0", "200.0"]),
+    ],
+)
+def test_a_table_is_sorted_by_value_from_its_head(written, opened, way, column, up):
+    shown, _ = opened(written)
+    table = "#data-sphere-rows table"
+    head = shown.locator(f"{table} th").nth(column)
+    as_written = keys(shown, table, column)
+    for order, name in ((up, "ascending"), (_down(up), "descending"), (as_written, None)):
+        if way == "click":
+            head.locator("button").click()
+        else:
+            head.locator("button").focus()
+            shown.keyboard.press(way)
+        assert keys(shown, table, column) == order
+        assert head.get_attribute("aria-sort") == name
+
+
+def _down(up):
+    """The other way round; what is not known stays last."""
+    known = [value for value in up if value is not None]
+    return known[::-1] + [None] * (len(up) - len(known))
+
+
+def test_equal_values_keep_their_order(written, opened):
+    shown, _ = opened(written)
+    shown.evaluate(OPEN)
+    table = "details:has(#data-sphere-friction) table"
+    speeds = keys(shown, table, 1)
+    shown.locator(f"{table} th").nth(2).locator("button").click()  # loads, all alike
+    assert keys(shown, table, 1) == speeds
+    shown.locator(f"{table} th").nth(1).locator("button").click()
+    assert all(float(a) <= float(b) for a, b in pairwise(keys(shown, table, 1)))
+
+
+def test_a_verdict_leads_to_its_figure_and_that_to_its_table_and_a_head_to_its_definition(written, opened):
+    shown, _ = opened(written)
+    shown.locator(".claims td.verdict a").first.click()
+    shown.locator("figure:target figcaption a").first.click()
+    table = shown.locator("details[open] table")
+    assert table.is_visible()
+    table.locator("th a.mark").nth(1).click()
+    assert shown.locator("dt:target").text_content().startswith("speed [m/s]")
+
+
+def test_without_script_tables_are_plain_and_a_link_unfolds_what_it_leads_to(written, opened):
+    shown, _ = opened(written, java_script_enabled=False)
+    assert shown.locator("th button").count() == 0
+    assert shown.locator("th .label").count() > 0
+    assert shown.locator("tbody tr").count() > 1
+    sheet = shown.locator("details p[id]").first
+    assert not sheet.is_visible()
+    shown.goto(f"{written.as_uri()}#{sheet.get_attribute('id')}")
+    assert sheet.is_visible()
+
+
+def test_what_is_saved_is_the_file_beside_the_page(written, opened):
+    shown, _ = opened(written, accept_downloads=True)
+    shown.evaluate(OPEN)
+    links = shown.locator("a[download]")
+    assert links.count() == 4
+    for link in links.all():
+        with shown.expect_download() as saved:
+            link.click()
+        file = link.locator("xpath=following-sibling::code[1]").text_content()
+        with open(saved.value.path(), "rb") as content:
+            assert content.read() == (written.parent / file).read_bytes()
+        assert saved.value.suggested_filename == file.rsplit("/", 1)[-1]
+
+
+@pytest.mark.parametrize(
+    ("broken", "complaint"),
+    [
+        ("<img src='data:image/png;base64,AAAA' alt='A picture that is not one at all.'>", "image not loaded"),
+        ("<figure><img src='data:image/gif;base64,R0lGODlhAQABAAAAACw=' alt='curve'></figure>", "image not said"),
+        ("<a href='#answer'></a>", "link not said"),
+        ("<table><tr><th>head</th></tr></table>", "head without scope"),
+        ("<table><tr><td>1</td></tr><tr><td>1</td><td>2</td></tr></table>", "row of another width"),
+        ("<h2>one</h2><h4>three</h4>", "heading skipped"),
+        ("<p style='color: #999; background: #fff'>pale</p>", "contrast 2.8"),
+        ("<script>throw new Error('broken')</script>", "error: broken"),
+        ("<script>console.error('said')</script>", "error: said"),
+        (
+            "<img src='https://example.org/a.png' alt='A picture from somewhere else.'>",
+            "fetched: https://example.org",
+        ),
+    ],
+)
+def test_every_check_finds_what_it_looks_for(written, opened, tmp_path, broken, complaint):
+    path = tmp_path / "broken.html"
+    text = written.read_text(encoding="utf-8")
+    path.write_text(text.replace("</main>", f"{broken}</main>"), encoding="utf-8")
+    shown, complaints = opened(path)
+    assert any(complaint in fault for fault in faults(shown, complaints))
+
+
+def test_what_is_too_wide_is_seen_on_a_phone_and_on_paper(written, opened, tmp_path):
+    path = tmp_path / "wide.html"
+    text = written.read_text(encoding="utf-8")
+    path.write_text(text.replace("</main>", "<div style='width: 800px'>wide</div></main>"), encoding="utf-8")
+    for viewport in (PHONE, PAPER):
+        assert opened(path, viewport=viewport)[0].evaluate(WIDE) > 0

@@ -1,0 +1,208 @@
+"""A case file holds what it should, and each mistake in it is named before anything is solved."""
+
+import re
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from compare.cli.app import app
+from compare.library.case import read_case, shipped_cases
+from compare.library.lookup import case_of
+from compare.studies.run.curves import SMOOTH_DEPTH, curves
+from compare.studies.run.study import Run
+from scene import Cone, Coulomb, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
+from scene.reading import InvalidInput
+from scene.scales import elastic_contact
+
+SCENE = """
+[indenter]
+type = "sphere"
+radius = 1e-2
+[elastomer]
+type = "kelvin"
+modulus = 1e6
+relaxation_time = 1e-3
+[motion]
+type = "slide"
+speed = 0.1
+load = 1.0
+[roughness]
+type = "self-affine"
+hurst = 0.2
+rms_height = 1e-6
+longest = 1e-2
+shortest = 1e-3
+seed = 5
+"""
+
+
+@pytest.fixture
+def case(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(SCENE)
+    return read_case(path)
+
+
+def test_shipped_cases_are_the_paper_s_sphere_and_cone():
+    cases = shipped_cases()
+    assert cases["paper-sphere"].indenter == Sphere(radius=1e-2)
+    assert cases["paper-cone"].indenter == Cone(angle=10 * pi / 180)
+    for name, hurst in (("paper-sphere", 0.2), ("paper-cone", 0.1)):
+        case, rough = cases[name], cases[name].roughness
+        assert case.elastomer == Kelvin(modulus=1e6, relaxation_time=1e-3)
+        assert case.motion == Slide(speed=0.1, load=1.0)
+        assert (rough.hurst, rough.rms_height, rough.longest) == (hurst, 5e-5, 1e-2)
+        assert max(case.plan().pressing) * case.motion.load == 10.0
+        assert case.title
+        assert any("resolved" in each for each in case.departures)
+
+
+def test_a_scene_alone_is_a_case(case):
+    plan, radius = case.plan(), elastic_contact(case.scene).radius
+    assert case.scene.motion.speed in set(plan.speeds) & set(plan.load_speeds)
+    assert 1.0 in set(plan.pressing) & set(plan.depths)
+    assert min(plan.smooth_speeds) * 1e-3 == pytest.approx(0.01 * radius)
+    assert max(plan.smooth_speeds) * 1e-3 == pytest.approx(100 * radius)
+
+
+PROGRAM = Program(stages=(Stage(duration=1e-3, load=1.0), Stage(duration=1e-2, speed=0.1)))
+INTERFACE = r"interface = Coulomb with motion = Slide: .*; leave interface out"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"motion": PROGRAM}, "motion = Program: crosscheck compares"),
+        ({"interface": Coulomb(0.3)}, INTERFACE),
+        ({"interface": Coulomb(0.3), "elastomer": Elastic(modulus=1e6)}, INTERFACE),
+        ({"interface": Coulomb(0.3), "motion": Slide(speed=0.0, load=1.0)}, INTERFACE),
+    ],
+)
+def test_what_says_nothing_of_the_elastomer_is_refused_though_both_solvers_take_it(case, change, said):
+    changed = replace(case, **change)
+    assert not changed.mdr.refusals(changed.scene)
+    assert not changed.bem.refusals(changed.scene)
+    for ask in (changed.refuse, lambda: Run.of(changed)):
+        with pytest.raises(Refused, match=said):
+            ask()
+
+
+def test_friction_of_the_interface_of_what_is_pressed_in_adds_nothing_and_is_compared_with_the_closed_form(case):
+    rubbing = replace(case, interface=Coulomb(0.3), motion=Indent(load=1.0))
+    assert set(curves(rubbing)[SMOOTH_DEPTH].grids) == {"MDR", "BEM", "exact"}
+
+
+def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):
+    contact = elastic_contact(case.scene)
+    deep = replace(case, motion=Slide(speed=0.1, depth=contact.depth))
+    for factor, load in zip(deep.plan().pressing, case.plan().pressing, strict=True):
+        pressed = replace(deep.scene, motion=Slide(speed=0.1, depth=factor * contact.depth))
+        assert elastic_contact(pressed).load == pytest.approx(load * contact.load)
+
+
+def test_what_has_no_friction_has_no_speeds_and_a_smooth_case_one_surface(case):
+    for change in ({"motion": Indent(load=1.0)}, {"elastomer": Elastic(modulus=1e6)}):
+        plan = replace(case, **change).plan()
+        assert not plan.speeds + plan.load_speeds + plan.smooth_speeds
+        assert plan.depths
+    assert min(replace(case, motion=Slide(speed=0.0, load=1.0)).plan().speeds) > 0
+    flat = replace(case, roughness=replace(case.roughness, rms_height=0.0))
+    assert flat == replace(case, roughness=None)
+    assert (flat.plan().surfaces, flat.plan().profiles) == (1, 1)
+
+
+MISTAKES = {
+    "a field that does not exist": (SCENE + "[study]\nsurface = 3\n", "study.surface = 3"),
+    "a value of the wrong sign": (SCENE.replace("radius = 1e-2", "radius = -1.0"), "radius = -1.0"),
+    "a value of the wrong type": (SCENE + '[study]\nsurfaces = "many"\n', "study.surfaces = 'many'"),
+    "too few surfaces": (SCENE + "[study]\nsurfaces = 0\n", "greater than or equal to 1"),
+    "a value that stands there twice": (SCENE + "[study]\nspeeds = [0.1, 0.1]\n", "twice"),
+    "an empty list": (SCENE + "[study]\ndepths = []\n", "study.depths"),
+    "an unknown setting of a solver": (SCENE + "[bem]\npoint = 64\n", "bem.point"),
+    "a missing table": (SCENE.replace("[motion]", "[study]\n[movement]"), "motion"),
+    "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N], depth [m]"),
+    "no TOML": ("radius 3", "TOML"),
+    "friction of an interface": (SCENE + "[interface]\ncoefficient = 0.3\n", "leave interface out"),
+    "a shape that has no third dimension": (SCENE.replace('"sphere"', '"cylinder"'), "does not press a Cylinder"),
+    "a shape that one solver lacks": (
+        SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"),
+        "indenter = Cylinder",
+    ),
+    "numbers too far apart": (SCENE.replace("load = 1.0", "depth = 1e300"), "far apart"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_named_with_exit_status_2_and_nothing_is_written(tmp_path, mistake):
+    text, said = MISTAKES[mistake]
+    path = tmp_path / "case.toml"
+    path.write_text(text)
+    answer = CliRunner().invoke(app, ["run", str(path), "--output", str(tmp_path / "out")])
+    assert answer.exit_code == 2
+    assert said in answer.stderr
+    assert not answer.stdout
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["solved", "report.html"])
+def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved(tmp_path, name):
+    (tmp_path / "case.toml").write_text(SCENE)
+    (tmp_path / "out").mkdir()
+    taken = tmp_path / "out" / name
+    taken.mkdir() if name == "report.html" else taken.write_text("")
+    answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")])
+    assert answer.exit_code == 2
+    assert f"{taken}: " in answer.stderr
+
+
+NAMED = {"tolerance": 1e-5, "surfaces": 2, "speed": 0.1, "modulus": 1.0, "radius": 1.0, "stages": [], "hurst": 0.5}
+TABLES = {
+    "indenter": '[indenter]\ntype = "sphere"\nradius = 1e-2\n',
+    "elastomer": '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n',
+    "motion": '[motion]\ntype = "slide"\nspeed = 0.1\nload = 1.0\n',
+}
+VALUES = [
+    "64",
+    "-1e400",
+    "nan",
+    "'x'",
+    "true",
+    "2020-01-01",
+    "[]",
+    "[1, [2]]",
+    "[{}]",
+    "{}",
+    "{type = 1}",
+    "{type = []}",
+]
+
+
+@pytest.mark.parametrize("value", VALUES)
+@pytest.mark.parametrize("table", ["indenter", "elastomer", "motion", "roughness", "study", "bem", "mdr", "layer"])
+def test_a_table_that_is_something_else_is_a_mistake_wherever_its_names_stand(tmp_path, table, value):
+    names = "".join(f"{name} = {each}\n" for name, each in NAMED.items())
+    parts = "".join(text for name, text in TABLES.items() if name != table)
+    path = tmp_path / "case.toml"
+    path.write_text(f"{table} = {value}\n{names}{parts}", encoding="utf-8")
+    with pytest.raises(InvalidInput) as raised:
+        case_of(path)
+    said = str(raised.value)
+    for name in NAMED:
+        assert f": {name}" in said
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="a folder that takes no file, from root neither")
+@pytest.mark.parametrize("command", ["run quick-start --output", "animate quick-start --output"])
+@pytest.mark.parametrize("folder", ["/proc", "taken/below", "taken"])
+def test_a_folder_that_takes_no_file_is_named_as_it_was_given(tmp_path, monkeypatch, command, folder):
+    monkeypatch.chdir(tmp_path)
+    Path("taken").touch()
+    given = f"{folder}/moves.gif" if command.startswith("animate") else folder
+    answer = CliRunner().invoke(app, [*command.split(), given])
+    assert answer.exit_code in (1, 2)
+    assert re.search(rf"(^|[ :]){folder.partition('/below')[0]}(/below)?(/moves.gif)?: ", answer.stderr.strip())
+    assert answer.stderr.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["taken"]

@@ -1,0 +1,304 @@
+"""On a cluster the same tasks have the same answers, whoever is lost on the way."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_compare_runner import Heard, Stand, loads
+
+from compare.solving.cluster import Cluster, differences
+from compare.solving.runner import sweep
+from compare.solving.store import Store, code_of
+from compare.solving.task import SceneTask as Task
+from mdr1d import MDR
+from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere
+
+dask = pytest.importorskip("dask", reason="the extra `cluster` is not installed")
+distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+
+DASK = [sys.executable, "-m", "dask"]
+
+ROOT = Path(__file__).parents[2]
+HERE = {"PYTHONPATH": os.pathsep.join([str(ROOT / "tests"), str(ROOT)])}
+ROUGH = SelfAffine(hurst=0.5, rms_height=1e-5, longest=1e-2, shortest=1e-3, seed=3)
+SLIDES = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0), ROUGH)
+# A machine under load starts processes slowly.
+PATIENCE = 60
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    settings = {"n_workers": 2, "threads_per_worker": 2, "dashboard_address": None, "silence_logs": 50}
+    # A task that two workers died of fails; by default four.
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": 1}),
+        distributed.LocalCluster(**settings) as running,
+    ):
+        yield running
+
+
+def workers(cluster):
+    with distributed.Client(cluster, set_as_default=False) as client:
+        return client.run(os.getpid)
+
+
+def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_them(cluster, tmp_path):
+    tasks = [Task(MDR(points=n), (SLIDES,), work=n) for n in (400, 500, 600, 700, 800, 900)]
+    heard = Heard()
+    there = sweep(tasks, Store(tmp_path / "there"), scheduler=cluster.scheduler_address, progress=heard)
+    here = sweep(tasks, Store(tmp_path / "here"), workers=1)
+    for task in tasks:
+        (one,), (other,) = there.outcomes[task].rows, here.outcomes[task].rows
+        assert (one.normal_force, one.depth, one.friction_force) == (
+            other.normal_force,
+            other.depth,
+            other.friction_force,
+        )
+        assert Store(tmp_path / "there").get(task) is not None
+    started = [work for step, work, *_ in heard.heard if step == "started"]
+    assert started == sorted(started, reverse=True)
+    assert heard.said_lines == []  # workers of a nanny have one thread a task
+    again = sweep(tasks, Store(tmp_path / "there"), scheduler="tcp://127.0.0.1:1")  # nobody is asked
+    assert (again.solved, again.reused) == (0, len(tasks))
+
+
+@pytest.mark.slow
+def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_path):
+    out = []
+
+    class Counting(Heard):
+        def started(self, task):
+            out.append(out[-1] + 1 if out else 1)
+
+        def finished(self, task, outcome):
+            out.append(out[-1] - 1)
+
+    tasks = loads(*range(1, 31), solver=Stand(seconds=0.02))
+    sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address, progress=Counting())
+    assert (max(out), out[-1]) == (4 + 2, 0)
+
+
+@pytest.mark.slow
+def test_a_fault_on_the_cluster_is_recorded_as_here(cluster, tmp_path):
+    tasks = loads(2000.0, 200.0, 5.0)
+    swept = sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address)
+    reasons = [swept.outcomes[task].rows[0].reason for task in tasks]
+    assert reasons == ["ZeroDivisionError: a fault in the solver", "200 N is too much; press less", None]
+    assert list(swept.faults) == tasks[:1]
+    (note,) = tmp_path.glob("*.fault.txt")
+    assert 'raise ZeroDivisionError("a fault in the solver")' in note.read_text()
+
+
+@pytest.mark.slow
+def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(cluster, tmp_path):
+    class Killing(Heard):
+        def finished(self, task, outcome):
+            super().finished(task, outcome)
+            if len(self.heard) and not self.said_lines:
+                self.said_lines.append("killed")
+                os.kill(next(iter(workers(cluster).values())), signal.SIGKILL)
+
+    tasks = loads(*range(1, 25), solver=Stand(marks=str(tmp_path), seconds=0.1))
+    swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address, progress=Killing())
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [float(load) for load in range(1, 25)]
+    assert swept.faults == {}
+    marks = len(list(tmp_path.glob("*-*")))
+    assert len(tasks) <= marks <= len(tasks) + 2 * 2  # what its two threads had, and answers not yet fetched
+
+
+@pytest.mark.slow
+def test_a_task_that_kills_every_worker_fails_and_the_rest_is_solved(cluster, tmp_path):
+    tasks = loads(20000.0, 2.0, 1.0, solver=Stand(marks=str(tmp_path)))
+    swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address)
+    assert list(swept.faults) == tasks[:1]
+    assert swept.faults[tasks[0]] == "its worker died 2 times, the last time alone, as when memory runs out"
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [2.0, 1.0]
+
+
+@pytest.mark.slow
+def test_an_interrupt_calls_back_what_has_not_started_and_waits_for_the_rest(cluster, tmp_path):
+    class Impatient(Heard):
+        def finished(self, task, outcome):
+            super().finished(task, outcome)
+            signal.raise_signal(signal.SIGINT)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    tasks = loads(*range(1, 41), solver=Stand(marks=str(tmp_path), seconds=0.3))
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address, progress=Impatient())
+    finally:
+        signal.signal(signal.SIGINT, before)
+    time.sleep(0.5)
+    with distributed.Client(cluster, set_as_default=False) as client:
+        assert client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
+    assert len(list(tmp_path.glob("*-*"))) < len(tasks) / 2
+
+
+CLIENT = """
+import sys
+from pathlib import Path
+from test_compare_runner import Stand, loads
+from compare.solving.store import Store
+from compare.solving.runner import sweep
+
+if __name__ == "__main__":
+    folder, address = Path(sys.argv[1]), sys.argv[2]
+    tasks = loads(*range(1, 200), solver=Stand(marks=str(folder), seconds=0.2))
+    sweep(tasks, Store(folder / "solved"), scheduler=address)
+"""
+
+
+@pytest.mark.slow
+def test_a_client_that_is_killed_leaves_nothing_to_solve_and_its_store_whole(cluster, tmp_path):
+    (tmp_path / "client.py").write_text(CLIENT)
+    process = subprocess.Popen(
+        [sys.executable, str(tmp_path / "client.py"), str(tmp_path), cluster.scheduler_address],
+        env=os.environ | HERE,
+    )
+    solved = tmp_path / "solved"
+    wait_for(lambda: len(Store(solved)) >= 2)
+    process.kill()
+    process.wait()
+    marks = len(list(tmp_path.glob("*-*")))
+    with distributed.Client(cluster, set_as_default=False) as client:
+        wait_for(lambda: client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0)
+        wait_for(lambda: not any(client.run(lambda dask_worker: len(dask_worker.state.executing)).values()))
+    ended = len(list(tmp_path.glob("*-*")))
+    assert ended <= marks + 4  # what the threads were at
+    time.sleep(1.0)
+    assert len(list(tmp_path.glob("*-*"))) == ended
+    tasks = loads(*range(1, 200), solver=Stand(marks=str(tmp_path), seconds=0.2))
+    assert sum(Store(solved).get(task) is not None for task in tasks) == len(Store(solved))
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert condition()
+
+
+@pytest.fixture
+def scheduler(tmp_path):
+    """A scheduler without workers, in a process of its own."""
+    place = tmp_path / "scheduler.json"
+    process = subprocess.Popen(
+        [*DASK, "scheduler", "--port=0", "--no-dashboard", "--host=127.0.0.1", f"--scheduler-file={place}"],
+        stderr=subprocess.DEVNULL,
+    )
+    wait_for(lambda: place.exists() and place.read_text().rstrip().endswith("}"))
+    process.address = json.loads(place.read_text())["address"]
+    yield process
+    process.kill()
+    process.wait()
+
+
+def join(address, folder, **environment):
+    """A worker in a process of its own, one thread and no nanny."""
+    return subprocess.Popen(
+        [*DASK, "worker", address, "--no-nanny", "--nthreads=1", "--no-dashboard", f"--local-directory={folder}"],
+        stderr=subprocess.DEVNULL,
+        cwd=folder,
+        env=os.environ | HERE | environment,
+    )
+
+
+@pytest.mark.slow
+def test_without_workers_it_says_so_and_waits_and_refuses_those_of_other_code_by_name(scheduler, tmp_path):
+    copy = tmp_path / "other" / "scene"
+    copy.parent.mkdir()
+    for package in ("scene", "compare"):
+        subprocess.run(["cp", "-r", str(ROOT / package), str(copy.parent / package)], check=True)
+    (copy / "plan.py").write_text((copy / "plan.py").read_text() + "# another\n")
+    path = os.pathsep.join([str(copy.parent), HERE["PYTHONPATH"]])
+    joined = []
+
+    class Inviting(Heard):
+        def said(self, line):
+            super().said(line)
+            if "waiting for one" in line:
+                joined.append(join(scheduler.address, tmp_path, PYTHONPATH=path))
+            if "refused" in line and len(joined) < 2:
+                joined.append(join(scheduler.address, tmp_path, OMP_NUM_THREADS="3"))
+
+    heard = Inviting()
+    try:
+        tasks = loads(2.0, 1.0)
+        swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=heard)
+        assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [2.0, 1.0]
+        joined[1].kill()
+        joined[1].wait()
+        with pytest.raises(Refused, match=r"no worker of tcp.* can be used: tcp.*code of scene is another"):
+            sweep(loads(3.0), Store(tmp_path / "solved"), scheduler=scheduler.address)
+    finally:
+        for worker in joined:
+            worker.kill()
+            worker.wait()
+    waits, refuses, threads = heard.said_lines
+    assert waits == f"no worker at {scheduler.address}: waiting for one"
+    assert "is refused: its code of scene is another" in refuses
+    assert "may use more than a thread a task" in threads
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_is_lost_in_the_middle_is_an_error_and_what_is_solved_is_kept(scheduler, tmp_path):
+    class Losing(Heard):
+        def finished(self, task, outcome):
+            super().finished(task, outcome)
+            scheduler.kill()
+
+    worker = join(scheduler.address, tmp_path)
+    tasks = loads(*range(1, 30), solver=Stand(seconds=0.1))
+    try:
+        with pytest.raises(ConnectionError, match=f"scheduler at {scheduler.address} is lost"):
+            sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=Losing())
+    finally:
+        worker.kill()
+        worker.wait()
+    assert sum(Store(tmp_path / "solved").get(task) is not None for task in tasks) >= 1
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_cannot_be_reached_is_named_within_seconds(tmp_path):
+    start = time.monotonic()
+    with pytest.raises(ConnectionError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9 within"):
+        sweep(loads(1.0), Store(tmp_path), scheduler="tcp://127.0.0.1:9")
+    assert time.monotonic() - start < 20
+    with pytest.raises(Refused, match="nonsense://x is no address of a scheduler"):
+        sweep(loads(1.0), Store(tmp_path), scheduler="nonsense://x")
+    assert not len(Store(tmp_path))
+
+
+@pytest.mark.slow
+def test_an_address_without_a_port_is_refused_and_leaves_no_client_that_hangs():
+    code = (
+        "from compare.solving.cluster import _connected\nfrom scene import Refused\n"
+        "try:\n    _connected('nonsense')\nexcept Refused as error:\n    print(error)\n"
+    )
+    asked = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert asked.stdout.startswith("nonsense is no address of a scheduler, as tcp://name:8786: missing port")
+    assert not asked.stderr
+
+
+def test_without_the_library_it_is_said_how_to_get_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(Refused, match=r"pip install mdr-bem-crosscheck\[cluster\]"):
+        sweep(loads(1.0), Store(tmp_path), scheduler="tcp://127.0.0.1:9")
+
+
+def test_what_differs_is_said_by_name():
+    here = code_of(("scene", "mdr1d"))
+    assert differences(here, here) == ""
+    there = {"code": {**here["code"], "mdr1d": "x"}, "versions": {**here["versions"], "numpy": "1.0"}}
+    assert differences(here, there) == f"its code of mdr1d is another; its numpy is 1.0, here {np.__version__}"
+    assert "ModuleNotFoundError: No module" in differences(here, ModuleNotFoundError("No module named 'compare'"))
+    assert Cluster("tcp://x", ("scene",), print).here == code_of(("scene",))
+    assert threading.active_count() < 50

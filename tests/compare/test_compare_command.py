@@ -1,0 +1,359 @@
+"""The command as a person runs it: in a process of its own, from a file to a report."""
+
+import inspect
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from typing import get_args, get_type_hints
+
+import pandas
+import pytest
+from test_compare_cases import SCENE
+from typer.testing import CliRunner
+
+from compare import commands
+from compare.cli import completion
+from compare.cli.app import COMMANDS, app
+from compare.library import ready as library
+from compare.library.ready import ready
+from compare.report import render
+from compare.report.export import FORMS
+from compare.report.plots.journals import JOURNALS
+from compare.solving.docstrings import documented
+from compare.solving.store import Store
+from compare.statistics.finding import COLUMNS
+from compare.studies.claims.catalogue import SIZES, STUDIES
+from compare.studies.schema import KINDS
+from compare.studies.workprecision.study import DIAGRAMS
+from scene import Topography
+from scene.heightfile import UNITS
+from scene.scanned import FILL
+
+TINY = (
+    SCENE
+    + """
+[study]
+speeds = [0.1, 1.0]
+pressing = [0.5, 2.0]
+load_speeds = [0.1]
+depths = [1.0]
+surfaces = 2
+profiles = 2
+[bem]
+points = 32
+[mdr]
+points = 1000
+"""
+)
+# Solvers with a fault.
+FAULTY = """
+from bem3d import BEM
+from compare.cli.app import main
+from mdr1d import MDR
+
+
+def solve(solver, scene):
+    raise ZeroDivisionError("a fault")
+
+
+BEM.solve = MDR.solve = solve
+if __name__ == "__main__":
+    main()
+"""
+# A machine under load starts processes slowly.
+PATIENCE = 120
+
+
+def heed_signals():
+    """Whoever runs the tests in the background ignores interrupts, and what is started inherits that."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert condition()
+
+
+def start(folder, *arguments, program=("-m", "compare")):
+    return subprocess.Popen(
+        [sys.executable, *program, *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=heed_signals,
+        env=os.environ | {"PYTHONWARNINGS": "error"},
+    )
+
+
+def finish(process):
+    said, complained = process.communicate(timeout=PATIENCE)
+    return process.returncode, said, complained
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "tiny.toml").write_text(TINY)
+    return tmp_path
+
+
+@pytest.mark.slow
+def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
+    process = start(folder, "run", "tiny.toml", "--workers", "1")
+    solved = folder / "crosscheck-report" / "solved"
+    wait_for(lambda: len(Store(solved)) >= 3)
+    # As from a keyboard: every process of the run gets it.
+    os.killpg(process.pid, signal.SIGINT)
+    status, _, complained = finish(process)
+    assert status == 130
+    assert "resumes" in complained
+    assert "Traceback" not in complained
+    kept = len(Store(solved))
+
+    status, said, complained = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
+    assert (status, complained) == (0, "")
+    now, reused = map(int, re.search(r"(\d+) tasks solved, (\d+) reused", said).groups())
+    assert reused == kept >= 3
+    assert now > 0
+    assert str(folder / "crosscheck-report" / "report.html") in said
+    assert (folder / "crosscheck-report" / "tiny" / "friction-speed.png").exists()
+    assert not list((folder / "crosscheck-report").rglob("*.pdf"))  # nobody asked for it
+    findings = pandas.read_csv(folder / "crosscheck-report" / "findings.csv")
+    assert list(findings.columns) == list(COLUMNS)
+
+    status, said, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "--json"))
+    assert (status, complained) == (0, "")
+    assert [each["claim"] for each in json.loads(said)["findings"]] == findings.claim.tolist()
+    status, said, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "-q"))
+    assert (status, said, complained) == (0, "", "")
+
+
+def test_a_users_table_is_shifted(folder):
+    rows = [
+        f"{(load * speed**-1.5 + 1) ** -0.5},{load},{speed}" for speed in (1, 2, 4) for load in (1, 2, 3, 4, 5)
+    ]
+    (folder / "ball.csv").write_text("\n".join(rows))
+    status, said, complained = finish(start(folder, "mastercurve", "ball.csv"))
+    assert (status, complained) == (0, "")
+    assert "undecided" in said  # single measurements have no scatter
+    assert list((folder / "mastercurve").glob("*.png"))
+    (folder / "ball.csv").write_text("1 2\n")
+    status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
+    assert status == 2
+    assert "ball.csv, line 1: 2 columns" in complained
+
+
+@pytest.mark.slow
+def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(folder):
+    (folder / "faulty.py").write_text(FAULTY)
+    status, _, complained = finish(start(folder, "run", "tiny.toml", program=("faulty.py",)))
+    assert status == 1
+    broke, of = map(int, re.search(r"(\d+) of (\d+) tasks broke", complained).groups())
+    traces = list((folder / "crosscheck-report" / "solved").glob("*.fault.txt"))
+    assert len(traces) == broke <= of
+    assert "ZeroDivisionError: a fault" in complained
+    assert str(traces[0].parent) in complained
+    assert "Traceback" not in complained
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
+def test_no_worker_outlives_its_parent(folder, number, status):
+    process = start(folder, "run", "tiny.toml", "--workers", "2")
+    wait_for(lambda: len(Store(folder / "crosscheck-report" / "solved")) > 0)
+    process.send_signal(number)
+    # The output ends when the last process that holds it has ended.
+    assert finish(process)[0] == status
+
+
+def ask(*arguments):
+    """In this process, for what solves nothing."""
+    return CliRunner().invoke(app, list(map(str, arguments)))
+
+
+@pytest.mark.parametrize(
+    ("command", "names", "width"),
+    [
+        ("list", (*ready(), *library.studies()), 120),
+        ("study", (*STUDIES, "trust", *(name for name, each in ready().items() if each.kind == "study")), 80),
+        ("workprecision", ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "extent", "costs"), 100),
+    ],
+)
+def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, width):
+    monkeypatch.chdir(tmp_path)
+    listed = ask(command)
+    assert listed.exit_code == 0
+    assert max(map(len, listed.output.splitlines())) < width
+    for name in names:
+        assert re.search(rf"^{name} +[A-Z]", listed.output, re.MULTILINE)
+    assert not list(tmp_path.iterdir())
+
+
+def test_all_lists_name_the_same_studies_and_say_more_where_more_is_asked():
+    (heading,) = library.studies().groups
+    short, listed = (re.sub("[- \\n]+", " ", ask(each).output) for each in ("study", "list"))
+    assert short.partition(" `")[0] in listed
+    long = " ".join(ask("study", "-v").output.split())
+    assert long.startswith(f"{heading} Name Title ")
+    for name, each in library.studies().items():
+        assert f"{name} {each.title} {each.about}" in long
+        assert each.about not in short
+    assert " ".join(ready()["hertz"].about.split()) in " ".join(ask("list", "-v").output.split())
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
+def test_help_says_all_that_the_docstrings_say_brackets_included(command):
+    told = "".join(ask(command.title, "--help").output.split()).casefold()
+    about, own = documented(command.function.__doc__)
+    parameters = {*inspect.signature(command.callback()).parameters} - {"quiet", "verbose", "json"}
+    shared = documented(commands.__doc__)[1]
+    for text in (about, *((own | shared if name not in own else own)[name] for name in parameters)):
+        assert "".join(text.partition(". From Python")[0].split()).casefold() in told
+    if "journal" in parameters:
+        assert ",".join(JOURNALS) in told
+    # and the list of commands, the first sentence
+    line = next(each for each in ask("--help").output.splitlines() if each.startswith(f"  {command.title} "))
+    assert line.split(maxsplit=1)[1] == f"{about.partition('. ')[0].rstrip('.')}."
+
+
+def test_some_help_stands_in_brackets():
+    assert "F_N [N]" in " ".join(ask("mastercurve", "--help").output.split())
+    assert "[s]" in ask("animate", "--help").output
+
+
+def complete(*words):
+    """What a shell is given for the last word."""
+    asked = {
+        "_CROSSCHECK_COMPLETE": "complete_bash",
+        "COMP_WORDS": " ".join(["crosscheck", *words]),
+        "COMP_CWORD": str(len(words)),
+    }
+    return CliRunner().invoke(app, [], env=asked, prog_name="crosscheck").output.split()
+
+
+def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "quiet.toml").touch()
+    for command in ("run", "plan", "trust", "animate"):
+        assert complete(command, "qui") == ["quick-start", "quiet.toml"]
+    assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
+    assert complete("new", "quick") == ["quick-start"]
+    assert complete("workprecision", "ex") == ["extent"]
+    assert complete("figures", "folder", "--journal", "el") == ["elsevier"]
+    assert complete("run", "quick-start", "--form") == ["--format"]
+
+
+def test_the_values_that_a_shell_completes_are_those_that_are_allowed():
+    values = completion.VALUES
+    assert set(values["size"]) == set(SIZES)
+    assert set(values["format"]) == set(render.FORMATS)
+    assert set(values["figures"]) == set(render.FORMS)
+    assert set(values["unit"]) == set(UNITS)
+    assert set(values["missing"]) == set(FILL)
+    assert set(values["to"]) == set(FORMS)
+    assert set(values["kind"]) == set(KINDS)
+    for name in ("level", "repeat", "peaks"):
+        assert set(values[name]) == set(get_args(get_type_hints(Topography)[name]))
+    assert set(completion.DIAGRAMS) == set(DIAGRAMS)
+
+
+def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    compared, alone = ask("list").output.split("Scenes that crosscheck run does not compare: crosscheck plan NAME")
+    assert "\nhertz " in compared
+    assert "\nthin-layer " in alone
+    for name, command in (("quick-start", "run"), ("thin-layer", "plan")):
+        assert f"crosscheck {command} {name}.toml" in ask("new", name).output
+        assert (tmp_path / f"{name}.toml").read_text() == ready()[name].text
+
+
+@pytest.mark.parametrize("kind", ["scene", "study"])
+def test_the_schema_is_printed_or_written(tmp_path, kind):
+    printed = ask("schema", kind)
+    assert printed.exit_code == 0
+    path = tmp_path / "schema.json"
+    assert ask("schema", kind, "--output", path).exit_code == 0
+    assert json.loads(path.read_text()) == json.loads(printed.output)
+    assert "$schema" in json.loads(printed.output)
+
+
+MISTAKES = {
+    "run zzzzzz": "zzzzzz: no such file, and no ready scene\n",
+    "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
+    "run study.toml": "is a study, and no scene: crosscheck study study.toml",
+    "run .": "is a folder, and no scene",
+    "run thin-layer": "crosscheck plan says what each solver makes of it",
+    "run mine.tml": "no such file, and no ready scene; did you mean mine.toml?",
+    "run quick-start --format word": "format = word: allowed are html, markdown, latex",
+    "run quick-start --figures png,jpg": "figures = jpg: allowed are ",
+    "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
+    "plan quick-strat": "did you mean quick-start?",
+    "study colapse": "NAME = colapse: allowed are collapse, ",
+    "study collapse --size big": "size = big: allowed are quick, ",
+    "study collapse --output mine.toml": "crosscheck: --output mine.toml: ",
+    "study mine.toml": "mine.toml: ",
+    "study hertz": "is a ready scene, and no study: crosscheck run hertz",
+    "study thin-layer": "is a ready scene, and no study: crosscheck plan thin-layer",
+    "study scene.toml": "is a scene, and no study: crosscheck run scene.toml",
+    "workprecision model": "NAME = model: allowed are models, ",
+    "workprecision models --size large": "size = large: allowed are quick, standard, full",
+    "stability --size small": "size = small: allowed are quick, standard, full",
+    "new quick-strat": "did you mean quick-start?",
+    "new quick-start mine.toml": "is there already, and nothing is overwritten",
+    "schema scenes": "KIND = scenes: allowed are scene, study",
+    "figures nowhere": "nowhere: no such folder",
+    "figures .": "no manifest.json here",
+    "export . --to word": "to = word: allowed are csv, latex",
+    "export nowhere": "nowhere",
+    "mastercurve nowhere.csv": "nowhere.csv",
+    "topography nowhere.npy": "nowhere.npy",
+    "regress --baseline nowhere.toml": "nowhere.toml",
+    "animate nowhere.toml": "nowhere.toml",
+    "animate quick-start --output film.avi": "film.avi",
+}
+
+
+@pytest.mark.parametrize("said", MISTAKES)
+def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_path, monkeypatch, said):
+    monkeypatch.chdir(tmp_path)
+    texts = {
+        "mine.toml": 'titel = "a mistake"\n',
+        "scene.toml": ready()["quick-start"].text,
+        "study.toml": ready()["two-shapes"].text,
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    answer = ask(*said.split())
+    assert answer.exit_code == 2, answer.exception
+    assert MISTAKES[said] in answer.stderr
+    assert "Traceback" not in answer.output
+    assert not answer.stdout
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == texts
+
+
+@pytest.mark.parametrize("command", ["plan", "trust"])
+def test_nothing_that_a_file_says_controls_a_terminal(tmp_path, command):
+    path = tmp_path / "\x1b[31m.toml"
+    for text in (ready()["quick-start"].text, "[motion]\n", '"\\u001b[31m" = "\\u0007"\n'):
+        path.write_text(re.sub("^title = .*", r'title = "\\u001b]0;\\u0007[red]"', text, flags=re.MULTILINE))
+        answer = ask(command, path)
+        assert answer.exit_code in (0, 2)
+        assert all(line.isprintable() for line in answer.output.split("\n"))
+
+
+def test_a_fault_keeps_its_traceback(monkeypatch):
+    def broken():
+        raise ValueError("a fault")
+
+    monkeypatch.setattr("compare.library.ready.ready", broken)
+    answer = ask("new", "quick-start")
+    assert isinstance(answer.exception, ValueError)
+    assert answer.exit_code == 1

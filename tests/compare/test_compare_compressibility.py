@@ -1,0 +1,191 @@
+"""Compressibility: the Poisson ratio enters E* = 2 G/(1 - nu) and nothing else, of every solid in every motion."""
+
+from dataclasses import replace
+from functools import cache
+from math import sqrt
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare.solving import parameter_grid
+from compare.solving.outcome import Outcome, Row
+from compare.studies.claims.laws import laws
+from compare.studies.claims.series import Contacts, Series
+from mdr1d import MDR
+from scene import (
+    Cone,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    Plane,
+    Program,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+from scene.scales import elastic_contact
+
+SOLVERS = (MDR(points=400, steps=24), BEM(points=32, steps=24))
+solvers = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+ratios = pytest.mark.parametrize("nu", [-0.9, 0.4, pytest.param(0.0, marks=pytest.mark.slow)])
+# Iterations on numbers that differ by rounding.
+SCALED = {"MDR": 1e-11, "BEM": 1e-8}
+# Of three dimensions on 32 points a side: a pixel of a tenth of the radius.
+GRID = {"MDR": 1e-4, "BEM": 0.02}
+
+G, TIME, RADIUS = 1e6, 1e-3, 1e-2
+SPHERE = Sphere(radius=RADIUS)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=5e-4, seed=4)
+SOLIDS = {
+    "elastic": lambda g, nu: Elastic(g, nu),
+    "kelvin": lambda g, nu: Kelvin(g, TIME, nu),
+    "standard": lambda g, nu: StandardLinearSolid(g, 20 * g, TIME, nu),
+    "prony": lambda g, nu: Prony(g, (3 * g, 30 * g), (TIME, 0.01 * TIME), nu),
+    "chain": lambda g, nu: KelvinChain(0.1 / g, (0.6 / g, 0.3 / g), (TIME, 20 * TIME), nu),
+}
+
+
+FORCES = {
+    "pressure",
+    "line_force",
+    "normal_force",
+    "friction_force",
+    "friction_by_work",
+    "work",
+    "dissipated",
+    "stored",
+}
+
+
+def compare(found, wanted, rtol, force=1.0):
+    """Lengths, shares and friction coefficient as they were, forces times a factor."""
+    allowed = rtol * force * wanted.normal_force
+    assert found.normal_force == pytest.approx(force * wanted.normal_force, rel=0, abs=allowed)
+    assert found.friction_force == pytest.approx(force * wanted.friction_force, rel=0, abs=allowed)
+    assert found.depth == pytest.approx(wanted.depth, rel=rtol)
+    for name, field in wanted.fields.items():
+        expected = field * (force if name in FORCES else 1.0)
+        known = np.isfinite(expected)
+        scale = np.abs(expected[known]).max()
+        np.testing.assert_allclose(found.fields[name][known], expected[known], rtol=0, atol=rtol * scale)
+
+
+@cache
+def solved(solver, scene):
+    """Answer of the incompressible solid, which stands behind every ratio."""
+    return solver.solve(scene)
+
+
+def softened(scene, nu, stiffness=1.0):
+    """The scene with another Poisson ratio, and its shear modulus times some stiffness."""
+    return replace(scene, elastomer=SOLIDS["standard"](G * stiffness, nu))
+
+
+@solvers
+@pytest.mark.parametrize(("name", "nu"), [*zip(SOLIDS, (-0.9, 0.4, 0.0, 0.4, -0.9), strict=True)])
+def test_solids_of_one_plane_strain_modulus_answer_alike(solver, nu, name):
+    """G and nu with the same 2 G/(1 - nu) are the same solid to a contact, relaxed, glassy and in between."""
+    scene = Scene(SPHERE, SOLIDS[name](G, 0.5), Slide(speed=0.5, load=0.1))
+    other = replace(scene, elastomer=SOLIDS[name](G * (1 - nu) / 0.5, nu))
+    compare(solver.solve(other), solved(solver, scene), SCALED[solver.name])
+
+
+@solvers
+@ratios
+@pytest.mark.parametrize(("motion", "rough"), [(Slide(speed=0.5, depth=3e-5), ROUGH), (Indent(depth=3e-5), None)])
+def test_at_a_depth_forces_go_as_one_over_one_less_the_ratio(solver, nu, motion, rough):
+    scene = Scene(SPHERE, SOLIDS["standard"](G, 0.5), motion, rough)
+    compare(solver.solve(softened(scene, nu)), solved(solver, scene), SCALED[solver.name], force=0.5 / (1 - nu))
+
+
+@solvers
+@ratios
+def test_at_a_load_depth_goes_as_the_compliance_to_its_power(solver, nu):
+    for shape, n in ((SPHERE, 2.0), (Cone(angle=0.1), 1.0)):
+        rest = Scene(shape, Elastic(G, 0.5), Indent(load=0.1))
+        ratio = solver.solve(replace(rest, elastomer=Elastic(G, nu))).depth / solver.solve(rest).depth
+        # the window scales with the contact, so that both grids have the same error
+        assert ratio == pytest.approx((2 * (1 - nu)) ** (n / (n + 1)), rel=SCALED[solver.name])
+
+
+@solvers
+@ratios
+def test_the_contact_of_hertz_has_its_modulus_from_young_and_poisson(solver, nu):
+    young = 2 * G * (1 + nu)
+    depth = (0.75 * 0.1 * (1 - nu**2) / (young * sqrt(RADIUS))) ** (2 / 3)
+    result = solver.solve(Scene(SPHERE, Elastic(G, nu), Indent(load=0.1)))
+    assert result.depth == pytest.approx(depth, rel=GRID[solver.name])
+    assert elastic_contact(result.scene).depth == pytest.approx(depth, rel=1e-12)
+
+
+@solvers
+@ratios
+@pytest.mark.parametrize(("pressed_by", "value"), [("load", 0.1), ("depth", 3e-5)])
+def test_creep_relaxation_and_a_start_from_rest_scale_alike(solver, nu, pressed_by, value):
+    first = Stage(duration=0.1 * TIME, **{pressed_by: value})
+    program = Program(stages=(first, Stage(duration=3 * TIME), Stage(duration=1.5 * TIME, speed=0.3)))
+    scene = Scene(SPHERE, SOLIDS["standard"](G, 0.5), program)
+    wanted = solved(solver, scene)
+    compare(solver.solve(softened(scene, nu, (1 - nu) / 0.5)), wanted, SCALED[solver.name])
+    if pressed_by == "depth":
+        compare(solver.solve(softened(scene, nu)), wanted, SCALED[solver.name], force=0.5 / (1 - nu))
+
+
+@solvers
+@ratios
+def test_a_held_load_sinks_from_the_glassy_to_the_relaxed_depth_by_the_creep_in_shear(solver, nu):
+    """d^(3/2) = (3/(4 sqrt R)) (1 - nu)/2 F (J(t) of the ramp): Lee and Radok, with one nu at all times."""
+    solid, ramp, load = SOLIDS["standard"](G, nu), 1e-4 * TIME, 0.1
+    program = Program(stages=(Stage(duration=ramp, load=load), Stage(duration=200 * TIME)))
+    fields = replace(solver, steps=60).solve(Scene(SPHERE, solid, program)).fields
+    after = fields["time"] > 10 * ramp
+    # a ramp is a jump half-way, to the second order in its length
+    creep = solid.creep_compliance(fields["time"][after] - ramp / 2)
+    expected = (0.75 / sqrt(RADIUS) * (1 - nu) / 2 * load * creep) ** (2 / 3)
+    np.testing.assert_allclose(fields["depth"][after], expected, rtol=max(GRID[solver.name], 5e-3))
+    assert expected[-1] / expected[0] > 0.9 * 20 ** (2 / 3)
+
+
+def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_loss():
+    def ruled(nu):
+        scene = softened(
+            Scene(SPHERE, SOLIDS["standard"](G, 0.5), Slide(speed=0.1, load=0.1), ROUGH), nu, (1 - nu) / 0.5
+        )
+        grids = {"bem": BEM(points=64), "mdr": MDR(points=200)}
+        series = Series("one", "One", scene, (0.1, 0.3), (0.05, 0.1), surfaces=1, profiles=1, **grids)
+        missing = Outcome((Row(reason="not asked for"),))
+        contacts = parameter_grid.contacts_of(series.rectangles)
+        outcomes = {each: each.solve() if each.solver.name == "MDR" else missing for each in contacts}
+        return laws(Contacts(series, parameter_grid.tree(series.rectangles, outcomes)), "MDR")
+
+    wanted, found = ruled(0.5), ruled(0.0)
+    for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):
+        np.testing.assert_allclose(getattr(found, name), getattr(wanted, name), rtol=1e-9, err_msg=name)
+
+
+@ratios
+@pytest.mark.parametrize(
+    ("indenter", "motion", "rough"),
+    [
+        (Plane(), Slide(speed=0.5, pressure=2e4), CrossedWaves(amplitude=2e-6, wavelength=1e-3)),
+        (Cylinder(radius=RADIUS), Slide(speed=0.5, line_load=50.0), None),
+    ],
+    ids=["plane", "cylinder"],
+)
+def test_planes_and_lines_see_the_plane_strain_modulus_alone(indenter, motion, rough, nu):
+    solver, scene = BEM(points=32), Scene(indenter, SOLIDS["standard"](G, 0.5), motion, rough)
+    compare(solver.solve(softened(scene, nu, (1 - nu) / 0.5)), solved(solver, scene), 1e-7)
+
+
+@solvers
+def test_a_compressible_solid_is_not_an_incompressible_one_of_the_same_shear_modulus(solver):
+    scene = Scene(SPHERE, SOLIDS["standard"](G, 0.5), Slide(speed=0.5, load=0.1))
+    assert abs(solver.solve(softened(scene, 0.3)).depth / solved(solver, scene).depth - 1) > 0.1

@@ -1,0 +1,144 @@
+"""A study is counted before a task of it is built, every count has a bound, much is done on a yes alone."""
+
+from dataclasses import replace
+from itertools import product
+
+import pytest
+from test_compare_cases import SCENE
+from test_compare_path import RECTANGLE
+from test_compare_studyfile import HEAD, SHARED, TABLES
+from typer.testing import CliRunner
+
+from bem3d import BEM
+from compare.cli.app import app
+from compare.library.case import Case
+from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
+from compare.studies.animate.animation import animate
+from compare.studies.claims.study_file import study_of
+from compare.studies.paper.study import Paper
+from compare.studies.pipeline import run
+from compare.studies.run.study import Run
+from compare.studies.study import Study
+from scene import Refused
+from scene.reading import InvalidInput, read
+
+ROUGHNESS = """
+[roughness]
+type = "self-affine"
+hurst = 0.5
+rms_height = "1 um"
+longest = "10 mm"
+shortest = "1 mm"
+"""
+SERIES = '[[series]]\nname = "one"\n'
+
+
+class Costly(Study):
+    """A study of a cost, whose tasks must not be built."""
+
+    def __init__(self, contacts, work):
+        self.taken = Cost(contacts, work)
+
+    def cost(self):
+        return self.taken
+
+    def batches(self):
+        raise AssertionError("tasks were built")
+
+
+def test_what_is_counted_is_what_is_built():
+    assert RECTANGLE.cost == replace(Cost.of(RECTANGLE.tasks()), kept=RECTANGLE.cost.kept)
+    assert RECTANGLE.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
+    smooth = replace(RECTANGLE, scene=replace(RECTANGLE.scene, roughness=None))
+    assert smooth.cost.contacts == 3 * 2 * 2 * 2 == Cost.of(smooth.tasks()).contacts
+
+
+@pytest.mark.parametrize("asked", [Run.of("quick-start"), Paper.of(profiles=3)])
+def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
+    built = Cost.of(task for batch in asked.batches() for task in batch.tasks)
+    assert built.contacts <= asked.cost().contacts <= 1.3 * built.contacts
+    assert built.work <= asked.cost().work * (1 + 1e-12) <= 1.3 * built.work
+
+
+@pytest.mark.parametrize(
+    ("contacts", "days", "said"),
+    [
+        (10, 2.1, "more than a day on 2 processors"),
+        (MANY_CONTACTS + 1, 0.1, "more than 300,000 contacts"),
+    ],
+)
+def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, said):
+    asked = Costly(contacts, days * DAY / SECONDS)
+    with pytest.raises(Refused, match=f"{contacts:,} contacts .* h .* of processor time.*{said}.*--yes"):
+        run(asked, tmp_path / "out", workers=2)
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(AssertionError, match="tasks were built"):
+        run(asked, tmp_path / "out", workers=2, yes=True)
+
+
+def test_more_than_memory_holds_is_begun_on_no_yes(tmp_path):
+    with pytest.raises(Refused, match="at most 2,000,000 contacts"):
+        run(Costly(MOST_CONTACTS + 1, 0.0), tmp_path, yes=True)
+
+
+def test_the_command_says_the_cost_first_and_takes_the_yes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = SCENE + "[bem]\npoints = 4096\n[study]\nsurfaces = 1000\n"
+    (tmp_path / "scene.toml").write_text(text)
+    answer = CliRunner().invoke(app, ["run", "scene.toml"])
+    assert answer.exit_code == 2
+    assert "of processor time" in answer.stderr
+    assert "--yes" in answer.stderr
+    assert [each.name for each in tmp_path.iterdir()] == ["scene.toml"]
+
+
+COUNTS = 10_001, 10**9, 10**30
+
+
+@pytest.mark.parametrize(("name", "count"), [*product(("surfaces", "profiles"), (0, *COUNTS))])
+def test_draws_have_a_bound_that_is_said(tmp_path, name, count):
+    (tmp_path / "scene.toml").write_text(SCENE + f"[study]\n{name} = {count}\n")
+    with pytest.raises(InvalidInput, match=rf"study\.{name} = {count}: Input should be .* (10000|1)$"):
+        read(tmp_path / "scene.toml", Case)
+    if count:
+        shared = SHARED.replace("surfaces = 2", "").replace("profiles = 3", "")
+        with pytest.raises(InvalidInput, match=rf"{name} = {count}: Input should be .* 10000"):
+            study_of(HEAD + f"{name} = {count}\n" + shared + TABLES + SERIES, "study.toml")
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        *[(("count = 4", f"count = {count}"), rf"loads\.count = {count}: .* 1000") for count in COUNTS[1:]],
+        (('["50 mm/s", 0.1, 0.2]', str([float(k) for k in range(1, 1002)])), "speeds.*at most 1000"),
+    ],
+)
+def test_a_range_and_a_list_have_a_bound_that_is_said(change, said):
+    with pytest.raises(InvalidInput, match=said):
+        study_of(HEAD + SHARED.replace(*change) + TABLES + SERIES, "study.toml")
+
+
+def test_the_series_of_a_file_have_a_bound_that_is_said():
+    many = "".join(SERIES.replace("one", f"s{k}") for k in range(101))
+    with pytest.raises(InvalidInput, match=r"series: .*at most 100"):
+        study_of(HEAD + SHARED + TABLES + many, "study.toml")
+
+
+@pytest.mark.parametrize("workers", [0, -1, 1025, 10**9, True, 1.5])
+def test_so_have_workers(tmp_path, workers):
+    with pytest.raises(InvalidInput, match=rf"workers = {workers}: a whole number from 1 to 1024"):
+        run(Costly(1, 1.0), tmp_path / "out", workers=workers)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("frames", "seconds"), [(0, 6.0), (10**9, 1e9), (60, 1e300), (60, float("nan"))])
+def test_so_have_frames_and_the_seconds_of_an_animation(tmp_path, frames, seconds):
+    with pytest.raises(Refused, match=r"1 to 10000 frames in at most 3600 seconds"):
+        animate("hertz", tmp_path / "hertz.gif", frames, seconds, tmp_path)
+
+
+def test_so_have_profiles_of_the_paper_and_threads():
+    with pytest.raises(InvalidInput, match="profiles = 1000000000: a whole number from 3 to 10000"):
+        Paper.of(profiles=10**9)
+    with pytest.raises(ValueError, match="less than or equal to 1024"):
+        BEM(threads=10**9)

@@ -1,0 +1,194 @@
+"""A contact as a picture: what is drawn is what was solved, and what no picture shows is refused."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import compare
+from bem3d import BEM
+from compare.cli.app import app
+from compare.library.case import Case
+from compare.report import vtk
+from compare.report.plots import style
+from compare.studies.draw import figure as draw
+from compare.studies.draw import interactive, relief
+from compare.studies.draw.study import APART
+from mdr1d import MDR
+from scene import (
+    WLF,
+    Cylinder,
+    Doubtful,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Refused,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+)
+from scene.reading import InvalidInput
+
+R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
+A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
+REST = Case(
+    indenter=Sphere(R),
+    elastomer=Kelvin(G, TAU),
+    motion=Indent(load=LOAD),
+    bem=BEM(points=64),
+    mdr=MDR(points=500),
+)
+FAST = replace(REST, motion=Slide(speed=A / TAU, load=LOAD))
+ROUGH = replace(FAST, roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5))
+LINE = replace(FAST, indenter=Cylinder(R), motion=Slide(speed=0.1, line_load=100.0))
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """Reports by name, each solved once."""
+    cases = {"rest": REST, "fast": FAST, "rough": ROUGH, "line": LINE}
+    folder = tmp_path_factory.mktemp("drawn")
+    return {name: compare.draw(case, output=folder / name, workers=1) for name, case in cases.items()}
+
+
+def table(report, name):
+    return next(report.page.every(draw.Plot)).tables[name]
+
+
+def test_under_a_smooth_sphere_at_rest_the_springs_carry_the_pressure_integrated_over_y(drawn):
+    """The force per length of the MDR is the Abel transform of the pressure, which is its integral over y."""
+    lines = table(drawn["rest"], draw.LINES)
+    assert lines["line_force_1d"].max() == pytest.approx(lines["line_force_3d"].max(), rel=5e-3)
+    found = {each.claim.id: each.value for each in drawn["rest"].claims}
+    assert found[APART.id] < 0.01 < {each.claim.id: each.value for each in drawn["rough"].claims}[APART.id]
+
+
+@pytest.mark.parametrize("name", ["rest", "fast", "rough"])
+def test_both_line_forces_sum_up_to_the_load(drawn, name):
+    lines = table(drawn[name], draw.LINES)
+    width = lines["x"][1] - lines["x"][0]
+    assert lines["line_force_1d"].sum() * width == pytest.approx(LOAD, rel=1e-6)
+    assert lines["line_force_3d"].sum() * width == pytest.approx(LOAD, rel=1e-4)  # the tolerance of the solve
+
+
+def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before(drawn):
+    surface = drawn["fast"].answers["surface"].to_dataset()
+    middle = surface["displacement"].sel(y=0, method="nearest")
+    assert float(middle.max()) == pytest.approx(float(surface["depth"]), rel=1e-2)
+    behind, before = (float(middle.sel(x=at, method="nearest")) for at in (1.3 * A, -1.3 * A))
+    assert behind > 1.3 * before > 0
+    assert float(surface["x"].max()) > 2 * A
+
+
+@pytest.mark.parametrize("name", ["rest", "fast", "rough", "line"])
+def test_every_picture_states_its_units_and_how_much_heights_are_enlarged(drawn, name):
+    (drawing,) = drawn[name].figures.values()
+    panels = drawing.get_axes()
+    for axes in panels:
+        for label in (axes.get_xlabel(), axes.get_ylabel()):
+            assert not label or label.endswith("]"), label
+    titles = [axes.get_title(loc="left") for axes in panels]
+    assert sum("heights ×" in title for title in titles) == (1 if name == "line" else 2)
+    words = [text.get_text() for axes in panels for text in axes.texts]
+    assert ("indenter slides" in words) == (name != "rest")
+
+
+def test_an_arrow_points_where_the_indenter_slides(drawn):
+    (drawing,) = drawn["fast"].figures.values()
+    arrow = next(text for axes in drawing.get_axes() for text in axes.texts if text.get_text() == "")
+    assert arrow.xy[0] < arrow.xyann[0]  # the elastomer flows along +x
+
+
+def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
+    folder = drawn["rough"].output
+    again = compare.figures(folder, output=tmp_path)
+    png = next(path for path in again if path.suffix == ".png")
+    assert png.read_bytes() == (folder / "draw.png").read_bytes()
+
+
+def test_heights_are_enlarged_to_a_round_number_that_leaves_them_a_part_of_the_picture():
+    assert relief.exaggeration(1.0, 0.5, 0.01) == 20
+    assert relief.exaggeration(1.0, 0.5, relief.TALL) == 1
+    assert relief.exaggeration(1.0, 0.5, 0.0) == 1
+
+
+def test_what_is_near_covers_what_is_far():
+    """Faces are drawn in the order of their distance, row by row and within each row."""
+    camera, ends = relief.Camera(), np.array([0.0, 1.0])
+    with style.applied():
+        axes = style.canvas("double", 2).subplots()
+        relief.block(axes, ends, ends, np.zeros((2, 2)), np.zeros((2, 2)), 1.0, camera)
+    near_y, near_x = (camera.place(*at, 0.0)[1] for at in ((0.0, -1.0), (1.0, 0.0)))
+    corners = axes.collections[0].get_coordinates()
+    assert near_y < 0 > near_x  # lower in the picture is nearer
+    assert corners[0, 0, 1] > corners[1, 0, 1]
+    assert corners[0, 0, 1] > corners[0, 1, 1]
+
+
+def test_a_layer_has_no_springs_and_that_is_said(tmp_path):
+    report = compare.draw(replace(REST, layer=Layer(thickness=2e-3)), output=tmp_path, workers=1)
+    assert "No row of springs: MDR" in str(report)
+    assert draw.ROW not in next(report.page.every(draw.Plot)).tables
+
+
+def test_what_no_picture_shows_is_refused_before_anything_is_solved(tmp_path):
+    glass = WLF(temperature=300.0, reference=300.0, c1=8.86, c2=101.6)
+    warm = replace(FAST, temperature=glass, heating=Heating(conductivity=0.2, feedback="average"))
+    with pytest.raises(Refused, match=r"heating\.feedback"):
+        compare.draw(warm, output=tmp_path / "no")
+    assert not (tmp_path / "no").exists()
+
+
+def test_a_contact_that_does_not_touch_is_no_picture(tmp_path):
+    above = replace(ROUGH, motion=Indent(depth=1e-9), roughness=replace(ROUGH.roughness, rms_height=1e-5))
+    high = pytest.warns(Doubtful, match="rms height of the roughness over the depth")
+    with high, pytest.raises(SolveError, match=r"nothing touches|no contact"):
+        compare.draw(above, output=tmp_path, workers=1)
+
+
+def test_without_plotly_or_meshio_the_extra_is_named_in_one_line(drawn, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "plotly", None)
+    monkeypatch.setitem(sys.modules, "meshio", None)
+    for asked, extra in (
+        (["draw", "hertz", "--interactive", "--output", str(tmp_path / "no")], interactive.EXTRA),
+        (["export", str(drawn["rest"].output), "--to", "vtk"], vtk.EXTRA),
+    ):
+        result = CliRunner().invoke(app, asked)
+        assert result.exit_code == 2
+        assert extra in result.output
+        assert len(result.output.strip().splitlines()) == 1
+    assert not (tmp_path / "no").exists()
+
+
+def test_the_interactive_page_needs_no_network(tmp_path):
+    pytest.importorskip("plotly")
+    report = compare.draw(FAST, interactive=True, output=tmp_path, workers=1)
+    page = (tmp_path / interactive.NAME).read_text(encoding="utf-8")
+    assert "<script src=" not in page
+    assert "height" in page
+    assert interactive.NAME in str(report)
+
+
+def test_a_surface_for_paraview_holds_the_load_and_what_is_displaced(drawn):
+    meshio = pytest.importorskip("meshio")
+    (path,) = compare.export(drawn["rest"].output, to="vtk")
+    mesh, surface = meshio.read(path), drawn["rest"].answers["surface"].to_dataset()
+    pressure = mesh.point_data["pressure [Pa]"]
+    pixel = float(surface["x"][1] - surface["x"][0])
+    assert pressure.sum() * pixel**2 == pytest.approx(LOAD, rel=1e-4)
+    down = mesh.point_data["displacement [m]"]
+    assert -down[:, 2].min() == pytest.approx(float(surface["displacement"].max()))
+    assert not down[:, :2].any()
+    (cells,) = mesh.cells
+    assert len(cells.data) == (surface.sizes["x"] - 1) * (surface.sizes["y"] - 1)
+
+
+def test_a_folder_without_a_surface_is_no_file_for_paraview(tmp_path):
+    pytest.importorskip("meshio")
+    compare.sweep(replace(FAST, bem=BEM(points=32)), speed=[0.1], output=tmp_path, workers=1, report=False)
+    with pytest.raises(InvalidInput, match="no surface"):
+        compare.export(tmp_path, to="vtk")

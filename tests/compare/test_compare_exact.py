@@ -1,0 +1,132 @@
+"""Closed forms against integrals and derivatives that are written out here."""
+
+from dataclasses import replace
+from math import pi, tan
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from compare.models import exact
+from compare.models.exact import Exact
+from scene import (
+    Cone,
+    Coulomb,
+    Cylinder,
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+)
+from scene import StandardLinearSolid as Solid
+
+SHAPES = [Sphere(radius=2e-2), Cone(angle=0.2), PowerLaw(coefficient=30.0, exponent=3.0)]
+RUBBER = Kelvin(modulus=1e6, relaxation_time=1e-3)
+# Sums and powers of a few numbers.
+ROUNDING = 1e-12
+# The pressure falls to zero at the edge of the contact with an infinite slope: the midpoint sum pays for that.
+RING_SUM = 3e-3
+
+
+def radius_under(load, stiffness, shape):
+    """Eq. 16 with 2E* for 8G: a^(n+1) = F (n+1) / (2 E* c n)."""
+    c, n = shape.mdr_coefficient, shape.exponent
+    return (load * (n + 1) / (2 * stiffness * c * n)) ** (1 / (n + 1))
+
+
+def g(shape, x):
+    """The MDR profile from its defining integral, with r = x sin(t)."""
+    slope = shape.coefficient * shape.exponent
+    return x * quad(lambda t: slope * (x * np.sin(t)) ** (shape.exponent - 1), 0, pi / 2)[0]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_load_is_the_integral_of_the_depth_of_the_profile(shape):
+    depth, stiffness = 1e-4, RUBBER.indentation_modulus
+    answer = Exact().solve(Scene(shape, RUBBER, Indent(depth=depth)))
+    radius = answer.measures["contact_length"] / 2
+    assert g(shape, radius) == pytest.approx(depth, rel=1e-10)
+    load = 2 * stiffness * quad(lambda x: depth - g(shape, x), 0, radius)[0]
+    assert answer.normal_force == pytest.approx(load, rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pressure_carries_the_load(shape):
+    answer = Exact().solve(Scene(shape, RUBBER, Indent(load=1.0)))
+    r, p = answer.fields["r"], answer.fields["pressure"]
+    middle = (p[1:] + p[:-1]) / 2
+    assert pi * np.sum(middle * np.diff(r**2)) == pytest.approx(1.0, rel=RING_SUM)
+    assert np.all(p >= 0)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_slow_friction_is_the_integral_of_the_squared_slope_and_twice_it_in_one_dimension(shape):
+    radius, step = 1e-3, 1e-9
+    integral = quad(lambda x: ((g(shape, x + step) - g(shape, x)) / step) ** 2, 0, radius)[0]
+    arguments = (0.1, radius, 1e-3, 4e6, shape.mdr_coefficient, shape.exponent)
+    three = exact.slow_friction_3d(*arguments)
+    # Forward differences of step / radius = 1e-6.
+    assert three == pytest.approx(0.1 * 1e-3 * 4e6 * integral, rel=1e-4)
+    assert exact.slow_friction_1d(*arguments) == 2 * three
+
+
+def test_slow_friction_coefficients_are_those_of_sphere_and_cone():
+    speed, lag, load = 0.1, 1e-4, 0.7
+    for shape, expected in (
+        (Sphere(radius=2e-2), lambda a: speed * lag / 2e-2),
+        (Cone(angle=0.2), lambda a: pi / 2 * tan(0.2) * speed * lag / a),
+    ):
+        profile = shape.mdr_coefficient, shape.exponent
+        radius = radius_under(load, 4e6, shape)
+        mu = exact.slow_friction_3d(speed, radius, lag, 4e6, *profile) / load
+        assert mu == pytest.approx(expected(radius), rel=ROUNDING)
+
+
+def test_mean_lag_is_the_loss_at_low_frequency():
+    solid = Solid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-5)
+    omega = 1e-4 / 1e-3
+    tangent = solid.complex_modulus(omega)
+    assert exact.mean_lag(solid) == pytest.approx(tangent.imag / tangent.real / omega, rel=1e-6)
+    assert exact.mean_lag(RUBBER) == pytest.approx(RUBBER.relaxation_time, rel=ROUNDING)
+
+
+def test_what_has_no_closed_form_is_refused_by_name():
+    rough = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2)
+    for scene, word in (
+        (Scene(Sphere(radius=1e-2), RUBBER, Slide(speed=0.1, load=1.0)), "speed = 0.1"),
+        (Scene(Sphere(radius=1e-2), RUBBER, Indent(load=1.0), rough), "roughness"),
+        (Scene(Cylinder(radius=1e-2), RUBBER, Indent(line_load=1.0)), "Cylinder"),
+    ):
+        with pytest.raises(Refused, match=word):
+            Exact().solve(scene)
+    assert not Exact().refusals(Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Slide(speed=0.1, load=1.0)))
+
+
+def test_friction_in_the_interface_adds_nothing_at_rest_and_is_refused_in_sliding():
+    plain = Scene(Sphere(radius=1e-2), Elastic(modulus=1e6), Indent(load=1.0))
+    rubbing = replace(plain, interface=Coulomb(0.3))
+    answer = Exact().solve(rubbing)
+    assert (answer.depth, answer.friction_force) == (Exact().solve(plain).depth, 0.0)
+    for speed in (0.0, 0.1):
+        with pytest.raises(Refused, match="interface = Coulomb: friction of the interface is not in the closed"):
+            Exact().solve(replace(rubbing, motion=Slide(speed=speed, load=1.0)))
+
+
+def test_the_loss_exponent_of_a_power_law_is_its_power_and_that_of_a_kelvin_body_one():
+    kelvin = Kelvin(modulus=1e6, relaxation_time=1e-3)
+    power = Fractional(
+        modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-2, highest_frequency=1e7
+    )
+    speeds = (0.01, 0.1, 1.0)
+    powers = [
+        exact.loss_exponent(kelvin, wave_number, (0.00333, 0.03)) for wave_number in np.geomspace(1e3, 1e7, 60)
+    ]
+    assert powers == pytest.approx(np.ones(60), rel=1e-12)
+    assert max(powers) == 1.0  # of which Eq. 23 takes none that rounding has made more
+    assert exact.loss_exponent(power, 1e4, speeds) == pytest.approx(0.3, abs=1e-3)

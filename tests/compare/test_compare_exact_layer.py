@@ -1,0 +1,111 @@
+"""The reference of layers against what was published, its limits and a derivative; and the study of layers."""
+
+from math import pi
+
+import numpy as np
+import pytest
+
+from compare.models.exact import layer as reference
+from scene import Cone, Layer, PowerLaw, Sphere
+
+SPHERE, CONE = Sphere(10e-3), Cone(0.1)
+MODULUS = 4e6
+# F/F_Hertz(d) and a/sqrt(R d) of a sphere on a bonded incompressible layer by a/h.
+PUBLISHED = {0.2: (1.26977, 1.08065), 0.5: (1.85712, 1.19845), 1.0: (3.37110, 1.33700), 2.0: (8.4680, 1.4827)}
+ROUNDING = 1e-9  # of the equation at up to 100 thicknesses, whose condition is their cube
+
+
+@pytest.mark.parametrize(("slenderness", "published"), PUBLISHED.items())
+def test_a_bonded_incompressible_layer_is_the_published_one(slenderness, published):
+    found = reference.of_radius(SPHERE, Layer(thickness=1e-3 / slenderness), MODULUS, 0.5, 1e-3)
+    hertz = 4 / 3 * MODULUS * np.sqrt(SPHERE.radius) * found.depth**1.5
+    assert found.load / hertz == pytest.approx(published[0], rel=1e-5)  # digits as stated, also below
+    assert found.radius / np.sqrt(SPHERE.radius * found.depth) == pytest.approx(published[1], abs=5e-5)
+
+
+@pytest.mark.parametrize("shape", [SPHERE, CONE, PowerLaw(1e3, 4.0)], ids=lambda shape: shape.type)
+@pytest.mark.parametrize("base", ["bonded", "frictionless"])
+def test_a_thick_layer_is_a_half_space(shape, base):
+    found = reference.of_radius(shape, Layer(thickness=1e6, base=base), MODULUS, 0.4, 1e-3)
+    n = shape.exponent
+    depth = shape.mdr_coefficient * 1e-3**n
+    assert found.depth == pytest.approx(depth, rel=1e-8)  # a/h = 1e-9 is left
+    assert found.load == pytest.approx(2 * n / (n + 1) * MODULUS * depth * 1e-3, rel=1e-8)
+    assert found.stiffness == pytest.approx(2 * MODULUS * 1e-3, rel=1e-8)
+
+
+@pytest.mark.parametrize("shape", [SPHERE, CONE], ids=lambda shape: shape.type)
+@pytest.mark.parametrize(
+    ("base", "poisson_ratio"), [("bonded", 0.0), ("bonded", 0.3), ("frictionless", 0.5), ("bonded", 0.5)]
+)
+def test_a_thin_layer_is_a_bed_of_springs_or_a_film(shape, base, poisson_ratio):
+    """What is left falls with h/a: half of it at twice the radius, or less."""
+    left = []
+    for slenderness in (25, 50, 100):
+        stated = Layer(thickness=1e-3 / slenderness, base=base)
+        found = reference.of_radius(shape, stated, MODULUS, poisson_ratio, 1e-3)
+        if base == "bonded" and poisson_ratio == 0.5:
+            limit = reference.on_film(shape, stated, MODULUS, found.depth)
+        else:
+            limit = reference.on_springs(shape, stated, MODULUS, poisson_ratio, found.depth)
+        left.append(
+            [found.radius / limit.radius - 1, found.load / limit.load - 1, found.stiffness / limit.stiffness - 1]
+        )
+    left = np.abs(left)
+    assert np.all(left[-1] < 0.04)
+    assert np.all(left[1:] < 0.6 * left[:-1] + 10 * ROUNDING)
+
+
+@pytest.mark.parametrize("poisson_ratio", [-0.5, 0.3, 0.499, 0.5])
+@pytest.mark.parametrize("slenderness", [0.1, 2.0, 50.0])
+def test_stiffness_is_the_derivative_of_the_load(poisson_ratio, slenderness):
+    stated = Layer(thickness=1e-3 / slenderness)
+    below, at, above = (
+        reference.of_radius(CONE, stated, MODULUS, poisson_ratio, 1e-3 * by) for by in (1 - 1e-4, 1, 1 + 1e-4)
+    )
+    # of second order in 1e-4
+    assert (above.load - below.load) / (above.depth - below.depth) == pytest.approx(at.stiffness, rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", [SPHERE, CONE], ids=lambda shape: shape.type)
+@pytest.mark.parametrize("slenderness", [1e-3, 0.5, 10.0])
+def test_a_contact_is_found_by_its_depth_and_by_its_load(shape, slenderness):
+    stated = Layer(thickness=1e-3 / slenderness)
+    known = reference.of_radius(shape, stated, MODULUS, 0.5, 1e-3)
+    for found in (
+        reference.of_depth(shape, stated, MODULUS, 0.5, known.depth),
+        reference.of_load(shape, stated, MODULUS, 0.5, known.load),
+    ):
+        assert found.radius == pytest.approx(known.radius, rel=ROUNDING)
+        assert found.load == pytest.approx(known.load, rel=ROUNDING)
+
+
+def test_more_nodes_change_nothing(monkeypatch):
+    stated = Layer(thickness=1e-3 / 20)
+    usual = reference.of_radius(SPHERE, stated, MODULUS, 0.5, 1e-3)
+    monkeypatch.setattr(reference, "NODES", 24)
+    finer = reference.of_radius(SPHERE, stated, MODULUS, 0.5, 1e-3)
+    assert usual.load == pytest.approx(finer.load, rel=ROUNDING)
+    assert usual.depth == pytest.approx(finer.depth, rel=ROUNDING)
+
+
+def test_a_film_under_a_sphere_holds_the_volume_that_it_displaces():
+    """Under p ~ (a^2 - r^2)^2 the displaced volume is nothing: int (d - z) dA = 0."""
+    film = reference.on_film(SPHERE, Layer(thickness=1e-5), MODULUS, 1e-6)
+    assert pi * film.radius**2 * film.depth == pytest.approx(pi * film.radius**4 / (4 * SPHERE.radius), rel=1e-12)
+    assert film.load == pytest.approx(2 * pi * MODULUS / 4 * SPHERE.radius**2 * 0.1**3, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (lambda layer: reference.of_radius(SPHERE, layer, MODULUS, 0.5, 1.0), "at most 100 thicknesses"),
+        (lambda layer: reference.of_radius(SPHERE, layer, MODULUS, 0.5, 0.0), "above zero"),
+        (lambda layer: reference.of_depth(SPHERE, layer, MODULUS, 0.5, 1.0), "more than 100 thicknesses"),
+        (lambda layer: reference.of_load(SPHERE, layer, MODULUS, 0.5, 1e12), "more than 100 thicknesses"),
+        (lambda layer: reference.of_load(SPHERE, layer, MODULUS, 0.5, -1.0), "load = -1"),
+    ],
+)
+def test_what_is_not_known_is_named(asked, message):
+    with pytest.raises(ValueError, match=message):
+        asked(Layer(thickness=1e-4))

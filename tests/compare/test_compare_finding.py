@@ -1,0 +1,80 @@
+"""One rule of the verdict, and one table of findings."""
+
+from dataclasses import replace
+from math import inf, nan
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from compare.statistics.finding import (
+    COLUMNS,
+    FAILS,
+    HOLDS,
+    REPORTED,
+    UNDECIDED,
+    Claim,
+    Finding,
+    sentences,
+    table,
+    verdict,
+)
+
+FRICTION = Claim("friction.ratio", "Friction in 1D is that in 3D", expected=1.0, tolerance=0.05)
+number = st.floats(-10, 10)
+width = st.floats(0, 10)
+
+
+def found(value=1.0, scatter=0.01, grid=0.01, **other):
+    return Finding(FRICTION, value, (value - scatter, value + scatter), grid, "change on halving", **other)
+
+
+@given(number, width, number, width)
+def test_a_claim_holds_only_if_its_whole_interval_lies_inside_the_tolerance(expected, tolerance, value, half):
+    low, high = value - half, value + half
+    said = verdict(expected, tolerance, low, high)
+    inside = low >= expected - tolerance and high <= expected + tolerance
+    outside = high < expected - tolerance or low > expected + tolerance
+    assert said == (HOLDS if inside else FAILS if outside else UNDECIDED)
+
+
+@given(number, width, number, width, st.floats(1.0, 100.0))
+def test_noise_never_makes_a_claim_hold(expected, tolerance, value, half, wider):
+    before = verdict(expected, tolerance, value - half, value + half)
+    after = verdict(expected, tolerance, value - wider * half, value + wider * half)
+    assert after in (before, UNDECIDED)
+
+
+@pytest.mark.parametrize(
+    "unknown",
+    [{"value": nan}, {"scatter": (nan, nan)}, {"grid": nan}, {"grid": inf}, {"reason": "too few points"}],
+)
+def test_without_errors_a_claim_is_undecided_and_says_why(unknown):
+    finding = replace(found(), **unknown)
+    assert finding.verdict == UNDECIDED
+    assert finding.row["reason"]
+
+
+def test_the_grid_widens_the_interval_of_the_scatter():
+    assert found().interval == pytest.approx((0.98, 1.02))
+    assert found().verdict == HOLDS
+    assert found(grid=0.05).verdict == UNDECIDED
+    assert found(value=1.2).verdict == FAILS
+
+
+def test_a_law_states_its_verdict_and_a_number_without_a_claim_is_reported():
+    assert Finding(FRICTION, 1.0, stated=FAILS).verdict == FAILS
+    assert Finding(Claim("time", "Time to 1 %"), 3.0).verdict == REPORTED
+
+
+def test_every_table_has_the_same_columns():
+    assert list(table([]).columns) == list(table([found()]).columns) == list(COLUMNS)
+    assert table([found()]).loc[0, ["claim", "verdict"]].tolist() == ["friction.ratio", HOLDS]
+
+
+def test_the_answer_has_every_finding_those_that_contradict_included():
+    (sentence,) = sentences([found(where="sphere"), found(value=1.3, where="cone")])
+    assert "sphere" in sentence
+    assert "cone" in sentence
+    assert "holds" in sentence.lower()
+    assert "fails" in sentence.lower()

@@ -1,0 +1,81 @@
+"""What grids leave uncertain of friction, said on every page: first where it is much."""
+
+import numpy as np
+import pytest
+import xarray
+
+import compare
+from bem3d import BEM
+from compare.library.case import Case
+from compare.statistics import griderror
+from mdr1d import MDR
+from scene import Doubtful, Kelvin, PowerLaw, Slide, Sphere
+
+
+def answers(three, one=(1e-5, 2e-5)):
+    """Answers with these errors on the fine grid, and greater ones on the coarse one."""
+
+    def dataset(errors):
+        both = np.array([errors, np.full(len(errors), 0.9)])
+        return xarray.Dataset({"friction_error": (("grid", "draw"), both)}, {"grid": ["fine", "coarse"]})
+
+    return xarray.DataTree.from_dict({"/contacts/BEM": dataset(three), "/contacts/MDR": dataset(one)})
+
+
+def test_a_small_error_is_said_last_with_its_median_and_that_of_coarse_grids_not_at_all():
+    told = griderror.told(answers([0.01, 0.02, np.nan, 0.03]), ["the answer"])
+    assert told == [
+        "the answer",
+        "The grid leaves at most 3 % in 3D (2 % in the median), 0.002 % in 1D (0.0015 % in the median) of "
+        "friction uncertain (bounds of 95 %).",
+    ]
+
+
+def test_an_error_above_a_tenth_is_said_first_and_how_often():
+    told = griderror.told(answers([0.01, 0.11, 0.23]), ["the answer"])
+    assert told[1:] == ["the answer"]
+    assert told[0] == (
+        "Friction of 2 of 3 contacts in 3D may be wrong by more than 10 % by the grid, by up to 23 % (11 % in the "
+        "median): take more points (bounds of 95 %)."
+    )
+
+
+def test_without_friction_nothing_is_said():
+    still = xarray.DataTree.from_dict({"/contacts/BEM": xarray.Dataset({"depth": ((), 1.0)})})
+    assert griderror.told(still, ["the answer"]) == ["the answer"]
+    assert griderror.told(answers([np.nan], [np.nan]), ["the answer"]) == ["the answer"]
+
+
+def case(indenter, speed):
+    return Case(
+        indenter=indenter,
+        elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+        motion=Slide(speed=speed, load=1.0),
+        bem=BEM(points=64),
+        mdr=MDR(points=500),
+    )
+
+
+BLUNT = PowerLaw(coefficient=1e-4 / 1e-3**50, exponent=50)
+
+
+@pytest.mark.slow
+def test_a_sweep_states_the_error_of_every_contact_and_warns_of_a_great_one(tmp_path):
+    fine = compare.sweep(
+        case(Sphere(radius=1e-2), 0.1), speed=[0.1], workers=1, report=False, output=tmp_path / "a"
+    )
+    assert (fine["friction_error"].sel(grid="fine") < griderror.MUCH).all()
+    with pytest.warns(Doubtful) as warned:
+        compare.sweep(case(BLUNT, 0.3), speed=[0.3], workers=1, report=False, output=tmp_path / "b")
+    (uncertain,) = (each for each in warned if each.category is compare.UncertainFriction)
+    assert "Friction in 3D may be wrong by up to" in str(uncertain.message)
+    assert uncertain.filename == __file__
+    told = [str(each.message) for each in warned if each.category is Doubtful]
+    assert told[0].startswith("slope of the body at the edge of the contact")
+    assert told[-1].startswith("1 of 4 contacts have no answer")  # on half the points
+
+
+def test_a_drawing_of_an_uncertain_contact_says_so_first(tmp_path):
+    with pytest.warns(Doubtful, match="slope of the body at the edge of the contact"):
+        report = compare.draw(case(BLUNT, 0.3), workers=1, output=tmp_path)
+    assert report.page.answer[0].startswith("Friction in 3D may be wrong by up to")

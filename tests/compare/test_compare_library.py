@@ -1,0 +1,221 @@
+"""The files to begin with: each is read, planned, copied, valid by its schema, and solved where it is compared."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from compare import run
+from compare.library.case import Case
+from compare.library.lookup import located
+from compare.library.ready import NotReady, find, ready, write
+from compare.studies.claims.catalogue import SIZES
+from compare.studies.claims.study import ClaimStudy
+from compare.studies.claims.study_file import study_of
+from compare.studies.plan import plans
+from compare.studies.schema import DIALECT, schema
+from scene import Prony, Refused, Scene
+from scene.quantities import unit_of
+from scene.reading import InvalidInput, made, read
+
+SCENES = [name for name, each in ready().items() if each.kind == "scene"]
+STUDIES = [name for name, each in ready().items() if each.kind == "study"]
+# What only some solvers answer, or what is no steady motion.
+FROM_PYTHON = {"line-contact", "partial-slip", "rough-plane", "shaken-load", "there-and-back", "thin-layer"}
+ONE_SOLVER = {"line-contact", "rough-plane", "thin-layer"}
+
+
+def written(name, tmp_path):
+    return write(name, tmp_path / f"{name}.toml")
+
+
+def test_there_is_enough_to_begin_with():
+    assert len(SCENES) >= 12
+    assert len(STUDIES) >= 2
+    assert {"quick-start", "paper-sphere", "paper-cone"} <= set(SCENES)
+    for each in ready().values():
+        assert each.title
+        assert each.about.endswith(".")
+        assert each.text.startswith("# ")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_scene_is_read_and_planned(name, tmp_path):
+    path = written(name, tmp_path)
+    case = read(path, Case)
+    if name in FROM_PYTHON:
+        assert read(path, Scene) == case.scene
+        with pytest.raises(Refused):
+            case.refuse()
+    else:
+        case.plan()
+        assert case.title == find(name).title
+    found = plans(path)
+    assert found.feasible
+    assert {solver for solver, plan in found.items() if isinstance(plan, str)} == (
+        {"MDR"} if name in ONE_SOLVER else set()
+    )
+
+
+def test_the_command_that_is_named_for_a_file_is_one_that_takes_it():
+    assert {name for name, each in ready().items() if each.command == "plan"} == FROM_PYTHON
+    assert {name for name, each in ready().items() if each.command == "study"} == set(STUDIES)
+    assert {each.command for each in ready().values()} == {"run", "plan", "study"}
+
+
+def test_those_that_are_not_compared_say_how_they_are_solved():
+    for name in FROM_PYTHON:
+        assert f'read("{name}.toml", Scene)' in find(name).text
+        assert "crosscheck plan" in find(name).text
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_every_study_is_read_and_can_be_asked(name, tmp_path):
+    study = ClaimStudy.of(written(name, tmp_path))
+    assert study.title == find(name).title
+    assert study.rectangles()
+
+
+COMPARED = sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"})
+
+
+# One that is smooth and slides stands for the others.
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name == "standard-solid" else pytest.mark.slow) for name in COMPARED]
+)
+def test_every_scene_that_can_be_compared_is(name, tmp_path):
+    report = run(written(name, tmp_path), tmp_path / "out", workers=1, report=False)
+    assert not report.faults
+    assert report.claims
+
+
+def test_a_copy_may_name_a_schema_for_editors(tmp_path):
+    path = write("hertz", tmp_path / "mine.toml", schema="scene.json")
+    assert path.read_text(encoding="utf-8").startswith("#:schema scene.json\n# ")
+    assert read(path, Case) == read(written("hertz", tmp_path), Case)
+
+
+def test_a_name_that_is_not_there_is_said_with_what_is():
+    with pytest.raises(NotReady, match=r"'hert'; did you mean hertz\? There are .*paper-sphere"):
+        find("hert")
+    with pytest.raises(InvalidInput, match=r"NAME = nothing: allowed are cold-rubber"):
+        write("nothing", "nowhere.toml")
+
+
+# Schemas for editors
+
+
+@pytest.fixture(scope="module")
+def validators():
+    jsonschema = pytest.importorskip("jsonschema")
+    return {kind: jsonschema.Draft202012Validator(schema(kind)) for kind in ("scene", "study")}
+
+
+@pytest.mark.parametrize("kind", ["scene", "study"])
+def test_a_schema_is_one(kind, validators):
+    validators[kind].check_schema(schema(kind))
+    assert schema(kind)["$schema"] == DIALECT
+    with pytest.raises(InvalidInput, match="allowed are scene, study"):
+        schema("nothing")
+
+
+@pytest.mark.parametrize("name", ready())
+def test_every_file_is_valid_by_its_schema(name, validators):
+    each = ready()[name]
+    errors = list(validators[each.kind].iter_errors(tomllib.loads(each.text)))
+    assert not errors
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('radius = "10 mm"', 'radus = "10 mm"'),
+        ('radius = "10 mm"', "radius = -1"),
+        ('radius = "10 mm"', 'radius = "wide"'),
+        ('radius = "10 mm"', "radius = true"),
+        ('type = "sphere"\n', ""),
+        ('"sphere"', '"spher"'),
+        ("hurst = 0.8", "hurst = 2"),
+        ("points = 64", "points = 6.5"),
+        ("[mdr]", "[mrd]"),
+        ("seed = 1", 'amplitudes = "any"'),
+    ],
+)
+def test_what_a_file_may_not_say_is_no_valid_file_by_the_schema_either(old, new, validators, tmp_path):
+    text = find("quick-start").text
+    assert old in text
+    path = tmp_path / "wrong.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(InvalidInput):
+        read(path, Case)
+    assert not validators["scene"].is_valid(tomllib.loads(path.read_text(encoding="utf-8")))
+
+
+def test_a_schema_says_what_the_docstrings_say():
+    parts = schema("scene")["$defs"]
+    radius = parts["Sphere"]["properties"]["radius"]
+    assert "paraboloid" in parts["Sphere"]["description"]
+    assert "as 5 mm or 0.005 (in m)" in radius["description"]
+    assert radius["anyOf"][0] == {"type": "number", "exclusiveMinimum": 0}
+    shortest = parts["SelfAffine"]["properties"]["shortest"]["description"]
+    assert "q_max = 2 pi / shortest" in shortest
+    assert "a length" in shortest
+    assert parts["Layer"]["properties"]["base"]["enum"] == ["bonded", "frictionless"]
+    assert parts["Sphere"]["required"] == ["type", "radius"]
+
+
+def test_every_number_with_a_unit_says_it_in_the_schema():
+    from scene import Fractional, Prony, SelfAffine, Slide
+
+    parts = schema("scene")["$defs"]
+    for cls in (Fractional, Prony, SelfAffine, Slide):
+        for name in cls.__dataclass_fields__:
+            if unit := unit_of(cls, name):
+                node = parts[cls.__name__]["properties"][name]
+                assert f"(in {unit})" in str(node), (cls, name)
+
+
+# The page about them
+
+
+def blocks_of(page):
+    """What stands in TOML on a page of the docs, from its blocks."""
+    text = (Path(__file__).parents[2] / "docs" / page).read_text(encoding="utf-8")
+    return [part.partition("```")[0] for part in text.split("```toml\n")[1:]]
+
+
+@pytest.mark.parametrize("text", blocks_of("reference/scenes.md"), ids=lambda text: text.strip().splitlines()[0])
+def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    draws = np.random.default_rng(1)
+    np.save("surface.npy", draws.normal(size=(32, 32)))
+    np.savetxt("line.csv", draws.normal(size=400).cumsum())
+    solid = Prony(1e6, (1e6, 1e6), (1e-2, 1.0))
+    frequency = np.geomspace(1e-3, 1e3, 30)
+    moduli = 1e-6 * 3 * solid.complex_modulus(2 * np.pi * frequency)
+    rows = np.column_stack([frequency, moduli.real, moduli.imag])
+    np.savetxt("rubber.csv", rows, delimiter=";", header="f [Hz];E' [MPa];E'' [MPa]")
+    if "[[series]]" in text:
+        assert study_of(text, "mine").series(SIZES["quick"])
+        return
+    # What a part of a file leaves out is that of a ready scene.
+    stated, whole = tomllib.loads(text), tomllib.loads(find("cold-rubber").text)
+    content = {name: stated.get(name, whole.get(name)) for name in {**whole, **stated}}
+    if "indenter" not in stated and "gap" in stated.get("motion", {}):
+        content["indenter"] = {"type": "plane"}
+    assert made(content, Case, "scenes.md").scene
+
+
+def test_the_page_about_scenes_names_every_ready_one():
+    text = (Path(__file__).parents[2] / "docs" / "reference" / "scenes.md").read_text(encoding="utf-8")
+    assert not [name for name in SCENES if f"`{name}`" not in text]
+
+
+def test_a_folder_of_an_earlier_run_does_not_hide_the_ready_scene_it_was_made_from(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "quick-start").mkdir()
+    (tmp_path / "elsewhere").mkdir()
+    assert located("quick-start").name == "quick-start.toml"
+    with pytest.raises(InvalidInput, match="is a folder, and no scene"):
+        located("elsewhere")

@@ -1,0 +1,458 @@
+"""Looks of figures: widths and texts of journals, styles of one's own, colours that every reader tells apart.
+
+Every figure that a command can leave is drawn from the tables in plots, as `crosscheck figures` draws it.
+"""
+
+import re
+import zlib
+from contextlib import suppress
+from dataclasses import replace
+from functools import cache
+from io import BytesIO
+from itertools import combinations, pairwise, product
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import same_color, to_rgb
+from matplotlib.image import imread
+from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
+
+from compare.report import csvfiles, manifest
+from compare.report.page import Plot
+from compare.report.plots import lettering, shades, style
+from compare.report.plots.journals import JOURNALS, journal
+from compare.report.plots.rendering import FORMS, picture
+from compare.report.redraw import function
+from scene.reading import InvalidInput
+
+SAMPLES = Path(__file__).parent / "plots"
+ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES)).manifest.plots}
+# Figures too large to keep, whose own tests hold them against these laws.
+ELSEWHERE = {"contact_maps", "marching"}
+NARROW, OTHERS = "iop", [name for name in JOURNALS if name != "iop"]
+# Boxes of texts hold a pixel of nothing on each side [pixel].
+TOUCHING = 1.0
+ROUNDING = 1e-9
+# Machado, Oliveira and Fernandes, IEEE Trans. Vis. Comput. Graph. 15, 1291 (2009), severity 1, on linear sRGB.
+VISION = {
+    "normal": np.eye(3),
+    "protanopia": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deuteranopia": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritanopia": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
+}
+# Differences in CIE Lab (1976): 2.3 is just noticeable side by side; ten lightnesses are a step of a grey scale of
+# eleven, as print tells them apart.
+APART, LIGHTER = 15.0, 10.0
+
+# Figures held against every law in each run: an image and a legend, curves with bands and bars; else on demand.
+OFTEN = {"regime_map-figure", "force_depth-figure"}
+
+every_figure = pytest.mark.parametrize(
+    "name", [pytest.param(each, marks=() if each in OFTEN else pytest.mark.slow) for each in ENTRIES]
+)
+
+
+@cache
+def sample(name):
+    """A figure with the tables of its sample."""
+    entry = ENTRIES[name]
+    tables = {table: csvfiles.read(SAMPLES / name / f"{table}.csv") for table in entry.tables}
+    return Plot(name, function(entry, SAMPLES), tables, "", options=entry.options)
+
+
+def lab(colour, vision="normal"):
+    """CIE Lab of a colour as seen, white point D65."""
+    seen = np.clip(VISION[vision] @ _linear(np.array(to_rgb(colour))), 0, 1)
+    to_xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+    x, y, z = (_cube_root(value) for value in to_xyz @ seen / to_xyz.sum(axis=1))
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+def _linear(colour):
+    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+
+
+def _cube_root(value):
+    return value ** (1 / 3) if value > (6 / 29) ** 3 else value / (3 * (6 / 29) ** 2) + 4 / 29
+
+
+def difference(one, other, vision="normal"):
+    return float(np.linalg.norm(lab(one, vision) - lab(other, vision)))
+
+
+def drawn(name, look=None):
+    with style.applied(look or style.Look()):
+        return sample(name).figure()
+
+
+@cache
+def plain(name):
+    """As it is without a journal or a style of one's own; only to be looked at."""
+    return drawn(name)
+
+
+@cache
+def laid_out(name, asked):
+    """The figure in a journal, and the texts and lines that drawing puts into it."""
+    texts: dict[int, Text] = {}
+    lines: dict[int, Line2D] = {}
+    with style.applied(style.Look(journal(asked))), pytest.MonkeyPatch.context() as patch:
+        drawing = sample(name).figure()
+        FigureCanvasAgg(drawing)
+        style.lay_out(drawing)
+        for kind, kept in ((Text, texts), (Line2D, lines)):
+            patch.setattr(kind, "draw", _noting(kind.draw, kept))
+        drawing.canvas.draw()
+    return drawing, [text for text in texts.values() if text.get_text().strip()], list(lines.values())
+
+
+def _noting(draw, kept):
+    def noted(artist, *given, **named):
+        if artist.get_visible():
+            kept[id(artist)] = artist
+        return draw(artist, *given, **named)
+
+    return noted
+
+
+def laws_of_layout(name, asked):
+    """What is wrong with the figure in a journal."""
+    drawing, texts, lines = laid_out(name, asked)
+    boxes = [(text.get_text(), text.get_window_extent()) for text in texts]
+    least = JOURNALS[asked]
+    for text in texts:
+        if text.get_fontsize() < least.least - ROUNDING:
+            yield f"{text.get_text()!r} has {text.get_fontsize():.3g} points"
+    for line in lines:
+        if line.get_linestyle() not in ("None", "none", "") and line.get_linewidth() < least.line - ROUNDING:
+            yield f"a line has {line.get_linewidth():.3g} points"
+    width, height = drawing.bbox.width, drawing.bbox.height
+    for said, box in boxes:
+        if min(box.x0, box.y0) < -TOUCHING or box.x1 > width + TOUCHING or box.y1 > height + TOUCHING:
+            yield f"{said!r} is cut"
+    for (said, box), (other, beside) in combinations(boxes, 2):
+        over = Bbox.intersection(box, beside)
+        if over is not None and min(over.width, over.height) > TOUCHING:
+            yield f"{said!r} lies over {other!r}"
+    for axes in drawing.axes:
+        if lettering.covered(axes):
+            yield f"a legend of {axes.get_title(loc='left')!r} lies over curves"
+
+
+def test_a_sample_is_there_for_every_figure_of_the_package():
+    drawn_by = {(entry.module.rpartition(".")[2], entry.function) for entry in ENTRIES.values()}
+    known = {
+        (path.stem, name)
+        for path in Path(style.__file__).parent.glob("*.py")
+        if path.stem not in ELSEWHERE
+        for name in re.findall(
+            r"^def ([a-z]\w*)\(\s*tables: Tables.*?\) -> Figure:", path.read_text(), re.M | re.S
+        )
+    }
+    assert known <= drawn_by
+
+
+@every_figure
+def test_in_the_narrowest_page_texts_are_large_enough_whole_and_apart(name):
+    assert not list(laws_of_layout(name, NARROW))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("asked", OTHERS)
+@every_figure
+def test_in_every_journal_texts_are_large_enough_whole_and_apart(name, asked):
+    assert not list(laws_of_layout(name, asked))
+
+
+def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
+    monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=4.0))
+    found = list(laws_of_layout("study_depth-depth", "narrow"))
+    assert any("is cut" in fault or "lies over" in fault for fault in found)
+    drawing, texts, lines = laid_out("study_depth-depth", NARROW)
+    texts[0].set_fontsize(7.9)
+    monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
+    assert any("has 7.9 points" in fault for fault in laws_of_layout("study_depth-depth", NARROW))
+    texts[0].set_fontsize(8)
+
+
+def test_a_journal_has_its_source_and_no_text_or_line_below_its_least():
+    for asked in JOURNALS.values():
+        assert asked.source
+        assert 0 < asked.single < asked.double
+        assert asked.least <= asked.text
+        with style.applied(style.Look(asked)):
+            assert style.across("single") == asked.single
+            assert style.tiny() >= asked.least
+            assert style.width(0.01) == asked.line
+
+
+@every_figure
+def test_a_figure_is_exactly_as_wide_as_a_column_or_the_page_and_nothing_of_the_caller_changes(name):
+    asked, before = JOURNALS["elsevier"], dict(matplotlib.rcParams)
+    assert drawn(name, style.Look(asked, "ggplot")).get_figwidth() in (asked.single, asked.double)
+    assert dict(matplotlib.rcParams) == before
+    assert style.current() == style.Look()
+    assert not plt.get_fignums()
+
+
+@every_figure
+def test_every_axis_says_its_unit(name):
+    drawing, texts, _ = laid_out(name, NARROW)
+    said = {id(text) for text in texts}
+    for axes, direction in product((axes for axes in drawing.axes if axes.axison), "xy"):
+        axis = axes.xaxis if direction == "x" else axes.yaxis
+        ticks = [
+            label for tick in axis.get_major_ticks() for label in (tick.label1, tick.label2) if id(label) in said
+        ]
+        written = [label.get_text() for label in ticks]
+        words = [text for text in written if re.search(r"[a-z]{3}", text) and "math" not in text]
+        if words or not any(re.search(r"\d", text) for text in written):
+            continue
+        shared = getattr(axes, f"get_shared_{direction}_axes")().get_siblings(axes)
+        labels = [getattr(each, f"get_{direction}label")() for each in (axes, *shared)]
+        assert any("[" in label for label in labels), (direction, axes.get_title(loc="left"), labels)
+
+
+@every_figure
+def test_every_panel_has_its_letter(name):
+    drawn_in = [axes for axes in plain(name).axes if not axes.get_label().startswith("<")]  # no colour bars
+    drawn_in = [axes for axes in drawn_in if axes.axison or axes.get_title(loc="left")]
+    letters = [axes.get_title(loc="left").split(" ")[0] for axes in drawn_in]
+    assert len(letters) == 1 or letters == [f"({lettering.letter(k)})" for k in range(len(letters))]
+
+
+@every_figure
+def test_a_style_and_colours_of_ones_own_hold_in_every_figure(name):
+    """A quarter more text, twice the lines, in another font, and other colours of the solvers."""
+    sheet = {"font.size": 10, "lines.linewidth": 2.2, "lines.markersize": 8, "font.family": "serif"}
+    own = {"MDR": "#117733", "CorrectedMDR": "#999933", "BEM": "#AA4499"}
+    styled = drawn(name, style.Look(sheet=sheet, colours=own))
+    sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(name), styled))
+    assert larger == pytest.approx(1.25 * sizes, rel=ROUNDING)
+    assert {text.get_fontfamily()[0] for text in _written(styled)} == {"serif"}
+    widths, wider = (_widths(each) for each in (plain(name), styled))
+    assert max(wider, default=0) == pytest.approx(2 * max(widths, default=0), rel=ROUNDING)
+    for solver, colour in style.COLOURS.items():
+        assert _uses(styled, colour) == 0
+        assert _uses(styled, own[solver]) == _uses(plain(name), colour)
+
+
+def _written(drawing):
+    return [text for text in drawing.findobj(Text) if text.get_text().strip()]
+
+
+def _widths(drawing):
+    """Of curves, not of axes, ticks and edges of markers."""
+    lines = (line for axes in drawing.axes for line in axes.lines)
+    return [line.get_linewidth() for line in lines if line.get_linestyle() not in ("None", "")]
+
+
+@every_figure
+def test_the_colours_of_both_dimensionalities_stay_whatever_the_style(name):
+    styled = drawn(name, style.Look(sheet="dark_background"))
+    for solver in style.COLOURS.values():
+        assert _uses(plain(name), solver) == _uses(styled, solver)
+
+
+def _uses(drawing, colour):
+    return sum(same_color(line.get_color(), colour) for line in drawing.findobj(Line2D))
+
+
+def _handles(drawing):
+    """Of each panel, what has a label; and what stands before the labels of legends made apart."""
+    for axes in drawing.axes:
+        yield [_sight(handle) for handle in axes.get_legend_handles_labels()[0]]
+    for legend in drawing.findobj(Legend):
+        if all(isinstance(handle, Line2D | Patch) for handle in legend.legend_handles):
+            yield [_sight(handle) for handle in legend.legend_handles]
+
+
+def _sight(handle):
+    """Colour, and what else tells it from others: dashes, marker, whether hollow or thin."""
+    handle = handle.lines[0] if hasattr(handle, "lines") else handle  # of error bars
+    if isinstance(handle, Line2D):
+        thin = handle.get_linewidth() < 0.6 * style.LINES["lines.linewidth"]
+        form = str(handle._dash_pattern), handle.get_linestyle(), str(handle.get_marker()), _hollow(handle), thin
+        return handle.get_color(), ("line", *form)
+    if isinstance(handle, Patch):
+        return handle.get_facecolor()[:3], ("patch",)
+    colours = [*handle.get_facecolor(), *handle.get_edgecolor()]
+    paths = tuple(len(path.vertices) for path in handle.get_paths())
+    return tuple(colours[0][:3]), ("points", paths, len(handle.get_facecolor()) == 0)
+
+
+def _hollow(line):
+    return not same_color(line.get_markerfacecolor(), line.get_color())
+
+
+@every_figure
+def test_what_a_legend_names_is_told_apart_in_grey_and_by_every_reader(name):
+    for handles in _handles(plain(name)):
+        for (colour, form), (other, beside) in combinations(handles, 2):
+            if form != beside:
+                continue
+            assert abs(lab(colour)[0] - lab(other)[0]) >= LIGHTER, (colour, other, form)
+            assert min(difference(colour, other, vision) for vision in VISION) >= LIGHTER
+
+
+def test_the_two_dimensionalities_differ_for_every_reader_and_red_and_green_would_not():
+    one, three = style.COLOURS["MDR"], style.COLOURS["BEM"]
+    for vision in VISION:
+        assert difference(one, three, vision) > 3 * APART
+        assert (
+            min(difference(each, paper, vision) for each in (one, three) for paper in ("white", "black"))
+            > 2 * APART
+        )
+    assert difference("#D62728", "#2CA02C") > 100
+    assert difference("#D62728", "#2CA02C", "deuteranopia") < 50
+
+
+@pytest.mark.parametrize("shades_of", [shades.SPEED, shades.PRESS])
+def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
+    """Even: of 20 steps none is twice the mean; viridis and plasma are made so for normal vision."""
+    colours = shades_of(np.linspace(0, 1, 21))
+    light = np.array([lab(colour)[0] for colour in colours])
+    assert (np.diff(light) > 0).all()
+    for vision in VISION:
+        steps = [difference(a, b, vision) for a, b in pairwise(colours)]
+        assert max(steps) < 2 * np.mean(steps), vision
+
+
+@pytest.fixture(scope="module")
+def files():
+    """A figure as files: with an image, curves and a legend."""
+    return picture(sample("regime_map-figure"), FORMS)
+
+
+def test_the_same_numbers_give_the_same_files(files):
+    assert tuple(files.files) == FORMS
+    assert picture(sample("regime_map-figure"), FORMS) == files
+
+
+def test_every_font_of_a_pdf_is_inside_as_truetype(files):
+    content = files.files["pdf"]
+    whole = content + b"".join(_streams(content))
+    fonts, inside = whole.count(b"/Type /FontDescriptor"), whole.count(b"/FontFile2 ")
+    assert fonts == inside > 0
+    assert b"/Type3" not in whole
+    assert b"/Subtype /CIDFontType2" in whole or b"/Subtype /TrueType" in whole
+    procedures = BytesIO()
+    with matplotlib.rc_context({"pdf.fonttype": 3}):
+        drawn("force_depth-figure").savefig(procedures, format="pdf")
+    assert b"/Type3" in procedures.getvalue()  # fonts drawn as procedures would be found
+
+
+def _streams(content):
+    for found in re.finditer(rb"stream\r?\n", content):
+        with suppress(zlib.error):
+            yield zlib.decompressobj().decompress(content[found.end() :])
+
+
+def test_pictures_have_300_dots_an_inch_and_the_width_of_the_column(files):
+    assert files.inches[0] in (JOURNALS["default"].single, JOURNALS["default"].double)
+    assert imread(BytesIO(files.files["png"])).shape[1] == pytest.approx(300 * files.inches[0], abs=1)
+
+
+def test_vector_files_name_no_day_and_hold_their_letters(files):
+    text = files.files["svg"].decode()
+    assert "<dc:date>" not in text
+    assert "<text" not in text  # letters are outlines: no font has to be at the reader's
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"sheet": "no-such-style"}, "neither a file nor one of"),
+        ({"sheet": {"lines.colour": "red"}}, "lines.colour"),
+        ({"colours": {"FEM": "red"}}, "no solver 'FEM'"),
+        ({"colours": {"MDR": "blu"}}, "no colour"),
+    ],
+)
+def test_a_look_that_does_not_exist_is_refused_with_what_is_known(given, said):
+    with pytest.raises(ValueError, match=re.escape(said)), style.chosen(style.Look(**given)):
+        pass
+    with pytest.raises(ValueError, match="did you mean elsevier"):
+        journal("elsvier")
+
+
+@pytest.mark.parametrize("line", ["lines.linewidth: thick", "lines.width: 2", "lines.linewidth 2", "\xff"])
+def test_a_file_that_is_no_style_is_refused(line, tmp_path):
+    path = tmp_path / "own.mplstyle"
+    path.write_bytes(line.encode("latin-1"))
+    with pytest.raises(ValueError, match=r"own\.mplstyle is no style"):
+        style.Look(sheet=path).settings()
+
+
+def test_a_file_of_settings_is_a_style(tmp_path):
+    path = tmp_path / "own.mplstyle"
+    path.write_text("font.size: 9\naxes.grid: True\nbackend: svg\nanimation.ffmpeg_path: /bin/sh\n")
+    assert set(style.read(path)) == {"font.size", "axes.grid"}  # nothing that is run
+    with style.applied(style.Look(sheet=path)):
+        assert (style.size(), matplotlib.rcParams["axes.grid"]) == (9, True)
+        assert matplotlib.rcParams["legend.fontsize"] == style.small() == 9 * style.SMALL
+    assert matplotlib.get_backend().lower() != "svg"
+
+
+def test_what_the_machine_has_set_does_not_show():
+    with matplotlib.rc_context({"lines.linewidth": 9.0, "font.size": 30, "axes.facecolor": "yellow"}):
+        figure = drawn("friction_curves-speed_figure")
+    assert figure.axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+    assert max(_widths(figure)) < 2
+
+
+def test_text_too_large_for_the_panels_is_refused_with_the_size():
+    large = style.Look(sheet={"font.size": 40})
+    with style.chosen(large), pytest.raises(InvalidInput, match="text of 40 points"):
+        picture(sample("friction_curves-speed_figure"))
+
+
+def test_a_text_is_broken_where_it_would_be_too_wide():
+    words = "one word after another until the line is full"
+    lines = style.fill(words, 1.0, 8).split("\n")
+    assert " ".join(lines) == words
+    assert len(lines) > 1
+    assert all(style.text_width(line, 8) <= 1.0 for line in lines)
+    assert style.fill("a\nb", 1.0, 8) == "a\nb"
+    told = style.fill("sphere, standard linear, v τ = 10 a", 1.5, 8)
+    assert "v\u00a0τ\u00a0=\u00a010\u00a0a" in told.split("\n")
+
+
+@pytest.mark.parametrize(("inches", "expected"), [(0.1, 1), (3.0, 2), (30.0, 4)])
+def test_a_legend_has_as_many_columns_as_fit(inches, expected):
+    with style.applied():
+        count = style.columns(["a legend"] * 4, inches, 4)
+        assert count == pytest.approx(expected, abs=1)
+        drawing = style.canvas("double", 2.0)
+        drawing.set_figwidth(inches)
+        style.legend(drawing, [Line2D([], [], label="a legend") for _ in range(4)], "outside lower center", 4)
+        drawing.draw_without_rendering()
+        (legend,) = drawing.legends
+        assert count == 1 or legend.get_window_extent().width <= drawing.bbox.width
+
+
+def test_a_legend_over_a_curve_is_found_and_given_room():
+    with style.applied():
+        drawing = style.canvas("single", 2.0)
+        axes = drawing.subplots()
+        axes.plot([0, 1], [1, 1], label="level")
+        axes.legend(loc="upper left")
+        axes.set_ylim(0, 1.1)
+        drawing.draw_without_rendering()
+        assert lettering.covered(axes)
+        lettering.clear(drawing, [axes])
+        drawing.draw_without_rendering()
+        assert not lettering.covered(axes)

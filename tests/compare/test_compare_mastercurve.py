@@ -1,0 +1,608 @@
+"""Friction that a user measured: the table is read or refused by its line, and shifted onto one curve."""
+
+from io import StringIO
+
+import numpy as np
+import pandas
+import pytest
+
+import compare
+from compare.report.page import Plot
+from compare.report.plots import shifted_curves, style
+from compare.solving.vocabulary import entry
+from compare.statistics.eq23 import NO_SHIFT
+from compare.statistics.finding import EXACT, FAILS, HOLDS, REPORTED, UNDECIDED
+from compare.studies.mastercurve.measurements import MeasuredFriction
+from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
+from scene.reading import InvalidInput
+
+
+def table(repeats=3, seed=4, order=(0, 1, 2), vertical=0.0, noise=0.01, law=lambda x: (1 + 3e-4 * x) ** -0.6):
+    """Rows of friction on one curve shifted by v^-1.5 along the load, and along friction, with 1 % of scatter."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for speed in np.geomspace(3e-3, 2e-2, 4):
+        for load in np.geomspace(1.0, 100.0, 8):
+            friction = law(load * speed**-1.5) * speed**-vertical
+            for scatter in 1 + noise * rng.normal(size=repeats):
+                rows.append(",".join(str((friction * scatter, load, speed)[i]) for i in order))
+    return "\n".join(rows)
+
+
+def study(tmp_path, text, name="ball.csv"):
+    (tmp_path / name).write_text(text)
+    return Mastercurve.of(tmp_path / name)
+
+
+def found(study):
+    return {each.claim.id.removeprefix("mastercurve."): each for each in study.findings(study.answers({}))}
+
+
+def test_coefficients_that_no_pair_of_bodies_has_are_told():
+    loads, speeds = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
+    friction = 0.3 / (1 + loads / speeds / 10)
+    for factor, told in ((1.0, False), (100.0, True)):
+        notes = MeasuredFriction.of({"mu": factor * friction, "F_N": loads, "v": speeds}).notes
+        assert any("is a force, or another unit, meant?" in each for each in notes) == told
+
+
+def test_shifts_of_a_table_are_found_with_their_intervals(tmp_path):
+    told = found(study(tmp_path, table()))
+    assert (told["horizontal"].verdict, told["vertical"].verdict) == (HOLDS, HOLDS)
+    low, high = told["exponent"].interval
+    assert told["exponent"].value == pytest.approx(-1.5, abs=2 * (high - low))
+    assert high - low < 0.1
+    assert told["unshifted"].value > 0.3
+    assert {each.grid_method for each in told.values()} == {EXACT}
+
+
+def test_a_shift_along_friction_is_measured_beside_that_along_the_load(tmp_path):
+    told = found(study(tmp_path, table(vertical=0.2)))
+    low, high = told["vertical-exponent"].interval
+    assert 0 < low <= 0.2 <= high
+    low, high = told["exponent-beside-vertical"].interval
+    assert low <= -1.5 <= high
+    assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
+    assert told["both"].value < told["horizontal"].interval[0]
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
+@pytest.mark.parametrize("vertical", [0.0, 0.05, 0.1, -0.1])
+def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical, noise):
+    made = study(tmp_path, table(vertical=vertical, noise=noise))
+    told = found(made)
+    pair = {"vertical-exponent": vertical, "exponent-beside-vertical": -1.5} if vertical else {"exponent": -1.5}
+    for name, planted in pair.items():
+        low, high = told[name].interval
+        # rounding of a fit without scatter
+        assert low - 1e-3 * (noise == 0) <= planted <= high + 1e-3 * (noise == 0), name
+    first, *others = made.answer(list(made.findings(made.answers({}))))
+    if vertical:
+        assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
+        assert first.startswith(
+            f"Friction is shifted as v^{told['vertical-exponent'].found(3)} and the load as v^"
+        )
+        assert "the alternative, a shift of the load alone, as v^" in first
+        assert not any("No shift along friction" in each for each in others)
+        assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
+    else:
+        assert told["vertical"].verdict == HOLDS
+        assert not any("is shifted as" in each for each in [first, *others])
+
+
+@pytest.mark.parametrize("vertical", [0.0, 0.1])
+def test_of_straight_curves_no_shift_is_the_answer(tmp_path, vertical):
+    made = study(tmp_path, table(vertical=vertical, law=lambda x: x**-0.4))
+    told = found(made)
+    assert "straight parallel lines" in told["vertical-exponent"].reason
+    assert np.isnan(told["vertical-exponent"].value)
+    assert told["vertical"].verdict == UNDECIDED
+    assert not any("is shifted as" in each for each in made.answer(list(made.findings(made.answers({})))))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("vertical", [0.0, 0.05])
+def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertical):
+    """Of 60 tables; allowed: three deviations of as many beside 95 %."""
+    held = told = 0
+    for seed in range(60):
+        made = study(tmp_path, table(seed=seed, vertical=vertical))
+        ends = [each.interval() for each in (made.collapse.both.vertical_exponent, made.collapse.both.exponent)]
+        held += all(low <= planted <= high for (low, high), planted in zip(ends, (vertical, -1.5), strict=True))
+        told += made.lead is made.collapse.both
+    assert held >= 60 * (0.95 - 3 * np.sqrt(0.95 * 0.05 / 60))
+    assert told > 48 if vertical else told < 60 * (0.05 + 3 * np.sqrt(0.95 * 0.05 / 60))
+
+
+def test_the_figure_of_both_shifts_has_one_curve_and_both_exponents_of_the_words(tmp_path):
+    made = study(tmp_path, table(vertical=0.1))
+    findings = made.findings(made.answers({}))
+    (plot,) = made.page(made.answers({}), findings).every(Plot)
+    with style.applied():
+        drawing = shifted_curves.figure(again(plot), **plot.options)
+    _, middle, right, _ = drawing.axes
+    assert "shifted both ways" in " ".join(middle.get_title(loc="left").split())
+    points, powers = (plot.tables[name] for name in (shifted_curves.NAME, shifted_curves.POWERS))
+    order = np.argsort(points["shifted_force"].to_numpy())
+    shown = np.log(points[["shifted_force", "shifted_friction"]].to_numpy()[order])
+    # Neighbours on one falling curve, whatever their speed; unshifted along friction they are 7 % apart.
+    assert (np.diff(shown[:, 1])[np.diff(shown[:, 0]) > 0.03] < 0).all()
+    told = found(made)
+    for row, name in (("fitted", "exponent-beside-vertical"), ("along friction", "vertical-exponent")):
+        numbers = powers.set_index("power").loc[row, ["exponent", "exponent_low", "exponent_high"]]
+        assert numbers.tolist() == pytest.approx([told[name].value, *told[name].interval])
+    labels = [each.get_text() for each in right.get_legend().get_texts()]
+    assert [label.split(" ")[0] for label in labels] == ["along", "along"]
+    shifts = plot.tables[shifted_curves.SHIFTS]
+    speeds = np.log(shifts["speed"])
+    for column, planted in (("log_shift", -1.5), ("log_lift", 0.1)):
+        assert np.polyfit(speeds, shifts[column], 1)[0] == pytest.approx(planted, abs=0.05)
+
+
+def test_one_scatter_stands_behind_all_points(tmp_path):
+    lines = [line for index, line in enumerate(table().splitlines()) if index % 3 == 0 or index > 40]
+    data = study(tmp_path, "\n".join(lines)).collapse.data
+    errors = np.concatenate([curve.error for curve in data.curves])
+    assert errors.max() / errors.min() == pytest.approx(np.sqrt(3), rel=1e-12)
+    assert errors.min() == pytest.approx(0.01 / np.sqrt(3), rel=0.3)
+    assert data.freedom == len(lines) - errors.size
+
+
+def test_two_measurements_of_each_point_do_not_reject_a_law_that_holds(tmp_path):
+    verdicts = [found(study(tmp_path, table(2, seed)))["horizontal"].verdict for seed in range(3)]
+    assert verdicts == [HOLDS] * 3
+
+
+def test_single_measurements_leave_the_verdict_open(tmp_path):
+    told = found(study(tmp_path, table(repeats=1)))
+    assert (told["horizontal"].verdict, told["horizontal"].reason) == (UNDECIDED, NOT_REPEATED)
+    assert 0 < told["horizontal"].value < 0.03
+    assert told["exponent"].value == pytest.approx(-1.5, abs=0.1)
+    assert np.isnan(told["exponent"].interval).all()
+
+
+def test_curves_pulled_apart_claim_no_exponent(tmp_path):
+    # Loads that span a factor of 3 and shifts of a factor of 100: no two curves share a stretch.
+    rows = [
+        f"{(1 + load * v**-6.6) ** -0.5 * scatter},{load},{v}"
+        for v in (1, 2, 4)
+        for load in np.geomspace(1, 3, 6)
+        for scatter in (0.9999, 1.0001)
+    ]
+    told = found(study(tmp_path, "\n".join(rows)))
+    assert told["horizontal"].verdict != HOLDS
+    assert np.isnan(told["exponent"].value)
+    assert "overlap" in told["exponent"].reason
+
+
+def bent():
+    """Each speed bends in its own way, and measurements hardly scatter: no shift helps."""
+    return "\n".join(
+        f"{(1 + load**power) ** -0.5 * scatter},{load},{speed}"
+        for speed, power in ((1.0, 1.0), (2.0, 2.0), (4.0, 3.0))
+        for load in np.geomspace(0.1, 10.0, 9)
+        for scatter in (0.999, 1.0, 1.001)
+    )
+
+
+def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
+    made = study(tmp_path, bent())
+    told = found(made)
+    assert told["horizontal"].verdict == FAILS
+    assert (told["exponent"].verdict, told["exponent"].reason) == (REPORTED, NO_SHIFT)
+    assert np.isnan(told["exponent"].value)
+    # which the fit has, and which means nothing
+    assert np.isfinite(made.collapse.horizontal.exponent.value)
+
+
+def test_a_heading_says_what_the_columns_are(tmp_path):
+    plain = study(tmp_path, table())
+    named = study(tmp_path, "speed, mu, F_N\n" + table(order=(2, 0, 1)), "named.csv")
+    assert named.data.equals(plain.data)
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "speed [mm/s], mu [1], F_N [mN]",
+        "v [mm/s] COF F_N [mN]",
+        "v / mm/s; mu / 1; normal force / mN",
+        "v(mm/s)\tµ\tFN (mN)",
+    ],
+)
+def test_a_heading_says_the_units_of_the_columns(tmp_path, heading):
+    plain = study(tmp_path, table()).data
+    rows = (line.split(",") for line in table(order=(2, 0, 1)).splitlines())
+    text = "\n".join(f"{1e3 * float(v)},{mu},{1e3 * float(load)}" for v, mu, load in rows)
+    found_ = study(tmp_path, f"{heading}\n{text}", "named.csv").data
+    for name in plain:
+        np.testing.assert_allclose(found_[name], plain[name], rtol=1e-14)
+
+
+def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
+    for repeats, drawn in ((3, True), (1, False)):
+        made = study(tmp_path, table(repeats))
+        (plot,) = made.plots(made.answers({}), made.findings(made.answers({})))
+        points = plot.tables[shifted_curves.NAME]
+        with style.applied():
+            axes = shifted_curves.figure(plot.tables, **plot.options).axes[0]
+        bars = next(each for each in axes.containers if each.has_yerr).lines[2][0].get_segments()
+        ends = np.array([segment[:, 1] for segment in bars])
+        expected = points[["friction_coefficient_low", "friction_coefficient_high"]].to_numpy()
+        assert np.isfinite(expected).all() == drawn
+        if drawn:
+            np.testing.assert_allclose(ends, expected, rtol=1e-12)
+        else:
+            assert np.ptp(ends, axis=1).max() == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("mu, F_N [mPa], v\n1,2,3\n", "gives F_N in 'mPa'.*that of a force, as N"),
+        ("mu [N], F_N, v\n1,2,3\n", "gives mu in 'N': the unit needed is none"),
+        ("mu,F,w\n1,2,3\n", "has no column for F_N, called F_N, FN, load"),
+        ("1 2\n", "line 1: 2 columns without a heading; without a heading, mu, F_N, v are needed"),
+        ("0.5,1,3,2\n", "line 1: 4 columns without a heading"),
+        ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
+        (f"1,2,3\n1,2,{'9' * 5000}\n", "line 2"),
+        ("1,2,3\n1,x,3\n", "line 2, column 2: 'x' is not a number"),
+        ("1,2,3\n1,3,3\n", "1 speeds: 2 to 100 are"),
+        (
+            "".join(f"1,{load},{v}\n" for load in (1, 2) for v in 1.06 ** np.arange(101)),
+            "101 speeds: 2 to 100 are",
+        ),
+        (
+            "".join(f"1,{load},{v}\n" for load in 1.06 ** np.arange(102) for v in 1.06 ** np.arange(50)),
+            "5,100 loads at all speeds: at most",
+        ),
+        ("\x1b[31m,F,v\n1,2,3\n", r"the heading \(\\x1b\[31m, F, v\) has no column for F_N"),
+        ("1,2,3\n1,3,3\n1,3,4\n", "v = 4 has 1 load: at least 2"),
+        ("", "there is no row of numbers"),
+        ("1,2,3\n1,3,3\n1,3,4\n1,5,4\n", "too few points"),
+    ],
+)
+def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
+    path = tmp_path / "ball.csv"
+    path.write_text(text)
+    with pytest.raises(InvalidInput, match=said) as refused:
+        compare.mastercurve(path, tmp_path / "out")
+    assert str(path) in str(refused.value)
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(InvalidInput, match="no such file"):
+        compare.mastercurve(tmp_path / "none.csv", tmp_path / "out")
+
+
+def jittered(seed=1, jitter=0.003):
+    """The table, with loads and speeds that scatter as those of devices do, friction following them."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for line in table().splitlines():
+        mu, load, speed = map(float, line.split(","))
+        by = np.exp(jitter * rng.normal(size=2))
+        follows = (1 + 3e-4 * load * by[0] * (speed * by[1]) ** -1.5) / (1 + 3e-4 * load * speed**-1.5)
+        rows.append(f"{mu * follows**-0.6},{load * by[0]},{speed * by[1]}")
+    return "\n".join(rows)
+
+
+def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones(tmp_path):
+    nominal, scattering = found(study(tmp_path, table())), study(tmp_path, jittered(), "jittered.csv")
+    told = found(scattering)
+    assert len(scattering.pooled.points) == 32
+    assert told["horizontal"].verdict == HOLDS
+    assert told["exponent"].value == pytest.approx(nominal["exponent"].value, abs=0.003)
+    assert told["exponent"].interval == pytest.approx(nominal["exponent"].interval, abs=0.006)
+    with pytest.raises(InvalidInput, match=r"has 1 load|speeds: 2 to 100"):
+        Mastercurve.of(tmp_path / "jittered.csv", tolerance=0)
+    assert "Loads within 5 % of one another are one" in scattering.setting(None)[0].markdown
+
+
+@pytest.mark.parametrize("tolerance", [-0.1, 0.6, np.nan, True, "wide"])
+def test_a_tolerance_that_is_none_is_refused(tmp_path, tolerance):
+    (tmp_path / "ball.csv").write_text(table())
+    with pytest.raises(InvalidInput, match="tolerance = "):
+        Mastercurve.of(tmp_path / "ball.csv", tolerance=tolerance)
+
+
+COLUMNS = np.array([list(map(float, line.split(","))) for line in table().splitlines()]).T
+
+
+def written(columns, separator=","):
+    """A table of columns by their headings."""
+    names, numbers = zip(*columns.items(), strict=True)
+    rows = [separator.join(map(repr, row)) for row in zip(*(each.tolist() for each in numbers), strict=True)]
+    return "\n".join([separator.join(names), *rows])
+
+
+MU, LOAD, SPEED = COLUMNS
+ALIKE = {
+    "CoF,Normal load (N),Sliding velocity (m/s)": (MU, LOAD, SPEED),
+    "Time [s];Friction force [mN];Velocity [mm/s];Fz [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
+    "sliding speed / mm/s\tload / kN\tcoefficient of friction": (1e3 * SPEED, LOAD / 1e3, MU),
+    "tangential_force,normal_force,speed,t [s]": (MU * LOAD, LOAD, SPEED, np.arange(96.0)),
+    "Lateral Force (N);Load (N);v (m/s)": (MU * LOAD, LOAD, SPEED),
+    "Normalkraft F_N in N;Reibkraft in N;Gleitgeschwindigkeit in mm/s": (LOAD, MU * LOAD, 1e3 * SPEED),
+    "Charge (N);Coefficient de frottement;Vitesse (mm.s-1)": (LOAD, MU, 1e3 * SPEED),
+    "load_mN;mean_cof;speed_mm_s": (1e3 * LOAD, MU, 1e3 * SPEED),
+    "T(sec)\tFx(N)\tFz(N)\tVel(mm/s)": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
+}
+
+
+@pytest.mark.parametrize("heading", ALIKE)
+def test_names_order_units_and_the_friction_force_change_no_digit(tmp_path, heading):
+    separator = next(each for each in "\t;," if each in heading)
+    columns = dict(zip(heading.split(separator), ALIKE[heading], strict=True))
+    (tmp_path / "named.csv").write_text(written(columns, separator))
+    read = MeasuredFriction.of(tmp_path / "named.csv")
+    for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
+        np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
+    unused = [each for each in read.notes if "not used" in each]
+    assert len(unused) == sum(name.startswith(("Time", "t ", "T(")) for name in columns)
+    turned = [each for each in read.notes if "negative throughout" in each]
+    assert len(turned) == sum(bool(np.all(numbers < 0)) for numbers in ALIKE[heading])
+
+
+def test_a_line_above_the_rows_states_the_load_of_its_block(tmp_path):
+    blocks = [
+        f"Load: {1e3 * load!r} mN\n{written({'mu': MU[load == LOAD], 'v': SPEED[load == LOAD]})}"
+        for load in np.unique(LOAD).tolist()
+    ]
+    (tmp_path / "blocks.csv").write_text("\n\n".join(blocks))
+    read = MeasuredFriction.of(tmp_path / "blocks.csv")
+    order = np.argsort(LOAD, kind="stable")
+    np.testing.assert_allclose(read.data["normal_force"], LOAD[order], rtol=1e-14)
+    np.testing.assert_array_equal(read.data["friction_coefficient"], MU[order])
+    (tmp_path / "blocks.csv").write_text("\n\n".join(f"Sample: {each}\nmu,F_N,v\n1,2,3\n1,2,4" for each in "AB"))
+    with pytest.raises(InvalidInput, match="'Sample: B' above line 8 tells one block from another"):
+        MeasuredFriction.of(tmp_path / "blocks.csv")
+
+
+def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
+    import pint
+    import xarray
+
+    (tmp_path / "ball.csv").write_text(table())
+    plain = MeasuredFriction.of(tmp_path / "ball.csv")
+    unit = pint.UnitRegistry()
+    frame = pandas.DataFrame({"v [mm/s]": 1e3 * SPEED, "COF": MU, "load [N]": LOAD})
+    labelled = xarray.Dataset(
+        {
+            "friction": ("row", MU),
+            "F_N": ("row", 1e3 * LOAD, {"units": "mN"}),
+            "speed": ("row", SPEED, {"units": "m/s"}),
+        }
+    )
+    loads, speeds = np.unique(LOAD), np.unique(SPEED)
+    grid = xarray.DataArray(
+        MU.reshape(4, 8, 3),
+        dims=("speed", "load", "repeat"),
+        coords={"speed": ("speed", 1e3 * speeds, {"units": "mm/s"}), "load": loads},
+    )
+    for given in (
+        frame,
+        labelled,
+        {"mu": MU, "F_N": unit.Quantity(1e3 * LOAD, "mN"), "v": SPEED},
+        {"F_T": MU * LOAD, "load": LOAD.tolist(), "v": unit.Quantity(100 * SPEED, "cm/s")},
+        xarray.Dataset({"mu": grid}),
+    ):
+        read = MeasuredFriction.of(given)
+        for name, numbers in plain.data.items():
+            np.testing.assert_allclose(read.data[name], numbers, rtol=1e-13)
+        assert read.source == f"a {type(given).__name__} from Python, 96 rows"
+    made = Mastercurve.of(frame)
+    assert made.inputs["table"] == "a DataFrame from Python, 96 rows"
+    assert made.title == "Friction of DataFrame on one curve"
+    assert made.collapse.horizontal.exponent.value == pytest.approx(
+        study(tmp_path, table()).collapse.horizontal.exponent.value, rel=1e-10
+    )
+    with pytest.raises(InvalidInput, match="row 3: v = 0 must be"):
+        Mastercurve.of({"mu": MU, "F_N": LOAD, "v": SPEED * (np.arange(96) != 2)})
+    with pytest.raises(InvalidInput, match="a path, a DataFrame"):
+        Mastercurve.of(3.0)
+
+
+def test_friction_force_and_coefficient_agree_or_are_refused(tmp_path):
+    both = {"mu": MU.round(3), "F_T [N]": MU * LOAD, "F_N [N]": LOAD, "v [m/s]": SPEED}
+    (note,) = MeasuredFriction.of({name: column.tolist() for name, column in both.items()}).notes
+    assert "mu is used; F_T / F_N agrees with it within" in note
+    both["F_T [N]"] = both["F_T [N]"] * np.where(np.arange(96) == 4, 2.0, 1.0)
+    with pytest.raises(InvalidInput, match=r"line 6: mu = .*, and F_T / F_N = .*: they must agree within 5%"):
+        study(tmp_path, written(both))
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ("mu,F_N [N],v [rpm]", "only with the radius of its track"),
+        ("mu,F_N [N],rotational speed [1/min]", "there is rotational speed and no v.*radius"),
+        ("mu,F_N [N],w", "there is no column for v, called v, speed"),
+        ("x,F_N [N],v", "there is no column for mu, called mu.*nor for F_T"),
+        ("mu,F_T [mm],v,F_N", "F_T in 'mm'.*a force, as N"),
+        ("mu,F_N,v,T", "line 2: T = 4 has no unit, and 4 K is hardly meant: write T .degC."),
+        ("F_T,F_N [mN],v", "gives a unit of 'F_N' and none of 'F_T'"),
+        ("mu,F_N,v,load", "'F_N' and 'load' are both F_N: keep one"),
+    ],
+)
+def test_columns_that_cannot_be_meant_are_refused_with_what_is_needed(tmp_path, names, said):
+    with pytest.raises(InvalidInput, match=said):
+        study(tmp_path, f"{names}\n1,2,3{',4' * (names.count(',') - 2)}\n")
+
+
+def test_a_row_that_lacks_a_number_is_left_out_and_told(tmp_path):
+    lines = written({"mu": MU, "F_N": LOAD, "v": SPEED}).splitlines()
+    lines.insert(4, ",1,0.003")
+    read = study(tmp_path, "\n".join(lines), "holed.csv")
+    (tmp_path / "ball.csv").write_text(table())
+    assert read.data.equals(MeasuredFriction.of(tmp_path / "ball.csv").data)
+    assert "1 of 97 rows lack a number and are left out" in read.notes[0]
+    report = compare.mastercurve(tmp_path / "holed.csv", output=tmp_path / "out", workers=1, report=False)
+    assert f"Note: {read.notes[0]}." in report.page.first
+
+
+def test_one_temperature_is_told_and_changes_nothing(tmp_path):
+    # The thermometer scatters too.
+    warm = {"mu": MU, "F_N": LOAD, "v": SPEED, "T [degC]": 25 + 0.4 * np.sin(np.arange(96))}
+    read, plain = study(tmp_path, written(warm)), study(tmp_path, table(), "plain.csv")
+    told, wanted = found(read), found(plain)
+    assert {name: each.found(6) for name, each in told.items()} == {
+        name: each.found(6) for name, each in wanted.items()
+    }
+    assert "one temperature, 298.2 K" in read.notes[0]
+    assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
+
+
+def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
+    """Friction at three temperatures, on one curve of load and of the speed that WLF at 20 degC shifts."""
+    rng, rows = np.random.default_rng(seed), ["T [degC],v [mm/s],F_N,F_T [N]"]
+    for celsius in (12, 20, 28):
+        by = 10 ** (-c1 * (celsius - 20) / (c2 + celsius - 20))
+        for speed in np.geomspace(3, 100, 3):
+            for load in np.geomspace(1, 30, 4):
+                for noise, *jitter in rng.normal(size=(2, 3)):
+                    v, f = (each * (1 + 0.003 * off) for each, off in zip((speed, load), jitter, strict=True))
+                    mu = law(f * (by * v / 30) ** -0.5) * (1 + 0.02 * noise)
+                    rows.append(f"{celsius},{v},{f},{mu * f}")
+    return "\n".join(rows)
+
+
+def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
+    made = study(tmp_path, warmed())
+    told = found(made)
+    assert (told["temperatures"].verdict, told["horizontal"].verdict) == (HOLDS, HOLDS)
+    low, high = told["exponent"].interval
+    assert low - 0.01 <= -0.5 <= high + 0.01
+    assert high - low < 0.05
+    assert told["temperatures-unshifted"].value > 0.2
+    first, *_ = made.answer(list(told.values()))
+    assert "Shifts along the speed bring the temperatures together" in " ".join(made.answer(list(told.values())))
+    assert first.startswith("Shifts along the load")
+    points, shifts = made.plots(None, list(told.values()))
+    assert set(points.tables["shifted-curves"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
+    with style.applied():
+        drawing = shifted_curves.figure(again(points), **points.options)
+        shifted = shifts.draw(again(shifts))
+    drawing.canvas.draw()
+    shifted.canvas.draw()
+    own = shifts.tables["temperature-shifts"]
+    np.testing.assert_allclose(
+        np.log(own["reduced_speed"] / own["speed"]),
+        own["temperature"].map(dict(zip(made.shifts.temperatures, made.shifts.shifts.value, strict=True))),
+        atol=1e-12,
+    )
+    for block in made.blocks(None, list(told.values()), []):
+        for name in getattr(block, "frame", pandas.DataFrame()).columns:
+            assert entry(name) is not None
+
+
+def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent(tmp_path):
+    (tmp_path / "ball.csv").write_text(warmed())
+    right = Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC")
+    told = found(right)
+    assert told["temperatures"].verdict == HOLDS
+    low, high = told["exponent"].interval
+    assert low - 0.01 <= -0.5 <= high + 0.01
+    assert right.inputs["reference"] == "20 degC"
+    wrong = found(Mastercurve.of(tmp_path / "ball.csv", c1=20.0, c2=101.6, reference=293.15))
+    assert wrong["temperatures"].verdict == FAILS
+    assert np.isnan(wrong["exponent"].value)
+    assert "temperatures together" in wrong["exponent"].reason
+    # Whether the curves are one does not depend on the speed that they have.
+    assert wrong["horizontal"].value == pytest.approx(told["horizontal"].value, abs=1e-3)
+
+
+def test_where_friction_is_a_power_no_temperature_is_shifted_and_no_exponent_told(tmp_path):
+    told = found(study(tmp_path, warmed(law=lambda x: (3 * x) ** -0.6)))
+    assert told["temperatures"].verdict == UNDECIDED
+    for name in ("exponent", "c1", "c2", "activation-energy"):
+        assert np.isnan(told[name].value)
+        assert "cannot be told from one along friction" in told[name].reason
+
+
+@pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"c1": 8.86}, "c2"),
+        ({"c1": 8.86, "c2": 101.6, "reference": "500 degC"}, "the law ends at reference - c2"),
+        ({"c1": -1, "c2": 101.6, "reference": 293.15}, "c1 = -1"),
+        ({"c1": 8.86, "c2": "101.6 N", "reference": 293.15}, "c2 = '101.6 N'"),
+        ({"c1": 8.86, "c2": 101.6, "reference": 20}, "is degC meant"),
+    ],
+)
+def test_constants_that_are_none_are_refused(tmp_path, stated, said):
+    (tmp_path / "ball.csv").write_text(warmed())
+    with pytest.raises(InvalidInput, match=said):
+        Mastercurve.of(tmp_path / "ball.csv", **stated)
+    (tmp_path / "plain.csv").write_text(table())
+    with pytest.raises(InvalidInput, match="ask for a column of temperature"):
+        Mastercurve.of(tmp_path / "plain.csv", c1=8.86, c2=101.6, reference=293.15)
+
+
+def again(plot):
+    """Tables of a plot as their CSV files have them."""
+    return {name: pandas.read_csv(StringIO(frame.to_csv(index=False))) for name, frame in plot.tables.items()}
+
+
+def test_a_name_that_would_be_a_formula_is_drawn_as_it_is(tmp_path):
+    path = tmp_path / r"$\frac{$.csv"
+    path.write_text(table())
+    made = Mastercurve.of(path)
+    (plot,) = made.plots(made.answers({}), made.findings(made.answers({})))
+    with style.applied():
+        drawing = shifted_curves.figure(again(plot), **plot.options)
+    drawing.canvas.draw()
+    assert drawing.axes[0].get_title(loc="left") == r"(a) \$\frac{\$"
+
+
+@pytest.mark.parametrize("text", [table(), bent()], ids=["holds", "fails"])
+def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
+    made = study(tmp_path, text)
+    findings = made.findings(made.answers({}))
+    (plot,) = made.page(made.answers({}), findings).every(Plot)
+    tables = again(plot)
+    with style.applied():
+        drawing = shifted_curves.figure(tables, **plot.options)
+    left, middle, right, _ = drawing.axes
+    points = plot.tables[shifted_curves.NAME]
+    for axes, across in ((left, "normal_force"), (middle, "shifted_force")):
+        lines = next(each for each in axes.collections if len(each.get_segments()) == len(made.collapse.speeds))
+        shown = np.concatenate(lines.get_segments())[:, 0]
+        np.testing.assert_allclose(np.sort(shown), np.sort(points[across]), rtol=1e-12)
+    assert ("undecided" in right.get_title(loc="left")) == (findings[0].verdict == FAILS)
+    assert findings[0].verdict in middle.get_title(loc="left")
+    assert len(plot.caption.split()) <= 60
+
+
+def test_rows_of_the_figure_show_what_is_expected_where_curves_part_and_other_powers():
+    from test_compare_collapse import cubic, friction, knee, smooth
+
+    from compare.statistics import eq23
+    from compare.statistics.collapse import collapse
+
+    rows = []
+    for title, law, power in (("kept", knee, -1.5), ("parted", cubic, -9.0)):
+        fit = collapse(smooth(friction(law, power=power)))
+        collapsed = next(eq23.findings(fit, None, "1D"))
+        holds = pandas.DataFrame({"holds": np.arange(40) % 2 == 0})
+        rows.append(shifted_curves.ShiftedCurves(title, fit, collapsed, -4.0, {"Eq. 22": -1.4}, holds))
+    plot = shifted_curves.plot(rows, "losses/shifted-curves-1")
+    with style.applied():
+        drawing = shifted_curves.figure(again(plot), **plot.options)
+    powers = plot.tables["losses/shifted-curves-1-powers"]
+    assert powers["power"].tolist() == ["fitted", "expected", "Eq. 22", "expected", "Eq. 22"]
+    points = plot.tables["losses/shifted-curves-1"].query("curves == 'parted'")
+    by = (points["speed"] / points["speed"].unique()[2]) ** -4.0
+    np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
+    assert "shifted as expected" in " ".join(drawing.axes[4].get_title(loc="left").split())
+    assert shifted_curves.plot([]) is None
+
+
+def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):
+    (tmp_path / "ball.csv").write_text(table())
+    report = compare.mastercurve(tmp_path / "ball.csv", tmp_path / "out")
+    assert report.findings["verdict"].tolist()[:2] == [HOLDS, HOLDS]
+    assert {"report.html", "findings.csv", "results.nc", "shifted-curves.png", "shifted-curves.csv"} <= {
+        path.name for path in (tmp_path / "out").iterdir()
+    }
+    kept = compare.load(tmp_path / "out")["measured"]
+    np.testing.assert_array_equal(kept["friction_coefficient"], report.answers["measured"]["friction_coefficient"])
+    assert kept["normal_force"].attrs["units"] == "N"

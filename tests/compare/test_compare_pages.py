@@ -1,0 +1,586 @@
+"""Pages in five forms, their files, figures drawn again, tables for others, and the one vocabulary."""
+
+import hashlib
+import json
+import os
+import re
+import shutil
+from dataclasses import replace
+from html import escape
+from html.parser import HTMLParser
+from io import BytesIO
+from math import inf, nan
+from pathlib import Path
+from types import SimpleNamespace
+
+import h5py
+import numpy as np
+import pandas
+import pytest
+import xarray
+from hypothesis import given
+from hypothesis import strategies as st
+from page_samples import FINDINGS, MEANS, ROWS, page
+from pandas import DataFrame
+from pandas.testing import assert_frame_equal
+
+from compare.report import csvfiles, manifest, render
+from compare.report import export as tables
+from compare.report.page import Findings, Page, Plot, Section, Table, Text
+from compare.report.plots import touching
+from compare.report.redraw import function, options, redraw
+from compare.report.render import latex, markdown, mathematics, notebook, prose, terminal
+from compare.solving import netcdf, vocabulary
+from compare.statistics import digits
+from compare.statistics.finding import COLUMNS
+from scene.reading import InvalidInput
+
+STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})
+UNITS = {"m", "s", "N", "Pa", "K", "J", "B", "Hz", "kg", "W", "rad"}
+SAMPLES = Path(__file__).parent / "plots"
+SWEPT = SimpleNamespace(solved=1, reused=2, seconds=3.0)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """What a command leaves: page, figures, tables, results and manifest."""
+    path = tmp_path_factory.mktemp("left")
+    drawn = []
+    render.write(page(), FINDINGS, path, told=drawn.append)
+    assert drawn == ["sphere/friction"]
+    values = {"friction_force": ("draw", [0.1, 1 / 3]), "status": ("draw", ["solved", "not asked"])}
+    dataset = xarray.Dataset(values, {"draw": [0, 1]})
+    netcdf.write(path / netcdf.NAME, xarray.DataTree.from_dict({"/sphere/MDR": dataset}))
+    manifest.stamp(path, STUDY, page(), SWEPT, "solved")
+    return path
+
+
+# Numbers.
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [(0.0, "0"), (-1.5, "−1.5"), (12345.6, "12350"), (1.234567e-5, "1.235 × 10⁻⁵"), (-2e7, "−2 × 10⁷"), (nan, "–"),
+     (inf, "∞"), (np.int64(-4), "−4"), (True, "yes"), (None, "–"), ("as it is", "as it is")],
+)  # fmt: skip
+def test_a_value_is_shown_as(value, shown):
+    assert digits.shown(value) == shown
+
+
+@given(st.floats(1e-12, 1e12), st.floats(1e-6, 1.0))
+def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, relative):
+    error = value * relative
+    told = digits.plus_minus(value, error).translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
+    middle, half, power = re.fullmatch(r"\(?(\S+) ± ([0-9.]+)\)?(?: × 10(\S+))?", told).groups()
+    scale = 10.0 ** int(power or 0)
+    assert abs(float(middle) * scale - value) <= 0.051 * error
+    assert abs(float(half) * scale - error) <= 0.051 * error
+
+
+def test_ends_of_an_interval_are_shown_to_two_digits_of_its_half_and_not_at_all_where_unknown():
+    assert digits.interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
+    assert digits.interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
+    assert digits.interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
+    assert digits.interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
+    assert digits.interval(2.0, nan, nan) == digits.interval(2.0, 2.0, 2.0) == "2"
+
+
+# Files.
+
+FLOATS = st.floats(allow_nan=True, allow_infinity=True)
+TEXTS = st.text(st.characters(codec="utf-8", exclude_characters="\r\0"), min_size=1).map(lambda text: f"a{text}")
+
+
+@given(st.lists(st.tuples(FLOATS, st.integers(-(2**62), 2**62), TEXTS), min_size=1))
+def test_what_is_read_back_is_the_same_table(tmp_path_factory, rows):
+    frame = DataFrame(rows, columns=["value", "count", "name"])
+    path = tmp_path_factory.mktemp("csv") / "table.csv"
+    csvfiles.write_text(path, csvfiles.text(frame))
+    assert_frame_equal(csvfiles.read(path), frame, check_exact=True, check_dtype=False)
+
+
+def test_every_table_of_a_page_lies_beside_it_with_every_digit(folder):
+    assert_frame_equal(csvfiles.read(folder / "sphere/friction.csv"), MEANS, check_exact=True)
+    assert_frame_equal(csvfiles.read(folder / "sphere/rows.csv"), ROWS, check_exact=True)
+    assert list(csvfiles.read(folder / "findings.csv")) == list(COLUMNS)
+    listed = json.loads((folder / "manifest.json").read_text())["tables"]
+    assert {folder / f"{name}.csv" for name in listed} == set(folder.rglob("*.csv"))
+
+
+def test_two_tables_of_one_name_are_refused_unless_they_are_one(tmp_path):
+    one, same, other = (Table("points", frame) for frame in (ROWS, ROWS.copy(), ROWS * 2))
+    render.write_tables(Page("", [], [one, same]), [], tmp_path)
+    with pytest.raises(ValueError, match="'points'"):
+        render.write_tables(Page("", [], [one, other]), [], tmp_path)
+
+
+# Renderers.
+
+
+class Links(HTMLParser):
+    """Anchors, links, images and words of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.ids, self.links, self.images, self.words = [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        self.ids += [found["id"]] if "id" in found else []
+        self.links += [found["href"]] if "href" in found else []
+        self.images += [found] if tag == "img" else []
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
+    found = Links((folder / "report.html").read_text())
+    assert len(found.ids) == len(set(found.ids))
+    for link in found.links:
+        if link.startswith("#"):
+            assert link[1:] in found.ids
+        else:  # no link to a file beside, so that the page may be moved alone
+            assert link.startswith(("data:text/csv", "https://example.org"))
+    for name in re.findall(r"<code>([^<]+\.(?:csv|png))</code>", (folder / "report.html").read_text()):
+        assert (folder / name).is_file()
+    assert [image["src"][:22] for image in found.images] == ["data:image/png;base64,"]
+    assert found.images[0]["alt"].startswith("Friction of both models")
+
+
+def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
+    text = (folder / "report.html").read_text()
+    places = [
+        text.index(part)
+        for part in ("<h1>", 'id="answer"', "<figure", "<table", 'id="section-A-sphere"', 'id="data"')
+    ]
+    assert places == sorted(places)
+
+
+def test_blocks_stand_in_the_order_of_reading_however_they_are_given(folder):
+    given = page()
+    again = Page(given.title, given.answer, given.blocks[::-1])
+    assert (
+        [type(each) for each in again.blocks] == [type(each) for each in given.blocks] == [Plot, Findings, Section]
+    )
+    (section,) = (each for each in again.blocks if isinstance(each, Section))
+    assert [type(each) for each in section.blocks] == [Text, Table, Table]
+
+
+FORMULA = r"$\tilde\mu = (1 + \xi^{-\alpha})^{-1/\alpha}$"
+
+
+def test_a_formula_is_mathml_on_a_page_stays_in_markdown_and_is_in_plain_letters_on_a_terminal():
+    html = prose.html(f"With {FORMULA}.")
+    assert "<math" in html
+    assert "$" not in html
+    assert prose.converted(FORMULA, latex.MARKS, latex.escaped) == FORMULA
+    assert prose.converted(FORMULA, {}) == "μ̃ = (1 + ξ^(-α))^(-1/α)"
+    assert markdown.typeset("friction grows as xi^1, h_0 <i>") == r"friction grows as $\xi^1$, $h_0$ \<i\>"
+    assert mathematics.typeset("exit, v tau/a & xi", str, "[{}]".format) == r"exit, [v\tau/a] & [\xi]"
+
+
+@pytest.mark.parametrize("wrong", ["<b>x</b>", r"\text{<b>}", r"\href{javascript:x}{y}", r"\frac", r"a^", "a & b"])
+def test_a_formula_that_is_not_understood_stands_as_it_is_written_and_is_no_markup(wrong):
+    assert mathematics.mathml(wrong) == f"<code>{escape(wrong)}</code>"
+
+
+def test_every_formula_of_the_vocabulary_is_typeset():
+    formulas = [entry.formula for entry in vocabulary.LABELS.values() if getattr(entry, "formula", "")]
+    assert len(formulas) > 10
+    assert all(mathematics.mathml(each).startswith("<math") for each in formulas)
+    assert all(mathematics.mathml(each).startswith("<math") for each in mathematics.SYMBOLS.values())
+
+
+@pytest.mark.parametrize("form", render.FORMATS)
+def test_every_form_has_answer_findings_tables_and_figures_escaped(form, tmp_path):
+    text = render.write(page(), FINDINGS, tmp_path, form).read_text()
+    shown = "".join(Links(text).words) if form == "html" else text
+    for said in ("Depths at rest agree", "1.010 (0.986 to 1.034)", "fails", "undecided", "12.3 (10.9 to 13.8) s"):
+        assert said in shown
+    assert "the error of the grid is not known" in shown or form == "latex"
+    assert "sphere/friction.png" in text
+    assert "<speed>" not in text
+    assert "0.9009009" not in shown  # a long table is a file alone
+
+
+@pytest.mark.parametrize(("form", "end"), [("html", "</div>"), ("markdown", " |")])
+def test_a_regime_stands_in_the_first_row_of_its_place_alone(form, end, tmp_path):
+    slow, fast = (replace(FINDINGS[0], where="sphere", regime=regime) for regime in ("slowly", "fast"))
+    other = replace(slow, where="cone")
+    block = Page("Found", (), (Findings((slow, fast, slow, other, fast)),))
+    text = render.write(block, [slow, fast, other], tmp_path, form).read_text()
+    assert (text.count(f"slowly{end}"), text.count(f"fast{end}")) == (2, 1)
+
+
+def test_the_terminal_shows_a_claim_once_and_its_findings_below():
+    text = terminal.text(page())
+    assert text.count("Depths at rest agree (claimed 1 ± 0.05):") == 1
+    assert "  holds      1D/3D rough sphere: 1.010 (0.986 to 1.034)\n" in text
+    assert "Some emphasis, code_x, a link & <b>50 %</b>." in text
+    assert all(len(line) <= terminal.WIDTH for line in text.splitlines())
+
+
+def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowhere():
+    found = Links(notebook.fragment(page()))
+    assert not found.images
+    assert found.links == ["https://example.org"]
+    assert "Depths at rest agree" in "".join(found.words)
+
+
+def test_prose_keeps_its_marks_in_every_form():
+    text = "*a* **b** `c_1` [d](e)\n\n1. f"
+    assert prose.html(text).startswith("<p><em>a</em> <strong>b</strong> <code>c_1</code>")
+    assert prose.converted(text, latex.MARKS, latex.escaped).startswith(r"\emph{a} \textbf{b} \texttt{c\_1} d")
+    assert "<script>" not in prose.html("<script>")
+
+
+@given(st.text(st.characters(codec="ascii", categories=("L", "N", "P", "S", "Zs"))))
+def test_text_escaped_for_latex_has_no_command_of_its_own(text):
+    printed = latex.escaped(text)
+    plain = re.sub(r"\\text(backslash|asciitilde|asciicircum)\{\}|\$[<>|]\$|\\[&%$#_{}]|\{[][*]\}", "", printed)
+    assert not set(plain) & set("\\{}&%$#_~^")
+
+
+def test_markdown_shows_what_it_is_given_as_it_is():
+    assert markdown.escaped("*a* | _b_ h_0 <i>") == r"\*a\* \| \_b\_ h_0 \<i\>"
+
+
+def test_a_table_for_a_paper_has_booktabs_and_values_with_their_errors():
+    frame = DataFrame({"solver": ["MDR"], "friction": [1.2345e-7], "friction_error": [3.2e-9], "order": [-2.0]})
+    printed = latex.table(frame, "A & B", "tab:x")
+    for part in (r"\toprule", r"\caption{A \& B}", r"\label{tab:x}", r"\begin{tabular}{lrr}",
+                 r"(1.235 $\pm$ 0.032) $\times$ 10$^{-7}$", "$-$2"):  # fmt: skip
+        assert part in printed
+
+
+# Drawn again, and for others.
+
+
+def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_path):
+    told = []
+    written = redraw(folder, output=tmp_path, told=told.append)
+    assert [path.suffix for path in written] == [".png", ".pdf", ".svg"]
+    assert told == ["sphere/friction"]
+    assert (tmp_path / "sphere/friction.png").read_bytes() == (folder / "sphere/friction.png").read_bytes()
+    other = redraw(folder, "nature", output=tmp_path / "nature")
+    assert other[0].read_bytes() != written[0].read_bytes()
+
+
+def test_a_changed_table_gives_another_picture(folder, tmp_path):
+    (tmp_path / "sphere").mkdir()
+    (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
+    csvfiles.write_text(tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction=0.3)))
+    drawn = redraw(tmp_path)
+    assert drawn[0] == tmp_path / "figures/sphere/friction.png"
+    assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()
+
+
+FORGED = [
+    ({"module": "os"}, "os.figure"),
+    ({"module": "compare.report.render.html"}, "no figure of compare"),
+    ({"function": "plot"}, "no figure of compare"),
+    ({"function": "DataFrame"}, "no figure of compare"),
+    ({"name": "../friction"}, "names no file"),
+    ({"name": "/etc/friction"}, "names no file"),
+    ({"tables": ["../../friction"]}, "names no file"),
+    ({"tables": ["missing"]}, "missing.csv"),
+    ({"tables": "friction"}, "plots.0.tables"),
+    ({"tables": ["fric\x1btion"]}, "fric\\x1btion"),
+    ({"module": "compare.report.plots.style", "function": "canvas", "options": {"height": 1e9}}, "no figure of"),
+    ({"options": {"unheard": 1}}, "option unheard"),
+    ({"options": {"figsize": [1e9, 1e9]}}, "option figsize"),
+    ({"module": "compare.studies.trust.figure"}, "option wide: Field required"),
+    ({"module": "compare.studies.trust.figure", "options": {"wide": [1]}}, "option wide"),
+    ({"module": "compare.studies.trust.figure", "options": {"wide": nan}}, "option wide"),
+    ({"module": "compare.studies.trust.figure", "options": {"wide": 1e300}}, "cannot be drawn"),
+    ({"options": 3}, "plots.0.options"),
+    ({"extra": 1}, "plots.0.extra"),
+]
+
+
+@pytest.mark.parametrize(("change", "said"), FORGED, ids=range(len(FORGED)))
+def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
+    content = json.loads((folder / "manifest.json").read_text())
+    content["plots"][0] |= change
+    (tmp_path / "manifest.json").write_text(json.dumps(content))
+    (tmp_path / "sphere").mkdir()
+    (tmp_path / "sphere/friction.csv").write_bytes((folder / "sphere/friction.csv").read_bytes())
+    with pytest.raises(InvalidInput, match=re.escape(said)):
+        redraw(tmp_path, output=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+KEYS = ["plots", "command", "inputs", "tables", "solved", "name"]
+JSON = st.recursive(
+    st.none() | st.booleans() | st.floats(allow_nan=False) | st.text(max_size=3),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(KEYS), inner),
+)  # fmt: skip
+
+
+@given(JSON | st.binary(max_size=20))
+def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content):
+    path = tmp_path_factory.mktemp("forged")
+    (path / "manifest.json").write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())
+    with pytest.raises(InvalidInput, match=r"manifest\.json|no figures"):
+        redraw(path)
+
+
+@pytest.mark.parametrize(
+    ("damage", "said"),
+    [
+        (b"", "cannot be drawn"),
+        (b"\xff", "not a table"),
+        (b"a,b\n1\n1,2,3\n", "not a table"),
+        (b"a\n1\n", "'speed'"),
+    ],
+)
+def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
+    (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
+    (tmp_path / "sphere").mkdir()
+    (tmp_path / "sphere/friction.csv").write_bytes(damage)
+    with pytest.raises(InvalidInput, match=said):
+        redraw(tmp_path)
+
+
+def test_the_options_of_every_figure_pass_as_they_are():
+    for entry in next(manifest.folders(SAMPLES)).manifest.plots:
+        passed = options(function(entry, SAMPLES), entry, SAMPLES)
+        assert json.loads(json.dumps({name: passed[name] for name in entry.options})) == entry.options
+
+
+@pytest.fixture
+def copied(folder, tmp_path):
+    """A folder that a command left, to be damaged."""
+    return Path(shutil.copytree(folder, tmp_path / "left"))
+
+
+def pipe(path):
+    os.mkfifo(path)
+
+
+def device(path):
+    path.symlink_to("/dev/zero")
+
+
+def circle(path):
+    path.symlink_to(path)
+
+
+def too_large(path):
+    with path.open("wb") as file:
+        file.truncate(10**12)
+
+
+def elsewhere(path):
+    other = path.parent.parent.parent / "other"
+    other.write_text("solver\nMDR\n")
+    path.symlink_to(other)
+
+
+READ = {
+    "manifest.json": [redraw, tables.export],
+    "sphere/friction.csv": [redraw, tables.export],
+    "results.nc": [netcdf.load, lambda folder: tables.export(folder / "results.nc")],
+}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("placed", [pipe, device, circle, too_large, Path.mkdir, elsewhere])
+@pytest.mark.parametrize("name", READ)
+def test_what_stands_in_the_place_of_a_file_is_named_and_not_read(copied, name, placed):
+    (copied / name).unlink()
+    placed(copied / name)
+    for read in READ[name]:
+        with pytest.raises(InvalidInput, match=f"{re.escape(name)}|results here"):
+            read(copied)
+
+
+def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
+    wide = DataFrame({f"c{k}": [1] for k in range(csvfiles.MOST_COLUMNS + 1)})
+    for text, said in ((csvfiles.text(wide), "1001 columns"), ("a,b\n1,2,3\n4,5,6\n", "longer than its head")):
+        (tmp_path / "table.csv").write_text(text)
+        with pytest.raises(InvalidInput, match=said):
+            csvfiles.read(tmp_path / "table.csv")
+    (tmp_path / "table.csv").write_text(f"a\n{'1' * 30}\n2\n")
+    assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
+
+
+def test_a_table_of_other_columns_than_its_names_say_is_no_paper_s(copied):
+    (copied / "sphere/friction.csv").write_text("friction,friction_low,friction_high\n1,x,2\n")
+    with pytest.raises(InvalidInput, match="sphere/friction cannot be printed"):
+        tables.export(copied, "latex")
+
+
+def test_a_map_is_no_larger_than_the_grids_that_are_solved():
+    spread = DataFrame({"x": [0.0, 1.0, 2.0], "y": [0.0, 3.0, 1.0], "pressure": 1.0})
+    assert touching.gridded(spread, "pressure", 1.0)[2].shape == (4, 3)
+    for pixel in (1e-9, nan, 0.0, -1.0, 1e-300):
+        with pytest.raises(ValueError, match="in pixels of"):
+            touching.gridded(spread, "pressure", pixel)
+    with pytest.raises(ValueError, match="not known at every"):
+        touching.rectangle(spread, "x", "y", "pressure")
+
+
+def sealed(path, fill):
+    """A file of results with a seal that fits, as anyone can make one."""
+    image = BytesIO()
+    with h5py.File(image, "w") as file:
+        fill(file)
+    content = image.getvalue()
+    path.write_bytes(content + netcdf.SEAL + hashlib.sha256(content).hexdigest().encode())
+
+
+def virtual(file):
+    layout = h5py.VirtualLayout((3,), float)
+    layout[:] = h5py.VirtualSource("/etc/hostname", "x", (3,))
+    file.create_virtual_dataset("x", layout)
+
+
+HDF5 = {
+    "soft link": lambda file: file.update({"x": h5py.SoftLink("/y")}),
+    "link to another file": lambda file: file.update({"x": h5py.ExternalLink("/etc/hostname", "/y")}),
+    "group below itself": lambda file: file.create_group("a").update({"b": file}),
+    "numbers of another file": lambda file: file.create_dataset("x", (3,), "u1", external=[("/etc/hosts", 0, 3)]),
+    "numbers of other files": virtual,
+    "numbers that are nowhere": lambda file: file.create_dataset("x", (10**12,), "f8", chunks=(10**6,)),
+    "a part that is huge": lambda file: file.create_dataset("x", (3,), "f8", maxshape=(None,), chunks=(10**8,)),
+    "one text many times": lambda file: file.create_dataset(
+        "x", (10**5,), h5py.string_dtype(), fillvalue="x" * 10**4
+    ),
+    "another packing": lambda file: file.create_dataset("x", data=np.arange(99), compression="lzf"),
+    "references": lambda file: file.create_dataset("x", data=[file.ref], dtype=h5py.ref_dtype),
+    "lists": lambda file: file.create_dataset("x", (3,), dtype=h5py.vlen_dtype(float)),
+    "compounds": lambda file: file.create_dataset("x", data=np.zeros(3, "f8,i4")),
+    "bytes": lambda file: file.create_dataset("x", data=np.zeros(3, "V8")),
+    "nothing": lambda file: file.create_dataset("x", data=h5py.Empty("f8")),
+    "no dimensions": lambda file: file.create_dataset("x", data=np.arange(3.0)),
+    "attributes that are arrays": lambda file: file.attrs.update({"units": np.zeros(9)}),
+}
+
+
+@pytest.mark.parametrize("kind", HDF5)
+def test_what_hdf5_can_hold_and_no_command_writes_is_refused(tmp_path, kind):
+    sealed(tmp_path / "results.nc", HDF5[kind])
+    with pytest.raises(InvalidInput, match=r"results\.nc: is not a file of results"):
+        netcdf.load(tmp_path)
+
+
+def test_texts_come_back_in_parts_as_they_do_at_once(tmp_path, monkeypatch):
+    words = np.array([f"{'x' * (k % 7)}é{k}" for k in range(60)]).reshape(3, 4, 5)
+    tree = xarray.DataTree.from_dict({"/a": xarray.Dataset({"reason": (("p", "q", "r"), words)})})
+    netcdf.write(tmp_path / "results.nc", tree)
+    for most in (1, 2, 7, 20, 59, 10**6):
+        monkeypatch.setattr(netcdf, "LEAST_READ", most)
+        monkeypatch.setattr(netcdf, "PACKED", 50)
+        assert (netcdf.load(tmp_path)["a"]["reason"].values == words).all()
+
+
+def above(file):
+    """A dataset in a group that is called as the folder above."""
+    group = file.create_group("..").create_group("..")
+    group["x"], group["y"] = np.arange(3.0), np.arange(3.0)
+    group["x"].make_scale("x")
+    group["y"].dims[0].attach_scale(group["x"])
+
+
+def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
+    sealed(copied / "forged.nc", above)
+    with pytest.raises(InvalidInput, match="forged"):
+        tables.export(copied / "forged.nc", output=copied / "tables")
+    for name, write in (("figures", redraw), ("tables", tables.export)):
+        (copied / name).symlink_to(tmp_path)
+        with pytest.raises(InvalidInput, match="leads out of"):
+            write(copied)
+    assert [path.name for path in tmp_path.iterdir()] == ["left"]
+    assert not list(tmp_path.parent.glob("*.csv"))
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [({"journal": "natur"}, "mean nature"), ({"style": "nowhere"}, "no style"), ({"style": {"a": 1}}, "a")],
+)
+def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, said):
+    with pytest.raises(InvalidInput, match=said):
+        redraw(folder, output=tmp_path, **given)
+
+
+def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp_path):
+    written = {
+        path.relative_to(tmp_path).as_posix(): pandas.read_csv(path)
+        for path in tables.export(folder, "csv", tmp_path)
+    }
+    assert set(written) == {
+        f"{name}.csv" for name in ("findings", "sphere/rows", "sphere/long", "sphere/friction", "sphere/MDR")
+    }
+    assert list(written["sphere/friction.csv"]) == [
+        "solver",
+        "speed [m/s]",
+        "load [N]",
+        "friction",
+        "friction_low",
+        "friction_high",
+    ]
+    solved = written["sphere/MDR.csv"]
+    assert solved["friction_force [N]"].tolist() == [0.1]  # what was not asked for is no row
+
+
+def test_exported_latex_has_what_a_paper_has_room_for(folder, tmp_path):
+    written = {path.name: path.read_text() for path in tables.export(folder, "latex", tmp_path)}
+    assert set(written) == {"findings.tex", "rows.tex", "friction.tex", "MDR.tex"}
+    assert "1.010 (0.986 to 1.034)" in written["findings.tex"]
+    assert written["friction.tex"].count(r"\\") == 1 + len(MEANS)
+
+
+def test_mistakes_of_an_export_are_said(folder, tmp_path):
+    with pytest.raises(InvalidInput, match="did you mean latex"):
+        tables.export(folder, "latx")
+    with pytest.raises(InvalidInput, match="no such folder"):
+        tables.export(tmp_path / "nowhere")
+    (tmp_path / "results.nc").write_bytes(b"no netCDF")
+    with pytest.raises(InvalidInput, match=r"results\.nc"):
+        tables.export(tmp_path / "results.nc")
+
+
+# Vocabulary.
+
+# Columns that explain themselves.
+PLAIN = frozenset(
+    ("case", "cases", "group", "broken", "solved", "checks", "outcome", "title", "label", "series", "shape")
+)
+PREFIXES = ("holds: ", "within ", "must hold", "hard because", "refused as it should", "tolerances moved")
+
+
+def test_every_entry_has_a_sentence_and_a_unit_that_is_si():
+    for name, entry in vocabulary.LABELS.items():
+        assert entry.text.endswith((".", "]")), name
+        assert set(re.findall(r"[A-Za-z]+", entry.unit)) <= UNITS, name
+
+
+def test_an_ending_says_what_it_adds():
+    low, whole = vocabulary.entry("friction_force_low"), vocabulary.entry("friction_force")
+    assert low.unit == whole.unit == "N"
+    assert low.text.startswith("Lower end")
+    assert low.text.endswith(whole.text)
+    assert vocabulary.stem("reference_error") == "reference_error"
+    assert vocabulary.entry("no such column") is None
+
+
+def test_every_column_of_findings_is_defined_on_the_page(folder):
+    assert all(vocabulary.entry(name) for name in COLUMNS)
+    ids = Links((folder / "report.html").read_text()).ids
+    for name in ("verdict", "value", "tolerance", "friction", "speed", "pressure"):
+        assert (f"def-{name}" in ids) == (name != "pressure")
+
+
+def test_the_same_page_gives_the_same_bytes(folder, tmp_path):
+    again = render.write(page(), FINDINGS, tmp_path)
+    assert again.read_bytes() == (folder / "report.html").read_bytes()
+
+
+def test_every_column_of_every_figure_is_defined_or_explains_itself():
+    for path in (Path(__file__).parent / "plots").rglob("*.csv"):
+        for name in csvfiles.read(path):
+            explains_itself = name in PLAIN or name.startswith(PREFIXES)
+            assert explains_itself or vocabulary.entry(name), (path.parent.name, name)

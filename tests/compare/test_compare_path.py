@@ -1,0 +1,118 @@
+"""Contacts of one surface are one task: each starts from the last, and the answers are those of solves alone."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare.solving import continuation
+from compare.solving.continuation import Path, by_contact
+from compare.solving.parameter_grid import Rectangle, contacts_of, on_two_grids, tasks_of
+from compare.solving.store import Store, key
+from mdr1d import MDR
+from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
+
+ROUGHNESS = SelfAffine(hurst=0.5, rms_height=1e-5, longest=2e-3, shortest=5e-4, seed=3)
+SCENE = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.5), ROUGHNESS)
+RECTANGLE = Rectangle(
+    scene=SCENE,
+    speeds=(0.1, 0.0, 0.2),
+    values=(0.5, 1.0),
+    grids=on_two_grids(MDR(points=200), BEM(points=64)),
+    draws={"MDR": 3, "BEM": 2},
+)
+
+
+def test_a_path_is_all_speeds_of_one_surface_and_load_from_rest_on_and_from_coarse_to_fine():
+    tasks = RECTANGLE.tasks()
+    paths = [each for each in tasks if isinstance(each, Path)]
+    assert len(paths) == 2 * 2  # loads, surfaces
+    for each in paths:
+        assert len({(scene.motion.load, scene.roughness.seed) for scene in each.scenes}) == 1
+        places = [(getattr(one.scenes[0].motion, "speed", 0.0), one.solver.points) for one in each.contacts]
+        assert places == list(product((0.0, 0.1, 0.2), (32, 64)))
+    assert {task.solver.name for task in tasks if task not in paths} == {"MDR"}
+    on_paths = [one for each in paths for one in each.contacts]
+    assert len(on_paths) == len(set(on_paths))
+    assert set(on_paths) == {each for each in contacts_of({"": RECTANGLE}) if each.solver.name == "BEM"}
+
+
+def test_the_order_of_what_is_asked_changes_no_task():
+    turned = replace(RECTANGLE, speeds=RECTANGLE.speeds[::-1], values=RECTANGLE.values[::-1])
+    assert {key(task) for task in turned.tasks()} == {key(task) for task in RECTANGLE.tasks()}
+    assert len({key(task) for task in RECTANGLE.tasks()}) == len(RECTANGLE.tasks())
+
+
+def test_a_path_is_cut_where_it_would_take_longer_than_a_minute(monkeypatch):
+    (whole,) = replace(RECTANGLE, values=(0.5,), draws={"BEM": 1}, grids=on_two_grids(BEM(points=64))).tasks()
+    monkeypatch.setattr(continuation, "LONGEST", 0.4 * whole.work)
+    parts = continuation.joined(whole.contacts)
+    assert len(parts) > 2
+    assert [one for each in parts for one in getattr(each, "contacts", (each,))] == list(whole.contacts)
+    assert all(each.work <= 0.4 * whole.work for each in parts)
+    monkeypatch.setattr(continuation, "LONGEST", 0.0)
+    assert continuation.joined(whole.contacts) == list(whole.contacts)
+
+
+def test_programs_and_contacts_that_keep_fields_stay_alone():
+    program = replace(SCENE, motion=Program(stages=(Stage(duration=1.0, depth=1e-5),)))
+    pressed = replace(RECTANGLE, scene=program, speeds=(1e-5, 1e-4), values=(1e-5,))
+    assert not [each for each in pressed.tasks() if isinstance(each, Path)]
+    kept = [each for each in replace(RECTANGLE, keeps_fields=True).tasks() if each.keeps_fields]
+    assert {type(each.solver) for each in kept} == {MDR, BEM}
+
+
+@pytest.fixture(scope="module")
+def solved():
+    finer = on_two_grids(MDR(points=200), BEM(points=128))
+    tasks = replace(RECTANGLE, values=(0.5,), grids=finer).tasks()
+    return {task: task.solve() for task in tasks}
+
+
+def test_a_path_answers_as_solves_alone_do_to_the_tolerance_in_fewer_transforms(solved):
+    pairs = np.zeros(2)
+    for contact, outcome in by_contact(solved).items():
+        (alone,), (found,) = (each.rows[:1] for each in (contact.solve(), outcome))
+        np.testing.assert_allclose(found.normal_force, alone.normal_force, rtol=1e-4)
+        np.testing.assert_allclose(found.depth, alone.depth, rtol=1e-4)
+        np.testing.assert_allclose(found.friction_force, alone.friction_force, rtol=1e-3)
+        assert found.settings == alone.settings
+        if contact.solver.name == "BEM":
+            pairs += [each.measures["transform_pairs"] * contact.solver.points**2 for each in (found, alone)]
+    assert pairs[0] < 0.85 * pairs[1]
+
+
+def test_equal_paths_have_equal_digits_and_are_kept_whole(solved, tmp_path):
+    store = Store(tmp_path)
+    for task in (each for each in solved if isinstance(each, Path)):
+        again = task.solve()
+        for one, other in zip(solved[task].rows, again.rows, strict=True):
+            assert replace(one, seconds=0.0) == replace(other, seconds=0.0)
+        store.put(task, again)
+        assert store.get(task) == again
+        shorter = Path(task.contacts[:-1])
+        assert store.get(shorter) is None
+        assert not shorter.fits(again)
+
+
+def test_a_contact_without_an_answer_has_its_reason_and_those_behind_it_are_solved():
+    """The last is finer than its waves, the first is not."""
+    fine = replace(SCENE, roughness=replace(ROUGHNESS, shortest=1.5e-4))
+    (found,) = tasks_of(
+        {"": replace(RECTANGLE, scene=fine, values=(0.5,), draws={"BEM": 1}, grids=on_two_grids(BEM(points=64)))}
+    )
+    outcome = found.solve()
+    reasons = [row.reason is None for row in outcome.rows]
+    assert reasons == [False, True] * 3
+    assert "points" in outcome.rows[0].reason
+    broken = found.failed("its worker died")
+    assert found.fits(broken)
+    assert {row.reason for row in broken.rows} == {"its worker died"}
+
+
+def test_contacts_at_a_depth_and_at_a_load_are_on_different_paths():
+    deep = replace(RECTANGLE, scene=replace(SCENE, motion=Indent(depth=1e-5)), values=(0.5,))
+    both = {"load": replace(RECTANGLE, values=(0.5,)), "depth": deep}
+    assert set(tasks_of(both)) == {task for each in both.values() for task in each.tasks()}

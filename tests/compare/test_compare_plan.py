@@ -1,0 +1,277 @@
+"""`crosscheck plan`: both solvers' plans of a file, and what it says of a file that cannot be solved."""
+
+import re
+import tracemalloc
+
+import numpy as np
+import pytest
+from test_compare_cases import SCENE
+from typer.testing import CliRunner
+
+import compare
+from bem3d import BEM
+from compare import run
+from compare.cli.app import app
+from compare.report.plots import solid, style
+from compare.solving.parameter_grid import contacts_of
+from compare.studies.plan import plans
+from compare.trustmap.verdict import trust
+from mdr1d import MDR
+from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
+from scene.plan import Plan
+from scene.reading import made, read
+
+TINY = """
+[study]
+speeds = [0.1, 1.0]
+pressing = [0.5, 2.0]
+load_speeds = [0.1]
+depths = [1.0]
+surfaces = 2
+profiles = 2
+[bem]
+points = 32
+[mdr]
+points = 1000
+"""
+PLANE = """
+[indenter]
+type = "plane"
+[elastomer]
+type = "elastic"
+modulus = 1e6
+[motion]
+type = "indent"
+pressure = 1e4
+[roughness]
+type = "self-affine"
+hurst = 0.8
+rms_height = 1e-6
+longest = 1e-3
+shortest = {shortest}
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text):
+        path = tmp_path / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def told(path, *options):
+    return CliRunner().invoke(app, ["plan", str(path), *options])
+
+
+def test_a_plan_is_six_lines(written):
+    answer = told(written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n"))
+    assert answer.exit_code == 0
+    lines = answer.output.splitlines()
+    assert [each[:9].rstrip() for each in lines] == [
+        "contacts",
+        "time",
+        "memory",
+        "simulated",
+        "left out",
+        "modulus",
+    ]
+    assert max(map(len, lines)) <= 100
+
+
+def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
+    path = written(SCENE + TINY)
+    report = run(path, tmp_path / "out", workers=1, report=False)
+    solved = sum(len(getattr(task, "scenes", (task,))) for task in contacts_of(report.study.rectangles()))
+    assert plans(path).cost == report.study.cost()
+    assert solved <= plans(path).cost.contacts < 1.5 * solved
+    assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
+
+
+def test_the_details_are_both_plans_of_the_solvers(written):
+    path = written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n")
+    answer, short = told(path, "-v"), told(path)
+    assert answer.exit_code == 0
+    case = written(SCENE)
+    scene = read(case, Scene)
+    plans = MDR(points=700).plan(scene), BEM(points=96).plan(scene), trust(scene)
+    assert answer.output == "\n\n".join([short.output.rstrip(), *map(str, plans)]) + "\n"
+
+
+def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
+    path = written(PLANE.format(shortest=1e-4))
+    answer = told(path, "-v")
+    assert answer.exit_code == 0
+    assert "MDR cannot solve this scene: indenter = Plane: it is no body of revolution" in answer.output
+    assert "\nBEM, 128 points a side" in answer.output
+    assert isinstance(plans(path)["BEM"], Plan)
+    refused = next(line for line in told(path).output.splitlines() if line.startswith("refused"))
+    assert "MDR cannot solve this scene: indenter = Plane" in refused
+
+
+def test_where_all_refuse_the_status_says_so(written):
+    answer = told(written(PLANE.format(shortest=1e-6)))
+    assert answer.exit_code == 2
+    assert "MDR cannot solve this scene" in answer.output
+    assert "BEM cannot solve this scene: roughness.shortest = 1e-06 m is less than two pixels" in answer.output
+
+
+def test_a_program_of_too_many_steps_is_told_and_not_planned(written):
+    head, _ = SCENE.split("[motion]", 1)
+    stages = '[motion]\ntype = "program"\nstages = [{duration = 1.0, load = 1.0}, {duration = 1e9, speed = 1.0}]\n'
+    answer = told(written(head + stages))
+    assert answer.exit_code == 2
+    assert "would not get through this scene" in answer.output
+
+
+def test_a_mistake_in_the_file_is_named(written):
+    answer = told(written(SCENE.replace("load", "lode")))
+    assert answer.exit_code == 2
+    assert "motion.lode" in answer.output
+
+
+def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
+    path = written(SCENE + "[bem]\npoints = 4096\n[mdr]\npoints = 100000\n")
+    plans(path)
+    tracemalloc.start()
+    try:
+        found = plans(path)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert found["BEM"].memory > 2e9
+    assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
+
+
+@pytest.mark.parametrize(
+    ("elastomer", "said"),
+    [
+        (
+            {"type": "kelvin", "modulus": 1e6, "relaxation_time": 1e-3, "poisson_ratio": 0.5},
+            "shear G = 1 MPa, Young's E = 3 MPa at rest; infinite at the instant, by a dashpot",
+        ),
+        (
+            {
+                "type": "standard-linear-solid",
+                "rubbery_modulus": 670e3,
+                "glassy_youngs_modulus": 26e6,
+                "relaxation_time": 1e-3,
+            },
+            "shear G = 670 kPa, Young's E = 1.74 MPa at rest; 10 MPa, 26 MPa at the instant",
+        ),
+        ({"type": "elastic", "modulus": 1e9}, "shear G = 1 GPa, Young's E = 2.6 GPa at rest and at the instant"),
+    ],
+)
+def test_a_plan_says_how_stiff_the_solid_is_at_rest_and_at_the_instant(elastomer, said):
+    stated = {"poisson_ratio": 0.3} | elastomer
+    scene = {"indenter": {"type": "sphere", "radius": 1e-2}, "motion": {"type": "indent", "load": 1.0}}
+    found = plans(made(scene | {"elastomer": stated}, Scene, "scene"))
+    assert f"modulus    {said}" in str(found).splitlines()
+
+
+TIME = np.geomspace(1e-5, 1e1, 30)
+LAW = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6)
+SERIES = Prony(1e6, (1e6, 3e6), (1e-1, 1e-3))
+
+
+def moduli_drawn(table):
+    scene = Scene(Sphere(1e-2), Tabulated(table=table, poisson_ratio=0.3), Indent(load=1.0), temperature=LAW)
+    drawn = solid.plot(scene)
+    with style.applied():
+        return drawn, drawn.figure().axes
+
+
+def test_measured_moduli_are_drawn_as_points_on_their_fit_at_the_temperature_of_the_scene():
+    omega = np.geomspace(1e-1, 1e5, 20)
+    law = SERIES.complex_modulus(omega)
+    drawn, (axes, right) = moduli_drawn({"omega": omega, "G'": law.real, "G''": law.imag})
+    points = [line for line in axes.lines if line.get_label() == "measured"]
+    for line, part in zip(points, (law.real, law.imag), strict=True):
+        np.testing.assert_allclose(line.get_xdata(), omega / LAW.shift)
+        np.testing.assert_allclose(1e6 * np.asarray(line.get_ydata()), part)
+    fit = drawn.tables[solid.NAME]
+    at_points = np.interp(np.log(omega / LAW.shift), np.log(fit["omega"]), np.log(fit["storage"]))
+    np.testing.assert_allclose(np.exp(at_points), law.real, rtol=5e-3)
+    np.testing.assert_allclose(right.get_ylim(), np.multiply(2.6, axes.get_ylim()))
+    assert "at 310 K" in drawn.caption
+
+
+@pytest.mark.parametrize("name", ["G(t)", "J(t)"])
+def test_relaxation_and_creep_are_drawn_beside_the_moduli(name):
+    law = SERIES.relaxation_modulus(TIME) if name == "G(t)" else SERIES.creep_compliance(TIME)
+    _, (_, axes, _) = moduli_drawn({"t": TIME, name: law})
+    (points,) = (line for line in axes.lines if line.get_label() == "measured")
+    np.testing.assert_allclose(points.get_xdata(), TIME * LAW.shift)
+    assert axes.get_ylabel().endswith("[MPa]" if name == "G(t)" else "[1/MPa]")
+
+
+@pytest.mark.parametrize("form", ["png", "pdf", "svg"])
+def test_a_plan_draws_the_solid_into_a_file(written, tmp_path, form):
+    path = tmp_path / f"solid.{form}"
+    answer = told(written(SCENE), "--figure", str(path))
+    assert answer.exit_code == 0
+    assert path.stat().st_size > 1000
+
+
+def test_a_figure_of_another_form_is_refused(written, tmp_path):
+    answer = told(written(SCENE), "--figure", str(tmp_path / "solid.jpg"))
+    assert answer.exit_code == 2
+    assert "a file that ends in .png, .pdf, .svg" in answer.output
+    assert not (tmp_path / "solid.jpg").exists()
+
+
+def fine_map(folder, **stated):
+    """A scene with a map of 2 um waves on a contact of some 500 um, which 128 points a side do not carry."""
+    heights = 1e-7 * np.random.default_rng(3).standard_normal((64, 64))
+    np.save(folder / "map.npy", heights)
+    kept = "".join(f"{name} = {value}\n" for name, value in stated.items() if name != "points")
+    text = SCENE.split("[roughness]")[0].replace("load = 1.0", "load = 0.02")
+    rough = f'[roughness]\ntype = "topography"\nfile = "{folder}/map.npy"\npixel = "1 um"\nunit = "m"\n{kept}'
+    path = folder / "scene.toml"
+    path.write_text(f"{text}{rough}[bem]\npoints = {stated.get('points', 128)}\n")
+    return path
+
+
+def test_what_no_grid_carries_is_refused_alike_by_plan_and_run_before_any_work(tmp_path):
+    path = fine_map(tmp_path)
+    planned = told(path)
+    ran = CliRunner().invoke(app, ["run", str(path), "--output", str(tmp_path / "out")])
+    assert planned.exit_code == ran.exit_code == 2
+    assert not (tmp_path / "out").exists()
+    # of the widest contact of all, ten times the load of the scene, slowly
+    reason = " ".join(ran.stderr.split()).partition(": ")[2].partition(": ")[2]
+    assert (
+        "BEM cannot solve this scene with load = 0.2 N at 0.0333 m/s on 128 points: roughness.shortest" in reason
+    )
+    assert reason in " ".join(planned.stdout.split())
+
+
+@pytest.mark.parametrize("name", ["points", "shortest_kept"])
+def test_the_values_that_a_refusal_names_work(tmp_path, name):
+    refusal = str(plans(fine_map(tmp_path)).cost)
+    (value,) = re.findall(rf"{name} = ([\d.e-]+)", refusal)
+    accepted = plans(fine_map(tmp_path, **{name: value}))
+    assert accepted.feasible
+    assert not isinstance(accepted.cost, str)
+
+
+def test_a_plan_says_why_a_scene_is_not_compared(written):
+    head, _ = SCENE.split("[motion]", 1)
+    answer = told(written(f'{head}[motion]\ntype = "program"\nstages = [{{duration = 1.0, load = 1.0}}]\n'))
+    assert answer.exit_code == 0
+    assert "alone      motion = Program: crosscheck compares bodies that are pressed in" in answer.output
+
+
+def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in_python(written):
+    path = written(SCENE.replace("radius = 1e-2", "radius = 12.7").split("[roughness]")[0])
+    for command in ("plan", "trust"):
+        answer = CliRunner().invoke(app, [command, str(path)])
+        first = " ".join(answer.output.split())
+        assert re.match(r"doubtful:? +radius of the body = 12.7 m, above 1 m: .* is 12.7 mm meant\?", first)
+        assert not answer.stderr
+    for function in (compare.plan, compare.trust):
+        with pytest.warns(Doubtful, match="is 12.7 mm meant") as warned:
+            function(path)
+        assert {each.filename for each in warned} == {__file__}

@@ -1,0 +1,182 @@
+"""Everything that was solved is a Dataset with named dimensions, units, and a status of each contact."""
+
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+import pytest
+import xarray
+
+from bem3d import BEM
+from compare.solving import netcdf
+from compare.solving.outcome import Outcome, Row
+from compare.solving.parameter_grid import Rectangle, contacts_of, on_two_grids, tasks_of, tree
+from compare.statistics.finding import Claim
+from compare.statistics.jackknife import Sample, friction, judge, mean
+from mdr1d import MDR
+from scene import Indent, Kelvin, Layer, Refused, Scene, SelfAffine, Slide, Sphere
+from scene.reading import InvalidInput
+
+SCENE = Scene(
+    indenter=Sphere(radius=1e-2),
+    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+    motion=Slide(speed=0.1, load=1.0),
+    roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
+)
+ROUGH = Rectangle(
+    scene=SCENE,
+    speeds=(0.0, 0.1),
+    values=(0.5, 1.0, 2.0),
+    grids=on_two_grids(MDR(points=200), BEM(points=32)),
+    draws={"MDR": 4, "BEM": 2},
+)
+SMOOTH = replace(ROUGH, scene=replace(SCENE, roughness=None))
+
+
+def outcome_of(task, bad=()):
+    """Numbers that tell where they belong: the speed, the load, the seed, the points."""
+    rows = []
+    for scene in task.scenes:
+        seed = getattr(scene.roughness, "seed", 0)
+        if seed in bad:
+            rows.append(Row(reason="too rough"))
+            continue
+        speed, load = scene.motion.speed, scene.motion.load
+        rows.append(Row(load, 1e-4 * load, 0.1 * load * speed, measures={"seed_seen": float(seed)}))
+    return Outcome(tuple(rows))
+
+
+@pytest.fixture(scope="module")
+def answers():
+    both = {"rough": ROUGH, "smooth": SMOOTH}
+    return tree(both, {task: outcome_of(task) for task in tasks_of(both)})
+
+
+def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
+    assert dict(answers["rough/MDR"].sizes) == {"grid": 2, "speed": 2, "load": 3, "draw": 4}
+    assert dict(answers["rough/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3, "draw": 2}
+    assert dict(answers["smooth/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3}
+    assert answers["rough/BEM"].points.values.tolist() == [32, 16]
+    assert answers["rough/BEM"].draw.values.tolist() == [5, 6]
+
+
+def test_every_number_stands_where_it_was_asked_for(answers):
+    rough = answers["rough/MDR"].to_dataset()
+    assert (rough.normal_force == rough["load"]).all()
+    assert (rough.seed_seen == rough.draw).all()
+    assert rough.friction_force.sel(speed=0.1, load=2.0).values == pytest.approx(0.02)
+
+
+def test_every_variable_says_its_unit_and_what_it_is(answers):
+    for node in ("rough/MDR", "smooth/BEM"):
+        for name, variable in answers[node].to_dataset().variables.items():
+            assert variable.attrs["long_name"], name
+    assert answers["rough/MDR"].normal_force.attrs["units"] == "N"
+    assert answers["rough/MDR"].speed.attrs["units"] == "m/s"
+
+
+def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
+    both = {"rough": ROUGH}
+    found = tree(both, {task: outcome_of(task, bad=(6,)) for task in tasks_of(both)})["rough/BEM"].to_dataset()
+    assert set(found.status.sel(draw=6).values.ravel()) == {"failed"}
+    assert set(found.reason.sel(draw=6).values.ravel()) == {"too rough"}
+    assert set(found.status.sel(draw=5).values.ravel()) == {"solved"}
+    assert friction(found.sel(grid="fine"))[1] == pytest.approx([0.01] * 3)
+    assert np.isnan(mean(found.sel(grid="fine", draw=[6]), "normal_force")).all()
+
+
+def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
+    empty = {task: Outcome((Row(0.0, nan, 0.0),) * len(task.scenes)) for task in ROUGH.tasks()}
+    found = ROUGH.datasets(empty)["BEM"]
+    assert set(found.status.values.ravel()) == {"no contact"}
+    assert (found.normal_force == 0).all()
+    assert found.friction_force.isnull().all()
+
+
+def test_results_are_the_same_after_they_were_stored(answers, tmp_path):
+    netcdf.write(tmp_path / "results.nc", answers)
+    again = netcdf.load(tmp_path)
+    assert {node.path for node in again.subtree} == {node.path for node in answers.subtree}
+    for node in answers.subtree:
+        xarray.testing.assert_equal(again[node.path].to_dataset(), node.to_dataset())
+        for name, variable in node.variables.items():
+            assert again[node.path].variables[name].attrs == variable.attrs
+
+
+def test_results_are_read_as_xarray_reads_them(answers, tmp_path):
+    of_all_kinds = xarray.Dataset(
+        {
+            "holds": (("x", "nameless"), np.eye(2, 3, dtype=bool), {"long_name": "a truth"}),
+            "large": ("nameless_too", np.linspace(0, 1, 1000), {"units": "m"}),
+            "whole": ((), 3),
+            "name": ((), "µm"),
+            "reason": ("x", ["", "none at all"]),
+        },
+        {"x": [1.0, 2.0], "kind": ("x", ["a", "b"]), "beside": ("nameless", [1, 2, 3])},
+        {"solver": "BEM"},
+    )
+    parts = {node.path: node.to_dataset(inherit=False) for node in answers.subtree}
+    parts |= {"/": xarray.Dataset(attrs={"title": "all"}), "/all": of_all_kinds}
+    netcdf.write(tmp_path / "results.nc", xarray.DataTree.from_dict(parts))
+    again = netcdf.load(tmp_path)
+    with xarray.open_datatree(tmp_path / "results.nc", engine="h5netcdf") as expected:
+        xarray.testing.assert_identical(again, expected)
+        for node in expected.subtree:
+            for name, variable in node.variables.items():
+                assert again[node.path].variables[name].dtype == variable.dtype, name
+
+
+def test_damaged_results_and_folders_without_any_are_said(tmp_path):
+    with pytest.raises(InvalidInput, match="no command has left results"):
+        netcdf.load(tmp_path)
+    with pytest.raises(InvalidInput, match="no such file"):
+        netcdf.load(tmp_path / "nowhere")
+    for damage in (b"", b"x" * 100):
+        (tmp_path / "results.nc").write_bytes(damage)
+        with pytest.raises(InvalidInput, match=r"results\.nc"):
+            netcdf.load(tmp_path)
+
+
+def test_rectangles_that_cross_share_their_contacts():
+    line = replace(ROUGH, speeds=(0.1,), values=(1.0,))
+    assert set(tasks_of({"a": ROUGH, "b": line})) == set(ROUGH.tasks())
+    both = {"a": ROUGH, "b": replace(line, keeps_fields=True)}
+    kept = contacts_of(both)
+    assert set(kept) == set(contacts_of({"a": ROUGH}))
+    assert sum(each.keeps_fields for each in kept) == 2
+    assert {each for each in kept if each.keeps_fields} <= set(tasks_of(both))  # alone, not on a path
+
+
+def test_depths_are_prescribed_where_the_scene_prescribes_one():
+    rest = replace(ROUGH, scene=replace(SCENE, motion=Indent(depth=1e-5)), speeds=(0.0,), values=(1e-5, 2e-5))
+    found = rest.datasets({task: Outcome((Row(1.0, 1e-5, 0.0),) * len(task.scenes)) for task in rest.tasks()})
+    assert "depth" in found["BEM"].dims
+    assert {"depth_reached", "normal_force"} <= set(found["BEM"].data_vars)
+
+
+def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
+    layered = replace(SMOOTH.scene, layer=Layer(thickness=1e-3))
+    with pytest.raises(Refused, match="MDR"):
+        replace(SMOOTH, scene=layered).refuse()
+
+
+def test_draws_of_solvers_are_left_out_in_equal_shares(answers):
+    sample = Sample.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
+    assert set(sample) == {"rough/MDR", "rough/BEM", "smooth/MDR"}
+    assert (sample.draws, len(sample.groups)) == (2, 2)
+    less = sample.without(sample.groups[1])
+    assert (less["rough/MDR"].sizes["draw"], less["rough/BEM"].draw.values.tolist()) == (2, [5])
+    assert less["smooth/MDR"] is sample["smooth/MDR"]
+
+
+def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers):
+    def ratio(sample):
+        one, three = (mean(sample[f"rough/{solver}"], "normal_force") for solver in ("MDR", "BEM"))
+        return float((one / three)[0, 0])
+
+    claim = Claim("force", "The force in 1D is that in 3D", 1.0, 0.01, curves=("rough",), measure=ratio)
+    found = judge(claim, answers)
+    assert (found.value, found.verdict, found.grid, found.draws) == (1.0, "holds", 0.0, 2)
+    halved = answers.copy()
+    halved["rough/BEM"]["normal_force"].loc[{"grid": "coarse"}] *= 1.25
+    assert judge(claim, halved).grid == pytest.approx(0.2)

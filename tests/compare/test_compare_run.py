@@ -1,0 +1,395 @@
+"""A run of scenes: curves of a case, what is found of answers that are known, and the page of a small contact."""
+
+import re
+from dataclasses import replace
+from math import nan
+
+import numpy as np
+import pytest
+from pandas import DataFrame
+
+import compare
+from bem3d import BEM
+from compare.library.case import Case, Study
+from compare.library.describe import described, slug
+from compare.report import csvfiles
+from compare.report.export import TABLES
+from compare.report.page import Findings, Plot, Table
+from compare.report.plots import style
+from compare.report.redraw import FIGURES
+from compare.solving.continuation import Path
+from compare.solving.outcome import Outcome, Row
+from compare.solving.parameter_grid import COARSE, FINE, tasks_of
+from compare.statistics import finding
+from compare.studies.report import SOLVED
+from compare.studies.run.curves import (
+    LOAD,
+    OWN,
+    ROUGH_DEPTH,
+    SMOOTH_DEPTH,
+    SMOOTH_SPEED,
+    SPEED,
+    curves,
+    friction_law,
+    predicted_exponent,
+    slow_friction,
+)
+from compare.studies.run.figures import force_depth
+from compare.studies.run.study import Run, summary
+from mdr1d import MDR
+from scene import Cone, Elastic, Indent, Kelvin, Program, Prony, Refused, SelfAffine, Slide, Sphere, Stage
+from scene.printable import brief
+from scene.reading import InvalidInput
+from scene.scales import elastic_contact
+
+CASE = Case(
+    indenter=Sphere(radius=1e-2),
+    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+    motion=Slide(speed=0.1, load=1.0),
+    roughness=SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, shortest=2e-3, seed=5),
+    study=Study(
+        speeds=(0.1, 1.0),
+        pressing=(0.3, 1.0, 3.0, 10.0),
+        load_speeds=(0.03, 0.1, 0.3),
+        depths=(0.5, 1.0),
+        surfaces=2,
+        profiles=4,
+    ),
+    bem=BEM(points=32),
+    mdr=MDR(points=500),
+)
+DEEP = replace(CASE, motion=Slide(speed=0.1, depth=1e-4))
+
+
+def contacts(case):
+    return {name: (each.speeds, each.values) for name, each in curves(case).items()}
+
+
+def test_every_curve_has_its_contacts():
+    found, depth = contacts(CASE), elastic_contact(CASE.scene).depth
+    assert found[OWN] == ((0.1,), (1.0,))
+    assert found[ROUGH_DEPTH] == found[SMOOTH_DEPTH] == ((0.0,), (0.5 * depth, depth))
+    assert found[SPEED] == ((0.1, 1.0), (1.0,))
+    assert found[LOAD] == ((0.03, 0.1, 0.3), (0.3, 1.0, 3.0, 10.0))
+    assert len(found[SMOOTH_SPEED][0]) == 5
+
+
+REST = {OWN, ROUGH_DEPTH, SMOOTH_DEPTH}
+
+
+@pytest.mark.parametrize(
+    ("change", "left"),
+    [
+        ({"motion": Indent(load=1.0)}, REST),
+        ({"elastomer": Elastic(modulus=1e6)}, REST),
+        ({"roughness": None}, {OWN, SMOOTH_DEPTH, SPEED, LOAD, SMOOTH_SPEED}),
+        ({"elastomer": Prony(1e6, (1e6, 2e6), (1e-3, 1e-2))}, REST | {SPEED, LOAD}),
+        ({"motion": Slide(speed=0.0, load=1.0)}, REST | {SPEED, LOAD, SMOOTH_SPEED}),
+    ],
+    ids=["at rest", "elastic", "smooth", "two times", "starting from rest"],
+)
+def test_only_curves_that_mean_something_are_solved(change, left):
+    assert set(contacts(replace(CASE, **change))) == left
+
+
+def test_depth_stays_prescribed_where_the_scene_prescribes_it():
+    assert all(each.prescribed == "depth" for each in curves(DEEP).values())
+    assert contacts(DEEP)[LOAD][1] == pytest.approx((0.3e-4, 1e-4, 3e-4, 1e-3))
+
+
+def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone():
+    found, every = tasks_of(curves(CASE)), [task for each in curves(CASE).values() for task in each.tasks()]
+    asked, everywhere = ([each for task in tasks for each in contacts_on(task)] for tasks in (found, every))
+    solved = [(each.solver, scene) for each in asked for scene in each.scenes]
+    assert len(solved) == len(set(solved))
+    assert set(everywhere) == set(asked)
+    kept = {(task.solver, task.scenes[0]) for task in found if task.keeps_fields}
+    assert kept == {(CASE.mdr, CASE.scene), (CASE.bem, CASE.scene)}
+
+
+@pytest.mark.parametrize(
+    ("case", "rough", "smooth"),
+    [
+        (CASE, {FINE, COARSE}, {FINE, COARSE}),
+        (replace(CASE, roughness=replace(CASE.roughness, shortest=None)), {FINE}, {FINE, COARSE}),
+        (replace(CASE, bem=BEM(points=16)), {FINE}, {FINE}),
+    ],
+    ids=["resolved", "cut off by the grid", "too few points to halve"],
+)
+def test_a_grid_of_half_the_points_is_solved_where_it_has_the_same_surface(case, rough, smooth):
+    found = curves(case)
+    assert {name: set(grids) for name, grids in found[OWN].grids.items()}["BEM"] == rough
+    assert set(found[SMOOTH_DEPTH].grids["BEM"]) == smooth
+
+
+# Answers that are known: friction of 3D is v^-0.1 F^-0.2, and twice that in 1D; force is depth, 10 % more in 1D.
+FRICTION, FORCE = 2.0, 1.1
+
+
+def contacts_on(task):
+    return task.contacts if isinstance(task, Path) else (task,)
+
+
+def invented_of(run, **how):
+    return {each: invented(each, **how) for task in run.batches()[0].tasks for each in contacts_on(task)}
+
+
+def power_law(load, speed):
+    return 0.1 * speed**-0.1 * load**-0.2
+
+
+def invented(task, halved=0.0, scatter=0.0, broken=(), law=power_law):
+    """Rows of a contact. halved : error of a coarse 3D grid; scatter : between surfaces of 3D; broken : seeds."""
+    rows, name = [], task.solver.name
+    coarse = name == "BEM" and task.solver.points < CASE.bem.points
+    for scene in task.scenes:
+        seed = 0 if scene.roughness is None else scene.roughness.seed - CASE.roughness.seed
+        if name == "BEM" and scene.roughness and seed in broken:
+            rows.append(Row(reason="no answer"))
+            continue
+        motion = scene.motion
+        load = motion.load if motion.load is not None else motion.depth * 1e4
+        load *= FORCE if name == "MDR" and motion.load is None else 1.0
+        friction = law(load, motion.speed or 1.0) * load * (FRICTION if name == "MDR" else 1.0)
+        friction *= (1 + halved * coarse) * (1 + scatter * (-1) ** seed * (name == "BEM"))
+        measures = {"friction_by_traction": 1.02 * friction, "friction_by_loss": friction} if name == "BEM" else {}
+        rows.append(Row(load, 1e-4, friction, 0.0, 1.0, 2.0, measures | {"rms_slope": 0.01}))
+    return Outcome(tuple(rows))
+
+
+def judged(case=CASE, **how):
+    run = Run({"a case": case})
+    answers = run.answers(invented_of(run, **how))
+    return run, answers, finding.table(run.findings(answers)).set_index(["claim", "where"])
+
+
+def test_known_answers_are_found():
+    _, answers, found = judged()
+    own = found.loc["run.friction.own", "a case"]
+    assert own[["value", "low", "high", "draws", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
+    assert found.loc["run.friction.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
+    for claim in ("run.force-depth.rough", "run.force-depth.smooth"):
+        rows = found.loc[claim]
+        assert len(rows) == 2  # every depth, none chosen
+        np.testing.assert_allclose(rows["value"], FORCE - 1, rtol=1e-12)
+        assert set(rows["verdict"]) == {"fails"}
+    np.testing.assert_allclose(found.loc["run.friction.spread"]["value"], 0.02, rtol=1e-12)
+    in_3d = [task for task in Run({"a case": CASE}).batches()[0].tasks if task.solver.name == "BEM"]
+    assert answers["a-case/times"]["seconds"].sel(solver="BEM") == 2.0 * sum(len(task.scenes) for task in in_3d)
+    # a power law collapses by any shift
+    shifted = found.loc["eq23.collapse", "a case"]
+    assert shifted["verdict"].tolist() == ["undecided"] * 2
+    assert shifted["reason"].str.contains("straight parallel lines").all()
+
+
+def test_a_shift_of_friction_itself_leads_the_answer_and_the_figure_shows_both():
+    def bent(load, speed):
+        x = np.log(load) - 1.5 * np.log(speed)
+        return np.exp(-0.3 * x - 0.03 * x**2) * speed**-0.1
+
+    run, answers, found = judged(scatter=1e-3, law=bent)
+    shifted = found.loc["eq23.vertical-exponent", "a case"]
+    assert (shifted["verdict"] == "fails").all()
+    assert shifted["value"].tolist() == pytest.approx([0.1, 0.1], abs=1e-3)
+    assert ((shifted["low"] <= 0.1 + 1e-6) & (shifted["high"] >= 0.1 - 1e-6)).all()
+    assert found.loc["eq23.exponent", "a case"]["value"].tolist() == pytest.approx([-1.5, -1.5], abs=1e-2)
+    first, second, *others = run.answer(run.findings(answers))
+    assert first.startswith("a case, 1D: friction is shifted as v^0.1")
+    assert second.startswith("a case, 3D: friction is shifted as v^0.1")
+    assert not any("no shift along friction" in each for each in others)
+    (plot,) = (each for each in run.page(answers, run.findings(answers)).every(Plot) if "collapse" in each.name)
+    assert plot.alternative == "1D: both shifts; 3D: both shifts"
+    straight, *_ = judged()
+    assert not any("is shifted as" in each for each in straight.answer(straight.findings(_[0])))
+
+
+def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
+    _, _, found = judged(halved=0.02)
+    own = found.loc["run.friction.own", "a case"]
+    assert own["grid_error"] == pytest.approx(2 * (1 - 1 / 1.02))
+    assert own["high"] - own["value"] == pytest.approx(own["grid_error"])
+    assert own["grid_method"] == "change on halving"
+    assert found.loc["run.grid", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
+    _, _, wide = judged(scatter=0.1)
+    low, high = wide.loc["run.friction.own", "a case"][["scatter_low", "scatter_high"]]
+    # Two surfaces, 10 % each way: 12.7 standard errors of 10 % of the ratio.
+    assert high - low == pytest.approx(2 * 12.706 * 2 * 0.1, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("case", "reason"),
+    [
+        (replace(CASE, study=replace(CASE.study, surfaces=1)), "scatter"),
+        (replace(CASE, roughness=replace(CASE.roughness, shortest=None)), "grid"),
+    ],
+)
+def test_without_an_error_nothing_is_decided(case, reason):
+    _, _, found = judged(case)
+    own = found.loc["run.friction.own", "a case"]
+    assert own["verdict"] == "undecided"
+    assert reason in own["reason"]
+
+
+def test_a_surface_that_failed_is_left_out_and_listed():
+    run, answers, found = judged(broken={1}, case=replace(CASE, study=replace(CASE.study, surfaces=3)))
+    assert found.loc["run.friction.own", "a case"]["value"] == pytest.approx(2)
+    (case,) = run.judged(answers)
+    assert set(case.failures["reason"]) == {"no answer"}
+    assert set(case.failures["draw"]) == {CASE.roughness.seed + 1}
+    points = case.points.query("solver == 'BEM' and body == 'rough'")
+    assert set(points["failures"]) == {1}
+    assert set(points["surfaces"]) == {2}
+
+
+def test_points_have_means_deviations_and_intervals():
+    run, answers, _ = judged(scatter=0.1)
+    points = run.judged(answers)[0].points
+    one = points.query("curve == 'own' and solver == 'BEM'").iloc[0]
+    mu = one["friction_coefficient"]
+    assert mu == pytest.approx(0.1 * 0.1**-0.1)
+    assert one["friction_coefficient_deviation"] == pytest.approx(np.sqrt(2) * 0.1 * mu)
+    assert one["friction_coefficient_high"] - mu == pytest.approx(12.706 * 0.1 * mu, rel=1e-3)
+    assert points.query("solver == 'exact'")["normal_force"].notna().all()
+
+
+def test_cases_stand_side_by_side_in_the_summary():
+    run = Run({"one": CASE, "at rest": replace(CASE, motion=Indent(load=1.0))})
+    answers = run.answers(invented_of(run))
+    table = summary(run.judged(answers)).set_index("sentence")
+    own = "Friction of the scene as it stands is the same in 1D and 3D"
+    assert table.loc[own, "at rest"] == ""
+    assert table.loc[own, "one"].endswith("fails")
+    force = "The force on the rough body at the same depth is the same in 1D and 3D"
+    assert "fails 2 of 2" in table.loc[force, "one"]
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    small = replace(CASE, title="A small sphere", notes=("Far too few points.",))
+    run = Run.of({"Small sphere": small})
+    outcomes = {task: task.solve() for task in run.batches()[0].tasks}
+    answers = run.answers(outcomes)
+    return run, answers, run.page(answers, run.findings(answers))
+
+
+def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
+    run, answers, page = report
+    plots = {plot.name for plot in page.every(Plot)}
+    friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
+    assert plots == {f"small-sphere/{name}" for name in {"contact-maps", "force-depth"} | friction}
+    tables = {table.name: table.frame for table in page.every(Table)}
+    assert set(tables) == {"small-sphere/trust", "small-sphere/points", "small-sphere/times"}
+    shown = [each for block in page.every(Findings) for each in block.findings]
+    places = [
+        [(each.claim.id, each.dimension, each.where) for each in told] for told in (shown, run.findings(answers))
+    ]
+    assert sorted(places[0]) == sorted(places[1])
+    assert len(set(places[0])) == len(shown)
+    assert {each.plot for each in shown} - {""} <= plots
+    slow = next(each for each in shown if each.claim.id == "run.friction.smooth-slow")
+    assert slow.value == pytest.approx(2, abs=0.1)
+    assert all("±" not in line for line in page.answer)
+    assert [line[:9] for line in page.answer][-3:] == ["Trust map", "Trust map", "The grid "]
+    assert set(answers["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
+
+
+def test_figures_are_functions_of_what_their_files_hold(report, tmp_path):
+    drawn = {"force-depth", "friction-load"}
+    plots = [each for each in report[2].every(Plot) if each.name.removeprefix("small-sphere/") in drawn]
+    assert len(plots) == len(drawn)
+    for plot in plots:
+        assert len(plot.caption.split()) <= 60
+        read = {}
+        for name, frame in plot.tables.items():
+            csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
+            read[name] = csvfiles.read(tmp_path / f"{name}.csv")
+        with style.applied():
+            numbers = [_drawn(each.figure()) for each in (plot, replace(plot, tables=read))]
+        assert numbers[0]
+        for one, other in zip(*numbers, strict=True):
+            np.testing.assert_allclose(one, other, rtol=1e-12)
+
+
+def _drawn(figure):
+    return [
+        np.ma.filled(np.ma.asarray(line.get_xydata(), float), nan) for axes in figure.axes for line in axes.lines
+    ]
+
+
+def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(report):
+    plot = next(each for each in report[2].every(Plot) if each.name.endswith("force-depth"))
+    deviations = DataFrame({"body": "rough", "depth": [1e-4, 2e-4, 4e-4], "deviation": [-0.1, -0.05, -0.02]})
+    reach = np.array([9.0, 0.05, 0.04])
+    deviations["deviation_low"], deviations["deviation_high"] = -reach, reach
+    with style.applied():
+        below = force_depth.figure({**plot.tables, force_depth.DEVIATIONS: deviations}).axes[1]
+    low, high = below.get_ylim()
+    assert -20 < low < -10 < 5 < high < 20
+    marks = {line.get_marker(): line.get_xdata().tolist() for line in below.lines if line.get_marker() in "v^"}
+    assert marks == {"v": [pytest.approx(100)], "^": [pytest.approx(100)]}
+    deviations["deviation_low"], deviations["deviation_high"] = -0.2, 0.1
+    with style.applied():
+        below = force_depth.figure({**plot.tables, force_depth.DEVIATIONS: deviations}).axes[1]
+    # A mark without points would count in the layout, at the corner of the figure.
+    assert all(len(line.get_xdata()) for line in below.lines)
+
+
+@pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
+def test_one_value_of_everything_is_drawn_without_a_warning(motion):
+    one = Study(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
+    run = Run({"one": replace(CASE, motion=motion, study=one)})
+    answers = run.answers(invented_of(run))
+    with style.applied():
+        for plot in run.page(answers, run.findings(answers)).every(Plot):
+            plot.figure().draw_without_rendering()
+
+
+@pytest.mark.parametrize(("body", "exponent"), [(Sphere(radius=1e-2), -1.5), (Cone(angle=0.2), -2.0)])
+def test_laws_of_the_smooth_and_of_the_rough_body(body, exponent):
+    case = replace(CASE, indenter=body)
+    slow = slow_friction(case)
+    assert slow["MDR"] == pytest.approx(2 * slow["BEM"], rel=1e-12)
+    assert predicted_exponent(case) == pytest.approx(exponent, rel=1e-12)
+    assert friction_law(case, 1.0, 1e6, 0.01) == pytest.approx(np.sqrt(2) * 0.01, rel=1e-3)  # its plateau
+
+
+def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
+    program = Program(stages=(Stage(duration=1e-3, load=1.0),))
+    with pytest.raises(Refused, match="motion = Program"):
+        Run.of(replace(CASE, motion=program))
+    with pytest.raises(Refused, match="crosscheck animate shows"):
+        Run.of("there-and-back")
+    with pytest.raises(InvalidInput, match="did you mean quick-start"):
+        Run.of("quick-strat")
+
+
+SHARED = [("a!", "a?"), ("A", "a"), ("é", "e"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b"), ("", ".")]
+TAKEN = [SOLVED, FIGURES, TABLES, "Solved!", "con", "NUL", "com1", "x" * 5000, 3]
+
+
+@pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])
+def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_solved(tmp_path, names):
+    with pytest.raises(InvalidInput) as caught:
+        compare.run(dict.fromkeys(names, CASE), output=tmp_path / "out")
+    assert all(brief(str(name)) in str(caught.value) for name in names)
+    assert not (tmp_path / "out").exists()
+
+
+def test_names_of_files_that_a_command_writes_are_those_of_folders_beside_them():
+    names = ["manifest.json", "report.html", "results.nc", "findings.csv", "a/b", "日本"]
+    assert len(set(Run.of(dict.fromkeys(names, CASE)).folders.values())) == len(names)
+
+
+@pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])
+def test_a_study_of_ones_own_is_written_below_its_folder(tmp_path, place):
+    study = type("Mine", (compare.Study,), {"place": place})()
+    with pytest.raises(InvalidInput, match=re.escape(place)):
+        compare.solve(study, tmp_path / "out")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_scene_is_told_in_words():
+    parts = Sphere(radius=1e-2), Cone(angle=np.pi / 18), Slide(speed=0.1, load=1.0), Indent(depth=1e-4)
+    words = "Sphere, radius 10 mm", "Cone, angle 10°", "Slide at 0.1 m/s under 1 N", "Indent to 100 µm"
+    assert tuple(map(described, parts)) == words
+    assert slug("Größe, 2 Körper") == "groe-2-korper"

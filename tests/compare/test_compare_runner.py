@@ -1,0 +1,508 @@
+"""Tasks are solved once, in parallel, and one that fails takes no other with it."""
+
+import io
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Future
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic.dataclasses import dataclass
+
+from compare.solving import runner
+from compare.solving.amounts import duration
+from compare.solving.outcome import Outcome, Row
+from compare.solving.runner import SweepProgress, sweep
+from compare.solving.store import Store
+from compare.solving.task import SceneTask as Task
+from compare.solving.terminal import SweepBar
+from compare.solving.workers import ONE_THREAD, STILLBORN, Processes, answered
+from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
+
+SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Answers at once, leaving a mark; gives up above a load, breaks above a higher one, dies above the highest.
+
+    dies : how often a worker dies of it; it answers then
+    """
+
+    gives_up_above: float = 100.0
+    breaks_above: float = 1000.0
+    dies_above: float = 10000.0
+    dies: int = 99
+    marks: str = ""
+    seconds: float = 0.0
+    name: str = "stand"
+
+    def refusals(self, scene):
+        return []
+
+    def solve(self, scene):
+        load = scene.motion.load
+        time.sleep(self.seconds)
+        if self.marks:
+            Path(self.marks, f"{load:g}-{time.monotonic_ns()}-{os.getpid()}").touch()
+        if load > self.dies_above and len(list(Path(self.marks).glob(f"{load:g}-*"))) <= self.dies:
+            os.kill(os.getpid(), signal.SIGKILL)
+        if load > self.dies_above:
+            load = self.gives_up_above
+        if load > self.breaks_above:
+            raise ZeroDivisionError("a fault in the solver")
+        if load > self.gives_up_above:
+            raise SolveError(f"{load:g} N is too much; press less")
+        threads = {name: float(os.environ.get(name, "nan")) for name in ONE_THREAD}
+        measures = threads | {"process": float(os.getpid())}
+        return Result(scene, self.name, {}, load, 1e-4 * load, 0.0, 0.0, 1.0, 0.25, measures, {"x": [load]})
+
+
+def loads(*values, solver=None):
+    return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
+
+
+class Heard(SweepProgress):
+    def __init__(self):
+        self.said_lines = []
+        self.heard = []
+
+    def planned(self, tasks, reused):
+        self.heard.append(("planned", [task.work for task in tasks], reused))
+
+    def started(self, task):
+        self.heard.append(("started", task.work))
+
+    def finished(self, task, outcome):
+        self.heard.append(("finished", task.work))
+
+    def said(self, line):
+        self.said_lines.append(line)
+
+    def interrupted(self):
+        self.heard.append(("interrupted", None))
+
+
+class Here:
+    """Workers in this process, for laws that no process of another has a part in."""
+
+    died, tries = (), 3
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def room(self, out):
+        return 1 - out
+
+    def submit(self, packed):
+        future = Future()
+        future.set_result(answered(packed))
+        return future
+
+    def call_back(self):
+        pass
+
+
+@pytest.fixture
+def here(monkeypatch):
+    monkeypatch.setattr(runner, "_workers", lambda *_: Here())
+
+
+@pytest.mark.usefixtures("here")
+def test_what_the_store_has_is_not_solved_again(tmp_path):
+    first = sweep(loads(1.0, 2.0), Store(tmp_path), workers=2)
+    assert (first.solved, first.reused) == (2, 0)
+    more = sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1)
+    assert (more.solved, more.reused) == (1, 2)
+    assert [more.outcomes[task].rows[0].depth for task in loads(1.0, 2.0, 3.0)] == [1e-4, 2e-4, 1e-4 * 3.0]
+    again = sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1)
+    assert (again.solved, again.reused) == (0, 3)
+    other = sweep(loads(1.0, solver=Stand(gives_up_above=50.0)), Store(tmp_path), workers=1)
+    assert (other.solved, other.reused) == (1, 0)
+
+
+@pytest.mark.usefixtures("here")
+def test_a_task_that_stands_there_twice_is_solved_once(tmp_path):
+    assert sweep(loads(1.0, 1.0), Store(tmp_path), workers=1).solved == 1
+
+
+@pytest.mark.usefixtures("here")
+def test_a_failed_solve_is_a_row_of_nan_with_its_reason_and_the_rest_go_on(tmp_path):
+    tasks = loads(200.0, 1.0, 2.0)
+    swept = sweep(tasks, Store(tmp_path), workers=2)
+    failed, *fine = (swept.outcomes[task].rows[0] for task in tasks)
+    assert failed.reason == "200 N is too much; press less"
+    assert failed.normal_force != failed.normal_force
+    assert [row.normal_force for row in fine] == [1.0, 2.0]
+    again = sweep(tasks, Store(tmp_path), workers=1)
+    assert (again.solved, again.reused) == (0, 3)
+
+
+@pytest.mark.usefixtures("here")
+def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_it_again(tmp_path):
+    tasks = loads(2000.0, 5.0, 1.0)
+    heard = Heard()
+    swept = sweep(tasks, Store(tmp_path), workers=1, progress=heard)
+    (broken,) = swept.outcomes[tasks[0]].rows
+    assert broken.reason == "ZeroDivisionError: a fault in the solver"
+    assert np.isnan(broken.normal_force)
+    assert swept.faults == {tasks[0]: broken.reason}
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [5.0, 1.0]
+    assert len(heard.heard) == 1 + 2 * len(tasks)
+    (note,) = tmp_path.glob("*.fault.txt")
+    text = note.read_text()
+    assert tasks[0].label in text
+    assert "Traceback" in text
+    assert text.endswith("\nZeroDivisionError: a fault in the solver\n")
+    again = sweep(tasks, Store(tmp_path), workers=1)
+    assert (again.solved, again.reused, list(again.faults)) == (1, 2, tasks[:1])
+
+
+@pytest.mark.slow
+def test_a_mended_task_takes_the_note_of_its_fault_away(tmp_path, monkeypatch):
+    (task,) = loads(20000.0, solver=Stand(marks=str(tmp_path), dies=Processes.tries))
+    assert task in sweep([task], Store(tmp_path / "solved"), workers=1).faults
+    assert len(list((tmp_path / "solved").glob("*.fault.txt"))) == 1
+    swept = sweep([task], Store(tmp_path / "solved"), workers=1)
+    assert (swept.solved, swept.faults) == (1, {})
+    assert not list((tmp_path / "solved").glob("*.fault.txt"))
+
+
+@dataclass(frozen=True)
+class Odd:
+    """A task of one load that goes wrong in its own way."""
+
+    way: str
+    work: float = 1.0
+    label: str = "odd"
+    keeps_fields: bool = False
+    packages: tuple[str, ...] = ("scene",)
+
+    @property
+    def question(self):
+        return {"odd": self.way}
+
+    def __reduce__(self):
+        if self.way == "cannot be sent":
+            raise TypeError("cannot pickle it")
+        return type(self), (self.way,)
+
+    def solve(self):
+        if self.way == "memory":
+            raise MemoryError
+        if self.way == "leaves":
+            sys.exit(3)
+        if self.way == "cannot come back":
+            return Outcome((Row(settings={"what": lambda: None}),))
+        return Outcome(() if self.way == "not whole" else (Row(1.0),))
+
+    def failed(self, reason):
+        return Outcome((Row(reason=reason),))
+
+    def fits(self, outcome):
+        return len(outcome.rows) == 1
+
+
+@pytest.mark.usefixtures("here")
+def test_a_task_may_fail_in_any_way(tmp_path):
+    ways = {
+        "memory": "MemoryError",
+        "leaves": "SystemExit: 3",
+        "cannot be sent": "TypeError: cannot pickle it",
+        "cannot come back": "Can't pickle",
+        "not whole": "ValueError: its answer is not whole: 0 rows, fields []",
+    }
+    tasks = [Odd(way) for way in (*ways, "none")]
+    swept = sweep(tasks, Store(tmp_path), workers=1)
+    for task, reason in zip(tasks, ways.values(), strict=False):
+        assert reason in swept.faults[task]
+        assert swept.outcomes[task].rows[0].reason == swept.faults[task]
+    assert swept.outcomes[tasks[-1]].rows[0].reason is None
+    assert (len(swept.faults), Store(tmp_path).get(tasks[-1]) is not None) == (len(ways), True)
+
+
+@pytest.mark.parametrize("deaths", [1, pytest.param(Processes.tries, marks=pytest.mark.slow)])
+def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_alone(tmp_path, deaths):
+    solver = Stand(marks=str(tmp_path), dies=deaths, seconds=0.1)
+    tasks = loads(20000.0, 4.0, 3.0, 2.0, 1.0, solver=solver)
+    heard = Heard()
+    swept = sweep(tasks, Store(tmp_path / "solved"), workers=2, progress=heard)
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [4.0, 3.0, 2.0, 1.0]
+    assert all(len(list(tmp_path.glob(f"{load}-*"))) == 1 for load in (3, 2, 1))
+    assert 1 <= len(list(tmp_path.glob("4-*"))) <= 2  # it ran beside the death
+    assert len(list(tmp_path.glob("20000-*"))) == min(deaths + 1, Processes.tries)
+    assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
+    again = [line for line in heard.said_lines if line.startswith(tasks[0].label)]
+    assert len(again) == min(deaths, Processes.tries - 1)
+    assert again[0].endswith("its worker process died; the task is tried again alone")
+    (row,) = swept.outcomes[tasks[0]].rows
+    if deaths < Processes.tries:
+        assert row.normal_force == 100.0
+    else:
+        assert row.reason == "its worker died 3 times, the last time alone, as when memory runs out"
+        assert swept.faults == {tasks[0]: row.reason}
+
+
+def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypatch):
+    monkeypatch.setattr("compare.solving.workers._begin", float)  # what a worker begins with fails
+    died = []
+    lost = Processes.lost
+    monkeypatch.setattr(Processes, "lost", lambda self: died.append(0) or lost(self))
+    with pytest.raises(ChildProcessError, match="worker processes ended as they started, 3 times"):
+        sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
+    assert len(died) == STILLBORN
+
+
+def test_a_worker_that_runs_the_script_which_asked_for_it_ends_before_it_waits(tmp_path, monkeypatch):
+    monkeypatch.setattr(multiprocessing.current_process(), "_inheriting", True, raising=False)
+    with pytest.raises(SystemExit):
+        sweep(loads(1.0), Store(tmp_path / "solved"), workers=1)
+    assert not (tmp_path / "solved").exists()
+
+
+def test_a_fresh_process_solves_each_task_where_that_is_asked_for(tmp_path):
+    tasks = loads(1.0, 2.0)
+    swept = sweep(tasks, Store(tmp_path), fresh=True)
+    assert len({swept.outcomes[task].rows[0].measures["process"] for task in tasks}) == 2
+
+
+TWIN = """
+import sys
+from pathlib import Path
+from test_compare_runner import Stand, loads
+from compare.solving.store import Store
+from compare.solving.runner import sweep
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(folder), seconds=0.05))
+    swept = sweep(tasks, Store(folder / "solved"), workers=1)
+    print(swept.solved, swept.reused, *(swept.outcomes[task].rows[0].normal_force for task in tasks))
+"""
+
+
+def twin(folder):
+    (folder / "twin.py").write_text(TWIN)
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])}
+    command = [sys.executable, str(folder / "twin.py"), str(folder)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+
+
+def test_of_two_sweeps_at_once_one_waits_and_nothing_is_solved_twice(tmp_path):
+    both = [twin(tmp_path) for _ in range(2)]
+    said = [list(map(float, process.communicate(timeout=120)[0].split())) for process in both]
+    (solved, reused, *first), (solved_too, reused_too, *second) = said
+    assert first == second == [float(load) for load in range(1, 13)]
+    assert solved + solved_too == 12
+    assert solved + reused == solved_too + reused_too == 12
+    assert len(list(tmp_path.glob("*-*"))) == 12  # a mark a solve
+
+
+def test_a_folder_is_free_again_when_the_run_that_had_it_is_killed(tmp_path):
+    other, store = twin(tmp_path), Store(tmp_path / "solved")
+    deadline = time.monotonic() + 60
+    while not len(store) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    waited = []
+    with store.writing(lambda: bool(waited.append(0)), waited.append) as had:
+        assert not had
+    assert waited == ["another run solves in this folder: waiting for it", 0]
+    os.killpg(other.pid, signal.SIGKILL)
+    other.communicate()
+    with store.writing() as had:
+        assert had
+    tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
+    swept = sweep(tasks, store, workers=1)
+    assert swept.reused >= 1
+    assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [task.work for task in tasks]
+
+
+@pytest.mark.usefixtures("here")
+def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, monkeypatch):
+    monkeypatch.setattr("compare.solving.store._code_digest", lambda _: "0" * 32)
+    sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
+    monkeypatch.undo()
+    heard = Heard()
+    assert sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1, progress=heard).solved == 3
+    assert heard.said_lines == ["2 stored tasks were solved by other code: they are solved again"]
+
+
+def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "5")
+    monkeypatch.delenv("NUMBA_NUM_THREADS", raising=False)
+    (task,) = loads(1.0)
+    measures = sweep([task], Store(tmp_path), workers=1).outcomes[task].rows[0].measures
+    assert [measures[name] for name in ONE_THREAD] == [1.0] * len(ONE_THREAD)
+    assert measures["process"] != os.getpid()
+    assert os.environ["OMP_NUM_THREADS"] == "5"
+    assert "NUMBA_NUM_THREADS" not in os.environ
+
+
+@pytest.mark.usefixtures("here")
+def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
+    heard = Heard()
+    sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
+    steps = [(step, work) for work in (3.0, 2.0, 1.0) for step in ("started", "finished")]
+    assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
+
+
+@pytest.mark.usefixtures("here")
+def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path):
+    class Impatient(Heard):
+        def finished(self, task, outcome):
+            super().finished(task, outcome)
+            raise KeyboardInterrupt
+
+    heard = Impatient()
+    with pytest.raises(KeyboardInterrupt):
+        sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
+    assert heard.heard[1:] == [("started", 3.0), ("finished", 3.0)]
+    again = sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1)
+    assert (again.solved, again.reused) == (2, 1)
+
+
+def test_an_empty_contact_is_an_answer_with_forces_of_zero():
+    class Floats:
+        def solve(self, scene):
+            raise EmptyContact("nothing touches")
+
+    (row,) = Task(Floats(), (replace(SCENE, motion=Indent(depth=1e-4)),)).solve().rows
+    assert (row.normal_force, row.friction_force, row.depth, row.reason) == (0.0, 0.0, 1e-4, None)
+    assert np.isnan(row.friction_coefficient)
+
+
+@pytest.fixture
+def heeded():
+    """SIGINT raises, also where the tests run in the background of a shell, which ignores it there."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("heeded")
+@pytest.mark.parametrize(("presses", "stored"), [(1, 1), (2, 0)])
+def test_one_interrupt_waits_for_what_is_under_way_and_two_do_not(tmp_path, presses, stored):
+    class Impatient(Heard):
+        def started(self, task):
+            super().started(task)
+            for _ in range(presses):
+                signal.raise_signal(signal.SIGINT)
+
+    heard = Impatient()
+    with pytest.raises(KeyboardInterrupt):
+        sweep(loads(1.0, 2.0), Store(tmp_path), workers=1, progress=heard)
+    assert sum(Store(tmp_path).get(task) is not None for task in loads(1.0, 2.0)) == stored
+    assert [work for step, work, *_ in heard.heard if step == "started"] == [2.0]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_a_task_keeps_the_fields_of_its_first_scene_only():
+    scenes = tuple(replace(SCENE, motion=Indent(load=load)) for load in (3.0, 4.0))
+    assert Task(Stand(), scenes, keeps_fields=True).solve().fields == {"x": [3.0]}
+    assert Task(Stand(), scenes).solve().fields == {}
+
+
+class Clock:
+    """Seconds that pass when they are told to."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        return self.now
+
+
+def lines(terminal=False):
+    from rich.console import Console
+
+    return Console(file=io.StringIO(), force_terminal=terminal, width=100, highlight=False)
+
+
+def test_lines_tell_time_left_failures_and_what_was_reused():
+    console, clock = lines(), Clock()
+    tasks = loads(4.0, 2.0, 1.0)
+    with SweepBar(console, clock=clock) as told:
+        told.planned(tasks, 5)
+        for task, row in zip(tasks[:2], (Row(1.0), Row(reason="too much")), strict=True):
+            told.started(task)
+            clock.now += 2 * task.work
+            told.finished(task, Outcome((row,)))
+        told.said("a worker ended")
+        told.interrupted()
+    assert console.file.getvalue().splitlines() == [
+        "3 tasks to solve, 5 reused",
+        f"1/3, 6 s left, solved {tasks[0].label}",
+        "a worker ended",
+        "finishing the tasks under way",
+        "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
+    ]
+
+
+def test_a_sweep_that_has_nothing_to_solve_tells_nothing():
+    console = lines()
+    with SweepBar(console) as told:
+        told.planned([], 5)
+    assert console.file.getvalue() == ""
+
+
+def test_a_bar_tells_the_same_on_a_terminal():
+    console, clock = lines(terminal=True), Clock()
+    tasks = loads(4.0, 2.0)
+    with SweepBar(console, clock=clock) as told:
+        told.planned(tasks, 5)
+        told.started(tasks[0])
+        clock.now = 400.0
+        told.finished(tasks[0], Outcome((Row(reason="too much"),)))
+        told.started(tasks[1])
+        told.bar.refresh()
+    said = console.file.getvalue()
+    for part in ("1/2, 1 failed", "3 min 20 s left", "67 %"):
+        assert part in said
+    assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
+
+
+def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
+    console, clock = lines(terminal=True), Clock()
+    tasks = loads(4.0, 2.0)
+    shown = []
+
+    def look():
+        told.bar.refresh()
+        shown.append(told.bar.tasks[0].percentage)
+
+    with SweepBar(console, clock=clock) as told:
+        told.planned(tasks, 0)
+        told.started(tasks[0])
+        look()
+        for _ in range(20):
+            clock.now += 1.0
+            look()
+        assert shown[0] == 0
+        assert shown[1] > 1
+        assert all(earlier < later for earlier, later in pairwise(shown))
+        assert shown[-1] < 100 * 4 / 6
+        told.finished(tasks[0], Outcome((Row(1.0),)))
+        look()
+        assert shown[-1] == pytest.approx(100 * 4 / 6)
+        told.started(tasks[1])
+        clock.now += 10.0
+        look()
+        assert 100 * 4 / 6 < shown[-1] < 100
+        told.finished(tasks[1], Outcome((Row(1.0),)))
+        look()
+        assert shown[-1] == pytest.approx(100)
+
+
+def test_durations_are_said_as_people_say_them():
+    said = [duration(seconds) for seconds in (None, 0.2, 59.4, 59.6, 3599.0, 3600.0, 90061.0)]
+    assert said == ["?", "0 s", "59 s", "1 min 00 s", "59 min 59 s", "1 h 00 min", "25 h 01 min"]

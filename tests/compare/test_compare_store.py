@@ -1,0 +1,570 @@
+"""What is stored comes back as it was, under a name that changes with everything the answer depends on."""
+
+import errno
+import io
+import json
+import multiprocessing
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import zipfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
+from strategies import examples
+
+from compare.models.exact import Exact
+from compare.solving import store as module
+from compare.solving.outcome import Outcome, Row
+from compare.solving.store import FILE, Store, canonical, code_digest, key, stored_size, write
+from compare.solving.task import SceneTask as Task
+from compare.studies.paper.parameter_studies import ParameterStudies
+from mdr1d import MDR
+from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere
+from scene.vocabulary import MEASURES, NUMBERS
+
+SCENE = Scene(
+    Sphere(radius=1e-2),
+    Kelvin(modulus=1e6, relaxation_time=1e-3),
+    Slide(speed=0.1, load=1.0),
+    SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, seed=3),
+)
+TASK = Task(MDR(points=100), (SCENE,))
+PICTURE = replace(TASK, keeps_fields=True)
+ROW = Row(1.0, 1e-4, 0.1, 1e-9, 12.0, 0.5, {"pixel": 1e-6, "odd": np.nan}, {"points": 100, "cutoff": None})
+
+
+def drawn(count):
+    """A task of so many scenes."""
+    return replace(TASK, scenes=(SCENE,) * count)
+
+
+def bits(value):
+    """What two floats share only if they are the same, NaN with NaN, -0.0 apart from 0.0."""
+    return np.float64(value).tobytes()
+
+
+def same(first, second):
+    """Whether two outcomes are the same, bit for bit."""
+    return (
+        len(first.rows) == len(second.rows)
+        and all(map(same_row, first.rows, second.rows))
+        and first.fields.keys() == second.fields.keys()
+        and all(same_array(first.fields[name], second.fields[name]) for name in first.fields)
+    )
+
+
+def same_row(first, second):
+    return (
+        all(bits(getattr(first, name)) == bits(getattr(second, name)) for name in NUMBERS)
+        and {name: bits(value) for name, value in first.measures.items()}
+        == {name: bits(value) for name, value in second.measures.items()}
+        and (repr(dict(sorted(first.settings.items()))), first.reason)
+        == (repr(dict(sorted(second.settings.items()))), second.reason)
+    )
+
+
+def same_array(first, second):
+    first, second = np.asarray(first), np.asarray(second)
+    return (first.dtype, first.shape, first.tobytes()) == (second.dtype, second.shape, second.tobytes())
+
+
+FLOATS = st.floats(width=64)  # NaN with any payload that NumPy keeps, infinities, subnormals, both zeros
+NAMES = st.sampled_from(sorted(MEASURES)) | st.text("abcxyz_2µ", min_size=1, max_size=12)
+SETTINGS = st.dictionaries(
+    st.text(max_size=8), st.none() | st.booleans() | st.integers() | FLOATS | st.text(max_size=20), max_size=4
+)
+ROWS = st.builds(
+    Row,
+    *[FLOATS] * len(NUMBERS),
+    measures=st.dictionaries(NAMES, FLOATS, max_size=5),
+    settings=SETTINGS,
+    reason=st.none() | st.text(st.characters(exclude_characters="\0", exclude_categories=["Cs"]), max_size=80),
+)
+TYPES = st.sampled_from(["f8", "f4", "i8", "i4", "u1", "?", ">f8"])
+FIELDS = st.dictionaries(
+    st.sampled_from(["x", "y", "pressure", "profile", "time", "depth", "friction", "own word"]),
+    TYPES.flatmap(lambda kind: arrays(kind, array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=4))),
+    max_size=4,
+)
+
+
+@examples(30)
+@given(rows=st.lists(ROWS, min_size=1, max_size=4), fields=FIELDS)
+def test_whatever_an_outcome_holds_comes_back_bit_for_bit(tmp_path_factory, rows, fields):
+    task, store = replace(drawn(len(rows)), keeps_fields=True), Store(tmp_path_factory.mktemp("store"))
+    outcome = Outcome(tuple(rows), fields)
+    store.put(task, outcome)
+    assert same(store.get(task), outcome)
+
+
+def test_what_is_compared_bit_for_bit_tells_a_bit():
+    other = replace(ROW, normal_force=np.nextafter(1.0, 2.0))
+    assert not same(Outcome((ROW,)), Outcome((other,)))
+    assert not same(Outcome((replace(ROW, depth=0.0),)), Outcome((replace(ROW, depth=-0.0),)))
+
+
+@pytest.mark.parametrize("count", [1, 2, 50, 264])
+def test_every_row_comes_back_with_its_own_measures_settings_and_reason(tmp_path, count):
+    rows = tuple(
+        Row(reason=f"surface {k}: µ, ≤, \n and more " * 9)
+        if k % 7 == 3
+        else replace(ROW, measures={"pixel": k, str(k % 5): 1.0})
+        for k in range(count)
+    )
+    store = Store(tmp_path)
+    store.put(drawn(count), Outcome(rows))
+    assert same(store.get(drawn(count)), Outcome(rows))
+
+
+def test_a_block_of_the_campaign_comes_back(tmp_path):
+    """1320 contacts on 20 profiles, a question of half a megabyte."""
+    (block,) = ParameterStudies(profiles=20).tasks()
+    assert len(canonical(block.question)) > 2**17
+    found = np.random.default_rng(1).random((6, *block.shape))
+    found[2, 7, 5] = np.nan
+    names = ("friction", "depth", "length", "span", "rms_slope", "sweeps")
+    outcome = Outcome((), dict(zip(names, found, strict=True)))
+    store = Store(tmp_path)
+    store.put(block, outcome)
+    assert same(store.get(block), outcome)
+
+
+def test_failures_come_back_as_nan_with_their_reason(tmp_path):
+    Store(tmp_path).put(TASK, Outcome((Row(reason="did not converge"),)))
+    (found,) = Store(tmp_path).get(TASK).rows
+    assert np.isnan(found.normal_force)
+    assert found.reason == "did not converge"
+
+
+def test_fields_come_back_and_are_missed_where_they_are_wanted(tmp_path):
+    store = Store(tmp_path)
+    store.put(TASK, Outcome((ROW,)))
+    assert store.get(TASK) is not None
+    assert store.get(PICTURE) is None
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    assert np.array_equal(store.get(PICTURE).fields["x"], np.arange(3.0))
+    assert store.get(TASK).fields == {}
+
+
+def test_a_task_whose_fields_are_empty_is_done(tmp_path):
+    store = Store(tmp_path)
+    store.put(PICTURE, Outcome((ROW,)))
+    assert store.get(PICTURE).fields == {}
+
+
+def test_what_no_file_can_hold_is_refused_and_leaves_nothing(tmp_path):
+    store = Store(tmp_path)
+    with pytest.raises(TypeError, match="x is of type complex128"):
+        store.put(PICTURE, Outcome((ROW,), {"x": np.ones(3, complex)}))
+    assert list(tmp_path.iterdir()) == []
+
+
+def three(folder):
+    """A store of three tasks, and what its file holds."""
+    store = Store(folder)
+    tasks = [replace(TASK, solver=MDR(points=100 + k)) for k in range(3)]
+    for k, task in enumerate(tasks):
+        store.put(task, Outcome((replace(ROW, depth=float(k)),)))
+    return tasks, store.path, store.path.read_bytes()
+
+
+def found(folder, tasks):
+    """Which of the tasks a fresh look finds, each with its own answer."""
+    store = Store(folder)
+    outcomes = [store.get(task) for task in tasks]
+    assert all(outcome.rows[0].depth == k for k, outcome in enumerate(outcomes) if outcome is not None)
+    return [k for k, outcome in enumerate(outcomes) if outcome is not None]
+
+
+def test_damage_costs_the_outcome_that_it_hits_whichever_bit_it_is(tmp_path):
+    tasks, path, whole = three(tmp_path)
+    places = np.random.default_rng(0).integers(len(whole), size=200)
+    for place, bit in zip(places, 1 << np.arange(200) % 8, strict=True):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ int(bit)]) + whole[place + 1 :])
+        hit = whole[:place].count(b"\n\n")
+        assert set(found(tmp_path, tasks)) >= {0, 1, 2} - {hit, hit + (whole[place : place + 1] == b"\n")}
+        assert len(found(tmp_path, tasks)) >= 2
+    path.write_bytes(whole)
+    assert found(tmp_path, tasks) == [0, 1, 2]
+
+
+def test_any_bit_of_a_line_but_its_end_counts(tmp_path):
+    (task, *_), path, whole = three(tmp_path)
+    line = whole.partition(b"\n")[0]
+    for place in range(0, len(line), 7):
+        path.write_bytes(line[:place] + bytes([line[place] ^ 1]) + line[place + 1 :] + b"\n\n")
+        assert found(tmp_path, [task]) == []
+
+
+@pytest.mark.parametrize("cut", [1, 2, 3, 40, 300])
+def test_what_a_kill_left_half_written_is_cut_off_and_costs_nothing_else(tmp_path, cut):
+    tasks, path, whole = three(tmp_path)
+    path.write_bytes(whole[:-cut])
+    kept = found(tmp_path, tasks)
+    assert kept == ([0, 1, 2] if cut == 1 else [0, 1])  # a line ends twice
+    Store(tmp_path).put(tasks[2], Outcome((replace(ROW, depth=2.0),)))
+    assert found(tmp_path, tasks) == [0, 1, 2]
+    assert len(Store(tmp_path)) == 3
+    assert path.read_bytes().endswith(b"\n\n")
+
+
+def test_a_file_of_something_else_holds_nothing(tmp_path):
+    store = Store(tmp_path)
+    for content in (b"", b"{}", b"\n\n\n", b"\0" * 500, np.random.default_rng(0).bytes(9000)):
+        store.path.write_bytes(content)
+        assert Store(tmp_path).get(TASK) is None
+    Store(tmp_path).put(TASK, Outcome((ROW,)))
+    assert Store(tmp_path).get(TASK) is not None
+
+
+def test_fields_that_are_damaged_count_as_absent(tmp_path):
+    store = Store(tmp_path)
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(300.0)}))
+    (path,) = tmp_path.glob("*.npz")
+    whole = path.read_bytes()
+    for place in range(0, len(whole), 50):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :])
+        assert store.get(PICTURE) is None
+    path.unlink()
+    assert store.get(PICTURE) is None
+    assert store.get(TASK) is not None
+
+
+def archive(compression, **members):
+    """The bytes of an archive of numpy, packed as anyone can."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", compression) as file:
+        for name, values in members.items():
+            with file.open(name, "w") as member:
+                np.lib.format.write_array(member, values)
+    return packed.getvalue()
+
+
+ZEROS, OBJECTS = np.zeros(10**6), np.array([print], object)
+FORGED_FIELDS = {
+    "no archive": b"PK\x05\x06",
+    "unpacks to more": archive(zipfile.ZIP_DEFLATED, **{"0.npy": ZEROS}),
+    "pickled": archive(zipfile.ZIP_STORED, **{"0.npy": OBJECTS}),
+    "text": archive(zipfile.ZIP_STORED, **{"0.npy": np.array(["a"])}),
+    "too many": archive(zipfile.ZIP_STORED, **{"0.npy": ZEROS[:3], "1.npy": ZEROS[:3]}),
+    "declares more": archive(zipfile.ZIP_STORED, **{"0.npy": ZEROS[:3]}).replace(b"(3,), ", b"(9**9,)")[:400],
+}
+
+
+@pytest.mark.parametrize("kind", FORGED_FIELDS)
+def test_fields_that_are_forged_under_a_digest_that_fits_count_as_absent(tmp_path, monkeypatch, kind):
+    with monkeypatch.context() as forging:
+        forging.setattr(module, "_packed", lambda _: FORGED_FIELDS[kind])
+        Store(tmp_path).put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    assert Store(tmp_path).get(TASK) is not None
+    assert Store(tmp_path).get(PICTURE) is None
+
+
+FORGED_LINES = [
+    {"rows": 10**9}, {"rows": -1}, {"rows": None}, {"numbers": "AA=="}, {"numbers": 3}, {"measures": [[]]},
+    {"measures": [3, 4]}, {"settings": [3]}, {"settings": {}}, {"reasons": {"0": 3}}, {"reasons": []},
+    {"absent": None}, {"names": 3}, {"fields": 3},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("change", [*FORGED_LINES, b"[" * 10**5, b"[]", b"1" * 10**4, b"{}"], ids=str)
+def test_a_line_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_path, change):
+    store = Store(tmp_path)
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    name, text = key(PICTURE), store.path.read_bytes().strip()[module.HEAD + 1 :]
+    forged = change if isinstance(change, bytes) else json.dumps(json.loads(text) | change).encode()
+    store.path.write_bytes(module._line(name, forged) + b"\n\n")
+    assert Store(tmp_path).get(PICTURE) is None
+
+
+def test_a_line_that_is_too_long_is_passed_over(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "MOST_LINE", 1000)
+    tasks, path, whole = three(tmp_path)
+    for length in (999, 1000, 1001, 2500, 3000):
+        path.write_bytes(whole[: whole.index(b"\n")] + b"\n" + b"x" * length + b"\n" + whole[whole.index(b"\n") :])
+        assert found(tmp_path, tasks) == [0, 1, 2]
+        path.write_bytes(whole + b"x" * length)
+        Store(tmp_path).put(tasks[2], Outcome((replace(ROW, depth=2.0),)))
+        assert found(tmp_path, tasks) == [0, 1, 2]
+        assert b"x" * 99 not in path.read_bytes()
+
+
+def sparse(path):
+    """A file that is too large, of nothing."""
+    path.touch()
+    os.truncate(path, 10**12)
+
+
+def device(path):
+    path.symlink_to("/dev/zero")
+
+
+def circle(path):
+    path.symlink_to(path)
+
+
+PLACED = [getattr(os, "mkfifo", os.mkdir), os.mkdir, device, circle, sparse]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("placed", PLACED)
+def test_what_stands_in_the_place_of_the_file_holds_nothing_and_is_named_before_it_is_written(tmp_path, placed):
+    path = tmp_path / FILE
+    placed(path)
+    assert Store(tmp_path).get(TASK) is None
+    with pytest.raises(OSError, match=re.escape(str(path))):
+        Store(tmp_path).put(TASK, Outcome((ROW,)))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
+@pytest.mark.parametrize("placed", PLACED)
+def test_what_stands_in_the_place_of_fields_counts_as_absent(tmp_path, placed):
+    store = Store(tmp_path)
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    (path,) = tmp_path.glob("*.npz")
+    path.unlink()
+    placed(path)
+    assert store.get(PICTURE) is None
+
+
+def test_a_folder_that_nobody_may_write_can_be_read(tmp_path):
+    tasks, path, _ = three(tmp_path)
+    path.chmod(0o444)
+    tmp_path.chmod(0o555)
+    try:
+        assert found(tmp_path, tasks) == [0, 1, 2]
+        if os.getuid():
+            with pytest.raises(PermissionError) as caught:
+                Store(tmp_path).put(TASK, Outcome((ROW,)))
+            assert caught.value.filename == str(path)
+    finally:
+        tmp_path.chmod(0o755)
+
+
+def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):
+    fcntl = pytest.importorskip("fcntl")
+
+    def no_locks(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", no_locks)
+    said = []
+    with Store(tmp_path).writing(say=said.append) as had:
+        assert had
+    assert said == [
+        "this folder cannot be locked (No locks available), as on some network drives: run one at a time"
+    ]
+
+
+def test_an_outcome_is_small(tmp_path):
+    """Of a small task: less than 2 kB."""
+    assert stored_size(TASK, Outcome((ROW,))) < 1000
+    Store(tmp_path).put(TASK, Outcome((ROW,)))
+    assert Store(tmp_path).path.stat().st_size == stored_size(TASK, Outcome((ROW,))) + 2
+
+
+def test_a_write_that_breaks_off_leaves_the_old_file_and_no_other(tmp_path):
+    path = tmp_path / "numbers.json"
+    path.write_text("old")
+
+    def broken(file):
+        file.write(b"ne")
+        raise OSError("disk full")
+
+    with pytest.raises(OSError, match="disk full"):
+        write(path, broken)
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["numbers.json"]
+    write(path, lambda file: file.write(b"new"))
+    assert path.read_text() == "new"
+    assert os.listdir(tmp_path) == ["numbers.json"]
+
+
+@pytest.fixture
+def little_room():
+    """No file may be longer than 4 kB, as on a disk that fills up while one is written."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    signal.signal(signal.SIGXFSZ, handler)
+
+
+@pytest.mark.usefixtures("little_room")
+def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tmp_path):
+    store, tasks = Store(tmp_path), [replace(TASK, solver=MDR(points=100 + k)) for k in range(40)]
+
+    def fill():
+        for task in tasks:
+            store.put(task, Outcome((ROW,)))
+
+    with pytest.raises(OSError, match=r"File too large|No space left") as caught:
+        fill()
+    assert caught.value.filename == str(store.path)
+    stored = [task for task in tasks if Store(tmp_path).get(task) is not None]
+    assert stored == tasks[: len(stored)]
+    assert stored
+    assert store.path.read_bytes().endswith(b"\n\n")
+    with pytest.raises(OSError, match="File too large") as caught:
+        store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3000.0)}))
+    assert caught.value.filename.endswith(".npz")
+    assert [path.name for path in tmp_path.iterdir()] == [FILE]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="of POSIX")
+def test_what_is_no_regular_file_is_not_written_over(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to("pipe")
+    for name in ("pipe", "link"):
+        with pytest.raises(OSError, match="is no regular file") as caught:
+            write(tmp_path / name, lambda file: file.write(b""))
+        assert caught.value.filename == str(tmp_path / name)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["link", "pipe"]
+    assert (tmp_path / "pipe").is_fifo()
+
+
+def test_a_folder_that_takes_no_file_is_an_error_that_names_the_file(tmp_path):
+    (tmp_path / "solved").touch()
+    with pytest.raises(OSError, match="solved"):
+        Store(tmp_path / "solved").put(TASK, Outcome((ROW,)))
+    with pytest.raises(FileNotFoundError) as caught:
+        write(tmp_path / "absent" / "numbers.csv", lambda file: file.write(b""))
+    assert caught.value.filename == str(tmp_path / "absent" / "numbers.csv")
+
+
+def test_other_code_does_not_answer(tmp_path, monkeypatch):
+    store = Store(tmp_path)
+    monkeypatch.setattr(module, "_code_digest", lambda _: "0" * 32)
+    store.put(TASK, Outcome((ROW,)))
+    monkeypatch.undo()
+    assert store.get(TASK) is None
+    assert store.by_other_code([TASK, drawn(2)]) == 1
+    store.put(TASK, Outcome((ROW,)))
+    assert (store.by_other_code([TASK]), len(store)) == (0, 2)
+
+
+FORKS = pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
+
+
+def writer(folder, times):
+    """A process that writes one task again and again: a copy of this one, with the code that this one has."""
+    process = multiprocessing.get_context("fork").Process(target=_write, args=(folder, times))
+    process.start()
+    return process
+
+
+def _write(folder, times):
+    replaced = os.replace  # half of its time there is a file that is written and has no name yet
+    os.replace = lambda *paths: time.sleep(0.01) or replaced(*paths)
+    module._clear.cache_clear()
+    for k in range(times):
+        Store(folder).put(PICTURE, Outcome((replace(ROW, depth=float(k)),), {"x": np.full(20000, float(k))}))
+
+
+@FORKS
+def test_two_processes_write_one_task_while_others_read_it(tmp_path):
+    store, both, read = Store(tmp_path), [writer(tmp_path, 30) for _ in range(2)], 0
+    while any(process.is_alive() for process in both):
+        outcome = store.get(PICTURE)  # None between the fields of one write and their line
+        read += outcome is not None
+        assert outcome is None or (outcome.fields["x"] == outcome.rows[0].depth).all()
+    assert [process.exitcode for process in both] == [0, 0]
+    assert store.get(PICTURE).rows[0].depth == 29.0
+    assert read > 3
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([f"{key(PICTURE)}.npz", FILE])
+
+
+@FORKS
+@pytest.mark.parametrize("times", [5, pytest.param(50, marks=pytest.mark.slow)])
+def test_a_writer_killed_at_any_moment_leaves_whole_lines_and_nothing_else(tmp_path, times):
+    moments, halves = np.random.default_rng(times), 0
+    for _ in range(times):
+        process = writer(tmp_path, 10**6)
+        time.sleep(moments.uniform(0.0, 0.1))
+        process.kill()
+        process.join()
+        outcome = Store(tmp_path).get(PICTURE)
+        assert outcome is None or (outcome.fields["x"] == outcome.rows[0].depth).all()
+        left = [path for path in tmp_path.iterdir() if path.name not in (f"{key(PICTURE)}.npz", FILE)]
+        assert len(left) <= 1  # each writer clears what the one before it left
+        halves += len(left)
+    process = writer(tmp_path, 1)
+    process.join()
+    assert process.exitcode == 0
+    assert Store(tmp_path).get(PICTURE).rows[0].depth == 0.0
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([f"{key(PICTURE)}.npz", FILE])
+    assert halves
+
+
+def test_temporary_files_of_a_process_that_lives_are_left_alone(tmp_path):
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    names = {
+        "alive": f".page.html.{os.getppid()}.abcdefgh",
+        "ended": f".page.html.{ended.pid}.abcdefgh",
+        "something else": ".hidden",
+    }
+    for name in names.values():
+        (tmp_path / name).touch()
+    write(tmp_path / "numbers.csv", lambda file: file.write(b"1"))
+    left = {what for what, name in names.items() if (tmp_path / name).exists()}
+    assert left == {"alive", "something else"}
+
+
+def test_the_name_changes_with_everything_that_the_answer_depends_on():
+    prony = Prony(equilibrium_modulus=1e6, moduli=(1e6,), relaxation_times=(1e-3,))
+    rough = SCENE.roughness
+    others = [
+        replace(TASK, scenes=(replace(SCENE, indenter=Sphere(radius=1.0000000000000002e-2)),)),
+        replace(TASK, scenes=(replace(SCENE, elastomer=prony),)),
+        replace(TASK, scenes=(replace(SCENE, motion=Slide(speed=0.1, depth=1.0)),)),
+        replace(TASK, scenes=(replace(SCENE, motion=Indent(load=1.0)),)),
+        replace(TASK, scenes=(replace(SCENE, roughness=None),)),
+        replace(TASK, scenes=(replace(SCENE, roughness=replace(rough, seed=4)),)),
+        replace(TASK, scenes=(SCENE, SCENE)),
+        replace(TASK, solver=MDR(points=101)),
+        replace(TASK, solver=MDR(points=100, extent=1e-2)),
+        replace(TASK, solver=Exact()),
+    ]
+    assert len({key(task) for task in [TASK, *others]}) == 1 + len(others)
+    assert key(replace(TASK, work=7.0)) == key(Task(MDR(points=100), (replace(SCENE),)))
+
+
+def test_the_question_and_the_code_name_a_file_apart(monkeypatch):
+    before = key(TASK)
+    monkeypatch.setattr(module, "_code_digest", lambda _: "other")
+    assert key(TASK) == f"{before.partition('-')[0]}-other"
+
+
+@given(value=st.recursive(FLOATS | st.integers() | st.text() | st.booleans() | st.none(), st.lists))
+@examples(50)
+def test_canonical_text_is_json_and_tells_apart_what_differs(value):
+    """Read back it is the same value; tuples and lists are one, and so are all ways to sort a table."""
+    text = canonical({"b": value, "a": 1})
+    assert text.isascii()
+    assert "NaN" not in json.dumps(json.loads(text, parse_constant=pytest.fail))
+    assert canonical({"a": 1, "b": value}) == text
+    assert canonical([value, -0.0]) != canonical([value, 0.0])
+
+
+def test_the_digest_of_code_changes_with_content_and_name(tmp_path):
+    (tmp_path / "a.py").write_text("x = 1\n")
+    first = code_digest(tmp_path)
+    (tmp_path / "notes.txt").write_text("no code")
+    assert code_digest(tmp_path) == first
+    (tmp_path / "a.py").write_text("x = 2\n")
+    second = code_digest(tmp_path)
+    (tmp_path / "a.py").rename(tmp_path / "b.py")
+    third = code_digest(tmp_path)
+    (tmp_path / "measured.csv.gz").write_bytes(b"1")  # what answers are made of
+    assert len({first, second, third, code_digest(tmp_path)}) == 4

@@ -1,0 +1,350 @@
+"""Spectra of measured maps: of surfaces whose spectrum is known, and beside another program."""
+
+from dataclasses import replace
+from io import StringIO
+from math import pi
+
+import numpy as np
+import pandas
+import pytest
+from scipy.ndimage import gaussian_filter
+from scipy.stats import binom
+
+import compare
+from bem3d.grid import Grid
+from bem3d.surface import RoughSurface
+from compare.report.plots import style
+from compare.statistics import spectra
+from compare.statistics.powerlaw import fit
+from compare.statistics.spectra import describe, mapped, rings_of, rows_of
+from compare.studies.topography import figure as plots
+from compare.studies.topography.study import Map
+from scene import SelfAffine, Topography
+from scene.reading import InvalidInput
+
+L = 4e-3
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=L, shortest=L / 48, rolloff=L / 4, amplitudes="gaussian")
+ROUNDING = 1e-9
+
+
+def sampled(rough, points=128, piece=None, **other):
+    """One period of a surface as a map, or a piece of it."""
+    grid = Grid(points, rough.longest)
+    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)[:piece, :piece]
+    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
+    return Topography(heights=heights, **(stated | other))
+
+
+def test_a_surface_is_described_as_it_was_drawn():
+    surface = RoughSurface.of(ROUGH, ROUGH.q_max(0.0))
+    found = describe(sampled(ROUGH))
+    assert found.rms_height == pytest.approx(surface.rms_height, rel=ROUNDING)
+    assert found.rms_slope_spectral == pytest.approx(surface.rms_slope, rel=ROUNDING)
+    # differences of neighbours show sin(q p / 2) / (q p / 2) of a wave: of the shortest, 2.7 pixels, 0.78
+    assert 0.78 * found.rms_slope_spectral < found.rms_slope < found.rms_slope_spectral
+    finer = describe(sampled(ROUGH, 512))
+    assert finer.rms_slope == pytest.approx(finer.rms_slope_spectral, rel=0.02)
+    assert found.warnings == []
+
+
+@pytest.mark.parametrize("repeat", ["periodic", "mirror"])
+def test_the_spectrum_is_two_sided(repeat):
+    # the integral over all rings is the mean square, but for the rest of rings with few waves
+    map_ = sampled(ROUGH, repeat=repeat)
+    rings = rings_of(map_)
+    waves = map_.waves
+    counted = np.sum(rings.density * rings.waves) * 2 * waves.step_x * waves.step_y
+    assert counted == pytest.approx(map_.rms_height**2, rel=0.01)
+    rows = rows_of(map_)
+    line = 2 * np.sum(rows.density) * rows.q[0]
+    own_mean = map_.relief.mean(axis=1).var()
+    assert line + own_mean == pytest.approx(map_.rms_height**2, rel=ROUNDING)
+
+
+def test_the_spectrum_is_that_of_the_surface():
+    # of amplitudes that do not scatter: what is left is the lattice
+    fixed = replace(ROUGH, amplitudes="fixed")
+    rings = rings_of(sampled(fixed))
+    middle = slice(6, -1)
+    expected = fixed.density_2d(rings.q, fixed.q_max(0.0))
+    np.testing.assert_allclose(rings.density[middle], expected[middle], rtol=0.1)
+    assert rings.edges[-1] == pytest.approx(2 * pi * 48 / L, rel=0.02)
+    assert not rings.whole
+    np.testing.assert_allclose(
+        mapped(rings)[middle], fixed.density_1d(rings.q, fixed.q_max(0.0))[middle], rtol=0.1
+    )
+
+
+def test_rows_are_line_scans():
+    fixed = replace(ROUGH, amplitudes="fixed")
+    rows = rows_of(sampled(fixed))
+    below = rows.q < 0.9 * fixed.q_max(0.0)
+    expected = fixed.density_line_scan(rows.q[below], fixed.q_max(0.0))
+    np.testing.assert_allclose(rows.density[:48][below[:48]][6:], expected[6:], rtol=0.15)
+
+
+def test_one_wave_is_all_in_one_ring():
+    x = np.arange(64) / 64
+    map_ = Topography(
+        heights=np.tile(np.cos(2 * pi * 8 * x), (64, 1)), pixel=1 / 64, level="mean", repeat="periodic"
+    )
+    rings = rings_of(map_)
+    assert rings.q == pytest.approx([16 * pi])
+    assert rings.waves.tolist() == [1]
+    assert rings.density[0] * 2 * (2 * pi) ** 2 == pytest.approx(0.5)
+    found = describe(map_)
+    assert found.law is None
+    assert "too few rings" in found.warnings[0]
+    assert "isotropic" in found.warnings[1]
+
+
+# Of 40 intervals of 95 % as many or fewer hold with a chance of 1e-3.
+HOLD = int(binom.ppf(1e-3, 40, 0.95))
+
+
+@pytest.mark.parametrize(
+    ("hurst", "piece"),
+    [(0.8, 64), *(pytest.param(*each, marks=pytest.mark.slow) for each in ((0.2, 64), (0.2, None), (0.8, None)))],
+)
+def test_intervals_hold_the_hurst_exponent_as_often_as_they_say(hurst, piece):
+    # whole periods, and pieces that do not repeat, mirrored and levelled as a measured map would be
+    stated = {} if piece is None else {"repeat": "mirror", "level": "tilt", "piece": piece}
+    laws = [describe(sampled(replace(ROUGH, hurst=hurst, seed=seed), **stated)).law for seed in range(40)]
+    assert sum(law.low <= hurst <= law.high for law in laws) >= HOLD
+    # and say something: of a piece of 64 pixels with a cut-off inside, little
+    assert np.median([law.high - law.low for law in laws]) < (0.2 if piece is None else 0.4)
+
+
+@pytest.mark.slow
+def test_intervals_hold_the_exponent_about_as_often_as_they_say_and_not_always():
+    # mirrored and levelled pieces, with and without a roll-off: of 200 intervals of 95 %, each end at 1e-3
+    stated = {"repeat": "mirror", "level": "tilt", "piece": 64}
+    roughs = (replace(ROUGH, hurst=0.5, rolloff=rolloff) for rolloff in (None, L / 4))
+    laws = [describe(sampled(replace(rough, seed=k), **stated)).law for rough in roughs for k in range(100)]
+    held = sum(law.low <= 0.5 <= law.high for law in laws)
+    assert binom.ppf(1e-3, 200, 0.95) <= held <= binom.ppf(1 - 1e-3, 200, 0.95)
+
+
+def test_a_wrong_exponent_is_outside():
+    law = describe(sampled(ROUGH)).law
+    assert law.hurst == pytest.approx(ROUGH.hurst, abs=0.05)
+    assert law.low < law.hurst < law.high
+    q = np.array([2 * pi / L, 20 * pi / L, 40 * pi / L])
+    expected = ROUGH.density_2d(q, ROUGH.q_max(0.0))
+    np.testing.assert_allclose(law.density(q), expected, rtol=0.3)
+    assert not law.low <= ROUGH.hurst - 0.2 <= law.high
+    assert not law.low <= ROUGH.hurst + 0.2 <= law.high
+
+
+def test_roll_off_and_cut_off_are_found_and_where_there_is_none_none():
+    law = describe(sampled(ROUGH)).law
+    assert law.rolloff
+    assert law.longest == pytest.approx(L / 4, rel=0.35)
+    assert law.shortest == pytest.approx(L / 48, rel=0.05)
+    plain = describe(sampled(replace(ROUGH, rolloff=None, amplitudes="fixed"))).law
+    assert not plain.rolloff
+    assert not plain.cutoff
+    assert describe(sampled(ROUGH)).band.endswith("below a roll-off to a cut-off")
+
+
+def test_noise_of_an_instrument_is_no_part_of_the_law():
+    smooth = replace(ROUGH, hurst=0.9, rolloff=None, shortest=L / 63)
+    map_ = sampled(smooth)
+    clean = describe(map_).law
+    noise = np.random.default_rng(0).normal(size=map_.heights.shape) * 0.03 * ROUGH.rms_height
+    law = describe(replace(map_, heights=map_.heights.heights + noise)).law
+    assert law.cutoff
+    assert law.shortest > 1.5 * clean.shortest
+    assert law.low <= 0.9 <= law.high
+
+
+def test_what_is_no_power_law_a_short_band_and_a_lopsided_map_are_warned_of():
+    map_ = sampled(ROUGH)
+    blurred = replace(map_, heights=gaussian_filter(map_.heights.heights, 4, mode="wrap"))
+    short = sampled(replace(ROUGH, rolloff=L / 10, shortest=L / 40))
+    stretched = sampled(ROUGH, pixel=(L / 128, L / 64))
+    for warned, words in (
+        (blurred, ("it may be none", "is none")),
+        (short, ("decades",)),
+        (stretched, ("isotropic",)),
+    ):
+        assert any(word in each for each in describe(warned).warnings for word in words)
+
+
+def test_steep_maps_ask_whether_units_are_right():
+    # micrometres taken for metres; of one that is right, and of a steep one that may be, nothing is said
+    map_ = sampled(ROUGH)
+    slope = describe(map_).rms_slope_spectral
+    (warning,) = describe(replace(map_, heights=1e6 * map_.heights.heights)).warnings
+    assert warning.startswith(f"the rms slope is {1e6 * slope:.3g}, which no surface has: check the unit")
+    for times, said in ((0.999, 0), (1.001, 1)):
+        steep = describe(replace(map_, heights=times * spectra.STEEP / slope * map_.heights.heights))
+        assert len(steep.warnings) == said
+
+
+EDGES = {
+    "a spike": np.where(np.arange(256).reshape(16, 16) == 40, 1.0, 0.0),
+    "a step": np.where(np.arange(16) < 8, 0.0, 1.0) * np.ones((16, 1)),
+    "two heights": np.random.default_rng(0).integers(0, 2, (16, 16)).astype(np.uint8),
+    "whole numbers": np.random.default_rng(0).integers(-(2**63), 2**63 - 1, (16, 16)),
+    "few digits": np.random.default_rng(0).normal(size=(16, 16)).astype(np.float16),
+    "next to nothing on a plane": 1.0 + 1e-12 * np.random.default_rng(0).normal(size=(16, 16)),
+    "the least pixels": np.random.default_rng(0).normal(size=(4, 4)),
+}
+
+
+def test_rows_without_power_lie_no_more_decades_below_the_axes_than_rounding_does():
+    plot = plots.plot(describe(sampled(ROUGH)))
+    rows = plot.tables["topography-rows"]
+    rows.loc[4:6, "density_1d"] = (0.0, 1e-300, 1e-100)
+    with style.applied():
+        _, right = plots.figure(plot.tables, **plot.options).axes
+    shown = right.lines[0].get_ydata()
+    assert shown.min() == spectra.NOTHING * shown.max()
+
+
+@pytest.mark.parametrize("kind", EDGES)
+@pytest.mark.parametrize("length", [1e-49, 1e-6, 1e49])
+@pytest.mark.parametrize("pixel", [1e-50, 1.0, (1e50, 5e49)])
+def test_a_number_is_finite_or_has_its_reason(tmp_path, kind, length, pixel):
+    heights = EDGES[kind].astype(float)
+    heights *= length / np.abs(heights).max()
+    study = Map.of(saved(tmp_path, heights), pixel=pixel, unit="m")
+    findings = study.findings(study.answers({}))
+    assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
+    assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
+    assert all(np.isfinite(each.density).all() for each in (study.description.rings, study.description.rows))
+
+
+LAW = {f"topography.{name}" for name in ("hurst", "longest", "shortest")}
+
+
+def test_slopes_along_x_and_y_may_differ_by_so_much_and_no_more():
+    assert not list(spectra._of_directions((1.0, spectra.LOPSIDED)))
+    assert list(spectra._of_directions((1.001 * spectra.LOPSIDED, 1.0)))
+
+
+def test_a_law_takes_four_rings():
+    three = np.array([1.0, 2.0, 4.0])
+    with pytest.raises(ValueError, match="3 rings"):
+        fit(three, three, three, np.array([0.5, 1.5, 3.0, 6.0]))
+
+
+CHECKERS = np.indices((8, 8)).sum(axis=0) % 2
+STRIPES = np.indices((8, 8))[0] % 2
+THIN = np.random.default_rng(0).normal(size=(4, 400))
+NO_WAVE = "no wave of the map is shorter than"
+
+
+@pytest.mark.filterwarnings("ignore:Function/property:DeprecationWarning")
+def test_another_program_finds_the_same_heights_slopes_and_spectrum():
+    """SurfaceTopography has 4 pi^2 of our density, and averages over all waves of a ring with their opposites."""
+    peer = pytest.importorskip("SurfaceTopography")
+    map_ = sampled(ROUGH, 65)
+    found = describe(map_)
+    other = peer.Topography(map_.relief.T, map_.size, periodic=True)
+    assert other.rms_height_from_area() == pytest.approx(found.rms_height, rel=ROUNDING)
+    # theirs goes round the sides of what repeats
+    round_ = np.sqrt(np.mean([np.mean((np.roll(map_.relief, -1, k) - map_.relief) ** 2) for k in (0, 1)]) * 2)
+    assert other.rms_gradient() == pytest.approx(round_ / map_.pixel[0], rel=1e-6)
+    assert found.rms_slope == pytest.approx(other.rms_gradient(), rel=0.02)
+    q, radial, theirs = other.power_spectrum_from_area(return_map=True)
+    waves = map_.waves
+    j, k = np.indices(waves.amplitudes.shape) - np.array([32, 0])[:, None, None]
+    there = (k > 0) | (j > 0)
+    ours = np.abs(waves.amplitudes) ** 2 / 2 / (2 * waves.step_x * waves.step_y)
+    np.testing.assert_allclose(ours[there], theirs[k, j][there] / (4 * pi**2), atol=1e-9 * ours.max())
+    # rings of theirs are others: what they have in common is the law
+    known = (~np.ma.getmaskarray(radial)) & (q > 10e3) & (q < 60e3)
+    log_ours = np.interp(np.log(q[known]), np.log(found.rings.q), np.log(found.rings.density))
+    np.testing.assert_allclose(log_ours, np.log(radial[known] / (4 * pi**2)), atol=0.3)
+    assert np.mean(log_ours - np.log(radial[known] / (4 * pi**2))) == pytest.approx(0.0, abs=0.1)
+
+
+def saved(tmp_path, heights):
+    np.save(tmp_path / "map.npy", heights)
+    return tmp_path / "map.npy"
+
+
+def test_the_command_describes_a_map(tmp_path):
+    map_ = sampled(ROUGH)
+    path = saved(tmp_path, 1e6 * map_.heights.heights)
+    stated = {"unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
+    report = compare.topography(path, output=tmp_path / "out", **stated)
+    expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
+    told = {each.claim.id.removeprefix("topography."): each for each in report.claims}
+    assert told["rms-height"].value == expected.rms_height
+    assert told["hurst"].interval == (expected.law.low, expected.law.high)
+    assert (told["hurst"].value, told["hurst"].regime) == (expected.law.hurst, expected.band)
+    assert {each.verdict for each in report.claims} == {"reported"}
+    table = pandas.read_csv(tmp_path / "out" / "topography.csv")
+    np.testing.assert_allclose(table["density_2d"], expected.rings.density, rtol=1e-12)
+    np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)
+
+
+NOISE = np.random.default_rng(0).normal(size=(9, 9))
+REPEATS = {"pixel": 1.0, "repeat": "periodic"}
+
+
+@pytest.mark.parametrize(
+    ("heights", "stated", "said"),
+    [
+        (
+            NOISE,
+            {},
+            'does not state the side of a pixel: give pixel = "1 um", or --pixel "1 um" on the command line',
+        ),
+        (
+            NOISE,
+            {"pixel": 1.0, "unit": None},
+            'does not state the unit of its heights: give unit = "um", or --unit um',
+        ),
+        (NOISE, {"unit": None}, "of its heights: give unit"),
+        (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
+        (NOISE, {"pixel": "1 Pa"}, "a length"),
+        (NOISE, {"pixel": [-1.0]}, "greater than 0"),
+        (NOISE, {"pixel": 1.0, "level": "flat"}, "'mean', 'tilt', 'curvature' or 'cubic'"),
+        (NOISE, {"pixel": 1.0, "unit": "ell"}, "unit = 'ell': one of m, mm, um, nm"),
+        (NOISE, REPEATS | {"level": "tilt"}, 'level = "tilt" with repeat = "periodic"'),
+        (NOISE, {"pixel": [1.0, 1.0, 1.0]}, "pixel = (1.0, 1.0, 1.0): Input should be the side of"),
+        (np.where(np.eye(9) > 0, np.nan, 1.0), REPEATS, "heights[0][0] = nan: every pixel needs a finite height"),
+        (np.full((9, 9), 1j), REPEATS, "an array of type complex128: heights are real numbers [m]"),
+        (np.full((9, 9), "1"), REPEATS, "an array of type <U1: heights are real numbers [m]"),
+        (np.eye(3), REPEATS, "an array of shape (3, 3): a map has at least 4 rows and columns"),
+        (np.zeros((9, 9, 9)), REPEATS, "an array of shape (9, 9, 9)"),
+        (np.ones((9, 9)), REPEATS, "heights are none once level"),
+        (CHECKERS, REPEATS, NO_WAVE),
+        (STRIPES, REPEATS, NO_WAVE),
+        (THIN, REPEATS | {"pixel": (1.0, 900.0)}, NO_WAVE),
+    ],
+)
+def test_a_mistake_is_named_in_a_line_and_leaves_no_folder(tmp_path, heights, stated, said):
+    path = saved(tmp_path, heights)
+    with pytest.raises(InvalidInput) as refused:
+        compare.topography(path, output=tmp_path / "out", **({"unit": "m"} | stated))
+    assert said in str(refused.value)
+    assert heights is NOISE or str(path) in str(refused.value)
+    assert "\n" not in str(refused.value)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("repeat", "level"), [("periodic", "mean"), ("mirror", "tilt")])
+def test_without_a_level_that_of_what_repeats_is_taken(tmp_path, repeat, level):
+    study = Map.of(saved(tmp_path, sampled(ROUGH, 32).heights.heights), pixel=1.0, unit="m", repeat=repeat)
+    assert f'level: "{level}" taken off; repeat: "{repeat}"' in "".join(study.lines())
+
+
+def test_the_figure_is_a_function_of_its_csv_files():
+    found = describe(sampled(ROUGH))
+    for each, lines in ((found, 2), (replace(found, law=None), 1)):
+        plot = plots.plot(each)
+        files = {name: StringIO(frame.to_csv(index=False)) for name, frame in plot.tables.items()}
+        with style.applied():
+            drawing = plots.figure({name: pandas.read_csv(file) for name, file in files.items()}, **plot.options)
+        left, right = drawing.axes
+        np.testing.assert_allclose(left.lines[0].get_ydata(), found.rings.density, rtol=1e-12)
+        nothing = spectra.NOTHING * found.rows.density.max()
+        np.testing.assert_allclose(right.lines[0].get_ydata(), found.rows.density, rtol=1e-12, atol=nothing)
+        assert len(left.lines) == lines
+        assert ("Hurst" in plot.caption) == (lines == 2)
+        assert len(plot.caption.split()) <= 60

@@ -1,0 +1,52 @@
+"""The tutorials run from their first cell to their last; what they claim of their numbers, hidden cells assert."""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "docs" / "tutorials"
+CELL = re.compile(r"^```\{code-cell\}.*?\n(?::tags:.*?\n\n)?(.*?)^```$", re.MULTILINE | re.DOTALL)
+# All of them run each time the pages are built.
+NAMES = [
+    pytest.param("first", marks=pytest.mark.slow),
+    "regression",
+    pytest.param("study", marks=pytest.mark.slow),
+    pytest.param("sweep", marks=pytest.mark.slow),
+    "trust",
+]
+
+
+def cells(name):
+    return CELL.findall((FOLDER / f"{name}.md").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_tutorial_runs_from_its_first_cell_to_its_last(tmp_path, monkeypatch, name):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.delitem(sys.modules, "mine", raising=False)
+    known = {"__name__": "tutorial"}
+    for number, cell in enumerate(cells(name)):
+        exec(compile(cell, f"{name}, cell {number}", "exec"), known)
+    assert "compare" in known
+
+
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.md")), ids=lambda path: path.stem)
+def test_every_tutorial_is_listed_and_has_cells_that_are_found(path):
+    text = path.read_text(encoding="utf-8")
+    assert len(cells(path.stem)) == text.count("```{code-cell}")
+    if path.stem != "index":
+        assert path.stem in (FOLDER / "index.md").read_text(encoding="utf-8")
+        assert "assert " in text
+
+
+def test_friction_of_a_scene_of_ones_own_takes_at_most_eight_lines():
+    _, question, plot, *_ = cells("sweep")
+    lines = [line for line in (question + plot).splitlines() if line]
+    assert len(lines) <= 8
+    assert "compare.sweep(" in question
+    assert "to_dataframe()" in question
+    assert "friction_plot(" in plot

@@ -1,0 +1,134 @@
+"""Contacts without an answer: told before everything else, and when they make a command fail."""
+
+import json
+
+import pytest
+from test_compare_api import TINY
+from typer.testing import CliRunner
+
+import compare
+from bem3d import BEM
+from compare.cli.app import app
+from compare.solving.outcome import Outcome, Row
+from compare.solving.task import SceneTask
+from compare.solving.unsolved import Unsolved
+from compare.studies.run.study import Run
+from scene import Doubtful, Indent, Kelvin, Scene, Sphere
+
+SOLVED, EMPTY = Row(1.0, 1.0, 0.0), Row(0.0, 1.0, 0.0)
+WHY = "the contact covers {} of 32 points: take more points"
+
+
+def contacts(rows):
+    """As many contacts in 3D as there are rows, and their outcomes."""
+    scenes = [Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Indent(load=1.0 + k)) for k in range(len(rows))]
+    found = {SceneTask(BEM(), (scene,)): Outcome((row,)) for scene, row in zip(scenes, rows, strict=True)}
+    return list(found), found
+
+
+def failed(number):
+    return Row(reason=WHY.format(number))
+
+
+@pytest.mark.parametrize(("failures", "serious"), [(0, False), (1, False), (2, True), (20, True)])
+def test_a_tenth_without_an_answer_makes_a_command_fail(failures, serious):
+    rows = [failed(k) for k in range(failures)] + [SOLVED] * (20 - failures)
+    found = Unsolved.of(*contacts(rows))
+    assert found.serious is serious
+    assert bool(found.sentences) is (failures > 0)
+
+
+def test_an_empty_contact_is_no_failure():
+    assert Unsolved.of(*contacts([EMPTY] * 5)) == Unsolved({}, {"BEM": 5}, {})
+
+
+def test_the_contact_of_the_scene_itself_makes_a_command_fail_alone():
+    tasks, outcomes = contacts([failed(0)] + [SOLVED] * 99)
+    assert not Unsolved.of(tasks, outcomes).serious
+    found = Unsolved.of(tasks, outcomes, own=tasks[:1])
+    assert found.serious
+    assert "the scene's own among them" in found.sentences[0]
+
+
+def test_reasons_that_differ_by_numbers_alone_are_one_and_what_broke_is_not_counted():
+    tasks, outcomes = contacts([failed(3), failed(4), Row(reason="another: press less"), SOLVED, SOLVED])
+    del outcomes[tasks[-1]]
+    found = Unsolved.of(tasks, outcomes)
+    assert found.sentences == (
+        "3 of 4 contacts have no answer: 3 of 4 in 3D; they are left out.",
+        f"2 of them: {WHY.format(3)}",
+        "1 of them: another: press less",
+    )
+
+
+def test_a_run_names_its_own_contacts(tmp_path):
+    run = Run.of(TINY)
+    assert {(each.solver, each.scenes[0]) for each in run.own} == {
+        (TINY.mdr, TINY.scene),
+        (TINY.bem, TINY.scene),
+    }
+
+
+# Its friction is not told by so few points, which only the solve shows.
+BLUNT = """
+[indenter]
+type = "power-law"
+coefficient = 1e296
+exponent = 100
+[elastomer]
+type = "kelvin"
+modulus = 1e6
+relaxation_time = 1e-3
+[motion]
+type = "slide"
+speed = 3e-3
+load = 1.0
+[study]
+speeds = [3e-3]
+pressing = [1.0]
+load_speeds = [3e-3]
+depths = [1.0]
+[bem]
+points = 64
+[mdr]
+points = 500
+"""
+
+
+@pytest.fixture(scope="module")
+def blunt(tmp_path_factory):
+    path = tmp_path_factory.mktemp("blunt") / "blunt.toml"
+    path.write_text(BLUNT)
+    return path
+
+
+def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1(blunt, tmp_path):
+    def told(*options):
+        return CliRunner().invoke(app, ["run", str(blunt), "--output", str(tmp_path), "--workers", "1", *options])
+
+    shown = told()
+    assert shown.exit_code == 1
+    text = " ".join(shown.stdout.split())
+    places = [
+        text.index(each) for each in ("Doubtful: slope of the body", "the scene's own among them", "Trust map")
+    ]
+    assert places == sorted(places)
+    assert "take about 158 points" in text  # what to do
+    page = (tmp_path / "report.html").read_text()
+    assert page.index("have no answer") < page.index('id="answer"')
+    quiet = told("-q", "--no-report")
+    assert (quiet.exit_code, quiet.stdout) == (1, "")
+    assert "crosscheck: " in quiet.stderr
+    assert "have no answer" in quiet.stderr
+    printed = told("--json", "--no-report")
+    assert any("have no answer" in each for each in json.loads(printed.stdout)["doubts"])
+
+
+def test_a_sweep_warns_of_what_has_no_answer(blunt, tmp_path):
+    with pytest.warns(Doubtful) as warned:
+        found = compare.sweep(blunt, [3e-3], draws=1, workers=1, output=tmp_path, report=False)
+    told = [str(each.message) for each in warned if each.category is Doubtful]
+    assert told[0].startswith("slope of the body at the edge of the contact")
+    assert "have no answer" in told[-1]
+    assert {each.filename for each in warned if each.category is Doubtful} == {__file__}
+    assert "failed" in found["status"].values

@@ -1,0 +1,108 @@
+"""The numbers of README and of the page of answers are the stored ones, and the page of limits tells the truth."""
+
+import re
+from pathlib import Path
+
+import answers
+import numpy as np
+import pictures
+import pytest
+import trust
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import (
+    CrossedWaves,
+    Cylinder,
+    Kelvin,
+    Layer,
+    Measured,
+    Plane,
+    Profile,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Topography,
+    Wave,
+)
+
+ROOT = Path(__file__).parents[2]
+MOST_WORDS = 900
+ROUGH = SelfAffine(hurst=0.7, rms_height=2e-5, longest=1e-2, shortest=2e-3)
+LINE = 1e-6 * np.random.default_rng(2).normal(size=300).cumsum()
+HEIGHTS = [[1e-6 * (k * m % 5) for k in range(16)] for m in range(16)]
+PRESSED, ON_LINE, SPREAD = (
+    Slide(speed=0.1, load=1.0),
+    Slide(speed=0.1, line_load=1.0),
+    Slide(speed=0.1, pressure=1e4),
+)
+SOLID, BODY = Kelvin(1e6, 1e-3), Sphere(1e-2)
+# Scenes of a row of the table of limits.
+OF_ROW = {
+    "sphere, cone, power law": [Scene(BODY, SOLID, PRESSED)],
+    "plane, cylinder, measured body": [
+        Scene(Plane(), SOLID, SPREAD, ROUGH),
+        Scene(Cylinder(1e-2), SOLID, ON_LINE),
+        Scene(Measured(heights=HEIGHTS, pixel=1e-4), SOLID, PRESSED),
+    ],
+    "roughness `self-affine`, `topography`, `profile`": [
+        Scene(BODY, SOLID, PRESSED, ROUGH),
+        Scene(BODY, SOLID, PRESSED, Topography(heights=HEIGHTS, pixel=1e-4)),
+        Scene(BODY, SOLID, PRESSED, Profile(heights=LINE, spacing=1e-5)),
+    ],
+    "roughness `wave`, `crossed-waves`": [
+        Scene(BODY, SOLID, PRESSED, Wave(amplitude=1e-5, wavelength=2e-3)),
+        Scene(BODY, SOLID, PRESSED, CrossedWaves(amplitude=1e-5, wavelength=2e-3)),
+    ],
+    "layer": [Scene(BODY, SOLID, PRESSED, layer=Layer(thickness=1e-2))],
+}
+
+
+@pytest.fixture(scope="module")
+def parts():
+    return answers.parts()
+
+
+def test_every_number_of_the_readme_and_of_the_answers_is_the_stored_one(parts):
+    for (page, name), text in parts.items():
+        stands = re.search(rf"<!-- {name} -->\n(.*?)\n<!-- end -->", page.read_text(encoding="utf-8"), re.DOTALL)[
+            1
+        ]
+        assert stands == text.strip(), f"{page.name}, {name}: run python docs/measure/answers.py"
+
+
+def test_errors_are_told_as_measured_and_those_without_the_scatter_of_the_truth_beside_them():
+    used = trust.evenly(trust.scores())["friction"][0].used
+    told, beside = re.search(
+        r"is within (.*) \((.*) without the scatter of the truth\)", trust.corrected()
+    ).groups()
+    for text, errors in ((told, used.errors), (beside, used.own)):
+        found = [float(each) for each in re.findall(r"([\d.]+) %", text)]
+        assert found == pytest.approx(100 * np.quantile(np.abs(errors), (0.5, 0.9)), abs=0.05)
+
+
+def test_the_readme_is_short():
+    """Words, those of code and tables included: where a letter or a digit stands between blanks."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    shown = re.sub(r"<!--.*?-->|\]\([^)]*\)", "", text)
+    assert len([word for word in shown.split() if re.search(r"\w", word)]) <= MOST_WORDS
+
+
+@pytest.mark.parametrize("row", OF_ROW)
+def test_a_solver_refuses_exactly_the_scenes_that_the_page_of_limits_says(row):
+    page = (ROOT / "docs" / "explanation" / "limits.md").read_text(encoding="utf-8")
+    one, three = re.search(rf"^\| {re.escape(row)} \| (\w+)[^|]*\| (\w+)", page, re.MULTILINE).groups()
+    for scene in OF_ROW[row]:
+        for solver, said in ((MDR(points=2000), one), (BEM(points=64), three)):
+            assert {"yes": False, "refused": True}[said] == bool(solver.refusals(scene)), (solver.name, scene)
+
+
+def test_a_picture_shows_the_numbers_of_the_table_on_its_page():
+    page = (ROOT / "docs" / "results" / "benchmark.md").read_text(encoding="utf-8")
+    cells = page.split("## Other loads")[0]
+    rows = re.findall(r"^\| (\d+)² \| tamaas \|(?:[^|]*\|){4} ([\d.]+) \|", cells, re.MULTILINE)
+    assert len(rows) == 4
+    (drawn,) = (line for line in pictures.benchmark().axes[0].lines if line.get_label() == "tamaas")
+    assert list(drawn.get_xdata()) == [float(points) for points, _ in rows]
+    assert list(drawn.get_ydata()) == [float(seconds) for _, seconds in rows]

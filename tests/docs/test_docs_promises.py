@@ -1,0 +1,164 @@
+"""Errors that are stated and wanted: the random contacts, the counts of what held, and the fit behind them."""
+
+from dataclasses import replace
+from math import nan
+from pathlib import Path
+
+import numpy as np
+import pytest
+from promises_page import costs, errors, promises, scenes
+
+from bem3d import BEM, frictionerror
+from bem3d.costs import COSTS
+from bem3d.frictionerror import FITTED
+from compare.solving.outcome import Outcome, Row
+from scene.protocol import refuse
+
+LEARNED = Path(__file__).parents[2] / "docs" / "results" / "promises" / "learned.csv.gz"
+
+
+@pytest.mark.parametrize("kind", scenes.KINDS)
+def test_random_contacts_are_of_every_solid_and_none_is_refused(kind):
+    drawn = [scenes.drawn(kind, seed) for seed in range(40)]
+    assert {type(scene.elastomer).__name__ for scene in drawn} == {
+        "Kelvin",
+        "StandardLinearSolid",
+        "Prony",
+        "KelvinChain",
+        "Fractional",
+    }
+    for scene in drawn:
+        refuse(BEM(points=512), scene)
+    assert scenes.drawn(kind, 3) == drawn[3]
+
+
+@pytest.mark.parametrize("order", [0.7, 1.0, 2.0])
+def test_values_on_ever_finer_grids_are_brought_to_their_limit(order):
+    values = [2.0 + 0.3 * points**-order for points in (128, 256, 512)]
+    truth, unsure = errors.settled(values)
+    assert truth == pytest.approx(2.0, rel=1e-6)
+    assert unsure == pytest.approx(0.3 * 512**-order / 2, rel=1e-3)
+    assert errors.settled(values[:1])[1] == np.inf
+
+
+def row(friction, bound, waves=nan):
+    return Row(1.0, 0.01, friction, measures={"friction_error": bound, "points_per_shortest_wave": waves})
+
+
+def test_an_answer_counts_where_it_has_friction_and_its_truth_is_known():
+    (first,) = list(errors.judged(range(3, 4)))[:1]
+    finer = [row(1 + 0.1 * points**-1.0, 1.0) for points in errors.REFERENCE]
+
+    def rows(answer, finer=finer):
+        solved = zip(first.finer, finer, strict=True)
+        return errors.rows(
+            [first], {first.task: Outcome((answer,))} | {task: Outcome((each,)) for task, each in solved}
+        )
+
+    assert rows(row(1.02, 0.05))[0]["error"] == pytest.approx(0.02, rel=1e-3)
+    assert not rows(row(0.0, 0.05))
+    assert not rows(Row(reason="friction is not told"))
+    # Of a truth that is not known to a third of the error nothing is said.
+    assert not rows(row(1.02, 0.05), [row(1 + each, 1.0) for each in (0.4, 0.3, 0.2)])
+
+
+def held(count, inside):
+    one = {"model": "BEM", "solid": "Kelvin", "speed": "slow", "body": "smooth", "waves": nan, "bound": 0.1}
+    return [{**one, "error": 0.05 if k < inside else 0.2} for k in range(count)]
+
+
+def test_coverage_is_counted_by_region_with_its_interval():
+    every = {each["region"]: each for each in errors.regions(held(60, 50))}
+    assert (every["Kelvin"]["answers"], every["Kelvin"]["held"]) == (60, 50)
+    # Clopper and Pearson, 50 of 60: 0.7148 to 0.9171.
+    assert (every["all"]["lower"], every["all"]["upper"]) == (
+        pytest.approx(0.7148, abs=1e-4),
+        pytest.approx(0.9171, abs=1e-4),
+    )
+    assert set(errors.regions(held(39, 39)).__next__()) == set(every["all"])
+    assert [each["region"] for each in errors.regions(held(39, 39))] == ["all"]
+
+
+@pytest.mark.slow
+def test_the_fit_that_ships_is_that_of_the_table_that_ships():
+    found, shipped = errors.refitted(LEARNED), frictionerror._fitted()
+    for kind, weights in found.items():
+        for name, weight in weights.items():
+            assert shipped[kind][name] == pytest.approx(weight, rel=2e-2, abs=2e-3), (kind, name)
+    assert FITTED.exists()
+
+
+def test_the_fit_holds_what_it_is_to_hold():
+    table = errors._table(LEARNED)
+    weights = frictionerror._fitted()
+    names = [name for name in table[0] if name not in ("scene", "kind", "error", "residual")]
+    bounds = [
+        np.exp(
+            weights[each["kind"]]["one"] + sum(weights[each["kind"]][name] * float(each[name]) for name in names)
+        )
+        + frictionerror.OF_TOLERANCE * float(each["residual"])
+        for each in table
+    ]
+    error = np.array([float(each["error"]) for each in table])
+    # More than of those left out, by what a fit knows of its own scenes.
+    assert errors.WIDENED < np.mean(error <= bounds) < 0.985
+    assert np.median(bounds) < 4 * np.median(error)
+
+
+def entry(**changed):
+    whole = {"quantity": "friction", "wanted": 0.01, "points": 64.0, "error": 0.005, "shown": 0.008, "reason": ""}
+    return whole | changed
+
+
+def test_promises_are_counted_by_what_became_of_them():
+    made = [
+        entry(),
+        entry(error=0.02),  # broken, and confirmed
+        entry(shown=0.05),  # kept, and not confirmed
+        entry(error=nan),  # confirmed, and too fine to be checked
+        entry(points=nan, error=nan, shown=nan, reason="no converged contact"),
+    ]
+    (found,) = (each for each in promises.kept(made) if each["wanted"] == 0.01)
+    assert {name: found[name] for name in promises.NUMBERS} == {
+        "asked": 5,
+        "answered": 4,
+        "confirmed": 3,
+        "checked": 2,
+        "broken": 1,
+        "worst error": "2.00%",
+    }
+    assert "Of 5 promises 2 (40.0%, 5.3% to 85.3%) were not confirmed" in promises.said(made)
+
+
+def test_a_promise_is_checked_where_the_truth_is_twice_as_fine_and_known():
+    task = next(promises.asked())
+    finer = [
+        replace(row(1 + 0.01 * points**-1.0, 1.0), settings={"points": points}) for points in errors.REFERENCE
+    ]
+
+    def checked(points, finer=finer):
+        answer = replace(row(1.05, 0.1), measures={"points": points, "shown": 0.02})
+        solved = dict(zip(task.tasks, (Outcome((each,)) for each in (answer, *finer)), strict=True))
+        return promises.rows([task], solved)[0]["error"]
+
+    assert checked(256.0) == pytest.approx(0.05, rel=1e-3)
+    assert np.isnan(checked(512.0))
+    assert np.isnan(checked(256.0, [Row(reason="no converged contact")] * 3))
+
+
+def test_costs_are_medians_of_what_solves_took_by_body_speed_and_points():
+    tasks = list(costs.asked(range(6)))
+    spent = {task: Outcome((Row(1.0, seconds=float(k), applications=2.0 * k),)) for k, task in enumerate(tasks)}
+    found = costs.rows(tasks, spent)
+    assert {each["cost"] for each in found} == set(COSTS)
+    rest = [
+        k
+        for k, task in enumerate(tasks)
+        if task.scenes[0].roughness is None and task.scenes[0].motion.speed == 0 and task.solver.points == 64
+    ]
+    (own,) = (
+        each
+        for each in found
+        if (each["body"], each["band"], each["cost"], each["points"]) == ("smooth", "rest", "seconds", 64)
+    )
+    assert (own["value"], own["answers"]) == (pytest.approx(np.median(rest), rel=1e-2), 6)

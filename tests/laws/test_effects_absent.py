@@ -1,0 +1,179 @@
+"""Absent is absent: of an effect that a scene does not ask for, not a line is run."""
+
+import os
+import subprocess
+import sys
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from effects_page.asked import effects
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Indent, Measured, Program, Scene, SelfAffine, Slide, Sphere, Stage, StandardLinearSolid
+
+ROOT = Path(__file__).parents[2]
+SOLVERS = {"BEM": BEM(points=32, extent=3e-3, steps=4), "MDR": MDR(points=200, steps=4)}
+SOLID = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=0.4e-3, seed=1)
+FORWARD = Stage(duration=1e-3, speed=0.1)
+PLAIN = {
+    "rest": Scene(Sphere(10e-3), SOLID, Indent(load=0.5)),
+    "slide": Scene(Sphere(10e-3), SOLID, Slide(speed=0.1, load=0.5)),
+    "rough": Scene(Sphere(10e-3), SOLID, Slide(speed=0.1, load=0.5), ROUGH),
+    "program": Scene(Sphere(10e-3), SOLID, Program(stages=(Stage(duration=1e-3, load=0.5), FORWARD))),
+}
+# What an effect is made of, and the parts that ask for it.
+MODULES = {
+    "layer": {"bem3d/layer.py", "bem3d/layerwaves.py"},
+    "temperature": {"scene/temperature.py"},
+    "heating": {"scene/heated.py", "scene/heating.py", "scene/settling.py"},
+    "tangential": {
+        "scene/rubbed.py",
+        "bem3d/tangential.py",
+        "bem3d/cerruti.py",
+        "bem3d/stickslip.py",
+        "mdr1d/tangential.py",
+    },
+    "topography": {"scene/topography.py", "scene/heightmap.py", "bem3d/topography.py", "mdr1d/topography.py"},
+    "measured body": {"scene/measured.py", "scene/heightmap.py"},
+    "measured file": {"scene/heightfile.py"},
+    "oscillation": {"scene/oscillation.py"},
+}
+# What only effects need, and costs more to load than all of ours.
+LIBRARIES = {"scipy.interpolate", "SurfaceTopography"}
+OF_SCENES = {*LIBRARIES, "scipy.special", "scipy.optimize", "scipy.fft"}
+# As an effect is asked for on the page, which is the positive of every negative below.
+ASKED = {
+    "layer": "layer",
+    "temperature": "temperature",
+    "heating": "heating, fed back",
+    "tangential": "partial slip",
+    "topography": "measured topography",
+    "oscillation": "oscillation",
+}
+# Classes that follow a wake for an indenter that comes back.
+RETURNING = {"bem3d/upstream.py Returning.__init__", "mdr1d/marching.py _Returning.__init__"}
+
+
+def package(solver):
+    return type(solver).__module__.split(".")[0]
+
+
+@dataclass
+class Called:
+    """Files of ours from which a function was called, and functions, by file and name."""
+
+    files: set[str] = field(default_factory=set)
+    functions: set[str] = field(default_factory=set)
+
+
+@contextmanager
+def watched():
+    """All that is called meanwhile, known at the end."""
+    codes, called = set(), Called()
+
+    def note(frame, event, _):
+        if event == "call":
+            codes.add(frame.f_code)
+
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        yield called
+    finally:
+        sys.setprofile(before)
+        for code in codes:
+            if code.co_filename.startswith(str(ROOT)):
+                file = Path(code.co_filename).relative_to(ROOT).as_posix()
+                called.files.add(file)
+                called.functions.add(f"{file} {code.co_qualname}")
+
+
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+@pytest.mark.parametrize("name", PLAIN)
+def test_of_effects_that_are_absent_not_a_function_is_called(solver, name):
+    with watched() as called:
+        solver.solve(PLAIN[name])
+    assert f"{package(solver)}/solver.py" in called.files
+    for effect, modules in MODULES.items():
+        assert not called.files & modules, effect
+
+
+@pytest.mark.parametrize("effect", ASKED)
+def test_of_effects_that_are_present_functions_are_called(effect):
+    # the test above can fail: what it looks for is where the effect is computed
+    asked = next(each for each in effects() if each.title == ASKED[effect])
+    with watched() as called:
+        for solver in (BEM(points=48, steps=4), MDR(points=200, steps=4)):
+            if not solver.refusals(asked.scene):
+                solver.solve(asked.scene)
+    assert MODULES[effect] <= called.files
+
+
+def test_of_a_measured_body_functions_are_called(tmp_path):
+    x = 5e-5 * np.arange(-20, 21)
+    np.save(tmp_path / "ball.npy", -(x**2 + x[:, None] ** 2) / 0.02)
+    with watched() as called:
+        body = Measured(file=tmp_path / "ball.npy", pixel=5e-5, unit="m")
+        BEM(points=48).solve(Scene(body, SOLID, Indent(load=0.05)))
+    assert MODULES["measured body"] | MODULES["measured file"] <= called.files
+
+
+ALONE = """
+import sys
+import scene, scene.heated
+print(*sorted(set(sys.modules) & {of_scenes}), "| after scene")
+from test_effects_absent import PLAIN, SOLVERS
+for solver in SOLVERS.values():
+    for plain in PLAIN.values():
+        solver.solve(plain)
+print(*sorted(set(sys.modules) & {libraries}), "| after plain contacts")
+solver = SOLVERS["BEM"]
+solver.solve(scene.Scene(*list(PLAIN["rest"].parts.values()), layer=scene.Layer(thickness=2e-3)))
+print(*sorted(set(sys.modules) & {libraries}), "| after a layer")
+"""
+
+
+def test_of_effects_that_are_absent_no_library_is_loaded():
+    program = ALONE.format(of_scenes=OF_SCENES, libraries=LIBRARIES)
+    here = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    told = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT / "tests", env=here, capture_output=True, text=True, check=True
+    )
+    assert told.stdout.splitlines() == [
+        "| after scene",
+        "| after plain contacts",
+        "scipy.interpolate | after a layer",
+    ]
+
+
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
+    with watched() as called:
+        solver.solve(PLAIN["rest"])
+    modules = ("marching", "material", "upstream", "timeline", "elements")
+    later = {f"{package(solver)}/{module}.py" for module in modules}
+    drawn = {"bem3d/surface.py", "scene/selfaffine.py"}
+    flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/maxwell.py sweep_modes"}
+    assert not called.files & (later | drawn)
+    assert not called.functions & flowing
+    with watched() as called:
+        solver.solve(PLAIN["rough"])
+    assert not called.files & later
+    assert called.files & drawn
+    assert called.functions & flowing
+
+
+@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+def test_a_program_that_does_not_turn_back_keeps_nothing_of_what_it_leaves_behind(solver):
+    forward = PLAIN["program"]
+    back = replace(FORWARD, speed=-0.1)
+    returning = replace(forward, motion=replace(forward.motion, stages=(*forward.motion.stages, back)))
+    for scene, kept in ((forward, False), (returning, True)):
+        with watched() as called:
+            solver.solve(scene)
+        assert bool(called.functions & RETURNING) == kept

@@ -1,0 +1,105 @@
+"""The example of how to add an effect, run as it stands on its page, and held against what is known without it."""
+
+import contextlib
+import io
+import re
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare.studies.plan import planned
+from mdr1d import MDR
+from scene import Elastic, Indent, Kelvin, Layer, Plane, Refused, Scene, SelfAffine, Slide, Sphere
+
+PAGE = Path(__file__).parents[2] / "docs" / "howto" / "extending.md"
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    """Names of the page, all its code run from top to bottom, and what it printed."""
+    code = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    names, printed = {"__name__": "extending"}, io.StringIO()
+    with contextlib.redirect_stdout(printed), contextlib.chdir(tmp_path_factory.mktemp("extending")):
+        for block in code:
+            exec(compile(block, str(PAGE), "exec"), names)
+    return names | {"printed": printed.getvalue().splitlines()}
+
+
+def test_the_page_prints_what_it_says(page):
+    stiff, soft, applications, left_out = page["printed"]
+    assert float(stiff) == pytest.approx(1, rel=1e-6)
+    # the elastomer yields by about a / (c E*) = 3.5e-3 of what the springs do, and the force goes as the square
+    assert float(soft) == pytest.approx(1, rel=1e-2)
+    assert float(soft) < 1
+    assert max(map(float, applications.split())) < 60
+    assert left_out == "nothing is built for it"
+
+
+def test_the_study_of_the_page_finds_what_it_claims(page):
+    (found,) = page["report"].claims
+    assert found.verdict == "holds"
+    assert 1.98 < found.interval[0] < found.value < found.interval[1] < 2.0
+    assert found.grid_method == "change on halving"
+
+
+def test_springs_in_series_with_a_stiffer_elastomer_tend_to_springs_alone(page):
+    errors = []
+    for modulus in (1e7, 1e8):
+        scene = replace(page["bare"], elastomer=Elastic(modulus), coating=page["Coating"](1e-7))
+        found = page["CoatedBEM"](points=64, extent=3e-3).solve(scene).normal_force
+        errors.append(found / (pi * page["RADIUS"] * page["DEPTH"] ** 2 / 1e-7) - 1)
+    # in proportion to its compliance, down to what is left of a disc of 60 pixels across
+    assert -1e-3 < errors[0] < -3e-4
+    assert abs(errors[1] - errors[0] / 10) < 1e-4
+
+
+def test_a_coating_on_a_plane_in_full_contact_adds_its_compliance_to_every_wave(page):
+    # full contact, p = mean + sum over waves of E* |q| / 2 h / (1 + c E* |q| / 2)
+    rough = SelfAffine(hurst=0.8, rms_height=1e-8, longest=1e-3, shortest=5e-4, seed=1)
+    compliance, modulus = 2e-11, 4e6
+    scene = page["CoatedScene"](
+        Plane(), Elastic(1e6), Indent(pressure=1e4), rough, coating=page["Coating"](compliance)
+    )
+    answer = page["CoatedBEM"](points=64, tolerance=1e-9).solve(scene)
+    assert answer.measures["contact_fraction"] == 1.0
+    bare = BEM(points=64, tolerance=1e-9).solve(Scene(scene.indenter, scene.elastomer, scene.motion, rough))
+    q = 2 * pi / 1e-3 * np.hypot(*np.meshgrid(np.fft.rfftfreq(64, 1 / 64), np.fft.fftfreq(64, 1 / 64)))
+    expected = np.fft.rfft2(bare.fields["pressure"]) / (1 + compliance * modulus * q / 2)
+    assert np.fft.rfft2(answer.fields["pressure"]) == pytest.approx(expected, abs=1e-6 * abs(expected[0, 1]))
+
+
+def test_a_coating_does_not_cost_iterations(page):
+    rigid = page["CoatedBEM"](points=64).solve(page["bare"]).applications
+    for compliance in (1e-12, 1e-10, 1e-8):
+        assert page["force"](compliance).applications < 2 * rigid
+
+
+def test_a_scene_without_the_part_is_answered_to_the_last_digit(page):
+    scene = page["CoatedScene"](Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
+    with_line, without = (solver(points=32).solve(scene) for solver in (page["CoatedBEM"], BEM))
+    assert np.array_equal(with_line.fields["pressure"], without.fields["pressure"])
+    assert with_line.friction_force == without.friction_force
+
+
+def test_who_has_no_line_refuses_by_name(page):
+    coated = replace(page["bare"], coating=page["Coating"](1e-9))
+    for solver in (BEM(), MDR(), page["CoatedMDR"]()):
+        with pytest.raises(Refused, match="coating = Coating"):
+            solver.solve(coated)
+    for change in ({"motion": Slide(speed=0.1, load=1.0)}, {"layer": Layer(thickness=1e-3)}):
+        with pytest.raises(Refused, match="coating = Coating"):
+            page["CoatedBEM"]().solve(replace(coated, **change))
+
+
+def test_a_plan_has_the_part_where_it_is(page):
+    coated = replace(page["bare"], coating=page["Coating"](1e-9))
+    plan = page["CoatedBEM"]().plan(coated)
+    assert plan.terms["coating"] == "Coating(compliance=1e-09)"
+    assert "coating" not in plan.left_out
+    assert plan.seconds.value is None
+    assert "what Coating takes was not measured" in plan.seconds.why
+    assert "springs on a half-space are no foundation" in planned(page["CoatedMDR"](), coated)

@@ -1,0 +1,93 @@
+"""Memory that a solve would not get is told before it begins, by plan and solve alike, and never as an answer."""
+
+import subprocess
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from cupy_stand_in import STAND_IN
+
+from bem3d import BEM, engine
+from compare.solving.runner import sweep
+from compare.solving.store import Store
+from compare.solving.task import SceneTask
+from mdr1d import MDR
+from scene import Kelvin, OutOfMemory, Refused, Scene, SelfAffine, Slide, Sphere, machine
+from scene.machine import memory
+from scene.protocol import refuse, trusted
+
+SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0))
+# Waves of which no machine holds the amplitudes, but which each grid alone would not mind.
+BROAD = SelfAffine(hurst=0.8, rms_height=1e-6, longest=100.0, shortest=1e-4)
+
+
+@pytest.mark.parametrize(("solver", "least"), [(BEM(points=128), 4e6), (MDR(points=10**6), 7e7)])
+def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkeypatch, solver, least):
+    needed = solver.plan(SCENE).memory
+    assert needed > least
+    for module in (machine, engine):
+        monkeypatch.setattr(module, "memory", lambda: needed - 1)
+    reasons = set()
+    for ask in (solver.plan, solver.solve, lambda scene: refuse(solver, scene)):
+        with pytest.raises(
+            Refused, match=r"it takes .*MB of memory, and .*MB are here: take fewer points"
+        ) as told:
+            ask(SCENE)
+        reasons.add(str(told.value))
+    assert len(reasons) == 1
+    for module in (machine, engine):
+        monkeypatch.setattr(module, "memory", lambda: needed)
+    assert solver.plan(SCENE).memory == needed
+
+
+def test_on_a_gpu_it_is_the_memory_of_the_gpu_that_counts(monkeypatch):
+    monkeypatch.setattr(engine, "_cupy", lambda: STAND_IN)
+    with pytest.raises(Refused, match=r"takes .* GB of memory, and 8 GB are here"):
+        BEM(points=8192, transforms="cupy").plan(SCENE)
+
+
+def test_what_no_machine_holds_has_no_plan_either():
+    scene = Scene(SCENE.indenter, SCENE.elastomer, SCENE.motion, BROAD)
+    for ask in (BEM().plan, BEM().solve):
+        with pytest.raises(Refused, match=r"it takes 2.*e\+05 GB of memory"):
+            ask(scene)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no ulimit")
+def test_a_limit_of_the_process_is_what_it_has():
+    limit = min(memory(), 3 * 10**9) // 4096 * 4096
+    code = (
+        f"import resource; resource.setrlimit(resource.RLIMIT_AS, ({limit}, {limit}))\n"
+        "from scene.machine import memory; print(memory())"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert int(run.stdout) == limit
+
+
+def test_memory_that_runs_out_is_told_as_memory_and_no_mistake_of_the_scene():
+    with pytest.raises(OutOfMemory, match=r"memory ran out \(Unable to allocate.*take fewer points"), trusted():
+        np.empty(2**60 // 8)
+    with pytest.raises(OutOfMemory, match="no size is known"), trusted():
+        raise MemoryError
+
+
+@dataclass(frozen=True)
+class Hungry:
+    """A solver that takes more than there is."""
+
+    name = "hungry"
+
+    def refusals(self, scene):
+        return []
+
+    def solve(self, scene):
+        with trusted():
+            np.empty(2**60 // 8)
+
+
+def test_it_is_never_stored_as_an_answer(tmp_path):
+    task, store = SceneTask(Hungry(), (SCENE,)), Store(tmp_path)
+    swept = sweep([task], store, workers=1)
+    assert swept.faults[task].startswith("OutOfMemory: memory ran out")
+    assert store.get(task) is None

@@ -1,0 +1,629 @@
+"""Numbers as other libraries hold them, at every place of the Python API: what they are in SI, or refused by name.
+
+The places are found, not listed: every field of every class, every argument of every function. One that is new and
+has no example here fails.
+"""
+
+import inspect
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache, partial
+from typing import Any, get_type_hints
+
+import numpy as np
+import pandas
+import pytest
+import xarray
+
+import bem3d
+import compare
+import mdr1d
+import scene
+from bem3d import BEM
+from compare.library.case import Study
+from compare.studies.animate.animation import animate
+from compare.studies.mastercurve.study import Mastercurve
+from compare.studies.mastercurve.temperatures import Constants
+from compare.studies.sweep.study import Sweep
+from compare.studies.topography.study import Map
+from mdr1d import MDR, equations, estimates
+from scene import (
+    WLF,
+    Arrhenius,
+    Cone,
+    Coulomb,
+    CreepTable,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Fractional,
+    Heating,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    Layer,
+    Measured,
+    Plane,
+    PowerLaw,
+    Program,
+    Prony,
+    RelaxationTable,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Table,
+    Tabulated,
+    Topography,
+    Wave,
+)
+from scene.quantities import unit_of
+
+# Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
+OTHERS = {
+    "m": "mm",
+    "Pa": "MPa",
+    "1/Pa": "1/MPa",
+    "s": "ms",
+    "m/s": "km/s",
+    "N": "mN",
+    "N/m": "kN/m",
+    "rad": "mrad",
+    "Hz": "kHz",
+    "rad/s": "rad/ms",
+    "rad/m": "rad/mm",
+    "K": "mK",
+    "W/(m K)": "mW/(m K)",
+    "J/mol": "kJ/mol",
+    None: "",
+}
+ROUNDING = 1e-12
+HEIGHTS = np.random.default_rng(1).normal(size=(5, 6))
+FREQUENCY, STORAGE, LOSS = (1.0, 10.0, 100.0, 1e3), (1e6, 1.1e6, 2e6, 3e6), (5e4, 3e5, 8e5, 5e5)
+PRESSED = {"load": 1.0, "depth": 1e-3, "line_load": 10.0, "pressure": 1e4, "gap": 1e-6}
+SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
+ROUGH = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-3, shortest=1e-4, rolloff=5e-4, seed=2)
+WARM = (300.0, 300.0, 300.0, 300.0)
+TABLE = Table(FREQUENCY, STORAGE, LOSS, temperature=WARM)
+RECTANGLE = compare.Rectangle(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
+# Valid objects, in which each field that takes a number has one.
+OBJECTS = [
+    WLF(temperature=310.0, reference=300.0, c1=8.0, c2=100.0),
+    Arrhenius(temperature=310.0, reference=300.0, activation_energy=5e4),
+    Sphere(1e-2),
+    Cone(0.1),
+    PowerLaw(3.0, 2.5),
+    Cylinder(1e-2),
+    Plane(),
+    Coulomb(0.3),
+    Elastic(1e6, 0.4),
+    Kelvin(1e6, 1e-3),
+    StandardLinearSolid(1e6, 1e7, 1e-3),
+    Prony(1e6, (1e6, 2e6), (1e-3, 1e-2)),
+    KelvinChain(1e-8, (1e-6, 2e-6), (1e-3, 1e-2)),
+    Fractional(modulus=1e6, relaxation_time=1e-3, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e3),
+    Tabulated(table=TABLE, frequency_unit="Hz", kind="shear", equilibrium_modulus=9e5, tolerance=0.5),
+    TABLE,
+    RelaxationTable(FREQUENCY, STORAGE[::-1], temperature=WARM),
+    CreepTable(FREQUENCY, (1e-6, 2e-6, 3e-6, 4e-6), temperature=WARM),
+    Heating(conductivity=20.0),
+    Layer(thickness=1e-2),
+    *(Indent(**{name: value}) for name, value in PRESSED.items()),
+    *(Slide(speed=0.1, **{name: value}) for name, value in PRESSED.items()),
+    *(Shear(displacement=1e-6, **{name: value}) for name, value in PRESSED.items()),
+    *(
+        Stage(duration=1.0, speed=0.1, **{name: PRESSED[name]})
+        for name in ("load", "depth", "line_load", "pressure")
+    ),
+    ROUGH,
+    Wave(amplitude=1e-6, wavelength=1e-3),
+    CrossedWaves(amplitude=1e-6, wavelength=1e-3),
+    Topography(heights=HEIGHTS, pixel=1e-3, shortest_kept=3e-3, seed=1),
+    Measured(heights=HEIGHTS, pixel=1e-3, shortest_kept=3e-3),
+    MDR(points=100, extent=1e-2, steps=5, frames=2),
+    BEM(points=32, extent=1e-2, tolerance=1e-4, threads=1, steps=5, frames=2),
+    Study(speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0, 2.0), surfaces=2, profiles=3),
+    compare.CorrectedMDR(profiles=3),
+    RECTANGLE,
+    compare.Claim("a", "A", expected=1.0, tolerance=0.1),
+    compare.Finding(compare.Claim("a", "A"), value=1.0, scatter=(0.5, 1.5), grid=0.1),
+    compare.Quantity("a", "A", "depth", compare.SceneTask(MDR(), (SLIDING,)), 2.0, 0.1, "", ""),
+]
+# Fields whose unit is that of others, of none, or no part of a type.
+UNITS = {
+    (PowerLaw, "coefficient"): None,
+    (Table, "frequency"): None,
+    (compare.Rectangle, "speeds"): "m/s",
+    (compare.Rectangle, "values"): "N",
+}
+# What solvers make and hand over, and what holds no numbers itself.
+MADE = {
+    "Doubt",
+    "Plan",
+    "Regime",
+    "Result",
+    "Contact",
+    "Grid",
+    "Modes",
+    "Profile",
+    "Surface",
+    "Trail",
+    "Report",
+    "SceneTask",
+}
+WITHOUT = {"Scene", "Case", "Program", "Plane"}
+# Tested below, with what they need beside them.
+APART = {"Shear.force", "Stage.amplitude", "Stage.frequency", "Rectangle.draws"}
+
+
+@dataclass(frozen=True)
+class Place:
+    """One place that takes a number, or numbers.
+
+    take : with what is given there, returns what came of it
+    value : a plain number or a tuple, in SI
+    unit : of SI; None without one
+    """
+
+    name: str
+    take: Any
+    value: Any
+    unit: str | None = None
+
+    @property
+    def whole(self):
+        return isinstance(self.value, int)
+
+
+def numeric(value):
+    several = isinstance(value, tuple) and value and not isinstance(value[0], str)
+    return all(map(numeric, value)) if several else isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def unit_at(cls, name):
+    if (cls, name) in UNITS:
+        return UNITS[cls, name]
+    return unit_of(cls, name) if hasattr(cls, "__pydantic_fields__") else None
+
+
+def fields_of(thing):
+    """Places of an object: its fields that hold numbers."""
+
+    def take(given, name):
+        return getattr(replace(thing, **{name: given}), name)
+
+    cls = type(thing)
+    values = {each.name: getattr(thing, each.name) for each in fields(thing) if each.init}
+    return [
+        Place(f"{cls.__name__}.{name}", partial(take, name=name), value, unit_at(cls, name))
+        for name, value in values.items()
+        if numeric(value)
+    ]
+
+
+FORMULAS = {
+    **dict.fromkeys(("load",), (1.5, "N")),
+    **dict.fromkeys(("modulus", "glassy_modulus", "loss"), (2e6, "Pa")),
+    "relaxation_time": (1e-3, "s"),
+    "speed": (0.1, "m/s"),
+    "conductivity": (20.0, "W/(m K)"),
+    **dict.fromkeys(("depth", "lengths", "contact_length", "radius", "displacement", "thickness"), (1e-3, "m")),
+    "rms_height": (1e-3, "m"),
+    "amplitudes": ((1e-6, 2e-6), "m"),
+    "wave_number": (1e4, "rad/m"),
+    "wave_numbers": ((1e4, 2e4), "rad/m"),
+    "band": ((1e3, 1e4), "rad/m"),
+    **dict.fromkeys(("omega", "reference_frequency"), (50.0, "rad/s")),
+    **dict.fromkeys(("rms_slope", "xi", "shifted_load", "friction", "c"), (0.2, None)),
+    **dict.fromkeys(("n", "alpha"), (1.5, None)),
+    **dict.fromkeys(("beta", "poisson_ratio"), (0.3, None)),
+    "slopes": ((0.1, 0.3), None),
+    "loss_modulus": (lambda omega: 1e3 * omega**0.5, None),
+    "spectrum": (lambda q: q**-2.0, None),
+}
+METHODS = {
+    **dict.fromkeys(("x", "y", "height", "pixel"), (1e-3, "m")),
+    **dict.fromkeys(("t", "time"), (0.5, "s")),
+    **dict.fromkeys(("q", "upper"), (2e4, "rad/m")),
+    **dict.fromkeys(("omega",), (50.0, "rad/s")),
+    "q_max": (5e4, "rad/m"),
+    "lower": (1e4, "rad/m"),
+}
+NOT_NUMBERS = {
+    *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures", "figure"),
+    *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
+    *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
+    *("level", "repeat", "peaks", "kind", "journal", "style", "to", "interactive", "progress", "dataset", "study"),
+}
+
+
+def arguments_of(function, label, examples, **stated):
+    """Places of a function: its arguments that have an example, the others as stated or as they are by default."""
+    parameters = inspect.signature(function).parameters
+    own = {name: examples[name] for name in parameters if name in examples and name not in stated}
+    unknown = {
+        name
+        for name in parameters
+        if name not in own and name not in stated and name not in NOT_NUMBERS | {"self"}
+    }
+    assert not unknown, f"{label} takes {unknown}: give examples"
+    plain = {name: value for name, (value, _) in own.items()}
+
+    def take(given, name):
+        return function(**{**plain, **stated, name: given})
+
+    return [
+        Place(f"{label}({name})", partial(take, name=name), value, unit)
+        for name, (value, unit) in own.items()
+        if not callable(value)
+    ]
+
+
+def formulas():
+    for module in (equations, estimates):
+        for name, function in inspect.getmembers(module, inspect.isfunction):
+            if function.__module__ == module.__name__ and not name.startswith("_") and name != "temperature_rise":
+                words = {"base": "half-space"} if "base" in inspect.signature(function).parameters else {}
+                yield from arguments_of(function, f"{module.__name__}.{name}", FORMULAS, **words)
+
+
+def methods_of(thing):
+    """Places of the methods of an object of `scene`."""
+    for name, method in inspect.getmembers(thing, inspect.ismethod):
+        taken = [each for each in inspect.signature(method).parameters if each in METHODS]
+        if not name.startswith("_") and taken:
+            yield from arguments_of(method, f"{type(thing).__name__}.{name}", METHODS)
+
+
+def drawn(given, seed=1):
+    return mdr1d.draw(ROUGH, nodes=given).heights
+
+
+def swept(**given):
+    heights = 50.0 * np.linspace(-1e-3, 1e-3, 6) ** 2
+    stated = {"heights": tuple(heights), "pixel": 4e-4, "memory": 1e-4, "depth": 2e-5} | given
+    return mdr1d.sweep(**stated).displacement
+
+
+def swept_in_modes(**given):
+    heights = 50.0 * np.linspace(-1e-3, 1e-3, 6) ** 2
+    modes = mdr1d.modes_of(StandardLinearSolid(1e6, 2e6, 1e-3))
+    stated = {"heights": tuple(heights), "pixel": 4e-4, "modes": modes, "speed": 0.1, "depth": 2e-5} | given
+    return mdr1d.sweep_modes(**stated).displacement
+
+
+def asked(**given):
+    sweep = Sweep.of(SLIDING, **({"speed": (0.1, 0.2)} | given))
+    return *sweep.speeds, *sweep.values, sweep.draws
+
+
+def by_accuracy(**given):
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("bem3d.accuracy.choose", lambda solver, scene, wanted: wanted)
+        return BEM.for_accuracy(SLIDING, **given)
+
+
+LOADS, SPEEDS = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
+FRICTION = {"mu": 0.3 / (1 + LOADS / SPEEDS / 10), "F_N": LOADS, "v": SPEEDS}
+
+
+def shifted(**given):
+    stated = {"c1": 8.86, "c2": 101.6, "reference": 293.15} | given
+    return Constants(**stated).shifts(np.array([310.0]))[0]
+
+
+@cache
+def coarse():
+    solver = BEM(points=16, tolerance=1e-2)
+    return solver, solver.solve(replace(SLIDING, motion=Indent(load=1.0)))
+
+
+def refined(given):
+    return bem3d.refined(*coarse(), times=given).measures["pixel"]
+
+
+# Functions that are called as they are: each with its numbers.
+CALLED = [
+    *(
+        Place(f"mdr1d.sweep({name})", lambda given, name=name: swept(**{name: given}), value, "m")
+        for name, value in {"heights": (1e-5, 0.0, 1e-5), "pixel": 4e-4, "memory": 1e-4, "depth": 2e-5}.items()
+    ),
+    *(
+        Place(f"mdr1d.sweep_modes({name})", lambda given, name=name: swept_in_modes(**{name: given}), value, unit)
+        for name, value, unit in (
+            ("heights", (1e-5, 0.0, 1e-5), "m"),
+            ("pixel", 4e-4, "m"),
+            ("speed", 0.1, "m/s"),
+            ("depth", 2e-5, "m"),
+        )
+    ),
+    Place("mdr1d.draw(nodes)", drawn, 64),
+    Place("mdr1d.amplitudes(bandwidth)", lambda given: mdr1d.amplitudes(ROUGH, given), 10.0),
+    Place("mdr1d.lay_out(points)", lambda given: mdr1d.lay_out(SLIDING, given, 1e-2).pixel, 100),
+    Place("mdr1d.lay_out(extent)", lambda given: mdr1d.lay_out(SLIDING, 100, given).pixel, 1e-2, "m"),
+    Place("bem3d.refined(times)", refined, 2),
+    *(
+        Place(f"bem3d.for_accuracy({name})", lambda given, name=name: by_accuracy(**{name: given}), 0.1)
+        for name in ("friction", "depth")
+    ),
+    Place("compare.sweep(speed)", lambda given: asked(speed=given), (0.1, 0.3), "m/s"),
+    Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),
+    Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
+    Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
+    Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),
+    *(
+        Place(f"compare.mastercurve({name})", lambda given, name=name: shifted(**{name: given}), value, unit)
+        for name, value, unit in (("c1", 8.0, None), ("c2", 100.0, "K"), ("reference", 300.0, "K"))
+    ),
+]
+PLACES = [
+    *(place for thing in OBJECTS for place in fields_of(thing)),
+    *(place for thing in OBJECTS if hasattr(thing, "__pydantic_fields__") for place in methods_of(thing)),
+    *methods_of(Program(stages=(Stage(duration=1.0, load=1.0),))),
+    *formulas(),
+    *CALLED,
+]
+GROUPS: dict[str, list[Place]] = {}
+for each in PLACES:
+    GROUPS.setdefault(each.name.partition("(")[0].rpartition(".")[0], []).append(each)
+everywhere = pytest.mark.parametrize("places", GROUPS.values(), ids=GROUPS)
+
+
+@pytest.fixture(scope="module")
+def quantity():
+    import pint
+
+    registry = pint.UnitRegistry()
+    return lambda value, unit: registry.Quantity(np.asarray(value, float)[()] if unit else value, unit or "")
+
+
+def same(one, other):
+    if isinstance(one, dict):
+        return one == pytest.approx(other, rel=ROUNDING)
+    return np.allclose(np.asarray(one), np.asarray(other), rtol=ROUNDING, atol=0)
+
+
+def scaled(value, place, quantity):
+    """A value in SI as a quantity in the other unit."""
+    if place.unit is None:
+        return quantity(value, None)
+    return quantity(value, place.unit.replace("(m K)", "m/K")).to(OTHERS[place.unit].replace("(m K)", "m/K"))
+
+
+def refused(place, given):
+    """Message of a refusal, which names the place."""
+    with pytest.raises(ValueError) as raised:  # noqa: PT011
+        place.take(given)
+    name = place.name.rpartition("(")[2].rstrip(")").rpartition(".")[2]
+    assert name in str(raised.value), f"{place.name}: {raised.value}"
+    return str(raised.value)
+
+
+def test_every_class_has_an_example_of_each_number():
+    held = {(type(thing), name) for thing in OBJECTS for name in (each.name for each in fields(thing))}
+    for package in (scene, mdr1d, bem3d, compare):
+        for name in set(package.__all__) - MADE - WITHOUT:
+            cls = getattr(package, name)
+            if not (inspect.isclass(cls) and is_dataclass(cls)):
+                continue
+            for each in fields(cls):
+                hint = str(get_type_hints(cls)[each.name])
+                if not ("float" in hint or "int" in hint):
+                    continue
+                assert (cls, each.name) in held, f"{name}.{each.name} has no example"
+                examples = [getattr(thing, each.name) for thing in OBJECTS if type(thing) is cls]
+                assert any(map(numeric, examples)) or f"{name}.{each.name}" in APART, f"{name}.{each.name}"
+
+
+def test_every_argument_is_known():
+    known = {place.name.partition("(")[0].rpartition(".")[2] for place in CALLED} | {"animate", "topography"}
+    for package in (mdr1d, bem3d, compare):
+        for name in package.__all__:
+            function = getattr(package, name)
+            if inspect.isfunction(function) and name not in known:
+                assert set(inspect.signature(function).parameters) <= NOT_NUMBERS | {"workers"}, name
+
+
+@everywhere
+def test_a_quantity_in_another_unit_is_the_plain_number(places, quantity):
+    for place in places:
+        plain = place.take(place.value)
+        assert same(place.take(scaled(place.value, place, quantity)), plain), place.name
+        if isinstance(place.value, tuple):
+            one_each = [scaled(each, place, quantity) for each in place.value]
+            assert same(place.take(one_each), plain), place.name
+
+
+@everywhere
+def test_what_has_another_dimension_is_refused_by_name(places, quantity):
+    for place in places:
+        said = refused(place, quantity(place.value, "kg"))
+        assert "kg" in said or "whole number" in said or "integer" in said, place.name
+
+
+@everywhere
+def test_a_truth_a_duration_of_numpy_and_an_imaginary_number_are_no_numbers(places):
+    for place in places:
+        for wrong in (True, np.True_, np.array(True), 1j, np.timedelta64(1, "s"), "wide"):
+            others = place.value[1:] if isinstance(place.value, tuple) else ()
+            refused(place, wrong)
+            if others:
+                refused(place, [wrong, *others])
+                refused(place, np.ma.masked_equal(place.value, place.value[0]))
+
+
+@everywhere
+def test_numbers_of_numpy_are_numbers(places):
+    for place in places:
+        plain = place.take(place.value)
+        if isinstance(place.value, tuple):
+            alike = [list(place.value), np.array(place.value), list(map(np.float64, place.value))]
+        else:
+            cast = np.int32 if place.whole else np.float64
+            alike = [cast(place.value), np.array(place.value), xarray.DataArray(place.value)]
+        for each in alike:
+            assert same(place.take(each), plain), f"{place.name}: {each!r}"
+
+
+ROWS = [place for place in PLACES if isinstance(place.value, tuple) and place.name != "Finding.scatter"]
+
+
+@pytest.mark.parametrize("place", ROWS, ids=lambda place: place.name)
+def test_a_row_of_any_library_is_the_row(place):
+    plain, other = place.take(place.value), OTHERS[place.unit]
+    unit = {} if place.unit is None else {"units": other}
+    factor = 1.0 if place.unit is None else scale_of(other)
+    values = np.array(place.value) / factor
+    labelled = xarray.DataArray(values, dims="k", attrs=unit)
+    listed = pandas.Series(values, index=range(5, 5 + len(values)))
+    listed.attrs.update(unit)
+    for each in (labelled, listed, np.ma.masked_invalid(np.array(place.value))):
+        assert same(place.take(each), plain), f"{place.name}: {each!r}"
+    if place.name != "equations.spectral_force(band)":
+        refused(place, xarray.DataArray(values, dims="k", attrs={"units": "kg"}))
+
+
+def scale_of(unit):
+    from scene.units import scale
+
+    return float(scale(unit, unit_in_si(unit))[0])
+
+
+def unit_in_si(other):
+    return next(unit for unit, each in OTHERS.items() if each == other)
+
+
+def test_what_depends_on_others_takes_their_unit(quantity):
+    assert Shear(load=1.0, force=quantity(3.0, "mN")).force == 3e-3
+    assert Shear(line_load=1.0, force=quantity(3.0, "N/mm")).force == 3e3
+    swung = {"duration": quantity(1.0, "min"), "frequency": quantity(2.0, "kHz")}
+    stage = Stage(depth=1e-3, amplitude=quantity(2.0, "um"), **swung)
+    assert (stage.amplitude, stage.duration, stage.frequency) == (2e-6, 60.0, 2e3)
+    for wrong in (quantity(1.0, "m"), True, np.True_, [1.0]):
+        with pytest.raises(ValueError, match="force"):
+            Shear(load=1.0, force=wrong)
+        with pytest.raises(ValueError, match="amplitude"):
+            Stage(load=1.0, amplitude=wrong, **swung)
+    with pytest.raises(ValueError, match=r"frequency.*\n.*an? frequency"):
+        Stage(load=1.0, amplitude=0.1, duration=1.0, frequency=quantity(1.0, "rad/s"))
+    warm = WLF(temperature=quantity(25.0, "degC"), reference=250, c1=8, c2=quantity(50.0, "delta_degC"))
+    assert (warm.temperature, warm.c2) == (298.15, 50.0)
+
+
+@pytest.mark.parametrize("wrong", [True, 1.5, "many", 1j])
+def test_counts_of_functions_are_whole_numbers(wrong, tmp_path):
+    with pytest.raises(ValueError, match="draws"):
+        replace(RECTANGLE, draws={"BEM": wrong})
+    with pytest.raises(ValueError, match="workers"):
+        compare.run(SLIDING, tmp_path, workers=wrong)
+    with pytest.raises(ValueError, match="frames"):
+        animate(SLIDING, tmp_path / "film.gif", frames=wrong)
+
+
+def test_times_and_pixels_of_functions_have_units(tmp_path, quantity):
+    with pytest.raises(ValueError, match=r"seconds = .*: a time"):
+        animate(SLIDING, tmp_path / "film.gif", seconds=quantity(1.0, "mm"))
+    np.save(tmp_path / "map.npy", HEIGHTS)
+    plain = Map.of(tmp_path / "map.npy", pixel=(2e-6, 1e-6), unit="um")
+    for pixel in (quantity([2.0, 1.0], "um"), np.array([2e-6, 1e-6]), ("2 um", quantity(1.0, "um"))):
+        found = Map.of(tmp_path / "map.npy", pixel=pixel, unit="um").description
+        assert found.spectral_slopes == pytest.approx(plain.description.spectral_slopes, rel=ROUNDING)
+    for wrong in (True, quantity(1.0, "s"), [True, 1.0]):
+        with pytest.raises(ValueError, match="pixel"):
+            Map.of(tmp_path / "map.npy", pixel=wrong, unit="um")
+
+
+class Unyt(np.ndarray):
+    """An array of unyt, or of astropy, as far as it goes: a subclass of numpy's with a unit."""
+
+    units = "mm"
+
+    @property
+    def value(self):
+        return self.view(np.ndarray)
+
+
+MM = {"units": "mm"}
+PLACES_MM = {"x": ("x", 2.0 * np.arange(6), MM), "y": ("y", 3.0 * np.arange(5), MM)}
+MAP = xarray.DataArray(HEIGHTS, dims=("y", "x"), attrs=MM)
+LAID_OUT = MAP.assign_coords(PLACES_MM)
+PIXEL = (2e-3, 3e-3)
+LIKE_THE_PLAIN_MAP = {
+    "a list": (HEIGHTS / 1e3).tolist(),
+    "strings": [[f"{each} mm" for each in row] for row in HEIGHTS],
+    "a subclass with a unit": HEIGHTS.view(Unyt),
+    "a table": pandas.DataFrame(HEIGHTS / 1e3),
+    "labels": MAP,
+    "x before y": MAP.T,
+    "with places": LAID_OUT.T,
+    "y falls": LAID_OUT[::-1],
+    "x falls": LAID_OUT[:, ::-1].T,
+    "places in single precision": LAID_OUT.assign_coords(x=PLACES_MM["x"][1].astype("f4") / 1e3),
+}
+
+
+@pytest.mark.parametrize("cls", [Topography, Measured])
+@pytest.mark.parametrize("given", LIKE_THE_PLAIN_MAP.values(), ids=LIKE_THE_PLAIN_MAP)
+def test_a_map_of_any_library_is_the_plain_map(cls, given):
+    heights = cls(heights=given, pixel=PIXEL).heights.heights
+    np.testing.assert_allclose(heights, HEIGHTS / 1e3, rtol=ROUNDING)
+    assert replace(cls(heights=np.eye(5, 6), pixel=PIXEL), heights=given) == cls(heights=given, pixel=PIXEL)
+
+
+def test_a_quantity_of_heights_has_its_unit(quantity):
+    for given in (quantity(HEIGHTS, "mm"), MAP.drop_attrs().copy(data=quantity(HEIGHTS, "mm"))):
+        np.testing.assert_allclose(
+            Topography(heights=given, pixel=1.0).heights.heights, HEIGHTS / 1e3, rtol=ROUNDING
+        )
+    for unit in ("s", "mm^2", "", "rad"):
+        with pytest.raises(ValueError, match=r"heights\n.*a length"):
+            Topography(heights=quantity(HEIGHTS, unit), pixel=1.0)
+    with pytest.raises(ValueError, match="two units"):
+        Topography(heights=MAP.copy(data=quantity(HEIGHTS, "mm")), pixel=1.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ([[True, *row[1:]] for row in HEIGHTS.tolist()], "type bool"),
+        (HEIGHTS > 0, "type bool"),
+        ([[None, *row[1:]] for row in HEIGHTS.tolist()], "real numbers"),
+        (HEIGHTS.astype("m8[s]"), "type timedelta64"),
+        (np.ma.masked_greater(HEIGHTS, 1.0), "pixels have no height"),
+        (MAP.where(MAP < 1.0), "every pixel needs a finite height"),
+        (MAP.rename(x="lon"), r"dimensions \(y, lon\): a map has y and x"),
+        (MAP.expand_dims("t"), r"dimensions \(t, y, x\)"),
+        (MAP.to_dataset(name="height"), "a Dataset: give one of its variables"),
+        (MAP.assign_attrs(units="kg"), "it has the unit kg|one has the unit kg"),
+        (MAP.assign_attrs(units="mmm"), "did you mean 'mm'"),
+        (
+            LAID_OUT.assign_coords(x=np.arange(6)),
+            "pixel = 0.002 m along x, and the coordinates of heights lie 1 m apart",
+        ),
+        (LAID_OUT.assign_coords(x=[0, 1, 2, 3, 4, 6]), "coordinates of x: they are not evenly spaced"),
+        (LAID_OUT.assign_coords(x=list("abcdef")), "coordinates of x: .*a length"),
+    ],
+)
+def test_what_is_no_map_is_refused_by_name(given, said):
+    for cls in (Topography, Measured):
+        with pytest.raises(ValueError, match=said) as raised:
+            cls(heights=given, pixel=PIXEL)
+        assert "heights" in str(raised.value)
+
+
+def test_labels_of_arrays_join_what_formulas_make_of_them(quantity):
+    load = xarray.DataArray([1.0, 2.0], dims="load")
+    speed = xarray.DataArray([100.0, 200.0], dims="speed", attrs={"units": "mm/s"})
+    stated = {"modulus": 1e6, "relaxation_time": 1e-3, "rms_slope": 0.1, "c": 100.0, "n": 2}
+    found = equations.low_speed_friction(load=load, speed=speed, **stated)
+    assert found.dims in (("load", "speed"), ("speed", "load"))
+    alone = equations.low_speed_friction(load=2.0, speed=0.2, **stated)
+    assert float(found.isel(load=1, speed=1)) == pytest.approx(alone, rel=ROUNDING)
+    assert equations.plateau(pandas.Series([0.1, 0.2], index=[3, 4])).index.tolist() == [3, 4]
+
+
+def test_a_set_has_no_order():
+    with pytest.raises(ValueError, match="a set has no order"):
+        Prony(1e6, {1e6, 2e6}, (1e-3, 1e-2))

@@ -1,0 +1,256 @@
+"""Temperature and frictional heating in both dimensionalities: laws that hold whatever the solver."""
+
+from dataclasses import replace
+from math import exp, sqrt
+
+import numpy as np
+import pytest
+from scipy.optimize import bisect
+
+from bem3d import BEM
+from compare.solving.task import SceneTask as Task
+from mdr1d import MDR
+from scene import (
+    WLF,
+    Arrhenius,
+    Coulomb,
+    Fractional,
+    Heating,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    Program,
+    Prony,
+    Refused,
+    Result,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
+from scene.scales import elastic_contact
+from scene.temperature import GAS_CONSTANT
+
+SOLVERS = (MDR(points=400), BEM(points=32))
+names = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+# Modes found anew from shifted times, and what iterations make of such a difference.
+SUPERPOSED = {"MDR": 1e-10, "BEM": 1e-8}
+AGREE = 1e-6  # temperature and heat, as stated
+
+RADIUS, RUBBERY, TIME, REFERENCE = 50e-3, 3e6, 1e-4, 296.0
+STANDARD = StandardLinearSolid(RUBBERY, 100 * RUBBERY, TIME)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=2e-3, seed=2)
+LAW = WLF(temperature=310.0, reference=REFERENCE, c1=7.2, c2=124.6)
+COLD = Arrhenius(temperature=280.0, reference=REFERENCE, activation_energy=60e3)
+PLAIN = Scene(Sphere(radius=RADIUS), STANDARD, Slide(speed=0.1, load=10.0))
+WARM = replace(PLAIN, temperature=LAW)
+SOLIDS = {
+    "standard": STANDARD,
+    "kelvin": Kelvin(RUBBERY, TIME),
+    "prony": Prony(RUBBERY, (RUBBERY, 9 * RUBBERY), (10 * TIME, TIME)),
+    "chain": KelvinChain(0.1 / RUBBERY, (0.5 / RUBBERY, 0.4 / RUBBERY), (TIME, 30 * TIME)),
+    "fractional": Fractional(
+        modulus=RUBBERY, relaxation_time=TIME, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e5
+    ),
+}
+
+
+def numbers(result: Result):
+    """All that a result says of the contact, in one array."""
+    forces = [result.normal_force, result.friction_force, result.depth]
+    return np.concatenate([forces, *(np.ravel(field) for field in result.fields.values())])
+
+
+def same(found, wanted, rtol):
+    """Numbers equal to so much of the largest of their kind."""
+    for name in ("normal_force", "friction_force", "depth"):
+        assert getattr(found, name) == pytest.approx(getattr(wanted, name), rel=rtol)
+    for name, field in wanted.fields.items():
+        np.testing.assert_allclose(found.fields[name], field, rtol=0, atol=rtol * np.abs(field).max())
+
+
+@names
+@pytest.mark.parametrize(("name", "law"), [*((name, LAW) for name in SOLIDS), ("rough", COLD)], ids=str)
+def test_a_warmer_contact_is_one_at_the_reference_that_slides_more_slowly(solver, name, law):
+    plain = replace(PLAIN, roughness=ROUGH) if name == "rough" else replace(PLAIN, elastomer=SOLIDS[name])
+    slow = replace(plain, motion=replace(PLAIN.motion, speed=0.1 * law.shift))
+    found = solver.solve(replace(plain, temperature=law))
+    same(found, solver.solve(slow), SUPERPOSED[solver.name])
+    # it matters
+    there = solver.solve(plain)
+    assert abs(found.friction_coefficient / there.friction_coefficient - 1) > 0.05
+
+
+@names
+def test_a_history_of_a_warmer_contact_is_a_longer_one_at_the_reference(solver):
+    def program(factor):
+        return Program(
+            stages=(
+                Stage(duration=3e-3 / factor, load=10.0),
+                Stage(duration=2.3e-3 / factor, speed=0.5 * factor),
+                Stage(duration=1e-3 / factor, load=4.0, speed=0.1 * factor),
+            )
+        )
+
+    solver = replace(solver, steps=24)
+    found = solver.solve(replace(WARM, motion=program(1.0)))
+    wanted = solver.solve(replace(PLAIN, motion=program(LAW.shift)))
+    factors = {"time": 1 / LAW.shift, "speed": LAW.shift}
+    for name in found.fields:
+        one, other = found.fields[name] * factors.get(name, 1.0), wanted.fields[name]
+        kept = np.isfinite(other)
+        np.testing.assert_array_equal(np.isfinite(one), kept)
+        scale = np.abs(other[kept]).max()
+        np.testing.assert_allclose(one[kept], other[kept], rtol=0, atol=1e-7 * scale, err_msg=name)
+
+
+@names
+def test_at_the_reference_and_at_rest_the_answer_is_the_same_bit_by_bit(solver):
+    there = replace(LAW, temperature=REFERENCE)
+    for scene in (PLAIN, replace(PLAIN, roughness=ROUGH)):
+        plain, found = solver.solve(scene), solver.solve(replace(scene, temperature=there))
+        np.testing.assert_array_equal(numbers(found), numbers(plain))
+        assert found.applications == plain.applications
+        assert found.measures == pytest.approx(plain.measures, rel=0, abs=0, nan_ok=True)
+    warm, rest = (solver.solve(replace(scene, motion=Indent(load=10.0))) for scene in (WARM, PLAIN))
+    np.testing.assert_array_equal(numbers(warm), numbers(rest))
+
+
+@names
+def test_estimates_are_read_off_one_solve_that_is_the_same(solver):
+    rough = replace(WARM, roughness=ROUGH)
+    plain, found = (solver.solve(each) for each in (rough, replace(rough, heating=Heating(conductivity=50.0))))
+    np.testing.assert_array_equal(numbers(found), numbers(plain))
+    assert (found.applications, found.settings) == (plain.applications, plain.settings)
+    # Methods of the paper: 2 mu G0 d v/lambda, and G_inf and h0 in the place of G0 and d
+    heat = 2 * plain.friction_coefficient * 0.1 / 50.0
+    extra = {
+        "average_heating": heat * RUBBERY * plain.depth,
+        "flash_heating": heat * 100 * RUBBERY * plain.measures["rms_height"],
+    }
+    assert {name: found.measures[name] for name in extra} == pytest.approx(extra, rel=1e-13)
+    assert found.measures.keys() == plain.measures.keys() | extra.keys()
+
+
+@names
+@pytest.mark.parametrize("feedback", ["average", "flash"])
+def test_a_contact_with_feedback_is_the_contact_at_its_own_temperature(solver, feedback):
+    rough = replace(WARM, roughness=ROUGH)
+    answer = solver.solve(replace(rough, heating=Heating(conductivity=0.2, feedback=feedback)))
+    found = answer.measures
+    own = replace(rough, temperature=replace(LAW, temperature=found["temperature"]))
+    there = solver.solve(replace(own, heating=Heating(conductivity=0.2)))
+    np.testing.assert_array_equal(numbers(answer), numbers(there))
+    rise = there.measures[f"{feedback}_heating"]
+    assert found["temperature"] - 310.0 == pytest.approx(rise, rel=2 * AGREE, abs=1e-9)
+    assert rise > 1.0
+    assert answer.scene.temperature == LAW
+    assert answer.applications >= found["heating_solves"] > 1
+
+
+@names
+def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
+    for scene, conductivity in (
+        (WARM, 1e15),
+        (replace(WARM, motion=Slide(speed=0.0, load=10.0)), 1e-3),
+        (replace(WARM, motion=Indent(depth=1e-4)), 1e-3),
+    ):
+        found = solver.solve(replace(scene, heating=Heating(conductivity=conductivity, feedback="average")))
+        plain = solver.solve(scene)
+        np.testing.assert_array_equal(numbers(found), numbers(plain))
+        assert found.measures["heating_solves"] == 1
+        assert found.applications == plain.applications
+
+
+@names
+def test_slow_friction_settles_where_a_closed_form_does(solver):
+    speed, energy = 5e-3, 60e3
+    slow = replace(
+        PLAIN,
+        elastomer=Kelvin(RUBBERY, TIME),
+        motion=Slide(speed=speed, load=10.0),
+        temperature=Arrhenius(temperature=290.0, reference=REFERENCE, activation_energy=energy),
+    )
+    depth = (3 * 10.0 / (16 * RUBBERY * sqrt(RADIUS))) ** (2 / 3)
+
+    def friction(temperature):
+        return (
+            SLOW[solver.name]
+            * speed
+            * TIME
+            / RADIUS
+            * exp(energy / GAS_CONSTANT * (1 / temperature - 1 / REFERENCE))
+        )
+
+    # so little heat is conducted that 60 K are to be expected, and a third of that settles
+    conductivity = 2 * friction(290.0) * RUBBERY * depth * speed / 60.0
+    expected = bisect(
+        lambda t: t - 290.0 - 2 * friction(t) * RUBBERY * depth * speed / conductivity, 290.0, 360.0, xtol=1e-9
+    )
+    answer = solver.solve(replace(slow, heating=Heating(conductivity=conductivity, feedback="average")))
+    assert 10 < expected - 290 < 25
+    # v tau/a is 3e-4; three dimensions have a pixel of a tenth of the radius
+    assert answer.measures["temperature"] - 290 == pytest.approx(expected - 290, rel=0.01)
+    assert answer.friction_coefficient == pytest.approx(friction(expected), rel=0.02)
+
+
+# Slow sliding of a Kelvin sphere: mu = v tau a_T/R in three dimensions, twice that in one.
+SLOW = {"MDR": 2.0, "BEM": 1.0}
+
+
+@names
+def test_fast_friction_ignites_where_a_closed_form_does(solver):
+    """mu = (4/5) f a_g^2/(R v tau_c) falls with the speed: warmer is slower, and heats more. x = C/a_T(T0 + x)."""
+    stiff, energy, speed = 1000.0, 80e3, 100.0
+    solid = StandardLinearSolid(RUBBERY, stiff * RUBBERY, 10.0)
+    cold = Arrhenius(temperature=REFERENCE, reference=REFERENCE, activation_energy=energy)
+    fast = replace(PLAIN, elastomer=solid, motion=Slide(speed=speed, load=10.0), temperature=cold)
+    glassy = elastic_contact(replace(fast, elastomer=Kelvin(stiff * RUBBERY, TIME)))
+    friction = 0.8 * (stiff - 1) * glassy.radius**2 / (RADIUS * speed * 10.0 * stiff)
+    heat = 2 * friction * RUBBERY * glassy.depth * speed
+
+    def shift(x):
+        return exp(energy / GAS_CONSTANT * (1 / (REFERENCE + x) - 1 / REFERENCE))
+
+    # x a_T(T0 + x) has its maximum where R (T0 + x)^2 = E x
+    top = bisect(lambda x: GAS_CONSTANT * (REFERENCE + x) ** 2 - energy * x, 1.0, 15.0)
+    critical = heat / (top * shift(top))
+
+    def rise(conductivity):
+        heating = Heating(conductivity=conductivity, feedback="average")
+        return solver.solve(replace(fast, heating=heating)).measures["average_heating"]
+
+    low = bisect(lambda x: x * shift(x) - heat / (1.3 * critical), 0.0, top, xtol=1e-9)
+    # three dimensions have a pixel of a tenth of the radius: 3 % of the friction, twice that of the rise
+    assert rise(1.3 * critical) == pytest.approx(low, rel=0.1)
+    assert rise(0.8 * critical) > 10 * top
+
+
+@names
+def test_friction_of_the_interface_heats_too(solver):
+    rubbing = replace(WARM, interface=Coulomb(0.3))
+    plain = solver.solve(rubbing)
+    found = solver.solve(replace(rubbing, heating=Heating(conductivity=5.0, feedback="average")))
+    there = solver.solve(replace(WARM, temperature=replace(LAW, temperature=found.measures["temperature"])))
+    total = there.friction_coefficient + 0.3
+    assert found.friction_coefficient == pytest.approx(total, rel=1e-12)
+    rise = 2 * total * RUBBERY * there.depth * 0.1 / 5.0
+    assert found.measures["average_heating"] == pytest.approx(rise, rel=1e-12)
+    assert plain.friction_coefficient > 0.3
+
+
+@names
+def test_a_program_with_heating_is_refused_by_name(solver):
+    program = Program(stages=(Stage(duration=1.0, load=1.0), Stage(duration=1.0, speed=0.1)))
+    heated = replace(WARM, motion=program, heating=Heating(conductivity=1.0))
+    with pytest.raises(Refused, match="heating = Heating: it is estimated of steady sliding, not of a Program"):
+        solver.solve(heated)
+
+
+def test_tasks_at_two_temperatures_are_two():
+    task = Task(SOLVERS[0], (WARM,))
+    other = Task(SOLVERS[0], (replace(WARM, temperature=replace(LAW, temperature=311.0)),))
+    assert task.question != other.question
+    assert task.question == Task(SOLVERS[0], (replace(WARM),)).question

@@ -1,0 +1,200 @@
+"""Foundations drawn along the surface: springs that friction holds, against closed forms and themselves."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from compare.models.exact import tangential as closed
+from mdr1d import MDR, estimates, tangential
+from scene import (
+    Cone,
+    Coulomb,
+    Elastic,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+)
+
+G, MU, LOAD = 1e6, 0.4, 1.0
+ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, seed=1)
+SHAPES = {"sphere": Sphere(10e-3), "cone": Cone(0.1), "fourth power": PowerLaw(1e6, 4)}
+SECOND_ORDER = 2e-7  # what a polygon of 5000 points is short of the shape
+ROUNDING = 1e-12
+SHARES = (1e-6, 0.5, 0.999)
+
+
+def scene(indenter=SHAPES["sphere"], nu=0.5, roughness=None, coefficient=MU, **drawn):
+    return Scene(indenter, Elastic(G, nu), Shear(load=LOAD, **drawn), roughness, interface=Coulomb(coefficient))
+
+
+def at_rest(of, **pressed):
+    return replace(of, motion=Indent(**(pressed or {"load": LOAD})), interface=None)
+
+
+@pytest.mark.parametrize("share", SHARES)
+@pytest.mark.parametrize(("shape", "nu"), [("sphere", 0.5), ("cone", 0.0), ("fourth power", 0.3)])
+def test_a_smooth_body_is_that_of_cattaneo_and_mindlin(shape, nu, share):
+    body = SHAPES[shape]
+    depth = MDR().solve(at_rest(scene(body, nu, displacement=0.0))).depth
+    drawn = share * closed.full_slip_displacement(MU, depth, nu)
+    answer = MDR().solve(scene(body, nu, displacement=drawn))
+    force = MU * LOAD * closed.force(share, body.exponent)
+    assert answer.friction_force == pytest.approx(force, rel=SECOND_ORDER)
+    assert force == pytest.approx(
+        estimates.partial_slip_force(drawn, MU, LOAD, depth, body.exponent, nu), rel=ROUNDING / share
+    )
+    stick = answer.measures["stick_length"] / answer.measures["contact_length"]
+    # a length is of first order near the tip, where a polygon is blunt
+    assert stick == pytest.approx((1 - share) ** (1 / body.exponent), abs=1e-3)
+
+
+@pytest.mark.parametrize("points", [100, 1000, 10000])
+@pytest.mark.parametrize("share", [0.3, 0.7])
+def test_the_error_of_the_polygon_is_of_second_order_in_its_spacing(share, points):
+    depth = MDR(points=100_000).solve(at_rest(scene(displacement=0.0))).depth
+    drawn = share * closed.full_slip_displacement(MU, depth, 0.5)
+    force = MDR(points=points).solve(scene(displacement=drawn)).friction_force
+    # up to 0.005 / points^2 was measured; ends of contact and stick lie anywhere between nodes: it scatters
+    assert abs(force / (MU * LOAD * closed.force(share)) - 1) < 0.01 / points**2
+
+
+@pytest.mark.parametrize("share", SHARES)
+@pytest.mark.parametrize("roughness", [None, ROUGH])
+def test_a_force_is_met_to_rounding_and_its_displacement_leads_back_to_it(roughness, share):
+    force = share * MU * LOAD
+    answer = MDR().solve(scene(roughness=roughness, force=force))
+    assert answer.friction_force == pytest.approx(force, rel=ROUNDING)
+    drawn = answer.measures["tangential_displacement"]
+    back = MDR().solve(scene(roughness=roughness, displacement=drawn))
+    assert back.friction_force == pytest.approx(force, rel=ROUNDING)
+
+
+@pytest.mark.parametrize(("share", "seed"), [(0.2, 1), (0.9, 2)])
+def test_a_rough_line_is_the_difference_of_two_contacts_of_its_own(seed, share):
+    # F_x = mu (F_a - F_c), u = mu (E*/G*) (d_a - d_c): another algorithm finds the contacts
+    rough = replace(ROUGH, seed=seed)
+    answer = MDR().solve(scene(roughness=rough, nu=0.3, force=share * MU * LOAD))
+    drawn = answer.measures["tangential_displacement"]
+    grid = MDR(points=answer.settings["points"], extent=answer.settings["extent"])
+    less = grid.solve(at_rest(answer.scene, load=(1 - share) * LOAD))
+    assert drawn == pytest.approx(MU * closed.stiffness_ratio(0.3) * (answer.depth - less.depth), rel=1e-9)
+    assert answer.measures["stick_length"] == pytest.approx(less.measures["contact_length"], rel=1e-6)
+
+
+@pytest.mark.parametrize("roughness", [None, ROUGH])
+def test_springs_add_up_and_none_carries_more_than_friction_holds(roughness):
+    answer = MDR().solve(scene(roughness=roughness, force=0.5 * MU * LOAD))
+    springs, held = answer.fields["tangential_line_force"], MU * answer.fields["line_force"]
+    assert springs.sum() * answer.measures["pixel"] == pytest.approx(answer.friction_force, rel=ROUNDING)
+    assert (springs <= held + ROUNDING * held.max()).all()
+    stiff = 4 * G / (2 - 0.5) * answer.measures["tangential_displacement"]
+    assert springs.max() <= stiff * (1 + ROUNDING)
+    measures = answer.measures
+    assert measures["stick_length"] + measures["slip_length"] == pytest.approx(measures["contact_length"])
+    slip = answer.fields["slip"]
+    sticks = MU * 4 * G * answer.fields["displacement"] > stiff
+    assert (slip[sticks] == 0).all()
+    rest = answer.fields["contact"] & ~sticks
+    assert (slip[rest] > 0).all()
+    assert not slip[~answer.fields["contact"]].any()
+
+
+@pytest.mark.parametrize("drawn", [{"force": 0.0}, {"displacement": 0.0}])
+def test_a_pull_of_nothing_is_the_contact_at_rest(drawn):
+    asked = scene(roughness=ROUGH, **drawn)
+    one, other = MDR().solve(at_rest(asked)), MDR().solve(asked)
+    np.testing.assert_array_equal(one.fields["line_force"], other.fields["line_force"])
+    assert other.friction_force == 0
+    assert not other.fields["tangential_line_force"].any()
+    assert other.measures["stick_length"] == pytest.approx(one.measures["contact_length"], rel=ROUNDING)
+    assert (one.depth, one.applications) == (other.depth, other.applications)
+
+
+@pytest.mark.parametrize("motion", [Indent(load=LOAD), Slide(speed=0.1, load=LOAD)])
+def test_friction_without_a_pull_draws_no_springs(motion, monkeypatch):
+    monkeypatch.delattr(tangential, "Springs")
+    plain = Scene(SHAPES["sphere"], Kelvin(G, 1e-3), motion, ROUGH)
+    one, other = (MDR().solve(each) for each in (plain, replace(plain, interface=Coulomb(MU))))
+    for name, field in one.fields.items():
+        np.testing.assert_array_equal(field, other.fields[name])
+    parts = (one.friction_force, MU * one.normal_force if motion.speed else 0.0)
+    assert other.friction_force == sum(parts)
+    if motion.speed:
+        assert tuple(other.measures[f"friction_in_{where}"] for where in ("elastomer", "interface")) == parts
+        assert min(parts) > 0
+
+
+def test_all_slips_in_the_end_and_friction_holds_no_more():
+    answer = MDR().solve(scene(roughness=ROUGH, displacement=1.0))
+    assert answer.measures["stick_length"] == 0
+    assert answer.friction_force == pytest.approx(MU * answer.normal_force, rel=ROUNDING)
+
+
+def test_without_friction_all_slips_at_once():
+    answer = MDR().solve(scene(coefficient=0.0, displacement=1e-6))
+    assert answer.friction_force == 0
+    assert answer.measures["stick_length"] == 0
+    assert (answer.fields["slip"][answer.fields["contact"]] == 1e-6).all()
+
+
+@pytest.mark.parametrize("drawn", [1e-300, 1e-12])
+def test_next_to_nothing_displaces_in_proportion(drawn):
+    answer = MDR().solve(scene(displacement=drawn))
+    stiffness = closed.no_slip_stiffness(G, 0.5, answer.measures["contact_length"] / 2)
+    # of the grid's outermost pixel, where springs reach up to what friction holds
+    assert answer.friction_force == pytest.approx(stiffness * drawn, rel=1e-3)
+
+
+@pytest.mark.parametrize(("drawn", "roughness"), [("displacement", ROUGH), ("force", None)])
+def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(roughness, drawn):
+    pull = {"displacement": 3e-5, "force": 0.6 * MU * LOAD}[drawn]
+    one = MDR().solve(scene(roughness=roughness, **{drawn: pull}))
+    for factor in (1e-250, 1e-12, 1e150):
+        asked = scene(roughness=roughness, coefficient=factor * MU, **{drawn: factor * pull})
+        other = MDR().solve(asked)
+        assert other.friction_force == pytest.approx(factor * one.friction_force, rel=ROUNDING)
+        for name in ("tangential_displacement", "stick_length"):
+            scale = 1.0 if name == "stick_length" else factor
+            assert other.measures[name] == pytest.approx(scale * one.measures[name], rel=1e-10)
+        line_force = one.fields["tangential_line_force"]
+        np.testing.assert_allclose(
+            other.fields["tangential_line_force"] / factor, line_force, rtol=0, atol=1e-9 * line_force.max()
+        )
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.1])
+def test_friction_beyond_the_range_of_numbers_is_an_error(speed):
+    asked = Scene(
+        SHAPES["sphere"], Kelvin(G, 1e-3), Slide(speed=speed, load=1e5), interface=Coulomb(coefficient=1e308)
+    )
+    with pytest.raises(SolveError, match="forces beyond the range of numbers"):
+        MDR().solve(asked)
+
+
+def test_the_line_as_given_slips_by_its_own_depth():
+    answer = MDR(shape="as-given").solve(scene(displacement=1e-5))
+    u_max = closed.full_slip_displacement(MU, answer.depth, 0.5)
+    assert answer.friction_force == pytest.approx(MU * LOAD * closed.force(1e-5 / u_max), rel=SECOND_ORDER)
+
+
+@pytest.mark.parametrize(("coefficient", "force"), [(MU, MU * LOAD), (0.0, 1e-3)])
+def test_a_force_beyond_friction_slides_and_is_an_error(coefficient, force):
+    # the load itself is met to 1e-13
+    with pytest.raises(SolveError, match=rf"motion.force = {force:g} slides: all that friction holds"):
+        MDR().solve(scene(coefficient=coefficient, force=force * (1 + 1e-9)))
+
+
+def test_a_history_of_partial_slip_is_refused_by_name():
+    asked = replace(scene(force=0.1), motion=Program(stages=(Stage(duration=1.0, load=LOAD),)))
+    with pytest.raises(Refused, match="interface = Coulomb: a history of partial slip is not simulated"):
+        MDR().solve(asked)

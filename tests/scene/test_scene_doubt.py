@@ -1,0 +1,240 @@
+"""Doubts about a scene: each number beyond its limit, none within, and no scene that breaks the list."""
+
+import time
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from compare.library.lookup import case_of
+from compare.library.ready import ready
+from scene import (
+    WLF,
+    Arrhenius,
+    Cone,
+    Coulomb,
+    CrossedWaves,
+    Cylinder,
+    Doubt,
+    Elastic,
+    Heating,
+    Indent,
+    Kelvin,
+    Layer,
+    Measured,
+    Plane,
+    PowerLaw,
+    Program,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+    Topography,
+    Wave,
+    doubts,
+    notes,
+)
+from scene.doubt import LIMITS, beyond_linear
+from scene.heightmap import HeightMap
+
+LIMITS_PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "limits.md"
+RUBBER = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-3)
+ROUGH = SelfAffine(hurst=0.8, rms_height=2e-5, longest=1e-2, shortest=1e-3)
+LAW = Arrhenius(temperature=300, reference=290, activation_energy=6e4)
+WILLIAMS = WLF(temperature=300, reference=299.99, c1=17.44, c2=51.6)
+BASE = Scene(
+    Sphere(radius=1e-2),
+    RUBBER,
+    Slide(speed=0.1, load=1.0),
+    ROUGH,
+    layer=Layer(thickness=1e-2),
+    temperature=LAW,
+    heating=Heating(conductivity=0.2),
+    interface=Coulomb(coefficient=0.3),
+)
+WAVES = np.sin(2 * np.pi * np.arange(64) / 16)
+GROOVES = 1e-6 * (WAVES[:, None] + 0.05 * WAVES[None, :])  # heights vary along y
+SPIKE = 1e-6 * WAVES[:, None] * WAVES[None, :]
+SPIKE[20, 30] = 1e-3
+# By the number and its end: what breaks the limit.
+BEYOND = {
+    ("temperature", False): {"temperature": replace(LAW, temperature=20, reference=25)},
+    ("temperature", True): {"temperature": replace(LAW, temperature=3e4)},
+    ("reference", False): {"temperature": replace(LAW, temperature=20, reference=25)},
+    ("reference", True): {"temperature": replace(LAW, reference=3e4)},
+    ("activation_energy", False): {"temperature": replace(LAW, activation_energy=60)},
+    ("activation_energy", True): {"temperature": replace(LAW, activation_energy=6e6)},
+    ("c1", False): {"temperature": replace(WILLIAMS, c1=0.0174)},
+    ("c1", True): {"temperature": replace(WILLIAMS, c1=1744.0)},
+    ("c2", False): {"temperature": replace(WILLIAMS, c2=0.0516)},
+    ("c2", True): {"temperature": replace(WILLIAMS, c2=51.6e3)},
+    ("modulus_at_rest", False): {"elastomer": Kelvin(1.0, 1e-3)},
+    ("modulus_at_rest", True): {"elastomer": Elastic(1e12)},
+    ("modulus_at_the_instant", True): {"elastomer": replace(RUBBER, glassy_modulus=1e12)},
+    ("body_radius", True): {"indenter": Sphere(12.7)},
+    ("body_radius", False): {"indenter": Sphere(1e-10)},
+    ("thickness", True): {"layer": Layer(thickness=10)},
+    ("thickness", False): {"layer": Layer(thickness=1e-10)},
+    ("longest", True): {"roughness": replace(ROUGH, longest=10.0)},
+    ("shortest", False): {"roughness": replace(ROUGH, shortest=1e-10)},
+    ("rms_height", False): {"roughness": replace(ROUGH, rms_height=1e-11)},
+    ("coefficient", True): {"interface": Coulomb(coefficient=300)},
+    ("conductivity", False): {"heating": Heating(conductivity=2e-4)},
+    ("conductivity", True): {"heating": Heating(conductivity=2e5)},
+    ("mach", True): {"motion": Slide(speed=1e5, load=1.0)},
+    ("contact_radius", True): {"indenter": Cone(1e-3), "motion": Slide(speed=0.1, depth=0.01)},
+    ("contact_radius", False): {"motion": Slide(speed=0.1, load=1e-19)},
+    ("depth", False): {"motion": Slide(speed=0.1, depth=1e-11)},
+    ("edge_slope", True): {"motion": Slide(speed=0.1, load=100.0)},
+    ("edge_slope", False): {"indenter": Cone(1e-6)},
+    ("rms_slope", True): {"roughness": replace(ROUGH, rms_height=1e-3)},
+    ("rms_slope", False): {"roughness": replace(ROUGH, rms_height=1e-9)},
+    ("height_over_depth", True): {"roughness": replace(ROUGH, rms_height=2e-4)},
+    ("lopsided", True): {"roughness": Topography(heights=GROOVES, pixel=1e-5, repeat="periodic")},
+    ("spike", True): {"roughness": Topography(heights=SPIKE, pixel=1e-4)},
+    ("depth_over_thickness", True): {"motion": Slide(speed=0.1, depth=5e-4), "layer": Layer(thickness=1e-3)},
+    ("pressure_over_modulus", True): {"indenter": Plane(), "motion": Slide(speed=0.1, pressure=1e8)},
+    ("stiffening", True): {"elastomer": Kelvin(1e6, 1e3)},
+    ("loss", False): {"elastomer": replace(RUBBER, relaxation_time=1e-12)},
+}
+
+
+def named(scene):
+    return {(each.name, each.number > each.limit): each for each in doubts(scene)}
+
+
+def test_ordinary_numbers_are_not_doubted():
+    assert doubts(BASE) == ()
+
+
+@pytest.mark.parametrize("limit", LIMITS, ids=lambda limit: f"{limit.number}-{limit.limit:g}")
+def test_each_limit_has_a_number_beyond_it_that_is_doubted_with_number_limit_and_reason(limit):
+    found = named(replace(BASE, **BEYOND[limit.number, limit.most]))[limit.name, limit.most]
+    assert isinstance(found, Doubt)
+    assert limit.broken(found.number)
+    assert not limit.broken(limit.limit)
+    for said in (f"{found.number:.3g}", f"{limit.limit:g}", limit.why, limit.unit):
+        assert said in str(found)
+
+
+def test_the_page_of_limits_states_all_of_them():
+    page = LIMITS_PAGE.read_text(encoding="utf-8")
+    for limit in LIMITS:
+        side = "above" if limit.most else "below"
+        assert f"| {limit.name} | {side} {limit.limit:g} {limit.unit}".rstrip() + f" | {limit.why} |" in page
+
+
+@pytest.mark.parametrize("name", [name for name, each in ready().items() if each.kind == "scene"])
+def test_of_ready_scenes_that_is_doubted_which_their_departures_or_notes_state(name):
+    case = case_of(name)
+    stated = " ".join([*case.departures, *case.notes])
+    assert [each for each in case.doubts if each.name not in stated] == []
+
+
+def test_a_ready_scene_that_is_changed_is_doubted():
+    case = case_of("paper-sphere")
+    assert replace(case, indenter=Sphere(10.0)).doubts[0].name == "radius of the body"
+
+
+@pytest.mark.parametrize(
+    ("changed", "meant"),
+    [
+        (("temperature", False), "is 20 degC meant?"),
+        (("modulus_at_rest", False), "is 1 MPa meant?"),
+        (("body_radius", True), "is 12.7 mm meant?"),
+        (("activation_energy", False), "is 60 kJ/mol meant?"),
+    ],
+)
+def test_what_was_probably_meant_is_asked(changed, meant):
+    assert meant in [each.meant for each in doubts(replace(BASE, **BEYOND[changed]))]
+
+
+def test_nothing_is_guessed_that_would_be_doubted_too():
+    (found,) = (each for each in doubts(replace(BASE, elastomer=Kelvin(1e-9, 1e-3))) if each.unit == "Pa")
+    assert not found.meant
+
+
+def test_temperatures_in_degrees_celsius_are_not_doubted():
+    law = Arrhenius(temperature="20 degC", reference="25 degC", activation_energy="60 kJ/mol")
+    assert doubts(replace(BASE, temperature=law)) == ()
+
+
+def test_slopes_of_every_roughness_are_those_of_its_surface():
+    grid = np.linspace(0, 1e-3, 64, endpoint=False)
+    q, amplitude = 2 * np.pi / 1e-3, 1e-4
+    crossed = np.hypot(*np.gradient(amplitude * np.cos(q * grid)[:, None] * np.cos(q * grid)[None, :], grid[1]))[
+        1:-1, 1:-1
+    ]
+    for rough, slope in (
+        (Wave(amplitude=amplitude, wavelength=1e-3), amplitude * q / np.sqrt(2)),
+        (CrossedWaves(amplitude=amplitude, wavelength=1e-3), np.sqrt(np.mean(crossed**2))),
+        (ROUGH, ROUGH.rms_slope(ROUGH.q_max(1.0))),
+    ):
+        steep = replace(rough, **{"amplitude" if isinstance(rough, Wave) else "rms_height": 1e-3})
+        factor = 1e-3 / (rough.amplitude if isinstance(rough, Wave) else rough.rms_height)
+        found = named(replace(BASE, roughness=steep))["rms slope of the roughness", True]
+        assert found.number == pytest.approx(slope * factor, rel=0.05)
+
+
+def test_a_cut_off_by_the_grid_has_the_slope_of_the_grid():
+    open_ended = replace(BASE, roughness=replace(ROUGH, hurst=0.1, rms_height=5e-5, shortest=None))
+    assert doubts(open_ended) == ()
+    (found,) = doubts(open_ended, pixel=1e-6)
+    assert found.number == pytest.approx(open_ended.roughness.rms_slope(np.pi / 1e-6))
+
+
+def test_beyond_a_slope_of_one_nothing_linear_is_left():
+    assert beyond_linear(replace(BASE, motion=Slide(speed=0.1, load=100.0))) is None  # 0.57
+    found = beyond_linear(replace(BASE, motion=Slide(speed=0.1, load=1e5)))
+    assert found.number > 1
+    steep = beyond_linear(replace(BASE, roughness=replace(ROUGH, rms_height=1e-3)))
+    assert steep.name == "rms slope of the roughness"
+
+
+def test_notes_are_those_of_what_was_read_and_change_no_part():
+    heights = HeightMap(GROOVES)
+    map_read = Topography(heights=heights, pixel=1e-5)
+    object.__setattr__(heights, "notes", ("column strain is not used",))
+    scene = replace(BASE, roughness=map_read)
+    assert notes(scene) == ("column strain is not used",)
+    assert map_read == Topography(heights=GROOVES, pixel=1e-5)
+    assert notes(BASE) == ()
+
+
+EXTREMES = (1e-300, 1e-30, 1.0, 1e30, 1e300)
+BODIES = (Sphere, Cone, Cylinder)
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_no_scene_breaks_the_list(body):
+    started, count = time.perf_counter(), 0
+    for size, modulus, pressed, speed in product(EXTREMES, EXTREMES, EXTREMES, (0.0, 1e-300, 1e300)):
+        indenter = Cone(min(size, 1.57)) if body is Cone else body(size)
+        motion = {"line_load": pressed} if body is Cylinder else {"depth": pressed}
+        scene = Scene(indenter, Kelvin(modulus, 1 / size), Slide(speed=speed, **motion))
+        count += all(map(str, doubts(scene)))
+    assert count == 375
+    assert time.perf_counter() - started < 20e-3 * count
+
+
+def test_scenes_without_a_smooth_contact_are_no_trouble():
+    bowl = np.add.outer(*[((np.arange(8) - 3.5) * 1e-4) ** 2] * 2)
+    flat = replace(ROUGH, rms_height=0.0)
+    stages = Program(stages=(Stage(duration=1.0, load=1.0), Stage(duration=1.0, speed=-0.1)))
+    for changed in (
+        {"indenter": Measured(heights=bowl, pixel=1e-4), "roughness": None},
+        {"indenter": Plane(), "motion": Indent(gap=1e-6)},
+        {"roughness": flat},
+        {"motion": stages},
+        {"motion": Shear(load=1.0, displacement=1e-6)},
+        {"indenter": PowerLaw(1e300, 100.0)},
+        {"roughness": Topography(heights=np.zeros((8, 8)), pixel=1e-6)},
+        {"roughness": Topography(heights=1e40 * GROOVES, pixel=1e-6)},
+        {"temperature": WLF(temperature=400, reference=300, c1=17.44, c2=51.6)},
+    ):
+        assert all(map(str, doubts(replace(BASE, **changed))))

@@ -1,0 +1,208 @@
+"""Unknown names are answered by what they mean, and no hint leads to another number or to another mistake."""
+
+from copy import deepcopy
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from compare.library.case import Case
+from scene.meanings import _TYPES, meaning, rows, type_meant
+from scene.mistakes import mistakes
+from scene.names import Names
+from scene.reading import validator
+
+ADAPTER = validator(Case)
+TABLES = [
+    table["properties"] for table in Names.of(ADAPTER).schema["$defs"].values() if table.get("type") == "object"
+]
+SPHERE = {"type": "sphere", "radius": 1e-2}
+KELVIN = {"type": "kelvin", "modulus": 1e6, "relaxation_time": 1e-3}
+SLIDE = {"type": "slide", "speed": 0.1, "load": 1.0}
+ROUGH = {"type": "self-affine", "hurst": 0.5, "rms_height": 1e-6, "longest": 1e-2}
+WHOLE = {"indenter": SPHERE, "elastomer": KELVIN, "motion": SLIDE, "roughness": ROUGH, "bem": {}, "mdr": {}}
+STANDARD = {
+    "type": "standard-linear-solid",
+    "rubbery_modulus": 1e6,
+    "glassy_modulus": 1e7,
+    "relaxation_time": 1e-3,
+}
+PRONY = {"type": "prony", "equilibrium_modulus": 1e6, "moduli": [1e6], "relaxation_times": [1e-3]}
+SHARES = {"type": "prony", "equilibrium_modulus": 1e6, "g": [0.5], "tau": [1e-3]}
+CONE = {"type": "cone", "angle": 0.1}
+STEEP = {"type": "self-affine", "hurst": 0.5, "longest": 1e-2, "shortest": 1e-4}
+MAP = {"type": "topography", "heights": [[0.0, 1e-6, 0.0, 1e-6]] * 4, "pixel": 1e-6}
+
+
+def said_of(content):
+    try:
+        ADAPTER.validate_python(content)
+    except ValidationError as error:
+        return mistakes(error, content, ADAPTER)
+    return []
+
+
+def hint(table, name, value, without=None, **parts):
+    """What is said of a name that is added to a table, without another one."""
+    content = deepcopy(WHOLE | parts)
+    content[table].pop(without, None)
+    content[table][name] = value
+    (line,) = [line for line in said_of(content) if line.startswith(f"{table}.{name} = ")]
+    return line.partition("unknown here; ")[2].rpartition("nown are")[0][:-1].strip("; ")
+
+
+def test_what_a_name_means_is_a_field_of_some_part():
+    for each, names in rows():
+        for field in each.fields:
+            assert any(field in table for table in TABLES), (field, names)
+
+
+def test_no_meaning_overrides_a_name_that_a_table_has():
+    for table in TABLES:
+        for name in table:
+            assert meaning(name, table) is None, name
+
+
+@pytest.mark.parametrize(
+    ("table", "name", "value", "field", "parts"),
+    [
+        ("elastomer", "G", "1 MPa", "modulus", {}),
+        ("elastomer", "shear_modulus", "1 MPa", "modulus", {}),
+        ("elastomer", "E", "3 MPa", "youngs_modulus", {}),
+        ("elastomer", "elastic_modulus", "3 MPa", "youngs_modulus", {}),
+        ("elastomer", "Young's modulus", "3 MPa", "youngs_modulus", {}),
+        ("elastomer", "nu", 0.5, "poisson_ratio", {}),
+        ("elastomer", "poisson", 0.5, "poisson_ratio", {}),
+        ("elastomer", "tau", "1 ms", "relaxation_time", {}),
+        ("elastomer", "retardation_time", "1 ms", "relaxation_time", {}),
+        ("elastomer", "times", [1e-3], "relaxation_times", {"elastomer": PRONY}),
+        ("elastomer", "alpha", [0.2], "g", {"elastomer": SHARES}),
+        ("indenter", "R", "5 mm", "radius", {}),
+        ("motion", "F", "1 N", "load", {}),
+        ("motion", "normal_force", "1 N", "load", {}),
+        ("motion", "v", 0.1, "speed", {}),
+        ("motion", "velocity", 0.1, "speed", {}),
+        ("roughness", "H", 0.5, "hurst", {}),
+        ("roughness", "h_rms", 1e-6, "rms_height", {}),
+        ("roughness", "Sq", 1e-6, "rms_height", {}),
+        ("roughness", "rms", 1e-6, "rms_height", {}),
+        ("roughness", "Sdq", 0.1, "rms_slope", {"roughness": STEEP}),
+        ("roughness", "lambda_min", 1e-4, "shortest", {}),
+        ("roughness", "wavelength_max", 1e-2, "longest", {}),
+        ("roughness", "dx", "1 um", "pixel", {"roughness": MAP}),
+        ("roughness", "resolution", "1 um", "pixel", {"roughness": MAP}),
+        ("bem", "n", 128, "points", {}),
+        ("mdr", "grid", 2000, "points", {}),
+        ("mdr", "samples", 2000, "points", {}),
+    ],
+)
+def test_another_name_of_a_field_is_said_as_the_field_and_its_value_is_checked_there(
+    table, name, value, field, parts
+):
+    assert hint(table, name, value, without=field, **parts) == f"did you mean {field}?"
+    content = deepcopy(WHOLE | parts)
+    content[table].pop(field, None)
+    content[table][name] = value
+    assert not any(": missing" in line for line in said_of(content))
+
+
+@pytest.mark.parametrize(
+    ("table", "name", "value", "field", "said", "parts"),
+    [
+        ("elastomer", "E", "3 MPa", "rubbery_modulus", "a third of E", {"elastomer": STANDARD}),
+        ("elastomer", "youngs_modulus", "3 MPa", "equilibrium_modulus", "a third of E", {"elastomer": PRONY}),
+        ("elastomer", "E_star", "3 MPa", "modulus", "a fourth of E*", {}),
+        ("elastomer", "stiffness", "3 N/m", "modulus", "shear modulus [Pa]", {}),
+        ("elastomer", "viscosity", "1 kPa s", "relaxation_time", "relaxation_time = viscosity / modulus", {}),
+        ("elastomer", "eta", 1e3, "relaxation_time", "relaxation_time = viscosity / modulus", {}),
+        ("elastomer", "eta", 1e3, "relaxation_time", "(glassy_modulus - rubbery_mod", {"elastomer": STANDARD}),
+        ("elastomer", "retardation_time", 1e-2, "relaxation_time", "* rubbery_modulus /", {"elastomer": STANDARD}),
+        ("elastomer", "G0", 1e6, "rubbery_modulus", "the shear modulus at rest", {"elastomer": STANDARD}),
+        ("elastomer", "g_i", [0.2], "g", "moduli takes shear moduli [Pa]", {"elastomer": SHARES}),
+        ("elastomer", "G_i", [1e6], "moduli", "moduli takes shear moduli [Pa]", {"elastomer": PRONY}),
+        ("elastomer", "beta", [10.0], "relaxation_times", "relaxation_times = 1 / beta", {"elastomer": PRONY}),
+        ("elastomer", "T", "25 degC", None, "[temperature]", {}),
+        ("elastomer", "mu", 1e6, "modulus", "that of [interface]", {}),
+        ("indenter", "diameter", "5 mm", "radius", "half of the diameter", {}),
+        ("indenter", "half_angle", "80 deg", "angle", "90 deg less the half angle", {"indenter": CONE}),
+        ("indenter", "theta", "10 deg", "angle", "between the flank and the flat surface", {"indenter": CONE}),
+        ("motion", "mass", 1.0, "load", "9.81 N", {}),
+        ("roughness", "Ra", 1e-6, "rms_height", "1.25 Ra", {}),
+        ("roughness", "Rdq", 0.1, "rms_slope", "root of 2 times Rdq", {"roughness": STEEP}),
+        ("roughness", "q0", 600.0, "longest", "longest = 2 pi / q", {}),
+        ("roughness", "q1", 6e4, "shortest", "shortest = 2 pi / q", {}),
+        ("bem", "dx", "1 um", "points", "points = extent / pixel", {}),
+    ],
+)
+def test_another_quantity_is_never_said_as_a_field_and_the_way_to_the_field_is(
+    table, name, value, field, said, parts
+):
+    found = hint(table, name, value, without=field, **parts)
+    assert said in found
+    assert "did you mean" not in found
+
+
+def test_a_name_that_belongs_to_another_table_is_said_with_it():
+    assert hint("motion", "mu", 0.5) == "did you mean interface.coefficient?"
+    assert said_of({"nu": 0.3, **WHOLE})[0].startswith(
+        "nu = 0.3: unknown here; did you mean elastomer.poisson_ratio?"
+    )
+
+
+def test_a_hint_says_where_a_name_has_a_value_already_or_takes_another_kind_of_it():
+    assert hint("elastomer", "G", 1e6) == "did you mean modulus? It has a value already"
+    assert hint("elastomer", "modlus", 1e6) == "did you mean modulus? It has a value already"
+    assert hint("roughness", "hurts", "0.5", without="hurst") == "hurst takes a number"
+    assert hint("bem", "resolution", "1 um") == "points takes a whole number"
+    assert hint("elastomer", "times", 1e-3, without="relaxation_times", elastomer=PRONY) == (
+        "relaxation_times takes a list"
+    )
+
+
+NAMES = sorted({name for _, names in rows() for name in names} | {name for table in TABLES for name in table})
+VALUES = [0.5, 3, True, "5 mm", "3 MPa", "text", [1.0, 2.0], {"type": "kelvin"}]
+
+
+@settings(deadline=None, max_examples=200)
+@given(
+    st.sampled_from(NAMES),
+    st.sampled_from(["{}", "{}s", "{}x", "my_{}", "{}_1"]),
+    st.sampled_from(VALUES),
+    st.sampled_from(["", *WHOLE]),
+    st.sampled_from([{}, {"elastomer": PRONY}, {"elastomer": STANDARD}, {"indenter": CONE}, {"roughness": MAP}]),
+    st.data(),
+)
+def test_no_hint_leads_to_a_value_of_another_kind_or_to_a_second_value(name, written, value, table, parts, data):
+    content = deepcopy(WHOLE | parts)
+    inside = content[table] if table else content
+    left_out = data.draw(st.sampled_from(sorted(inside, key=str) or [None]))
+    if left_out != "type" and table:
+        inside.pop(left_out, None)
+    stated = dict(inside)
+    if (misspelt := written.format(name)) in inside:
+        return
+    inside[misspelt] = value
+    for line in said_of(content):
+        _, asks, meant = line.partition("unknown here; did you mean ")
+        if not asks or not line.startswith(f"{table}.{misspelt}".strip(".")):
+            continue
+        *way, field = meant.partition("?")[0].split(".")
+        assert (field in stated and not way) == ("It has a value already" in line), line
+        if "It has a value already" not in line:
+            place = ".".join([*(way or [table] * bool(table)), field])
+            wrong = [each for each in said_of(content) if each.startswith(f"{place} =")]
+            assert not any(
+                each.endswith(("a valid number", "integer", "string", "a table", "list")) for each in wrong
+            )
+
+
+def test_another_name_of_a_type_is_said_as_the_type():
+    known = ["elastic", "kelvin", "standard-linear-solid", "prony", "kelvin-chain"]
+    assert type_meant("Kelvin-Voigt", known) == "kelvin"
+    assert type_meant("generalized_Maxwell", known) == "prony"
+    assert type_meant("maxwell", known) is None  # a liquid
+    found = said_of(WHOLE | {"elastomer": {**STANDARD, "type": "Zener"}})
+    assert found == [line for line in found if line.endswith("did you mean 'standard-linear-solid'?")]
+    schema = str(Names.of(ADAPTER).schema)
+    assert all(f"'{kind}'" in schema for kind in _TYPES)
