@@ -152,10 +152,12 @@ def workprecision(
     name : name of a diagram, or all; if absent, a table of the diagrams is printed
     size : how much is solved: quick (a minute a diagram), standard or full (hours)
     """
+    if name is None:
+        from .library.ready import diagrams
+
+        return diagrams()
     from .studies.workprecision.study import WorkPrecision
 
-    if name is None:
-        return WorkPrecision.listing()
     return solve(WorkPrecision.of([name], size), output, **options)
 
 

@@ -7,7 +7,6 @@ from ..library import ready as library
 from ..report.plots.journals import JOURNALS
 
 FILES = "*.toml"  # in this folder: scenes or studies of one's own
-DIAGRAMS = ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "costs")
 
 
 def copied() -> list[str]:
@@ -27,7 +26,7 @@ def studies() -> list[str]:
 
 def diagrams() -> list[str]:
     """Diagrams of `crosscheck workprecision`."""
-    return [*DIAGRAMS, "all"]
+    return [*library.DIAGRAMS, "all"]
 
 
 # By the name of an argument or option.

@@ -22,6 +22,7 @@ SCENES = {
 }
 STUDIES = "Studies: crosscheck study NAME"
 ALL = "`crosscheck study all` does the first six of them."
+MEASURE = "`crosscheck workprecision NAME` measures one; all, every one of them."
 NEW = "`crosscheck new NAME` copies a scene, or a study that is a file, for you to change."
 
 
@@ -98,6 +99,58 @@ CATALOGUE = {
     ),
 }
 
+# Diagrams of `crosscheck workprecision`, in the order of its page.
+DIAGRAMS = {
+    "models": About(
+        "Which model for which error",
+        "Both models against the true answer of three dimensions: one is fast and keeps the error of the model, "
+        "the other is slow and converges. Smooth bodies have one answer; that of rough ones is the mean over "
+        "surfaces, so that the scatter between surfaces counts beside the grid. Between them is 1D corrected by "
+        "the trust map: it pays for the map once and keeps the error of the map. Of a smooth body the map solves "
+        "both models, so that nothing is gained; off the map there is no answer.",
+    ),
+    "surfaces": About(
+        "How many surfaces, on how many points",
+        "A rough contact has the mean over surfaces as its answer. The error of a mean is that of the grid, "
+        "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
+    ),
+    "mdr": About(
+        "One dimension: error against points",
+        "The errors of MDR against what one dimension itself would answer: closed forms of the foundation, or the "
+        "same rough profile on far more points. They say nothing of three dimensions.",
+    ),
+    "elastic": About(
+        "Three dimensions at rest: error against points and tolerance",
+        "BEM at rest, by points at a tight tolerance and by tolerance at fixed points: smooth bodies against Hertz "
+        "and Sneddon, rough ones against the same surface on a finer grid.",
+    ),
+    "sliding": About(
+        "Three dimensions in steady sliding: error against points and tolerance",
+        "BEM in steady sliding: smooth spheres against finer grids and the table of two independent codes, rough "
+        "ones against the same surface refined and, at low speed, against the limit by curvature. That is the "
+        "estimate by curvature on a finer grid: there the joined estimate is tested in its pressure only. All "
+        "estimates of friction come from the same solves, and the solver's own indicator is drawn beside them.",
+    ),
+    "marching": About(
+        "Three dimensions in time: error against points and steps",
+        "BEM marched through a program: a sphere pressed in and drawn back against Lee, Radok and Ting, by "
+        "points, by steps and by both together; and a sphere set in motion, against the steady solver and its "
+        "cost.",
+    ),
+    "precision": About(
+        "Single against double precision",
+        "BEM in single and in double precision by tolerance, on one grid each: against the same grid solved "
+        "tightly in double precision, so that the error of the grid does not enter.",
+    ),
+    "extent": About(
+        "A free surface against a cell that repeats",
+        "BEM of one tip by extent at a fixed pixel: free, where the extent has no error of its own, and as a "
+        "lattice of tips of the same curvature in a cell that repeats, whose neighbours and whose shape part it "
+        "from the free sphere. Where no shape is taken out, that of the wave and its neighbours are not told "
+        "apart.",
+    ),
+}
+
 
 class Listing(dict[str, Any]):
     """All that can be named, each with its title and subject; printed, a table of names and titles.
@@ -150,6 +203,11 @@ def studies() -> Listing:
     """Every study that comes with the package: those of the paper's claims, then those of files."""
     found = CATALOGUE | {name: each for name, each in ready().items() if each.kind == "study"}
     return Listing(found, {STUDIES: list(found)}, ALL)
+
+
+def diagrams() -> Listing:
+    """Every diagram of `crosscheck workprecision`."""
+    return Listing(DIAGRAMS, end=MEASURE)
 
 
 def offered() -> Listing:

@@ -90,6 +90,11 @@ class MeasuredLadder:
     reasons: np.ndarray
 
     @property
+    def where(self) -> str:
+        """Contact and quantity in words."""
+        return f"{self.title}: {self.label}"
+
+    @property
     def failures(self) -> list[tuple[float, str]]:
         """Setting and reason of each solve that failed."""
         return [(float(value), str(why)) for value, why in zip(self.values, self.reasons, strict=True) if why]

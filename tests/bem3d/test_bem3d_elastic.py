@@ -1,5 +1,7 @@
 """Contact at rest on a free half-space against closed forms of Hertz, Sneddon and Galin."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -101,3 +103,10 @@ def test_a_smooth_contact_between_the_centres_of_pixels_is_an_error_and_not_an_e
     pixel = 4e-3 / 192
     found = BEM(points=192, extent=4e-3).solve(Scene(Sphere(R), Elastic(G), Indent(depth=(2.5 * pixel) ** 2 / R)))
     assert found.measures["contact_points"] >= 9
+
+
+def test_applications_of_a_smooth_solve_hardly_grow_with_the_grid():
+    """By a fifth at most with each doubling, where plain conjugate gradients take sqrt(2) times as many."""
+    scene = Scene(Sphere(R), Elastic(G), Indent(depth=D))
+    counts = [BEM(points=n).solve(scene).applications for n in (64, 128, 256, 512)]
+    assert all(after <= 1.2 * before for before, after in pairwise(counts)), counts

@@ -45,43 +45,52 @@ class Regime:
         """Contact and quantity in words."""
         return f"{self.title}: {self.label}"
 
+    def of(self, solver: str | None) -> list[MeasuredLadder | SamplingPlan]:
+        """Ways of one solver; all of them if none is named."""
+        return [each for each in self.ways if solver in (None, each.solver)]
+
     def answer(self, level: float, solver: str | None = None) -> Effort | None:
         """The shortest way to a level; None where there is none."""
-        return cheapest([each for each in self.ways if solver in (None, each.solver)], level)
+        return cheapest(self.of(solver), level)
+
+    def seconds(self, level: float, solver: str | None = None) -> float:
+        """Processor time of the shortest way to a level [s]; NaN where there is none."""
+        taken = self.answer(level, solver)
+        return nan if taken is None else taken.seconds
 
     def best(self, solver: str | None = None) -> float:
         """Least error that is known to be reached; NaN without any."""
-        return least_known(each.certain for each in self.ways if solver in (None, each.solver))
+        return float(min(filter(isfinite, (each.certain for each in self.of(solver))), default=nan))
+
+    def missed(self, solver: str | None = None) -> str:
+        """Least error that is known to be reached, in words."""
+        best = self.best(solver)
+        return f"best known {share(best)}" if isfinite(best) else "not solved"
+
+    def cell(self, level: float, solver: str | None = None) -> str:
+        """The shortest way to a level in words."""
+        taken = self.answer(level, solver)
+        if taken is not None:
+            return f"{DIMENSIONS[taken.solver]}, {taken.settings}: {seconds(taken.seconds)}"
+        return f"not reached; {self.missed(solver)}" if isfinite(self.best(solver)) else "not known"
 
     def error_1d(self, claim: Claim) -> Finding:
         """Error of the 1D model on its finest grid."""
         return Finding(claim, self.floor.value, where=self.where, **self.known)
 
 
-def least_known(errors: Iterable[float]) -> float:
-    """Least of some errors; NaN where none is known."""
-    known = list(filter(isfinite, errors))
-    return float(min(known, default=nan))
-
-
 def regimes_of(node: xarray.DataTree) -> list[Regime]:
     """Every quantity of every contact of a diagram, smooth ones first."""
-    datasets = {name: child.to_dataset(inherit=False) for name, child in node.children.items() if child.data_vars}
     found: dict[tuple[str, str], list[MeasuredLadder]] = {}
-    for each in ladders(steps_table(datasets.values())):
+    for each in ladders(steps_table(node)):
         found.setdefault((each.contact, each.quantity), []).append(each)
-    smooth = [_smooth(own, datasets[contact].attrs["reference_method"]) for (contact, _), own in found.items()]
-    return [*smooth, *map(_rough, rough_means(node))]
-
-
-def rough_means(node: xarray.DataTree) -> list[MeasuredMean]:
-    """Means over surfaces of every quantity of every rough contact."""
-    models = (
+    smooth = [_smooth(own, node[contact].attrs["reference_method"]) for (contact, _), own in found.items()]
+    rough = (
         [child.children[name].to_dataset(inherit=False) for name in ("BEM", "MDR", "CorrectedMDR")]
         for child in node.children.values()
         if child.children
     )
-    return [mean for each in models for mean in means(*each)]
+    return [*smooth, *(_rough(mean) for each in rough for mean in means(*each))]
 
 
 def _smooth(own, method):
@@ -122,23 +131,21 @@ def _rough(mean):
     return Regime(mean.title, mean.quantity, mean.label, mean.plans, floor, False, known, mean)
 
 
-def answers_table(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> Iterator[dict[str, Any]]:
+def answers_table(found: Iterable[Regime]) -> Iterator[dict[str, Any]]:
     """A row for each regime and wanted error; times in seconds, errors relative."""
     for each in found:
-        for level in levels:
+        for level in LEVELS:
             taken, own = each.answer(level), each.floor
-            by_solver = {label: each.answer(level, name) for name, label in DIMENSIONS.items()}
             yield {
                 "regime": each.title,
                 "quantity": each.label,
                 "wanted": level,
                 "model": "" if taken is None else DIMENSIONS[taken.solver],
                 "settings": "" if taken is None else taken.settings,
-                "seconds": nan if taken is None else taken.seconds,
-                **{
-                    f"seconds_{label.lower().replace(' ', '_')}": nan if answer is None else answer.seconds
-                    for label, answer in by_solver.items()
-                },
+                "seconds": each.seconds(level),
+                "seconds_1d": each.seconds(level, "MDR"),
+                "seconds_1d_corrected": each.seconds(level, "CorrectedMDR"),
+                "seconds_3d": each.seconds(level, "BEM"),
                 "best_known": each.best(),
                 "floor_1d": own.size,
                 "floor_1d_least": own.least,
@@ -147,21 +154,24 @@ def answers_table(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> 
             }
 
 
-def cells(found: Sequence[Regime], levels: Sequence[float] = LEVELS) -> list[dict[str, str]]:
-    """Answers in words: regimes as rows, wanted errors as columns.
+def cells(found: Iterable[Regime], solver: str | None = None) -> list[dict[str, str]]:
+    """Answers in words: regimes as rows, wanted errors as columns; of one solver, or of all with what 1D keeps.
 
     Of rough regimes the error is that expected of a mean over surfaces (rms), of smooth ones the error itself.
     """
-    return [
-        {
+    rows = []
+    for each in found:
+        row = {
             "regime": f"{each.title}{', expected (rms)' if each.mean else ''}",
             "quantity": each.label,
-            **{f"within {share(level)}": _cell(each, level) for level in levels},
-            "error that 1D keeps": "none (it converges)" if each.converges else _interval(each.floor),
-            "best of 1D corrected": share(best) if isfinite(best := each.best("CorrectedMDR")) else "not known",
+            **{f"within {share(level)}": each.cell(level, solver) for level in LEVELS},
         }
-        for each in found
-    ]
+        if solver is None:
+            best = each.best("CorrectedMDR")
+            row["error that 1D keeps"] = "none (it converges)" if each.converges else _interval(each.floor)
+            row["best of 1D corrected"] = share(best) if isfinite(best) else "not known"
+        rows.append(row)
+    return rows
 
 
 def _interval(bias):
@@ -174,10 +184,3 @@ def _interval(bias):
         return share(bias.size)
     least = share(bias.least).removesuffix(" %") if bias.least else "0"
     return f"{share(bias.size)} ({least} to {share(bias.most)})"
-
-
-def _cell(each, level):
-    taken, known = each.answer(level), each.best()
-    if taken is not None:
-        return f"{DIMENSIONS[taken.solver]}, {taken.settings}: {seconds(taken.seconds)}"
-    return f"not reached; best known {share(known)}" if isfinite(known) else "not known"

@@ -1,7 +1,7 @@
 """Convergence: one contact answered along ladders of settings, its errors and costs as a Dataset."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import nan
 from typing import Any, Self
 
@@ -82,12 +82,12 @@ class Convergence:
     reference: Reference
     quantities: tuple[Quantity, ...]
     ladders: tuple[Ladder, ...]
-    orders: Mapping[str, float] | None = None
+    orders: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def timed(self) -> list[Task]:
         """Solves that have to be measured alone."""
-        return list(dict.fromkeys(solve for ladder in self.ladders for solve in ladder.solves))
+        return [solve for ladder in self.ladders for solve in ladder.solves]
 
     @property
     def untimed(self) -> list[Task]:
@@ -104,35 +104,35 @@ class Convergence:
             for value, solve in zip(ladder.values, ladder.solves, strict=True)
         ]
         solves = [solve for _, _, solve in steps]
-        answers = [outcomes[solve] for solve in solves]
-        orders = self.orders or {}
-        found = {
-            "relative_error": (
-                ("quantity", "step"),
-                [[_error(each, known[each.name], answer) for answer in answers] for each in quantities],
-            ),
-            "reference_error": ("quantity", [known[each.name].relative_error for each in quantities]),
-            **costs_of(solves, outcomes),
+        errors = [[_error(each, known[each.name], outcomes[solve]) for solve in solves] for each in quantities]
+        by_quantity = {
+            "quantity": [each.name for each in quantities],
+            "label": [each.label for each in quantities],
+            "estimate": [each.by for each in quantities],
+            "expected_order": [self.orders.get(each.name, nan) for each in quantities],
+            "reference_error": [known[each.name].relative_error for each in quantities],
         }
-        coordinates = {
-            "quantity": ("quantity", [each.name for each in quantities]),
-            "label": ("quantity", [each.label for each in quantities]),
-            "estimate": ("quantity", [each.by for each in quantities]),
-            "expected_order": ("quantity", [orders.get(each.name, nan) for each in quantities]),
-            "step": ("step", list(range(len(steps)))),
-            "ladder": ("step", [ladder.label for ladder, _, _ in steps]),
-            "setting": ("step", [ladder.setting for ladder, _, _ in steps]),
-            "value": ("step", [float(value) for _, value, _ in steps]),
-            "solver": ("step", [solve.solver.name for solve in solves]),
-            **settings_of(solves, SETTINGS),
+        by_step = {
+            "step": list(range(len(steps))),
+            "ladder": [ladder.label for ladder, _, _ in steps],
+            "setting": [ladder.setting for ladder, _, _ in steps],
+            "value": [float(value) for _, value, _ in steps],
+            "solver": [solve.solver.name for solve in solves],
         }
+        for name, absent in SETTINGS.items():
+            held = [getattr(solve.solver, name, None) for solve in solves]
+            by_step[name] = [absent if each is None else each for each in held]
+        coordinates = {name: ("quantity", values) for name, values in by_quantity.items()}
+        coordinates |= {name: ("step", values) for name, values in by_step.items()}
         about = {
             "contact": self.name,
             "title": self.title,
             "reference": self.reference.source,
             "reference_method": self.reference.method,
         }
-        return {self.name: described(xarray.Dataset(found, coordinates, about), solves[0].scene)}
+        found = {"relative_error": (("quantity", "step"), errors), **costs_of(solves, outcomes)}
+        dataset = xarray.Dataset(found, coordinates, about).reset_coords("reference_error")
+        return {self.name: described(dataset, solves[0].scene)}
 
 
 def costs_of(solves: Sequence[TimedSolve], outcomes: Outcomes, *more: str) -> dict[str, tuple[str, list]]:
@@ -147,12 +147,6 @@ def costs_of(solves: Sequence[TimedSolve], outcomes: Outcomes, *more: str) -> di
     return {name: ("step", values) for name, values in found.items()}
 
 
-def settings_of(solves: Sequence[TimedSolve], absent: Mapping[str, Any]) -> dict[str, tuple[str, list]]:
-    """Settings (step,) of some solves by name. absent : what stands where a solver lacks them"""
-    taken = {name: [getattr(solve.solver, name, None) for solve in solves] for name in absent}
-    return {name: ("step", [absent[name] if v is None else v for v in own]) for name, own in taken.items()}
-
-
 def described(dataset: xarray.Dataset, scene: Scene) -> xarray.Dataset:
     """A Dataset with units and definitions of all its variables."""
     for label in dataset.variables:
@@ -165,25 +159,24 @@ def _error(quantity, known, answer):
     return nan if row.reason is not None else known.error_of(quantity.of(row, answer.fields))
 
 
-def steps_table(datasets: Iterable[xarray.Dataset]) -> DataFrame:
+def steps_table(node: xarray.DataTree) -> DataFrame:
     """A row for each ladder, quantity and step of each contact; relative errors, times [s], memory [bytes]."""
     found = []
-    for dataset in datasets:
-        rows = dataset.assign(dataset.attrs).to_dataframe(["quantity", "step"]).reset_index()
-        found.append(rows.iloc[np.argsort(factorize(rows["ladder"])[0], kind="stable")])
+    for child in node.children.values():
+        if child.data_vars:
+            dataset = child.to_dataset(inherit=False)
+            rows = dataset.assign(dataset.attrs).to_dataframe(["quantity", "step"]).reset_index()
+            found.append(rows.iloc[np.argsort(factorize(rows["ladder"])[0], kind="stable")])
     return concat(found, ignore_index=True)[list(STEPS)] if found else DataFrame(columns=STEPS)
 
 
 def orders_table(found: Sequence[MeasuredLadder]) -> DataFrame:
     """A row for each ladder and quantity; NaN where too few steps show an error of their own."""
+    names = "contact", "quantity", "solver", "ladder", "setting"
     return DataFrame(
         [
-            {
-                "contact": each.contact,
-                "quantity": each.quantity,
-                "solver": each.solver,
-                "ladder": each.ladder,
-                "setting": each.setting,
+            {name: getattr(each, name) for name in names}
+            | {
                 "order": each.order.order,
                 "standard_error": each.order.deviation,
                 "constant": each.order.constant,

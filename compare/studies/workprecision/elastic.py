@@ -12,7 +12,6 @@ from scene import Indent, Plane, Scene, SelfAffine
 from scene.scales import elastic_contact
 
 from .convergence import Convergence, points_and_tolerances
-from .diagram import convergence
 from .reference import DEPTH, FORCE, Known, Quantity, closed_form, finer
 from .scenes import CONE, KELVIN, QUICK, SPHERE, at, powers, pressed, rough
 
@@ -82,12 +81,3 @@ def _refined(name, title, scene, quantities, size):
 def _ladders(scene, size, points=POINTS, **others):
     settings = at(points, size), at(AT, size), at(TOLERANCES, size)
     return points_and_tolerances(scene, TIGHT, *settings, **others)
-
-
-DIAGRAM = convergence(
-    "elastic",
-    "Three dimensions at rest: error against points and tolerance",
-    "BEM at rest, by points at a tight tolerance and by tolerance at fixed points: smooth bodies against Hertz "
-    "and Sneddon, rough ones against the same surface on a finer grid.",
-    contacts,
-)

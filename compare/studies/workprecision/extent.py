@@ -22,7 +22,7 @@ from scene.scales import elastic_contact
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import convergence, reported
+from .diagram import reported
 from .reference import FRICTION, Known, Quantity, closed_form, finer
 from .scenes import CONTACT, KELVIN, SPHERE, TIME, at, pressed, some
 from .timed_solve import TimedSolve
@@ -165,14 +165,3 @@ def shape(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
             value = float(np.nanmax(left)) if np.isfinite(left).any() else nan
             sentence = "Share of the error of a cell that is left without the wave's shape, largest"
             yield reported("extent.shape", sentence, value, less.title, missing=cells[0].unsolved)
-
-
-DIAGRAM = convergence(
-    "extent",
-    "A free surface against a cell that repeats",
-    "BEM of one tip by extent at a fixed pixel: free, where the extent has no error of its own, and as a lattice "
-    "of tips of the same curvature in a cell that repeats, whose neighbours and whose shape part it from the free "
-    "sphere. Where no shape is taken out, that of the wave and its neighbours are not told apart.",
-    contacts,
-    shape,
-)

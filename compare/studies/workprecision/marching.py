@@ -13,7 +13,7 @@ from scene import Program, Stage
 from ...models.exact import indentation
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import convergence, reported
+from .diagram import reported
 from .reference import FORCE, FRICTION, Known, Quantity, closed_form, finer
 from .scenes import CONTACT, SPHERE, STANDARD_LINEAR, TIME, at, powers, slid, withdrawal
 from .timed_solve import TimedSolve
@@ -100,13 +100,3 @@ def price(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         sentence = "Time of marching to the steady state over that of the steady solver"
         why = "one of both was not solved"
         yield reported("marching.price", sentence, ratio, f"{value:g} points", missing=why)
-
-
-DIAGRAM = convergence(
-    "marching",
-    "Three dimensions in time: error against points and steps",
-    "BEM marched through a program: a sphere pressed in and drawn back against Lee, Radok and Ting, by points, by "
-    "steps and by both together; and a sphere set in motion, against the steady solver and its cost.",
-    contacts,
-    price,
-)

@@ -9,7 +9,7 @@ from bem3d import BEM
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
-from .diagram import convergence, reported, where_of
+from .diagram import reported
 from .reference import DEPTH, FORCE, FRICTION, finer
 from .scenes import KELVIN, QUICK, SPHERE, at, pressed, rough, slid
 
@@ -51,7 +51,7 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         for each in own:
             sentence = f"Least error in {each.ladder.split(', ')[1]} precision"
             id = f"precision.least-{each.ladder.split(', ')[1]}"
-            yield reported(id, sentence, each.best, where_of(each), missing=each.unsolved)
+            yield reported(id, sentence, each.best, each.where, missing=each.unsolved)
         double, single = own[0], next(each for each in own if "single" in each.ladder)
         times = dict(zip(double.values, double.processor, strict=True))
         ratios = np.array([times.get(value, nan) for value in single.values]) / single.processor
@@ -63,13 +63,3 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
         ratio = float(less / held) if held > 0 else nan
         sentence = "Memory in single precision over that in double"
         yield reported("precision.memory-ratio", sentence, ratio, double.title, missing="not measured")
-
-
-DIAGRAM = convergence(
-    "precision",
-    "Single against double precision",
-    "BEM in single and in double precision by tolerance, on one grid each: against the same grid solved tightly "
-    "in double precision, so that the error of the grid does not enter.",
-    contacts,
-    saved,
-)

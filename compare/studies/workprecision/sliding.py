@@ -12,7 +12,7 @@ from scene import Scene, Slide, Sphere, StandardLinearSolid
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, points_and_tolerances
-from .diagram import convergence, reported
+from .diagram import reported
 from .reference import DEPTH, FORCE, FRICTION, Known, Quantity, Reference, closed_form, finer, slow_limit
 from .scenes import FULL, KELVIN, QUICK, SPHERE, at, powers, rough, slid, some
 
@@ -140,15 +140,3 @@ def _over_indicator(every):
             told = np.isfinite(error) & np.isfinite(indicated) & (error > each.reference_error) & (indicated > 0)
             ratios.append(error[told] / indicated[told])
     return np.concatenate(ratios)
-
-
-DIAGRAM = convergence(
-    "sliding",
-    "Three dimensions in steady sliding: error against points and tolerance",
-    "BEM in steady sliding: smooth spheres against finer grids and the table of two independent codes, rough ones "
-    "against the same surface refined and, at low speed, against the limit by curvature. That is the estimate by "
-    "curvature on a finer grid: there the joined estimate is tested in its pressure only. All estimates of "
-    "friction come from the same solves, and the solver's own indicator is drawn beside them.",
-    contacts,
-    estimates,
-)

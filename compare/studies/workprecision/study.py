@@ -8,31 +8,28 @@ import xarray
 
 from scene.reading import InvalidInput
 
-from ...library.ready import Listing
+from ...library import ready
 from ...report.page import Block, Findings, Plot, Section, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
+from ...statistics import finding
 from ...statistics.finding import Finding
 from ..study import Study
-from . import elastic, extent, marching, mdr, precision, sliding
-from .costs import COSTS_DIAGRAM
-from .diagram import Diagram, advice
-from .models import MODELS, SURFACES
+from . import elastic, extent, marching, mdr, models, precision, sliding
+from .diagram import Diagram, convergence
 from .scenes import QUICK, SIZES
 
-# In the order of the page.
 DIAGRAMS: Mapping[str, Diagram] = {
     each.name: each
     for each in (
-        MODELS,
-        SURFACES,
-        mdr.DIAGRAM,
-        elastic.DIAGRAM,
-        sliding.DIAGRAM,
-        marching.DIAGRAM,
-        precision.DIAGRAM,
-        extent.DIAGRAM,
-        COSTS_DIAGRAM,
+        models.MODELS,
+        models.SURFACES,
+        convergence("mdr", mdr.contacts),
+        convergence("elastic", elastic.contacts),
+        convergence("sliding", sliding.contacts, sliding.estimates),
+        convergence("marching", marching.contacts, marching.price),
+        convergence("precision", precision.contacts, precision.saved),
+        convergence("extent", extent.contacts, extent.shape),
     )
 }
 ALL = "all"
@@ -71,11 +68,6 @@ class WorkPrecision(Study):
             raise InvalidInput(f"size = {size}: allowed are {', '.join(SIZES)}")
         return cls(tuple(DIAGRAMS) if ALL in asked else tuple(dict.fromkeys(asked)), size)
 
-    @staticmethod
-    def listing() -> Listing:
-        """Diagrams to choose from."""
-        return Listing(DIAGRAMS, end=f"`crosscheck workprecision NAME` measures one; {ALL}, every one of them.")
-
     @property
     def inputs(self) -> Mapping[str, Any]:
         """Names and size."""
@@ -87,20 +79,20 @@ class WorkPrecision(Study):
         return [DIAGRAMS[name] for name in self.names]
 
     def batches(self) -> Sequence[Batch]:
-        """First everything that is not timed."""
-        untimed, timed = (
-            tuple(dict.fromkeys(task for each in self.diagrams for task in of(each)))
-            for of in (lambda each: each.untimed(self.size), lambda each: each.timed(self.size))
-        )
-        return Batch(untimed), Batch(timed, timed=True)
+        """First everything that is not timed; each task once."""
+        contacts = [each for diagram in self.diagrams for each in diagram.contacts(self.size)]
+        untimed = dict.fromkeys(task for each in contacts for task in each.untimed)
+        timed = dict.fromkeys(task for each in contacts for task in each.timed)
+        return Batch(tuple(untimed)), Batch(tuple(timed), timed=True)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Datasets of all diagrams at /diagram/contact, of rough means at /diagram/contact/solver."""
         return xarray.DataTree.from_dict(
             {
-                f"/{each.name}/{name}": dataset
-                for each in self.diagrams
-                for name, dataset in each.datasets(self.size, outcomes).items()
+                f"/{diagram.name}/{name}": dataset
+                for diagram in self.diagrams
+                for contact in diagram.contacts(self.size)
+                for name, dataset in contact.datasets(outcomes).items()
             }
         )
 
@@ -113,12 +105,12 @@ class WorkPrecision(Study):
         return [plot for each in self.diagrams for plot in each.plots(answers.children[each.name])]
 
     def answer(self, findings: Sequence[Finding]) -> list[str]:
-        """A sentence for each claim of each diagram, from all of its findings."""
-        told = []
-        for each in self.diagrams:
-            heading = f"{each.title}: " if len(self.diagrams) > 1 else ""
-            told += [f"{heading}{sentence}" for sentence in advice(self._of(each, findings))]
-        return told
+        """A statement for each claim of each diagram."""
+        return [
+            f"{each.title}: {sentence}" if len(self.diagrams) > 1 else sentence
+            for each in self.diagrams
+            for sentence in finding.sentences(_of(each, findings))
+        ]
 
     def blocks(
         self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
@@ -128,15 +120,17 @@ class WorkPrecision(Study):
         for each in self.diagrams:
             figures = [plot for plot in plots if plot.name.startswith(f"workprecision-{each.name}")]
             tables = each.tables(answers.children[each.name])
-            found.append(Section(each.title, [*figures, *tables, Findings(self._of(each, findings))]))
+            found.append(Section(each.title, [*figures, *tables, Findings(_of(each, findings))]))
         return found
 
     def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
         """Meaning of errors and times, and the contacts of each diagram."""
         return [Text(ABOUT.replace("\n", " "))] + [
-            Section(f"Contacts of the diagram: {each.title}", [Text(each.about)]) for each in self.diagrams
+            Section(f"Contacts of the diagram: {each.title}", [Text(ready.DIAGRAMS[each.name].about)])
+            for each in self.diagrams
         ]
 
-    @staticmethod
-    def _of(diagram, findings):
-        return [each for each in findings if each.claim.id.startswith(f"workprecision.{diagram.name}.")]
+
+def _of(diagram, findings):
+    """Findings of one diagram."""
+    return [each for each in findings if each.claim.id.startswith(f"workprecision.{diagram.name}.")]

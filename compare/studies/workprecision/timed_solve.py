@@ -8,9 +8,6 @@ from dataclasses import asdict, dataclass, replace
 from math import nan
 from typing import Protocol, Self
 
-import numpy as np
-
-from bem3d.engine import Engine
 from scene import Plane, Result, Scene, SelfAffine, SolveError, Solver
 
 from ...solving.outcome import Outcome, Row, row
@@ -21,7 +18,6 @@ SECONDS, LEAST, MOST, LONG = 1.0, 3, 50, 6.0
 # Settings of the solve that loads compiled code before anything is measured.
 WARM = {"points": 64, "steps": 20}
 COSTS = ("processor", "wall", "memory")
-PRODUCT_SECONDS, PRODUCT_REPEATS = 0.25, 3
 
 
 class OnGrid(Solver, Protocol):
@@ -41,22 +37,17 @@ class TimedSolve(SceneTask):
     """One scene, solved until its least time is known. It wants a process of its own.
 
     keeps : names of the fields that are kept
-    products : whether what a 3D solve cannot do without is measured too: products by transforms
 
     Row.measures has, besides those of the result, processor and wall [s], each the least of the repeats, from the
-    scene to the result; memory [bytes], by which the first raised the peak of the process; and repeats. With
-    products it has plain_product and padded_product [s]: the least processor time of one product in Fourier space,
-    transforms there and back, on the grid of the solve, as its preconditioner takes, and with the zeros that its
-    operator needs on a free surface.
+    scene to the result; memory [bytes], by which the first raised the peak of the process; and repeats.
     """
 
     keeps: tuple[str, ...] = ()
-    products: bool = False
 
     @classmethod
-    def of(cls, solver: OnGrid, scene: Scene, keeps: tuple[str, ...] = (), products: bool = False) -> Self:
+    def of(cls, solver: OnGrid, scene: Scene, keeps: tuple[str, ...] = ()) -> Self:
         """The scene with the solver, its work as expected."""
-        return cls(solver, (scene,), bool(keeps), work(solver), keeps, products)
+        return cls(solver, (scene,), bool(keeps), work(solver), keeps)
 
     @property
     def scene(self) -> Scene:
@@ -89,17 +80,8 @@ class TimedSolve(SceneTask):
         except SolveError as error:
             return Outcome((Row(reason=str(error) or type(error).__name__),))
         found = row(result)
-        if self.products:
-            costs |= _products(self.solver, self.scene)
         fields = {name: result.fields[name] for name in self.keeps}
         return Outcome((replace(found, measures={**found.measures, **costs}),), fields)
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has its row, with the products if they are wanted."""
-        whole = super().fits(outcome)
-        return whole and (
-            not self.products or outcome.rows[0].reason is not None or "plain_product" in outcome.rows[0].measures
-        )
 
     def _warm_up(self):
         """Solve the scene on few points, smooth where its roughness is refused on so few; failing is no matter.
@@ -121,27 +103,6 @@ class TimedSolve(SceneTask):
 def work(solver: OnGrid) -> float:
     """Work of one solve, in passes over a point of a grid, roughly."""
     return solver.points * 5.0 if solver.name == "MDR" else solver.points**2.2 * 50.0
-
-
-def product(engine: Engine, points: int, padded: int) -> float:
-    """Least processor seconds of one product of points x points with a symbol, padded to so many a side."""
-    symbol = np.ones((padded // 2 + 1, padded // 2 + 1))
-    multiply = engine.product(symbol, (points, points), (padded, padded))
-    plane, out = np.ones((points, points)), np.empty((points, points))
-    spent: list[float] = []
-    while len(spent) < PRODUCT_REPEATS or sum(spent) < PRODUCT_SECONDS:
-        started = time.process_time()
-        multiply(plane, out=out)
-        spent.append(time.process_time() - started)
-    return min(spent)
-
-
-def _products(solver, scene):
-    engine, points = solver.engine, solver.points
-    plain = padded = product(engine, points, points)
-    if not isinstance(scene.indenter, Plane):
-        padded = product(engine, points, engine.good_size(2 * points - 1))
-    return {"plain_product": plain, "padded_product": padded}
 
 
 def _measured(solve: Callable[[], Result]) -> tuple[Result, dict[str, float]]:

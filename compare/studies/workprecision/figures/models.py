@@ -9,14 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from pandas import DataFrame
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
 from ....report.plots.lettering import Letter, letter, write
 from ....statistics.convergence import MeasuredLadder
-from ....statistics.sampling import Mean, SamplingPlan, envelope
+from ....statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, envelope
 from .errors import Panel, corner, dots, guide, hidden, marks, panels
-from .surfaces import means, plan_look
 
 # Models of one dimension, as a legend calls them.
 LINES = {"MDR": "1D", "CorrectedMDR": "corrected 1D"}
@@ -86,6 +86,32 @@ def rough(tables: Tables, plans: str) -> Figure:
     return drawing
 
 
+def means(table: DataFrame) -> list[Mean]:
+    """Means of a table of plans."""
+    found = []
+    for _, rows in table.groupby(["contact", "quantity"], sort=False):
+        plans = tuple(_plan(own) for _, own in rows.groupby(["solver", "plan"], sort=False))
+        told = {name: rows[name].iloc[0] for name in ("contact", "title", "quantity", "label")}
+        failed = rows.drop_duplicates(["solver", "points"])["failed"].sum()
+        own = float(rows["truth_grid_error"].iloc[0])
+        found.append(Mean(**told, plans=plans, grid_error=own, failed=int(failed)))
+    return found
+
+
+def _plan(rows: DataFrame) -> SamplingPlan:
+    first = rows.iloc[0]
+    levels = tuple(
+        Level(
+            (int(row.points), *([int(row.coarser_points)] if row.coarser_points else [])),
+            Scatter(float(row.scatter), int(row.scatter_freedom)),
+            float(row.processor),
+        )
+        for row in rows.itertuples()
+    )
+    bias = Bias(abs(float(first["bias"])), float(first["bias_least"]), float(first["bias_most"]))
+    return SamplingPlan(first["solver"], bias, levels, float(first["setup"]))
+
+
 def _solvers() -> list[dict[str, Any]]:
     """Looks of all solvers in the legend; dashes are left to what is forecast."""
     return [style.look(solver, markersize=style.mark(0.8), linestyle="-") for solver in (*LINES, "BEM")]
@@ -137,8 +163,10 @@ def _draw_ladders(axes: Axes, panel: Panel):
 def _draw_mean(axes: Axes, mean: Mean):
     """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
     for own in (mean.plain, *(mean.of(solver)[-1:] for solver in LINES)):
-        for plan in own:
-            _mean_curve(axes, plan, plan_look(plan, own))
+        solver = own[0].solver if own else ""
+        shades = style.shades(solver, len(own))[::-1] if len(own) > 1 else [style.COLOUR.get(solver)]
+        for plan, colour in zip(own, shades, strict=False):
+            _mean_curve(axes, plan, colour)
     every = mean.of("BEM")
     known = [plan.least_seconds for plan in every if isfinite(plan.least_seconds)]
     if known:
@@ -179,7 +207,7 @@ def _settings(panel: Panel) -> list[Letter]:
     return found
 
 
-def _mean_curve(axes, plan: SamplingPlan, look):
+def _mean_curve(axes, plan: SamplingPlan, colour):
     """Expected error as the number of surfaces grows."""
     (level,) = plan.levels
     if not (isfinite(level.seconds) and isfinite(plan.bias.size) and isfinite(level.scatter.value)):
@@ -187,9 +215,9 @@ def _mean_curve(axes, plan: SamplingPlan, look):
     solved = level.scatter.freedom + 1
     for first, last, line in ((1, solved, "-"), (solved, LONGEST, FORECAST)):
         counts = np.geomspace(first, last, 120)
-        drawn = look | {"linestyle": line, "zorder": 3}
-        axes.plot(plan.setup + counts * level.seconds, plan.error_of(counts), **drawn)
-    marks = {"marker": style.MARKER[plan.solver], "markersize": style.mark(0.65), "color": look["color"]}
+        look = {"color": colour, "linestyle": line, "linewidth": style.width(0.8), "zorder": 3}
+        axes.plot(plan.setup + counts * level.seconds, plan.error_of(counts), **look)
+    marks = {"marker": style.MARKER[plan.solver], "markersize": style.mark(0.65), "color": colour}
     axes.plot(plan.setup + MARKED * level.seconds, plan.error_of(MARKED), linestyle="none", zorder=4, **marks)
 
 
