@@ -239,14 +239,20 @@ def _said(verdict, findings, of):
     if of > SHOWN:
         known = [each.value for each in findings if isfinite(each.value)]
         reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max))) if known else ""
-        count = f"all {of}" if len(findings) == of else f"{len(findings)} of {of}"
-        return f"{verb} in {count} places{f' ({reach})' if reach else ''}"
+        if verdict == REPORTED:
+            reach = digits.with_unit(reach, findings[0].claim.unit) if known else "not measured"
+            return f"{verb} {reach} in {_counted(len(known) or of, of)} places"
+        return f"{verb} in {_counted(len(findings), of)} places{f' ({reach})' if reach else ''}"
     if verdict == REPORTED:
         places = (f" for {each.where}" if each.where else "" for each in findings)
         return f"{verb} " + _listed([number(each) + place for each, place in zip(findings, places, strict=True)])
     if not any(each.where for each in findings):
         return f"{verb} at " + _listed([number(each) for each in findings])
     return f"{verb} for " + _listed([_placed(each) for each in findings])
+
+
+def _counted(count, of):
+    return f"all {of}" if count == of else f"{count} of {of}"
 
 
 def _placed(found: Finding) -> str:

@@ -9,26 +9,27 @@ import xarray
 from scipy.integrate import quad
 
 from bem3d import BEM
+from compare.library import ready
 from compare.models.exact.waves import crossed_closure, crossed_contact_fraction_light
 from compare.report.page import Plot
 from compare.report.plots import lettering, style
 from compare.solving.outcome import Outcome, Row, row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
+from compare.statistics import finding
 from compare.statistics.convergence import MeasuredLadder, answers, ladders, observed
-from compare.studies.workprecision import elastic, extent, marching, mdr, precision, scenes, sliding, timed_solve
+from compare.studies.workprecision import elastic, extent, marching, mdr, scenes, sliding, timed_solve
 from compare.studies.workprecision.convergence import Convergence, Ladder, steps_table
-from compare.studies.workprecision.diagram import advice, convergence, enough_finding, order_finding
-from compare.studies.workprecision.figures import errors as workprecision
+from compare.studies.workprecision.diagram import convergence, enough_finding, order_finding
+from compare.studies.workprecision.figures.errors import panels
 from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form, finer, slow_limit
 from compare.studies.workprecision.study import DIAGRAMS, WorkPrecision
 from compare.studies.workprecision.timed_solve import TimedSolve
 from mdr1d import MDR
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
-from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
-NUMERICAL = [module.DIAGRAM for module in (mdr, elastic, sliding, marching, precision, extent)]
+NUMERICAL = [each for name, each in DIAGRAMS.items() if name not in ("models", "surfaces")]
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 PRESSED = Scene(Sphere(radius=10e-3), SOLID, Indent(depth=1e-4))
 SLIDING = replace(PRESSED, motion=Slide(speed=1.0, depth=1e-4))
@@ -44,7 +45,6 @@ FAILED_BETWEEN = {"errors": [1e-2, nan, 1e-4], "seconds": [0.1, 0.001, 1.0], "re
 def briefly(monkeypatch):
     """Repeats of a timed solve that end at once."""
     monkeypatch.setattr(timed_solve, "SECONDS", 0.0)
-    monkeypatch.setattr(timed_solve, "PRODUCT_SECONDS", 0.05)
 
 
 def solved(contact):
@@ -53,8 +53,8 @@ def solved(contact):
     for task in contact.timed:
         result = task.solver.solve(task.scene)
         outcomes[task] = Outcome((row(result),), {name: result.fields[name] for name in task.keeps})
-    (dataset,) = contact.datasets(outcomes).values()
-    return {(each.quantity, each.ladder): each for each in ladders(steps_table([dataset]))}
+    node = xarray.DataTree.from_dict(contact.datasets(outcomes))
+    return {(each.quantity, each.ladder): each for each in ladders(steps_table(node))}
 
 
 def made(errors, seconds=None, reasons=None, reference_error=0.0, estimates=("",)):
@@ -79,25 +79,21 @@ def made(errors, seconds=None, reasons=None, reference_error=0.0, estimates=("",
     return xarray.DataTree.from_dict(found)
 
 
-def measured_of(dataset):
-    return answers(ladders(steps_table([dataset])))
+def measured_of(node):
+    return answers(ladders(steps_table(node)))
 
 
 def measured(*arguments, **how) -> MeasuredLadder:
-    return measured_of(made(*arguments, **how)["sphere"].to_dataset())[0]
+    return measured_of(made(*arguments, **how))[0]
 
 
 def test_a_timed_solve_has_the_answer_of_its_solver_and_what_that_took():
-    plain, more = (TimedSolve.of(BEM(points=64, tolerance=1e-7), PRESSED, products=each) for each in (False, True))
-    found = plain.solve().rows[0]
-    assert found.normal_force == plain.solver.solve(PRESSED).normal_force
+    timed = TimedSolve.of(BEM(points=64, tolerance=1e-7), PRESSED)
+    found = timed.solve().rows[0]
+    assert found.normal_force == timed.solver.solve(PRESSED).normal_force
     # Of quick solves the least of several is taken.
     assert found.measures["repeats"] >= 3
     assert min(found.measures["processor"], found.measures["wall"]) > 0
-    products = more.solve().rows[0].measures
-    assert products["padded_product"] > products["plain_product"] > 0
-    assert plain.fits(Outcome((found,)))
-    assert not more.fits(Outcome((found,)))
 
 
 @pytest.mark.slow
@@ -117,14 +113,14 @@ def test_a_page_has_errors_against_the_reference_and_costs_as_measured(monkeypat
         Ladder.of("MDR", PRESSED, MDR(), "points", (64, 128, 256)),
     )
     contact = Convergence("sphere", "a sphere", HERTZ, (FORCE,), pair, {"force": 2.0})
-    diagram = convergence("little", "Little", "Five steps.", lambda size: [contact])
-    monkeypatch.setitem(DIAGRAMS, "little", diagram)
+    monkeypatch.setitem(ready.DIAGRAMS, "little", ready.About("Little", "Five steps."))
+    monkeypatch.setitem(DIAGRAMS, "little", convergence("little", lambda size: [contact]))
     study = WorkPrecision.of("little")
     untimed, timed = study.batches()
     assert (untimed.tasks, timed.timed) == ((), True)
     outcomes = {task: task.solve() for task in timed.tasks}
     found = study.answers(outcomes)
-    for each, ladder in zip(measured_of(found["little/sphere"].to_dataset()), pair, strict=True):
+    for each, ladder in zip(measured_of(found["little"]), pair, strict=True):
         rows = [outcomes[task].rows[0] for task in ladder.solves]
         truth = elastic_contact(PRESSED).load
         assert each.errors == pytest.approx([abs(row.normal_force / truth - 1) for row in rows], rel=1e-9)
@@ -144,11 +140,11 @@ def test_a_failed_solve_is_nan_with_its_reason_and_reaches_nothing():
     truth = finer(rough, BEM(points=256), "256 points")
     ladder = Ladder.of("BEM", rough, BEM(), "points", (16, 128))
     contact = Convergence("rough", "rough", truth, (FORCE,), (ladder,))
-    found = contact.datasets({task: task.solve() for task in (*contact.untimed, *contact.timed)})["rough"]
-    (each,) = measured_of(found)
+    found = contact.datasets({task: task.solve() for task in (*contact.untimed, *contact.timed)})
+    (each,) = measured_of(xarray.DataTree.from_dict(found))
     assert isnan(each.processor[0])
     assert isnan(each.errors[0])
-    assert found["status"].values.tolist() == ["failed", "solved"]
+    assert found["rough"]["status"].values.tolist() == ["failed", "solved"]
     ((value, reason),) = each.failures
     assert (value, each.reaching(1.0)) == (16, 1)
     assert "less than two pixels" in reason
@@ -164,21 +160,13 @@ def test_a_finer_solution_knows_its_own_error():
     assert known["friction"].relative_error == pytest.approx(abs(values[1] / values[0] - 1))
 
 
-@pytest.mark.parametrize(("name", "size"), [("model", "quick"), ("models", "large")])
-def test_a_name_or_size_that_is_none_is_refused_with_those_allowed(name, size):
-    with pytest.raises(InvalidInput, match="allowed are"):
-        WorkPrecision.of(name, size)
-
-
-@pytest.mark.parametrize("diagram", NUMERICAL, ids=lambda diagram: diagram.name)
 @pytest.mark.parametrize("size", scenes.SIZES)
+@pytest.mark.parametrize("diagram", DIAGRAMS.values(), ids=lambda diagram: diagram.name)
 def test_no_solver_refuses_any_step(diagram, size):
-    timed = diagram.timed(size)
-    for task in timed:
-        assert task.solver.refusals(task.scene) == []
-    for task in diagram.untimed(size):
+    untimed, timed = WorkPrecision.of(diagram.name, size).batches()
+    for task in (*untimed.tasks, *timed.tasks):
         assert task.solver.refusals(task.scenes[0]) == []
-    assert size != "quick" or len(timed) <= 17  # some two and a half seconds each
+    assert size != "quick" or diagram not in NUMERICAL or len(timed.tasks) <= 17  # two and a half seconds each
 
 
 @pytest.mark.parametrize("diagram", NUMERICAL, ids=lambda diagram: diagram.name)
@@ -187,9 +175,11 @@ def test_where_all_solves_fail_findings_say_why_and_nothing_is_recommended(diagr
     fine = Row(
         1.0, 1e-4, 0.1, measures={"curvature_by_pressure": 1e3, "contact_fraction": 0.1}, settings={"extent": 1.0}
     )
-    outcomes = {task: Outcome((fine,)) for task in diagram.untimed("quick")}
-    outcomes |= {task: Outcome((Row(reason=why),)) for task in diagram.timed("quick")}
-    found = xarray.DataTree.from_dict(diagram.datasets("quick", outcomes))
+    study = WorkPrecision.of(diagram.name)
+    untimed, timed = study.batches()
+    outcomes = {task: Outcome((fine,)) for task in untimed.tasks}
+    outcomes |= {task: Outcome((Row(reason=why),)) for task in timed.tasks}
+    found = study.answers(outcomes)[diagram.name]
     findings = list(diagram.findings(found))
     assert all(isnan(each.value) for each in findings)
     assert any(why in each.reason for each in findings)
@@ -200,7 +190,7 @@ def test_where_all_solves_fail_findings_say_why_and_nothing_is_recommended(diagr
         assert plot.figure().axes
     (table,) = diagram.tables(found)
     assert table.frame.filter(like="within").map(lambda cell: why in cell).all(axis=None)
-    assert " nan" not in " ".join(advice(findings))
+    assert " nan" not in " ".join(finding.sentences(findings))
 
 
 def test_an_order_rests_on_no_failed_step_and_on_none_within_the_error_of_the_reference():
@@ -364,7 +354,7 @@ def test_single_precision_reaches_what_its_tolerance_asks_for_and_no_more():
 
 
 def drawn(*arguments, **how):
-    *_, plot = convergence("made", "Made", "", lambda size: []).plots(made(*arguments, **how))
+    *_, plot = convergence("made", lambda size: []).plots(made(*arguments, **how))
     return plot, plot.figure()
 
 
@@ -383,7 +373,7 @@ def test_points_within_the_error_of_the_reference_are_hollow_and_failures_are_na
 def test_estimates_of_one_answer_share_a_panel_and_the_table_has_every_step():
     plot, figure = drawn([1e-2, nan, 1e-4], reasons=[None, "too steep", None], estimates=("joined", "by loss"))
     assert len(figure.axes) == 1
-    (panel,) = workprecision.panels(plot.tables["workprecision-made"])
+    (panel,) = panels(plot.tables["workprecision-made"])
     assert [curve.estimate for curve in panel.curves] == ["joined", "by loss"]
     table = plot.tables["workprecision-made"]
     assert table["reason"].tolist() == 2 * ["", "too steep", ""]

@@ -11,11 +11,10 @@ from bem3d import BEM
 from compare.report.plots import style
 from compare.solving.outcome import Outcome, Row
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
-from compare.studies.workprecision import regimes
 from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes_of
 from compare.studies.workprecision.convergence import Convergence, Ladder
 from compare.studies.workprecision.ensemble import Ensemble, means, plans_table
-from compare.studies.workprecision.figures.surfaces import means as drawn_means
+from compare.studies.workprecision.figures.models import means as drawn_means
 from compare.studies.workprecision.models import MODELS, SURFACES
 from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form
 from mdr1d import MDR
@@ -284,13 +283,6 @@ def test_a_wrong_ratio_is_an_error_that_no_number_of_profiles_passes():
     assert floor.least > 0.1
 
 
-def test_every_smooth_contact_is_answered_by_three_models_and_every_rough_one_too():
-    for each in regimes.smooth("full"):
-        assert [ladder.solves[0].solver.name for ladder in each.ladders] == ["MDR", "BEM", "CorrectedMDR"]
-    for each in regimes.rough("full"):
-        assert {task.solver.name for task in each.timed} == {"MDR", "BEM", "CorrectedMDR"}
-
-
 def test_a_time_of_which_one_surface_failed_is_none():
     asked = ensemble(timed_surfaces=2)
     failed = next(task for task in asked.timed if task.solver.points == 64)
@@ -298,12 +290,6 @@ def test_a_time_of_which_one_surface_failed_is_none():
     costs = asked.datasets(outcomes)["made/BEM"]["processor"]
     assert np.isnan(costs.sel(points=64))
     assert costs.sel(points=128) == SECONDS[128]
-
-
-@pytest.mark.parametrize("size", ["quick", "standard", "full"])
-def test_no_solver_refuses_any_regime(size):
-    for task in MODELS.timed(size):
-        assert task.solver.refusals(task.scene) == []
 
 
 def test_both_grids_have_the_same_surfaces():
@@ -321,25 +307,26 @@ def test_both_grids_have_the_same_surfaces():
 
 
 @pytest.mark.parametrize("fails", [False, True], ids=["solved", "failed"])
-@pytest.mark.parametrize("diagram", [MODELS, SURFACES], ids=lambda each: each.name)
-def test_figures_and_findings_come_of_whatever_was_solved(diagram, fails):
+def test_figures_tables_and_findings_come_of_whatever_was_solved(fails):
     rough = made(fails=lambda *_: fails, timed_fails=lambda _: fails)
-    found = node(rough) if diagram is SURFACES else node(smooth(), rough)
-    plots = list(diagram.plots(found))
-    assert len(plots) == (1 if diagram is SURFACES else 2)
+    both = node(smooth(), rough)
+    plots = list(MODELS.plots(both))
+    assert len(plots) == 2
     with style.applied():
-        assert sum(len(plot.figure().axes) for plot in plots) == len(found.children)
+        assert sum(len(plot.figure().axes) for plot in plots) == 2
     assert all(len(plot.caption.split()) <= 60 for plot in plots)
-    findings = list(diagram.findings(found))
-    assert all(each.reason for each in findings if not np.isfinite(each.value))
-    assert any(np.isfinite(each.value) for each in findings) or fails
+    for diagram, found in ((MODELS, both), (SURFACES, node(rough))):
+        findings = list(diagram.findings(found))
+        assert all(each.reason for each in findings if not np.isfinite(each.value))
+        assert any(np.isfinite(each.value) for each in findings) or fails
+    told, _ = SURFACES.tables(node(rough))
+    assert (told.frame["within 10 %"] == "not known").all() == fails
 
 
 def test_plans_are_drawn_from_their_table_alone():
-    known = {"ratio": 1 - FLOOR}
-    (plot,) = SURFACES.plots(node(made(**known)))
-    (drawn,), measured = drawn_means(plot.tables["workprecision-surfaces"]), mean(**known)
+    _, plans = SURFACES.tables(node(made(ratio=1 - FLOOR)))
+    (drawn,), measured = drawn_means(plans.frame), mean(ratio=1 - FLOOR)
     for there, here in zip(drawn.plans, measured.plans, strict=True):
         assert (there.levels, there.setup) == (here.levels, here.setup)
         assert there.bias.most == pytest.approx(here.bias.most, rel=1e-12)  # rounding
-    assert [*SURFACES.plots(xarray.DataTree()), *MODELS.plots(xarray.DataTree())] == []
+    assert [*SURFACES.tables(xarray.DataTree()), *MODELS.plots(xarray.DataTree())] == []

@@ -45,13 +45,12 @@ class Ladder:
     solves: tuple[TimedSolve, ...]
 
     @classmethod
-    def of(cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence, **others: Any) -> Self:
-        """Steps that differ in one setting of the solver. others : of the solves, see TimedSolve"""
-
-        def solve(value):
-            return TimedSolve.of(replace(solver, **{setting: value}), scene, **others)
-
-        return cls.over(label, setting, values, solve)
+    def of(
+        cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence, keeps: tuple[str, ...] = ()
+    ) -> Self:
+        """Steps that differ in one setting of the solver. keeps : names of the fields that are kept"""
+        solvers = (replace(solver, **{setting: value}) for value in values)
+        return cls(label, setting, tuple(values), tuple(TimedSolve.of(each, scene, keeps) for each in solvers))
 
     @classmethod
     def over(cls, label: str, setting: str, values: Sequence, solve: Callable[[Any], TimedSolve]) -> Self:
@@ -60,12 +59,17 @@ class Ladder:
 
 
 def points_and_tolerances(
-    scene: Scene, tight: BEM, points: Sequence[int], grid: int, tolerances: Sequence[float], **others: Any
+    scene: Scene,
+    tight: BEM,
+    points: Sequence[int],
+    grid: int,
+    tolerances: Sequence[float],
+    keeps: tuple[str, ...] = (),
 ) -> tuple[Ladder, ...]:
-    """Ladders of BEM: points at a tight tolerance, tolerances on one grid. others : see TimedSolve"""
+    """Ladders of BEM: points at a tight tolerance, tolerances on one grid. keeps : fields, see Ladder.of"""
     return (
-        Ladder.of("BEM, by points", scene, tight, "points", points, **others),
-        Ladder.of(f"BEM, by tolerance at {grid}²", scene, BEM(points=grid), "tolerance", tolerances, **others),
+        Ladder.of("BEM, by points", scene, tight, "points", points, keeps),
+        Ladder.of(f"BEM, by tolerance at {grid}²", scene, BEM(points=grid), "tolerance", tolerances, keeps),
     )
 
 

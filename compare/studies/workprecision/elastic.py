@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from math import nan
 
 import numpy as np
@@ -36,35 +35,36 @@ GAP = replace(DEPTH, label="mean gap")
 
 def contacts(size: str) -> Sequence[Convergence]:
     """A sphere and a cone, a rough sphere, a rough plane."""
-    sphere, body = _sphere(size), _refined("rough-sphere", "rough sphere", rough(0.0), (DEPTH,), size)
-    if size == QUICK:
-        return [sphere, body]
-    return [sphere, _cone(size), body, _refined("plane", "rough plane", PLANE, (GAP, FRACTION), size)]
+    found = [_sphere(size), _refined("rough-sphere", "rough sphere", rough(0.0), (DEPTH,), size)]
+    if size != QUICK:
+        found.insert(1, _cone(size))
+        found.append(_refined("plane", "rough plane", PLANE, (GAP, FRACTION), size))
+    return found
 
 
 def hertzian(radius: float, peak: float) -> Quantity:
     """Deviation of the pressure from Hertz's: rms over the contact of a radius [m], over the peak [Pa]."""
-    return Quantity("pressure", "pressure", partial(_off_hertz, radius=radius, peak=peak))
 
+    def deviation(row, fields):
+        if row.reason is not None:
+            return nan
+        r = np.hypot(fields["x"], fields["y"][:, None])
+        inside = r < radius
+        known = peak * np.sqrt(1 - np.square(r[inside] / radius))
+        return float(np.sqrt(np.mean(np.square(fields["pressure"][inside] - known)))) / peak
 
-def _off_hertz(row, fields, radius, peak):
-    if row.reason is not None:
-        return nan
-    r = np.hypot(fields["x"], fields["y"][:, None])
-    inside = r < radius
-    known = peak * np.sqrt(1 - np.square(r[inside] / radius))
-    return float(np.sqrt(np.mean(np.square(fields["pressure"][inside] - known)))) / peak
+    return Quantity("pressure", "pressure", deviation)
 
 
 def _sphere(size):
     scene = pressed(SPHERE)
     contact = elastic_contact(scene)
     pressure = hertzian(contact.radius, 1.5 * contact.load / (np.pi * contact.radius**2))
-    values = {FORCE.name: Known(contact.load), pressure.name: Known(0.0, scale=1.0)}
-    ladders = _ladders(scene, size, keeps=("x", "y", "pressure"))
+    truth = closed_form("Hertz", {FORCE.name: Known(contact.load), pressure.name: Known(0.0, scale=1.0)})
     # An edge of infinite slope in whole pixels leaves the pressure the first order.
     orders = {FORCE.name: 2.0, pressure.name: 1.0}
-    return Convergence("sphere", "sphere", closed_form("Hertz", values), (FORCE, pressure), ladders, orders)
+    ladders = _ladders(scene, size, keeps=("x", "y", "pressure"))
+    return Convergence("sphere", "sphere", truth, (FORCE, pressure), ladders, orders)
 
 
 def _cone(size):
@@ -78,6 +78,6 @@ def _refined(name, title, scene, quantities, size):
     return Convergence(name, title, truth, quantities, _ladders(scene, size, REFINED_POINTS))
 
 
-def _ladders(scene, size, points=POINTS, **others):
+def _ladders(scene, size, points=POINTS, keeps=()):
     settings = at(points, size), at(AT, size), at(TOLERANCES, size)
-    return points_and_tolerances(scene, TIGHT, *settings, **others)
+    return points_and_tolerances(scene, TIGHT, *settings, keeps)

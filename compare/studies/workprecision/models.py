@@ -36,7 +36,10 @@ def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
         )
         yield from (each.error_1d(claim) for each in found)
     for level in WANTED:
-        id, sentence = f"models.time-{100 * level:g}-percent", f"Processor time to {share(level)} of the true answer"
+        id, sentence = (
+            f"models.time-{100 * level:g}-percent",
+            f"Processor time to {share(level)} of the true answer",
+        )
         for each in found:
             taken = each.answer(level)
             dimension = "1D/3D" if taken is None else DIMENSIONS[taken.solver]

@@ -19,14 +19,17 @@ POINTS = {"quick": 256, "full": 512}
 TIGHTEST = 1e-10, 1e-9
 
 
+CONTACTS = (
+    ("rest-sphere", "sphere at rest", pressed(SPHERE), (FORCE,)),
+    ("sliding-sphere", "sphere, v τ = a", slid(SPHERE, KELVIN, 1.0), (FORCE, FRICTION)),
+    ("rest-rough", "rough sphere at rest", rough(0.0), (DEPTH,)),
+    ("sliding-rough", "rough sphere, 0.1 m/s", rough(0.1), (FRICTION,)),
+)
+
+
 def contacts(size: str) -> Sequence[Convergence]:
     """Smooth and rough, at rest and sliding; errors of the solution alone, on one grid."""
-    flow = _contact("sliding-sphere", "sphere, v τ = a", slid(SPHERE, KELVIN, 1.0), (FORCE, FRICTION), size)
-    body = _contact("rest-rough", "rough sphere at rest", rough(0.0), (DEPTH,), size)
-    if size == QUICK:
-        return [flow, body]
-    at_rest = _contact("rest-sphere", "sphere at rest", pressed(SPHERE), (FORCE,), size)
-    return [at_rest, flow, body, _contact("sliding-rough", "rough sphere, 0.1 m/s", rough(0.1), (FRICTION,), size)]
+    return [_contact(*each, size) for each in (CONTACTS[1:3] if size == QUICK else CONTACTS)]
 
 
 def _contact(name, title, scene, quantities, size):
@@ -49,16 +52,15 @@ def saved(found: Mapping[str, list[MeasuredLadder]]) -> Iterator:
     """Least errors, and the time and memory that single saves at equal tolerance."""
     for own in found.values():
         for each in own:
-            sentence = f"Least error in {each.ladder.split(', ')[1]} precision"
-            id = f"precision.least-{each.ladder.split(', ')[1]}"
-            yield reported(id, sentence, each.best, each.where, missing=each.unsolved)
+            kind = each.ladder.split(", ")[1]
+            sentence = f"Least error in {kind} precision"
+            yield reported(f"precision.least-{kind}", sentence, each.best, each.where, missing=each.unsolved)
         double, single = own[0], next(each for each in own if "single" in each.ladder)
         times = dict(zip(double.values, double.processor, strict=True))
         ratios = np.array([times.get(value, nan) for value in single.values]) / single.processor
         ratio = float(np.exp(np.log(ratios).mean())) if np.isfinite(ratios).all() else nan
         sentence = "Time in double precision over that in single at equal tolerance, geometric mean"
-        why = "not every step was solved"
-        yield reported("precision.time-ratio", sentence, ratio, double.title, missing=why)
+        yield reported("precision.time-ratio", sentence, ratio, double.title, missing="not every step was solved")
         held, less = (np.fmax.reduce(each.memory) for each in (double, single))
         ratio = float(less / held) if held > 0 else nan
         sentence = "Memory in single precision over that in double"

@@ -15,14 +15,24 @@ from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
 from .scenes import FULL, QUICK, at
 
 LOAD = 1.0
-# Of sliding, in contact radii per relaxation time on the smooth body; in shortest waves on the rough one.
-SMOOTH_SPEEDS = {"slow": 0.01, "middle": 1.0, "fast": 100.0}
-ROUGH_SPEEDS = {"slow": 0.02, "middle": 0.2, "fast": 20.0}
-GLASSY_OVER_RUBBERY = 10.0
-SMOOTH: dict[str, dict[str, Any]] = {
+SPHERE, CONE = (replace(contacts.kelvin(shape), roughness=None) for shape in ("sphere", "cone"))
+KELVIN = SPHERE.elastomer
+LINEAR = StandardLinearSolid(KELVIN.modulus, 10 * KELVIN.modulus, KELVIN.relaxation_time)
+# Name, title, body and speed in contact radii per relaxation time.
+SMOOTH = (
+    ("smooth-rest", "sphere at rest", SPHERE, 0.0),
+    ("smooth-slow", "sphere, vτ = 0.01 a", SPHERE, 0.01),
+    ("smooth-middle", "sphere, vτ = a", SPHERE, 1.0),
+    ("smooth-fast", "sphere, vτ = 100 a", SPHERE, 100.0),
+    ("cone-middle", "cone, vτ = a", CONE, 1.0),
+    ("linear-middle", "standard linear sphere, vτ = a", replace(SPHERE, elastomer=LINEAR), 1.0),
+)
+POINTS: dict[str, dict[str, Any]] = {
     "quick": {"BEM": (32, 64, 128), "MDR": (100, 400), "truth": 256},
     "full": {"BEM": (32, 64, 128, 256, 512), "MDR": (50, 500, 5000), "truth": 1024},
 }
+# Speeds in shortest waves per relaxation time.
+SPEEDS = {"slow": 0.02, "middle": 0.2, "fast": 20.0}
 ROUGH = {
     "quick": {"grids": (64, 128, 256), "surfaces": 40, "paired": 6, "lines": (1000,), "profiles": 1000},
     "full": {
@@ -40,27 +50,8 @@ STEEP = {"grids": (512, 1024), "surfaces": 12, "paired": 4, "lines": (5000,), "p
 
 def smooth(size: str) -> list[Convergence]:
     """A sphere at rest and at three speeds, a cone and a standard linear solid at the speed of most friction."""
-    sphere = _body("sphere")
-    solid = sphere.elastomer
-    linear = StandardLinearSolid(
-        rubbery_modulus=solid.modulus,
-        glassy_modulus=GLASSY_OVER_RUBBERY * solid.modulus,
-        relaxation_time=solid.relaxation_time,
-    )
-    rest = _at_rest("smooth-rest", "sphere at rest", sphere, size)
-    middle = _sliding("smooth-middle", "sphere, vτ = a", sphere, "middle", size)
-    if size == QUICK:
-        return [rest, middle]
-    return [
-        rest,
-        _sliding("smooth-slow", "sphere, vτ = 0.01 a", sphere, "slow", size),
-        middle,
-        _sliding("smooth-fast", "sphere, vτ = 100 a", sphere, "fast", size),
-        _sliding("cone-middle", "cone, vτ = a", _body("cone"), "middle", size),
-        _sliding(
-            "linear-middle", "standard linear sphere, vτ = a", replace(sphere, elastomer=linear), "middle", size
-        ),
-    ]
+    asked = ("smooth-rest", "smooth-middle") if size == QUICK else [name for name, *_ in SMOOTH]
+    return [_smooth(*each, at(POINTS, size)) for each in SMOOTH if each[0] in asked]
 
 
 def rough(size: str) -> list[Ensemble]:
@@ -68,68 +59,49 @@ def rough(size: str) -> list[Ensemble]:
     settings = at(ROUGH, size)
     if size == QUICK:
         return [_rough_sliding("sphere", "middle", settings)]
-    found = [
-        regime
-        for shape in ("sphere", "cone")
-        for regime in (
-            _rough_at_rest(shape, settings),
-            *(_rough_sliding(shape, speed, settings) for speed in ROUGH_SPEEDS),
-        )
-    ]
+    found = []
+    for shape in ("sphere", "cone"):
+        found += [_rough_at_rest(shape, settings), *(_rough_sliding(shape, each, settings) for each in SPEEDS)]
     return [*found, _steep()] if size == FULL else found  # its grids cannot be coarse
 
 
-def _body(shape) -> Scene:
-    """The rough contact without its roughness."""
-    return replace(contacts.kelvin(shape), roughness=None)
-
-
-def _at_rest(name, title, body, size):
-    scene = replace(body, motion=Indent(load=LOAD))
-    depth = elastic_contact(scene).depth
-    truth = closed_form("Galin and Sneddon", {"depth": Known(depth)})
-    return Convergence(name, title, truth, (DEPTH,), _ladders(scene, size))
-
-
-def _sliding(name, title, body, speed, size):
-    contact = elastic_contact(replace(body, motion=Indent(load=LOAD)))
-    velocity = SMOOTH_SPEEDS[speed] * contact.radius / contacts.kelvin("sphere").elastomer.relaxation_time
-    scene = replace(body, motion=Slide(speed=velocity, load=LOAD))
-    known = finer(scene, BEM(points=at(SMOOTH, size)["truth"]), "3D, {} points", {"depth": contact.depth})
-    return Convergence(name, title, known, (FRICTION, DEPTH), _ladders(scene, size))
-
-
-def _ladders(scene: Scene, size) -> tuple[Ladder, ...]:
-    points = at(SMOOTH, size)
+def _smooth(name, title, body, flow, points):
+    rest = replace(body, motion=Indent(load=LOAD))
+    contact = elastic_contact(rest)
+    if flow:
+        speed = flow * contact.radius / KELVIN.relaxation_time
+        scene, quantities = replace(body, motion=Slide(speed=speed, load=LOAD)), (FRICTION, DEPTH)
+        truth = finer(scene, BEM(points=points["truth"]), "3D, {} points", {"depth": contact.depth})
+    else:
+        scene, quantities = rest, (DEPTH,)
+        truth = closed_form("Galin and Sneddon", {"depth": Known(contact.depth)})
     mdr, bem = (Ladder.of(each.name, scene, each, "points", points[each.name]) for each in (MDR(), BEM()))
     line = Ladder.over("CorrectedMDR", "points", points["MDR"], lambda each: corrected_solve(scene, each))
-    return mdr, bem, line
+    return Convergence(name, title, truth, quantities, (mdr, bem, line))
 
 
 def _rough_at_rest(shape, settings):
     scene = contacts.kelvin(shape)
-    depth = elastic_contact(scene).depth
-    scene = replace(scene, motion=Indent(depth=depth))
+    scene = replace(scene, motion=Indent(depth=elastic_contact(scene).depth))
     return Ensemble(f"rough-{shape}-rest", f"rough {shape} at rest", scene, (FORCE,), **settings)
 
 
 def _rough_sliding(shape, speed, settings):
-    scene = contacts.kelvin(shape)
-    factor = ROUGH_SPEEDS[speed]
-    velocity = factor * contacts.SHORTEST / scene.elastomer.relaxation_time
-    scene = replace(scene, motion=Slide(speed=velocity, load=LOAD))
+    factor = SPEEDS[speed]
+    motion = Slide(speed=factor * contacts.SHORTEST / KELVIN.relaxation_time, load=LOAD)
+    scene = replace(contacts.kelvin(shape), motion=motion)
     return _under_load(f"rough-{shape}-{speed}", f"rough {shape}, vτ = {factor:g} λₛ", scene, settings)
 
 
 def _steep():
     """At the largest load and the speed of the study of the regime of the paper."""
     scene, (_, load) = contacts.STEEP["sphere"]
-    speed, shortest = scene.motion.speed, scene.roughness.shortest
+    speed = scene.motion.speed
     scene = replace(scene, motion=Slide(speed=speed, load=load))
-    factor = speed * scene.elastomer.relaxation_time / shortest
+    factor = speed * scene.elastomer.relaxation_time / scene.roughness.shortest
     return _under_load("steep-sphere", f"steep sphere, vτ = {factor:.2g} λₛ", scene, STEEP)
 
 
-def _under_load(name, title, scene, settings):
+def _under_load(name, title, scene: Scene, settings):
     scales = {"depth": elastic_contact(scene).depth}
     return Ensemble(name, title, scene, (FRICTION, DEPTH), scales=scales, **settings)
