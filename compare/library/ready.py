@@ -121,8 +121,8 @@ DIAGRAMS = {
     ),
     "elastic": About(
         "Three dimensions at rest: error against points and tolerance",
-        "BEM at rest, by points at a tight tolerance and by tolerance at fixed points: smooth bodies against Hertz "
-        "and Sneddon, rough ones against the same surface on a finer grid.",
+        "BEM at rest, by points at a tight tolerance and by tolerance at fixed points: smooth bodies against "
+        "Hertz and Sneddon, rough ones against the same surface on a finer grid.",
     ),
     "sliding": About(
         "Three dimensions in steady sliding: error against points and tolerance",

@@ -184,7 +184,7 @@ def ask(*arguments):
     [
         ("list", (*ready(), *library.studies()), 120),
         ("study", (*STUDIES, "trust", *(name for name, each in ready().items() if each.kind == "study")), 80),
-        ("workprecision", ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "extent", "costs"), 100),
+        ("workprecision", tuple(DIAGRAMS), 100),
     ],
 )
 def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, width):
@@ -262,7 +262,6 @@ def test_the_values_that_a_shell_completes_are_those_that_are_allowed():
     assert set(values["kind"]) == set(KINDS)
     for name in ("level", "repeat", "peaks"):
         assert set(values[name]) == set(get_args(get_type_hints(Topography)[name]))
-    assert set(completion.DIAGRAMS) == set(DIAGRAMS)
 
 
 def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):

@@ -36,10 +36,8 @@ def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
         )
         yield from (each.error_1d(claim) for each in found)
     for level in WANTED:
-        id, sentence = (
-            f"models.time-{100 * level:g}-percent",
-            f"Processor time to {share(level)} of the true answer",
-        )
+        id = f"models.time-{100 * level:g}-percent"
+        sentence = f"Processor time to {share(level)} of the true answer"
         for each in found:
             taken = each.answer(level)
             dimension = "1D/3D" if taken is None else DIMENSIONS[taken.solver]
@@ -101,7 +99,7 @@ def _surface_tables(node: xarray.DataTree) -> Iterator[Table]:
     if found := regimes_of(node):
         caption = "Surfaces, points and time of the cheapest plan in 3D to each error expected of a mean."
         yield Table("workprecision-cells-surfaces", DataFrame(cells(found, "BEM")), caption)
-        plans = DataFrame(plans_table([each.mean for each in found]))
+        plans = DataFrame(plans_table([each.mean for each in found if each.mean]))
         yield Table("workprecision-surfaces", plans, "What grid and scatter leave by every plan.", long=True)
 
 
