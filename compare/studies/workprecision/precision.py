@@ -6,11 +6,12 @@ from math import nan
 import numpy as np
 
 from bem3d import BEM
+from scene import Scene
 
 from ...statistics.convergence import MeasuredLadder
 from .convergence import Convergence, Ladder
 from .diagram import reported
-from .reference import DEPTH, FORCE, FRICTION, finer
+from .reference import DEPTH, FORCE, FRICTION, Quantity, finer
 from .scenes import KELVIN, QUICK, SPHERE, at, pressed, rough, slid
 
 DOUBLE = {"quick": (1e-3, 1e-5, 1e-7), "full": (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)}
@@ -19,7 +20,7 @@ POINTS = {"quick": 256, "full": 512}
 TIGHTEST = 1e-10, 1e-9
 
 
-CONTACTS = (
+CONTACTS: tuple[tuple[str, str, Scene, tuple[Quantity, ...]], ...] = (
     ("rest-sphere", "sphere at rest", pressed(SPHERE), (FORCE,)),
     ("sliding-sphere", "sphere, v τ = a", slid(SPHERE, KELVIN, 1.0), (FORCE, FRICTION)),
     ("rest-rough", "rough sphere at rest", rough(0.0), (DEPTH,)),
