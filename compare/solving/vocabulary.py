@@ -93,25 +93,10 @@ curve : Curve that a point belongs to.
 friction : Coefficient of friction: mean friction force over mean normal force. [1] | \mu = F_x/F_N | theory, Eq. 2
 friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
 
-Of what accuracy costs: laws of cost, forecasts, surfaces on several grids, and what an error asks for.
-kind : Kind of forecast: a held-out cost, or the largest grid that fits.
-what : Thing forecast, in words.
-held : Whether a forecast held: the cost found lies in its interval.
-cost : Cost that a law describes: time, memory or operator applications.
-variable : Column of the table of steps that holds the cost.
-overhead : Part of the cost that does not grow, in its unit.
-centre : Points at which the factor of the law is the cost above its overhead. [1]
-scatter : Relative scatter: of costs about their law, or of one surface about the mean. [1]
-lowest : Fewest points that the law was fitted to. [1]
-highest : Most points that the law was fitted to. [1]
-least : Least cost of a ladder without a law, in its unit.
-most : Greatest cost of a ladder without a law, in its unit; of an interval, its upper end.
-at_most : Points at which the cost of a ladder without a law is greatest. [1]
-along : Setting that grows from step to step.
-bytes_a_point : Memory over the points of the grid. [B]
-seconds_an_application : Processor time over operator applications. [s]
-over_limit : Processor time over that of the Fourier products alone. [1]
-stored_bytes : Size of the file that holds the answer. [B]
+Of what accuracy costs: surfaces on several grids, and what an error asks for.
+scatter : Scatter of one surface about the mean, relative. [1]
+least : Lower end of an interval.
+most : Upper end of an interval.
 wanted : Relative error that is wanted. [1]
 model : Dimensionality that reaches the error in the least time.
 settings : Settings that reach the error.
@@ -129,8 +114,6 @@ bias : Relative error that more surfaces do not take away. [1]
 setup : Processor time before the first surface: that of the trust map. [s]
 scatter_freedom : Degrees of freedom of the scatter. [1]
 failed : Solves that ended with an error. [1]
-first_surfaces : Surfaces on the coarser grid of a plan. [1]
-cheapest : Whether the plan reaches the error in the least time of all.
 reached : Mean depth that was reached, above zero into the elastomer. [m]
 surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
@@ -232,8 +215,6 @@ wall : Least time of repeated solves by the clock. [s]
 memory : By how much a solve raises the peak memory of its process. [B]
 order : Power of the setting with which the error falls. [1]
 change : Relative change of a quantity from half the points to all. [1]
-padded_product : Least processor time of one product in Fourier space, padded with zeros. [s]
-plain_product : Least processor time of one product in Fourier space. [s]
 repeats : How often the solve was repeated. [1]
 
 Of the paper.
