@@ -1,6 +1,6 @@
 """Error against processor time: a panel for each contact and quantity, the settings written at the points."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil, isfinite
 from typing import Any
@@ -18,8 +18,9 @@ from ....report.plots.lettering import Letter, letter, write
 from ....solving.amounts import digits
 from ....statistics.convergence import MeasuredLadder, ladders
 
-# Columns of panels, their size [inch], and how many of them a figure of several quantities has at most.
-COLUMNS, HEIGHT, MOST = 3, 2.2, 9
+# Columns of panels, their height and that around all of them [inch], and how many a figure of several quantities
+# has at most.
+COLUMNS, HEIGHT, AROUND, MOST = 3, 2.2, 0.6, 9
 # Errors below are those of rounding, and drawn there.
 LEAST = 1e-16
 # Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
@@ -32,9 +33,10 @@ BESIDE = (
 )
 
 
-def plots(name: str, tables: Tables) -> Iterator[Plot]:
-    """Plots of a diagram, of its table of steps and of its table of orders: one for each question, see `parts`."""
+def plots(name: str, tables: Tables, shared: bool = False) -> Iterator[Plot]:
+    """Plots of tables, the first of steps: one for each question, see `parts`. shared : see `figure`"""
     table = next(iter(tables))
+    common = {"steps": table} | ({"shared": True} if shared else {})
     told = (
         "Relative error against processor time of one solve, the least of its repeats; settings at the points "
         "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
@@ -42,10 +44,10 @@ def plots(name: str, tables: Tables) -> Iterator[Plot]:
     )
     alternative = "Panels of falling curves: relative error over processor time."
     for part, options in parts(name, tables[table]).items():
-        yield Plot(part, figure, tables, told, alternative, {"steps": table, **options})
+        yield Plot(part, figure, tables, told, alternative, common | options)
     if any(len(each.estimates) > 1 for each in panels(tables[table])):
         told += " Every estimate of the first ladder."
-        yield Plot(f"{name}-estimates", figure, tables, told, alternative, {"steps": table, "estimates": True})
+        yield Plot(f"{name}-estimates", figure, tables, told, alternative, common | {"estimates": True})
 
 
 def parts(name: str, steps: DataFrame) -> dict[str, dict[str, Any]]:
@@ -108,11 +110,18 @@ def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float],
     return [((x, y), value) for x, y, value in steps if isfinite(x) and isfinite(y)]
 
 
-def figure(tables: Tables, steps: str, quantities: list[str] | None = None, estimates: bool = False) -> Figure:
+def figure(
+    tables: Tables,
+    steps: str,
+    quantities: list[str] | None = None,
+    estimates: bool = False,
+    shared: bool = False,
+) -> Figure:
     """All panels, and one legend below.
 
     steps : name of the table; quantities : that are shown, all if absent
     estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
+    shared : whether all panels have the same axes, as errors and times are compared across them
     """
     drawn = [each for each in panels(tables[steps]) if quantities is None or each.first.quantity in quantities]
     if estimates:
@@ -120,21 +129,34 @@ def figure(tables: Tables, steps: str, quantities: list[str] | None = None, esti
         drawn = [Panel(tuple(own for own in each.curves if own.ladder == each.first.ladder)) for each in several]
     else:
         drawn = [Panel(tuple(each.answers)) for each in drawn]
-    columns = min(COLUMNS, len(drawn)) if len(drawn) != 4 else 2
-    rows = ceil(len(drawn) / columns)
-    drawing = style.canvas("double", rows * HEIGHT + 0.6)
-    looks, all_axes = _looks(drawn), []
-    for k, panel in enumerate(drawn):
-        axes = drawing.add_subplot(rows, columns, k + 1)
-        style.head(axes, f"({letter(k)}) {panel.first.title}\n{panel.first.label}", columns)
-        _panel(axes, panel, looks)
-        axes.set(xlabel="processor time [s]", ylabel="relative error [1]")
-        all_axes.append(axes)
+    drawing, all_axes = framed([f"{each.first.title}\n{each.first.label}" for each in drawn], shared)
+    looks = _looks(drawn)
+    for axes, panel in zip(all_axes, drawn, strict=True):
+        _panel(axes, panel, drawn if shared else [panel], looks)
     _legend(drawing, drawn, looks)
     style.lay_out(drawing)
     for axes, panel in zip(all_axes, drawn, strict=True):
         write(axes, list(_letters(panel)), style.tiny())
     return drawing
+
+
+def framed(titles: Sequence[str], shared: bool) -> tuple[Figure, list[Axes]]:
+    """Empty panels with letters and titles; shared : whether all have the same axes"""
+    count = len(titles)
+    columns = min(COLUMNS, count) if count != 4 else 2
+    rows = ceil(count / columns)
+    drawing = style.canvas("double", rows * HEIGHT + AROUND)
+    every: list[Axes] = []
+    for k, title in enumerate(titles):
+        first = every[0] if every and shared else None
+        axes = drawing.add_subplot(rows, columns, k + 1, sharex=first, sharey=first, xscale="log", yscale="log")
+        style.head(axes, f"({letter(k)}) {title}", columns)
+        if not shared or k % columns == 0:
+            axes.set_ylabel("relative error [1]")
+        if not shared or k + columns >= count:
+            axes.set_xlabel("processor time [s]")
+        every.append(axes)
+    return drawing, every
 
 
 def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
@@ -156,24 +178,26 @@ def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
     return looks
 
 
-def _panel(axes: Axes, panel, looks):
-    axes.set(xscale="log", yscale="log")
+def _panel(axes: Axes, panel, sharing, looks):
+    """A panel whose axes have room for all that share them."""
     solved = [curve for curve in panel.curves if np.isfinite(curve.errors).any()]
     own = panel.first.reference_error
     for curve in solved:
         look, errors = dict(_look(panel, curve, looks)), np.maximum(curve.errors, LEAST)
         marker, hollow = look.pop("marker"), (errors <= own) & (curve.estimate != "indicator")
         axes.plot(curve.processor, errors, **look)
-        dots(axes, curve.processor, errors, hollow, marker, look["color"])
+        for part, face in ((hollow, style.paper()), (~hollow, look["color"])):
+            dots = {"marker": marker, "markersize": style.mark(), "color": look["color"], "markerfacecolor": face}
+            axes.plot(curve.processor[part], errors[part], linestyle="none", zorder=3, **dots)
     if not solved:
         axes.text(0.5, 0.5, "not solved", transform=axes.transAxes, ha="center", va="center")
         return
-    _room(axes, panel)
+    _room(axes, sharing)
     if own > 0:
         hidden(axes, axes.get_ylim()[0], own)
     for curve in panel.answers:
         if _falls(curve):
-            guide(axes, *_power(curve))
+            axes.plot(*_power(curve), **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
     failed = [f"{curve.setting} {digits(value)}" for curve in panel.answers for value, _ in curve.failures]
     if failed:
         corner(axes, f"failed: {', '.join(failed)}")
@@ -190,23 +214,9 @@ def _power(curve):
     return curve.processor[solved], curve.order.at(curve.values[solved])
 
 
-def dots(
-    axes: Axes, x: np.ndarray, y: np.ndarray, hollow: np.ndarray, marker: str, colour, size: float = 1.0
-) -> None:
-    """Markers at points, hollow where the error of the reference hides them."""
-    for part, face in ((hollow, style.paper()), (~hollow, colour)):
-        own = {"marker": marker, "markersize": style.mark(size), "color": colour, "markerfacecolor": face}
-        axes.plot(x[part], y[part], linestyle="none", zorder=3, **own)
-
-
 def hidden(axes: Axes, least: float, error: float) -> None:
     """Band of errors that are not told from that of the reference."""
     axes.axhspan(least, error, color=style.grey(0.9), zorder=0, linewidth=0)
-
-
-def guide(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:
-    """The power that errors follow."""
-    axes.plot(x, y, **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
 
 
 def corner(axes: Axes, text: str) -> None:
@@ -220,13 +230,13 @@ def _look(panel, curve, looks):
     return looks[curve.ladder] if k == 0 else {**BESIDE[(k - 1) % len(BESIDE)], "linewidth": style.width(0.7)}
 
 
-def _room(axes, panel):
+def _room(axes, sharing):
     """Limits around all points, with room for what is written; at least a decade of errors."""
-    x = np.concatenate([curve.processor for curve in panel.curves])
-    y = np.maximum(np.concatenate([curve.errors for curve in panel.curves]), LEAST)
-    low, high = np.nanmin(y), np.nanmax(y)
-    if panel.first.reference_error > 0:
-        low = min(low, panel.first.reference_error)
+    curves = [curve for panel in sharing for curve in panel.curves]
+    x = np.concatenate([curve.processor for curve in curves])
+    y = np.maximum(np.concatenate([curve.errors for curve in curves]), LEAST)
+    known = [panel.first.reference_error for panel in sharing if panel.first.reference_error > 0]
+    low, high = min([np.nanmin(y), *known]), np.nanmax(y)
     room = max((high / low) ** 0.16, 10 ** (0.5 - np.log10(high / low) / 2))
     axes.set_ylim(low / room, high * room)
     low, high = np.nanmin(x), np.nanmax(x)
@@ -254,5 +264,8 @@ def _legend(drawing, drawn, looks):
     for panel in drawn:
         for k, estimate in enumerate(panel.estimates[1:]):
             entries.setdefault(estimate, {**BESIDE[k % len(BESIDE)], "linewidth": style.width(0.7)})
-    handles = [Line2D([], [], **look, label=label, markersize=style.mark()) for label, look in entries.items()]
+    handles = [
+        Line2D([], [], **look, label=style.LABEL.get(label, label), markersize=style.mark())
+        for label, look in entries.items()
+    ]
     style.legend(drawing, handles, "outside lower center", len(handles))
