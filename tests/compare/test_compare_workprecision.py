@@ -373,8 +373,8 @@ def test_points_within_the_error_of_the_reference_are_hollow_and_failures_are_na
 def test_estimates_of_one_answer_share_a_panel_and_the_table_has_every_step():
     plot, figure = drawn([1e-2, nan, 1e-4], reasons=[None, "too steep", None], estimates=("joined", "by loss"))
     assert len(figure.axes) == 1
-    (panel,) = panels(plot.tables["workprecision-made"])
-    assert [curve.estimate for curve in panel.curves] == ["joined", "by loss"]
+    (panel,) = panels(plot.tables["workprecision-made"], estimates=True)
+    assert [curve.estimate for curve in panel] == ["joined", "by loss"]
     table = plot.tables["workprecision-made"]
     assert table["reason"].tolist() == 2 * ["", "too steep", ""]
     assert table["processor"].isna().sum() == 2

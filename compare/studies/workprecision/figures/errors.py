@@ -1,7 +1,7 @@
 """Error against processor time: a panel for each contact and quantity, the settings written at the points."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from itertools import cycle
 from math import ceil, isfinite
 from typing import Any
 
@@ -45,7 +45,7 @@ def plots(name: str, tables: Tables, shared: bool = False) -> Iterator[Plot]:
     alternative = "Panels of falling curves: relative error over processor time."
     for part, options in parts(name, tables[table]).items():
         yield Plot(part, figure, tables, told, alternative, common | options)
-    if any(len(each.estimates) > 1 for each in panels(tables[table])):
+    if panels(tables[table], estimates=True):
         told += " Every estimate of the first ladder."
         yield Plot(f"{name}-estimates", figure, tables, told, alternative, common | {"estimates": True})
 
@@ -56,7 +56,7 @@ def parts(name: str, steps: DataFrame) -> dict[str, dict[str, Any]]:
     drawn = panels(steps)
     if len(drawn) <= MOST:
         return {name: {}}
-    quantities = dict.fromkeys(each.first.quantity for each in drawn)
+    quantities = dict.fromkeys(first.quantity for first, *_ in drawn)
     kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
     return {f"{name}-{kind}": {"quantities": own} for kind, own in kinds.items() if quantities.keys() & own}
 
@@ -67,47 +67,18 @@ def part_of(name: str, steps: DataFrame, quantity: str) -> str:
     return next(part for part, options in found if quantity in options.get("quantities", [quantity]))
 
 
-@dataclass(frozen=True)
-class Panel:
-    """A contact by one quantity.
+def panels(steps: DataFrame, estimates: bool = False) -> list[list[MeasuredLadder]]:
+    """Curves of each contact by each quantity: all ladders by the first estimate, which is the answer.
 
-    curves : all ladders by the first estimate, and the first of them by the others too
+    estimates : the first ladder by every estimate instead, where there are several
     """
-
-    curves: tuple[MeasuredLadder, ...]
-
-    @property
-    def first(self) -> MeasuredLadder:
-        """First ladder by the first estimate."""
-        return self.curves[0]
-
-    @property
-    def estimates(self) -> list[str]:
-        """Estimates of the quantity, that of the answer first."""
-        return list(dict.fromkeys(each.estimate for each in self.curves))
-
-    @property
-    def answers(self) -> list[MeasuredLadder]:
-        """Curves of the first estimate."""
-        return [each for each in self.curves if each.estimate == self.first.estimate]
-
-
-def panels(steps: DataFrame) -> list[Panel]:
-    """Panels in the order of contacts and quantities."""
     groups: dict[tuple[str, str], list[MeasuredLadder]] = {}
     for each in ladders(steps):
         groups.setdefault((each.contact, each.label), []).append(each)
-    found = []
-    for first, *others in groups.values():
-        kept = [each for each in others if first.estimate == each.estimate or first.ladder == each.ladder]
-        found.append(Panel((first, *sorted(kept, key=lambda each: each.estimate != first.estimate))))
-    return found
-
-
-def marks(each: MeasuredLadder, least: float) -> list[tuple[tuple[float, float], float]]:
-    """Place and setting of each step that was solved; errors below the least are drawn there."""
-    steps = zip(each.processor, np.maximum(each.errors, least), each.values, strict=True)
-    return [((x, y), value) for x, y, value in steps if isfinite(x) and isfinite(y)]
+    if estimates:
+        found = ([each for each in own if each.ladder == own[0].ladder] for own in groups.values())
+        return [own for own in found if len(own) > 1]
+    return [[each for each in own if each.estimate == own[0].estimate] for own in groups.values()]
 
 
 def figure(
@@ -123,17 +94,17 @@ def figure(
     estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
     shared : whether all panels have the same axes, as errors and times are compared across them
     """
-    drawn = [each for each in panels(tables[steps]) if quantities is None or each.first.quantity in quantities]
-    if estimates:
-        several = [each for each in drawn if len(each.estimates) > 1]
-        drawn = [Panel(tuple(own for own in each.curves if own.ladder == each.first.ladder)) for each in several]
-    else:
-        drawn = [Panel(tuple(each.answers)) for each in drawn]
-    drawing, all_axes = framed([f"{each.first.title}\n{each.first.label}" for each in drawn], shared)
+    drawn = panels(tables[steps], estimates)
+    drawn = [own for own in drawn if quantities is None or own[0].quantity in quantities]
+    drawing, all_axes = framed([f"{first.title}\n{first.label}" for first, *_ in drawn], shared)
     looks = _looks(drawn)
     for axes, panel in zip(all_axes, drawn, strict=True):
         _panel(axes, panel, drawn if shared else [panel], looks)
-    _legend(drawing, drawn, looks)
+    handles = [
+        Line2D([], [], **look, label=style.LABEL.get(label, label), markersize=style.mark())
+        for label, look in looks.items()
+    ]
+    style.legend(drawing, handles, "outside lower center", len(handles))
     style.lay_out(drawing)
     for axes, panel in zip(all_axes, drawn, strict=True):
         write(axes, list(_letters(panel)), style.tiny())
@@ -159,13 +130,20 @@ def framed(titles: Sequence[str], shared: bool) -> tuple[Figure, list[Axes]]:
     return drawing, every
 
 
+def _name(curve, panel):
+    """What tells a curve from others in all panels: its ladder, or the estimate beside the answer."""
+    return curve.ladder if curve.estimate == panel[0].estimate else curve.estimate
+
+
 def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
-    """Colour, marker and line of each ladder by its label, the same in all panels."""
+    """Colour, marker and line of each curve by its name, the same in all panels."""
     solvers: dict[str, dict[str, None]] = {}
+    beside: dict[str, None] = {}
     for panel in drawn:
-        for curve in panel.curves:
+        for curve in panel:
             solvers.setdefault(curve.solver, {})[curve.ladder] = None
-    looks = {}
+        beside |= dict.fromkeys(_name(curve, panel) for curve in panel if curve.estimate != panel[0].estimate)
+    looks: dict[str, Mapping[str, Any]] = {}
     for solver, labels in solvers.items():
         start = style.SERIES_MARKERS.index(style.MARKER.get(solver, "o"))
         for k, (label, colour) in enumerate(zip(labels, style.shades(solver, max(len(labels), 2)), strict=False)):
@@ -175,15 +153,16 @@ def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
                 "marker": style.SERIES_MARKERS[(start + 2 * k) % len(style.SERIES_MARKERS)],
                 "linestyle": style.SERIES_LINES[k % len(style.SERIES_LINES)],
             }
-    return looks
+    thin: dict[str, Any] = {"linewidth": style.width(0.7)}
+    return looks | {name: {**look, **thin} for name, look in zip(beside, cycle(BESIDE), strict=False)}
 
 
 def _panel(axes: Axes, panel, sharing, looks):
     """A panel whose axes have room for all that share them."""
-    solved = [curve for curve in panel.curves if np.isfinite(curve.errors).any()]
-    own = panel.first.reference_error
+    solved = [curve for curve in panel if np.isfinite(curve.errors).any()]
+    own = panel[0].reference_error
     for curve in solved:
-        look, errors = dict(_look(panel, curve, looks)), np.maximum(curve.errors, LEAST)
+        look, errors = dict(looks[_name(curve, panel)]), np.maximum(curve.errors, LEAST)
         marker, hollow = look.pop("marker"), (errors <= own) & (curve.estimate != "indicator")
         axes.plot(curve.processor, errors, **look)
         for part, face in ((hollow, style.paper()), (~hollow, look["color"])):
@@ -195,10 +174,11 @@ def _panel(axes: Axes, panel, sharing, looks):
     _room(axes, sharing)
     if own > 0:
         hidden(axes, axes.get_ylim()[0], own)
-    for curve in panel.answers:
+    answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
+    for curve in answers:
         if _falls(curve):
             axes.plot(*_power(curve), **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
-    failed = [f"{curve.setting} {digits(value)}" for curve in panel.answers for value, _ in curve.failures]
+    failed = [f"{curve.setting} {digits(value)}" for curve in answers for value, _ in curve.failures]
     if failed:
         corner(axes, f"failed: {', '.join(failed)}")
 
@@ -225,17 +205,12 @@ def corner(axes: Axes, text: str) -> None:
     axes.text(0.02, 0.02, text, transform=axes.transAxes, **look)
 
 
-def _look(panel, curve, looks):
-    k = panel.estimates.index(curve.estimate)
-    return looks[curve.ladder] if k == 0 else {**BESIDE[(k - 1) % len(BESIDE)], "linewidth": style.width(0.7)}
-
-
 def _room(axes, sharing):
     """Limits around all points, with room for what is written; at least a decade of errors."""
-    curves = [curve for panel in sharing for curve in panel.curves]
+    curves = [curve for panel in sharing for curve in panel]
     x = np.concatenate([curve.processor for curve in curves])
     y = np.maximum(np.concatenate([curve.errors for curve in curves]), LEAST)
-    known = [panel.first.reference_error for panel in sharing if panel.first.reference_error > 0]
+    known = [first.reference_error for first, *_ in sharing if first.reference_error > 0]
     low, high = min([np.nanmin(y), *known]), np.nanmax(y)
     room = max((high / low) ** 0.16, 10 ** (0.5 - np.log10(high / low) / 2))
     axes.set_ylim(low / room, high * room)
@@ -249,23 +224,13 @@ def _room(axes, sharing):
 
 
 def _letters(panel) -> Iterator[Letter]:
-    """Settings at the points, then the exponents of the powers at their ends."""
-    for curve in panel.answers:
-        for point, value in marks(curve, LEAST):
-            yield Letter(digits(value), point)
-    for curve in panel.answers:
+    """Settings at the points of the answer, then the exponents of the powers at their ends."""
+    answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
+    for curve in answers:
+        for x, y, value in zip(curve.processor, np.maximum(curve.errors, LEAST), curve.values, strict=True):
+            if isfinite(x) and isfinite(y):
+                yield Letter(digits(value), (x, y))
+    for curve in answers:
         if _falls(curve):
             x, y = _power(curve)
             yield Letter(f"$n^{{-{curve.order.order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35), needed=False)
-
-
-def _legend(drawing, drawn, looks):
-    entries = dict(looks)
-    for panel in drawn:
-        for k, estimate in enumerate(panel.estimates[1:]):
-            entries.setdefault(estimate, {**BESIDE[k % len(BESIDE)], "linewidth": style.width(0.7)})
-    handles = [
-        Line2D([], [], **look, label=style.LABEL.get(label, label), markersize=style.mark())
-        for label, look in entries.items()
-    ]
-    style.legend(drawing, handles, "outside lower center", len(handles))
