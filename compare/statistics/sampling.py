@@ -207,11 +207,6 @@ class Mean:
     grid_error: float
     failed: int
 
-    @property
-    def where(self) -> str:
-        """Contact and quantity in words."""
-        return f"{self.title}: {self.label}"
-
     def of(self, solver: str) -> list[SamplingPlan]:
         """Plans of one solver."""
         return [plan for plan in self.plans if plan.solver == solver]

@@ -111,15 +111,11 @@ class Ensemble:
         }
         found["status"] = filled(lambda row: SOLVED if row.reason is None else FAILED, NOT_ASKED, object)
         found["reason"] = filled(lambda row: row.reason or "", "", object)
-        measured = [[outcomes[task].rows[0] for task in self._timed_of(each)] for each in solvers]
-        for cost in COSTS:
-            found[cost] = "points", [np.mean([row.measures.get(cost, nan) for row in rows]) for rows in measured]
-        found["applications"] = "points", [np.mean([row.applications for row in rows]) for rows in measured]
+        costs = [costs_of(self._timed_of(each), outcomes) for each in solvers]
+        for cost in (*COSTS, "applications"):
+            found[cost] = "points", [np.mean(each[cost][1]) for each in costs]
         first = self.scene.roughness.seed
-        coordinates = {
-            "points": [solver.points for solver in solvers],
-            "draw": list(range(first, first + draws)),
-        }
+        coordinates = {"points": [each.points for each in solvers], "draw": list(range(first, first + draws))}
         about = {"contact": self.name, "title": self.title, "solver": name}
         dataset = described(xarray.Dataset(found, coordinates, about), self.scene)
         for each in self.quantities:
@@ -204,11 +200,7 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
         for plan, level in ((way, level) for way in mean.plans for level in way.levels):
             own = samples[plan.solver, level.points[0]]
             low, high = level.scatter.interval()
-            row = {
-                "contact": mean.contact,
-                "title": mean.title,
-                "quantity": mean.quantity,
-                "label": mean.label,
+            row = {name: getattr(mean, name) for name in ("contact", "title", "quantity", "label")} | {
                 "truth": mean.truth.value,
                 "scale": mean.truth.scale,
                 "truth_standard_error": mean.standard_error,
@@ -230,11 +222,8 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
                 "failed": len(own.reasons),
                 "reason": own.reasons[0] if own.reasons else "",
                 "processor": level.seconds,
-                "wall": own.costs["wall"],
-                "memory": own.costs["memory"],
-                "applications": own.costs["applications"],
             }
-            rows.append(row)
+            rows.append(row | {name: own.costs[name] for name in ("wall", "memory", "applications")})
     return rows
 
 

@@ -24,7 +24,7 @@ COLUMNS, HEIGHT, AROUND, MOST = 3, 2.2, 0.6, 9
 # Errors below are those of rounding, and drawn there.
 LEAST = 1e-16
 # Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
-BESIDE = (
+BESIDE: tuple[dict[str, Any], ...] = (
     {"color": "#009E73", "marker": "^", "linestyle": ":"},
     {"color": "#CC79A7", "marker": "v", "linestyle": "-."},
     {"color": "#56B4E9", "marker": "D", "linestyle": (0, (5, 1, 1, 1, 1, 1))},
@@ -153,8 +153,8 @@ def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
                 "marker": style.SERIES_MARKERS[(start + 2 * k) % len(style.SERIES_MARKERS)],
                 "linestyle": style.SERIES_LINES[k % len(style.SERIES_LINES)],
             }
-    thin: dict[str, Any] = {"linewidth": style.width(0.7)}
-    return looks | {name: {**look, **thin} for name, look in zip(beside, cycle(BESIDE), strict=False)}
+    thin = {"linewidth": style.width(0.7)}
+    return looks | {name: look | thin for name, look in zip(beside, cycle(BESIDE), strict=False)}
 
 
 def _panel(axes: Axes, panel, sharing, looks):
