@@ -40,7 +40,6 @@ class Alignment:
 
     horizontal, vertical : b_v and c_v (S,), zero at the middle speed
     exponent, vertical_exponent : of exp(b_v) and exp(c_v) as powers of the speed, least squares
-    raised : rms of c_v over the speeds about its mean, as a level common to all is no shift
     rms : of ln mu about the common curve, with scatter
     misfit : of ln mu about the common curve, without what scatter adds
     mended : of that misfit, what vertical shifts would take away to first order
@@ -53,7 +52,6 @@ class Alignment:
     vertical: Estimated
     exponent: Estimated
     vertical_exponent: Estimated
-    raised: RmsMisfit
     rms: float
     misfit: RmsMisfit
     mended: RmsMisfit
@@ -286,7 +284,7 @@ def _undecided(fit, increments, reason):
     speeds, unknown = len(fit.curves), RmsMisfit.unknown()
     number, shifts = Estimated(nan, nan, 0), Estimated(np.full(speeds, nan), np.full(speeds, nan), 0)
     missed = _rms(fit.residuals(increments))
-    return Alignment(shifts, shifts, number, number, unknown, missed, unknown, unknown, None, reason)
+    return Alignment(shifts, shifts, number, number, missed, unknown, unknown, None, reason)
 
 
 def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]) -> Alignment:
@@ -303,7 +301,6 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
             "vertical": lifted,
             "exponent": along,
             "vertical_exponent": across,
-            "raised": lifted - lifted.mean(),
             "misfit": missed,
             "mended": mending @ (mending.T @ missed),
         }
@@ -314,7 +311,6 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
         vertical=found["vertical"].estimated,
         exponent=found["exponent"].estimated,
         vertical_exponent=found["vertical_exponent"].estimated,
-        raised=found["raised"].rms,
         misfit=found["misfit"].rms,
         mended=found["mended"].rms,
         rms=_rms(fit.residuals(increments)),
