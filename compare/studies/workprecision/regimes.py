@@ -33,7 +33,7 @@ POINTS: dict[str, dict[str, Any]] = {
 }
 # Speeds in shortest waves per relaxation time.
 SPEEDS = {"slow": 0.02, "middle": 0.2, "fast": 20.0}
-ROUGH = {
+ROUGH: dict[str, dict[str, Any]] = {
     "quick": {"grids": (64, 128, 256), "surfaces": 40, "paired": 6, "lines": (1000,), "profiles": 1000},
     "full": {
         "grids": (64, 128, 256, 512),
@@ -57,11 +57,17 @@ def smooth(size: str) -> list[Convergence]:
 def rough(size: str) -> list[Ensemble]:
     """The rough sphere and cone, at rest at a depth and sliding under a load; a steep sphere as in the paper."""
     settings = at(ROUGH, size)
-    if size == QUICK:
-        return [_rough_sliding("sphere", "middle", settings)]
-    found = []
+    found: list[Ensemble] = []
     for shape in ("sphere", "cone"):
-        found += [_rough_at_rest(shape, settings), *(_rough_sliding(shape, each, settings) for each in SPEEDS)]
+        scene = contacts.kelvin(shape)
+        rest = replace(scene, motion=Indent(depth=elastic_contact(scene).depth))
+        found.append(Ensemble(f"rough-{shape}-rest", f"rough {shape} at rest", rest, (FORCE,), **settings))
+        for speed, factor in SPEEDS.items():
+            motion = Slide(speed=factor * contacts.SHORTEST / KELVIN.relaxation_time, load=LOAD)
+            title = f"rough {shape}, vτ = {factor:g} λₛ"
+            found.append(_sliding(f"rough-{shape}-{speed}", title, replace(scene, motion=motion), settings))
+    if size == QUICK:
+        return [each for each in found if each.name == "rough-sphere-middle"]
     return [*found, _steep()] if size == FULL else found  # its grids cannot be coarse
 
 
@@ -80,28 +86,15 @@ def _smooth(name, title, body, flow, points):
     return Convergence(name, title, truth, quantities, (mdr, bem, line))
 
 
-def _rough_at_rest(shape, settings):
-    scene = contacts.kelvin(shape)
-    scene = replace(scene, motion=Indent(depth=elastic_contact(scene).depth))
-    return Ensemble(f"rough-{shape}-rest", f"rough {shape} at rest", scene, (FORCE,), **settings)
-
-
-def _rough_sliding(shape, speed, settings):
-    factor = SPEEDS[speed]
-    motion = Slide(speed=factor * contacts.SHORTEST / KELVIN.relaxation_time, load=LOAD)
-    scene = replace(contacts.kelvin(shape), motion=motion)
-    return _under_load(f"rough-{shape}-{speed}", f"rough {shape}, vτ = {factor:g} λₛ", scene, settings)
-
-
 def _steep():
     """At the largest load and the speed of the study of the regime of the paper."""
     scene, (_, load) = contacts.STEEP["sphere"]
     speed = scene.motion.speed
     scene = replace(scene, motion=Slide(speed=speed, load=load))
     factor = speed * scene.elastomer.relaxation_time / scene.roughness.shortest
-    return _under_load("steep-sphere", f"steep sphere, vτ = {factor:.2g} λₛ", scene, STEEP)
+    return _sliding("steep-sphere", f"steep sphere, vτ = {factor:.2g} λₛ", scene, STEEP)
 
 
-def _under_load(name, title, scene: Scene, settings):
+def _sliding(name, title, scene: Scene, settings):
     scales = {"depth": elastic_contact(scene).depth}
     return Ensemble(name, title, scene, (FRICTION, DEPTH), scales=scales, **settings)
