@@ -108,7 +108,11 @@ class Convergence:
             for value, solve in zip(ladder.values, ladder.solves, strict=True)
         ]
         solves = [solve for _, _, solve in steps]
-        errors = [[_error(each, known[each.name], outcomes[solve]) for solve in solves] for each in quantities]
+        answers = [outcomes[solve] for solve in solves]
+        errors = [
+            [known[each.name].error_of(each.measured(answer.rows[0], answer.fields)) for answer in answers]
+            for each in quantities
+        ]
         by_quantity = {
             "quantity": [each.name for each in quantities],
             "label": [each.label for each in quantities],
@@ -156,11 +160,6 @@ def described(dataset: xarray.Dataset, scene: Scene) -> xarray.Dataset:
     for label in dataset.variables:
         dataset[label].attrs = attributes(str(label), scene)
     return dataset
-
-
-def _error(quantity, known, answer):
-    row = answer.rows[0]
-    return nan if row.reason is not None else known.error_of(quantity.of(row, answer.fields))
 
 
 def steps_table(node: xarray.DataTree) -> DataFrame:

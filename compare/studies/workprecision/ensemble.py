@@ -107,7 +107,8 @@ class Ensemble:
             return ("points", "draw"), np.array(rows, kind)
 
         found = {
-            VARIABLES[each.name]: filled(lambda row, of=each.of: of(row, {}), nan) for each in self.quantities
+            VARIABLES[each.name]: filled(lambda row, each=each: each.measured(row, {}), nan)
+            for each in self.quantities
         }
         found["status"] = filled(lambda row: SOLVED if row.reason is None else FAILED, NOT_ASKED, object)
         found["reason"] = filled(lambda row: row.reason or "", "", object)

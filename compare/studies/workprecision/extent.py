@@ -51,8 +51,6 @@ def cell(period: float, motion) -> Scene:
 
 def contact_radius(row, fields) -> float:
     """Contact radius from the second moment of the pressure about its tip, which of Hertz's is 2 a^2 / 5 [m]."""
-    if row.reason is not None:
-        return nan
     x, y, p = fields["x"], fields["y"][:, None], fields["pressure"]
     if _repeats(row):
         period = row.settings["extent"]
@@ -96,12 +94,13 @@ def _repeats(row):
     return "contact_fraction" in row.measures
 
 
-def _shape(row, factor):
-    return factor(2 * pi / row.settings["extent"]) if _repeats(row) else 1.0
-
-
 def _less(of, factor):
-    return lambda row, fields: nan if row.reason is not None else of(row, fields) / _shape(row, factor)
+    """A number over what the shape of the wave makes of it in a cell."""
+
+    def less(row, fields):
+        return of(row, fields) / (factor(2 * pi / row.settings["extent"]) if _repeats(row) else 1.0)
+
+    return less
 
 
 RADIUS = Quantity("radius", "contact radius", contact_radius, "as it is")
@@ -126,9 +125,8 @@ def _sliding(flow, size):
     reference = BEM(points=at(REFERENCE, size), tolerance=1e-7)
     truth = finer(Scene(SPHERE, KELVIN, motion), reference, "the free sphere, {} points")
     quantities = (SLOW, SHAPED_SLOW) if flow <= FLOWS["quick"][0] else (FRICTION,)
-    return Convergence(
-        f"sliding-{flow:g}", f"tip, Kelvin, v τ = {flow:g} a", truth, quantities, _ladders(motion, size, ())
-    )
+    name, title = f"sliding-{flow:g}", f"tip, Kelvin, v τ = {flow:g} a"
+    return Convergence(name, title, truth, quantities, _ladders(motion, size, ()))
 
 
 def _ladders(motion, size, keeps):

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from math import nan
 
 import numpy as np
 
@@ -34,10 +33,8 @@ def contacts(size: str) -> Sequence[Convergence]:
     return [_withdrawal(size), _started(size)]
 
 
-def _off_ting(row, fields):
+def _off_ting(_, fields):
     """Deviation from the closed form, rms over the steps, over the greatest force."""
-    if row.reason is not None:
-        return nan
     force, _ = indentation.force_of_depth(SPHERE, STANDARD_LINEAR, TIMES, DEPTHS, fields["time"])
     return float(np.sqrt(np.mean(np.square(fields["normal_force"] - force))) / force.max())
 

@@ -23,7 +23,7 @@ class Quantity:
     """A number of an answer whose error is asked for.
 
     name : as in tables; label : as in figures, without what it is an error of
-    of : from the row and the fields of an answer; NaN of a failed one
+    of : from the row and the fields of an answer that was solved
     by : which estimate of it, where one answer has several: those of one label are drawn together
     """
 
@@ -31,6 +31,10 @@ class Quantity:
     label: str
     of: Callable[[Row, Mapping[str, np.ndarray]], float]
     by: str = ""
+
+    def measured(self, row: Row, fields: Mapping[str, np.ndarray]) -> float:
+        """The number; NaN of a failed solve."""
+        return nan if row.reason is not None else self.of(row, fields)
 
 
 DEPTH = Quantity("depth", "depth", lambda row, _: row.depth)
@@ -103,7 +107,7 @@ def finer(
     def known(quantities, outcomes):
         found = {}
         for each in quantities:
-            value, other = (each.of(outcomes[task].rows[0], outcomes[task].fields) for task in tasks)
+            value, other = (each.measured(outcomes[task].rows[0], outcomes[task].fields) for task in tasks)
             found[each.name] = Known(value, abs(value - other), (scale or {}).get(each.name))
         return found
 
