@@ -240,7 +240,7 @@ def _mean_of(variable, about, grids, lines):
     known = np.isfinite(first)
     known[: corrections.size] &= np.isfinite(corrections)
     # Error of the finest grid at first order, from what it changes on the same surfaces.
-    changed = abs(_mean(best - grids[-2].values[name][: best.size]))
+    changed = abs(float(mean_ratio(best - grids[-2].values[name][: best.size]).value))
     left = changed / (finest.points / grids[-2].points - 1) / unit
     if 1 - known.mean() > MOST_FAILED:
         left = nan
@@ -299,10 +299,3 @@ def _corrected_mean(first, corrections) -> Estimated:
     added = np.nan_to_num(first - many.value) / (many.freedom + 1)
     added[: corrections.size] += np.nan_to_num(corrections - few.value) / (few.freedom + 1)
     return Estimated(value, sqrt(max(whole + 2 * covariance, 0.0)), freedom, float(skewness(added)))
-
-
-def _mean(values):
-    """Mean of the finite ones; NaN of none."""
-    known = np.asarray(values, float)
-    known = known[np.isfinite(known)]
-    return float(known.mean()) if known.size else nan
