@@ -131,11 +131,6 @@ class SamplingPlan:
         """Grids of its levels in words, the finest of a correction first."""
         return " + ".join(level.label for level in self.levels)
 
-    @property
-    def corrected(self) -> bool:
-        """Whether coarse answers are corrected by finer ones."""
-        return len(self.levels) > 1
-
     def error(self, seconds: np.ndarray | float) -> np.ndarray | float:
         """Error expected after so much processor time [s], with any broken numbers of surfaces."""
         return np.sqrt(self.bias.size**2 + self._work**2 / (seconds - self.setup))
@@ -214,7 +209,7 @@ class Mean:
     @property
     def plain(self) -> list[SamplingPlan]:
         """Plans of the 3D solver on one grid each."""
-        return [plan for plan in self.of("BEM") if not plan.corrected]
+        return [plan for plan in self.of("BEM") if len(plan.levels) == 1]
 
     def floor(self, solver: str = "MDR") -> Bias:
         """Error of a 1D model on its finest grid: no number of profiles passes it."""
