@@ -48,7 +48,7 @@ def plots(name: str, tables: Tables) -> Iterator[Plot]:
 
 def rough(tables: Tables, plans: str) -> Figure:
     """Means over rough surfaces, a panel a regime and quantity. plans : name of the table"""
-    drawn = sorted(means(tables[plans]), key=lambda mean: mean.quantity != "friction")
+    drawn = means(tables[plans])
     drawing, axes = errors.framed([f"{mean.title}\n{mean.label}" for mean in drawn], True)
     for each, mean in zip(axes, drawn, strict=True):
         _draw_mean(each, mean)
@@ -109,7 +109,7 @@ def _draw_mean(axes: Axes, mean: Mean):
 
 def _ends(mean: Mean) -> list[Letter]:
     """Points at the first marks of the coarsest and of the finest grid."""
-    ends = [plan for own in (mean.plain, mean.of("MDR")[-1:]) for plan in (*own[:1], *own[:0:-1][:1])]
+    ends = dict.fromkeys((*mean.plain[:1], *mean.plain[-1:], *mean.of("MDR")[-1:]))
     found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
     return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
 
@@ -134,17 +134,13 @@ def _cheapest():
 
 def _share(group: Sequence[Axes]) -> None:
     """Limits that all panels share: errors and times are compared across regimes."""
-    lines = [line for axes in group for line in axes.lines]
-    if not lines:
-        return
-    x, y = (np.concatenate([np.asarray(line.get_data()[k], float) for line in lines]) for k in (0, 1))
+    points = [line.get_xydata() for axes in group for line in axes.lines]
+    x, y = np.concatenate([np.empty((0, 2)), *points]).T
     known = np.isfinite(x) & np.isfinite(y) & (y > 0)
-    if not known.any():
-        return
-    for axes in group:
-        axes.set_xlim(x[known].min() / 2.5, x[known].max() * 1.5)
-        axes.set_ylim(max(y[known].min() / 2, LEAST / 5), y[known].max() * 2)
-        style.decades(axes)
+    if known.any():
+        group[0].set_xlim(x[known].min() / 2.5, x[known].max() * 1.5)
+        group[0].set_ylim(max(y[known].min() / 2, LEAST / 5), y[known].max() * 2)
+        style.decades(*group)
 
 
 def _legend(drawing: Figure) -> None:
