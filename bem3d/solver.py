@@ -63,7 +63,7 @@ class BEM:
     >>> print(f"{1e3 * answer.depth:.3f} mm, {answer.friction_coefficient:.4f}")
     0.152 mm, 0.0095
 
-    Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
+    Result.operator_applications counts operator applications, Result.measures["transform_pairs"] those of the
     preconditioner too, both in equivalents of the finest grid.
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, spot_radius [m] (of a
     disc with the area over rim of the contact), rounds, transform_pairs;
@@ -94,7 +94,7 @@ class BEM:
     which together are the friction. Under a Shear: friction_force is the tangential force; measures
     friction_in_interface, tangential_displacement [m], stick_area, slip_area [m^2], tangential_residual (slip
     where it sticks and slip across the traction where it slips, over the displacement; or the misfit of the force
-    if that is more), tangential_applications, also part of Result.applications, tangential_rounds; fields
+    if that is more), tangential_applications, also part of Result.operator_applications, tangential_rounds; fields
     traction_x, traction_y [Pa], on the indenter, and slip_x, slip_y [m], of the elastomer past it, zero outside
     the contact; those along y only where a traction along x also displaces along y.
     """
@@ -271,7 +271,7 @@ class BEM:
             depth=answer.depth * grid.pixel,
             friction_force=friction.force,
             residual=answer.violation,
-            applications=problem.work / (grid.points * grid.rows),
+            operator_applications=problem.work / (grid.points * grid.rows),
             seconds=time.process_time() - started,
             measures={
                 **measured(problem, grid, pressure, answer.gap * grid.pixel),

@@ -14,7 +14,7 @@ load, export, figures : what a command left, as xarray has it, as CSV or LaTeX, 
 animate : a scene that moves, as a picture that moves
 ready, new, schema : scenes and studies to begin with, a copy of one of them, and what may stand in it
 CorrectedMDR : one dimension, corrected to three by the trust map, where the map knows how
-solve : a study of your own, derived from `Study`, with Rectangle, Claim and Finding
+solve : a study of your own, derived from `Study`, with ParameterGrid, Claim and Finding
 
 Each returns what was found and prints nothing: printed, that is what the command prints; in a notebook it shows
 tables, and its `figures`. Nothing is imported until it is used.

@@ -20,7 +20,7 @@ from .commands import topography as topography
 from .commands import trust as trust
 from .commands import workprecision as workprecision
 from .library.case import Case as Case
-from .solving.parameter_grid import Rectangle as Rectangle
+from .solving.parameter_grid import ParameterGrid as ParameterGrid
 from .solving.task import SceneTask as SceneTask
 from .statistics.finding import Claim as Claim
 from .statistics.finding import Finding as Finding

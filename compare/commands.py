@@ -37,8 +37,9 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from .library.lookup import Asked
+    from .library.lookup import SceneLike
     from .library.ready import Listing
+    from .models.table import ModelLike
     from .solving.terminal import Preparing
     from .studies.mastercurve.measurements import Measurements
     from .studies.plan import Plans
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
     from .studies.report import Report
     from .studies.study import Study
     from .studies.topography.study import Surface
-    from .trustmap.verdict import Trust
+    from .trustmap.verdict import Advice
 
 
 class Options(TypedDict, total=False):
@@ -94,30 +95,38 @@ def _warn(sentences: Sequence[str]) -> None:
 
 
 def run(
-    scene: Asked | Mapping[str, Asked] | None = None,
+    scene: SceneLike | Mapping[str, SceneLike] | None = None,
     output: str | Path = "crosscheck-report",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
     **options: Unpack[Options],
 ) -> Report:
-    """Solve a scene in 1D and in 3D, compare, and write a report.
+    """Solve a scene in 1D and in 3D, or by other models, compare, and write a report.
 
     scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
         also a Scene or a Case, or several by name
+    models : names of the models, separated by commas: mdr, bem, those of installed packages, MODULE:NAME; mdr,bem if
+        absent. From Python also objects, see `scene.Solver`
+    reference : name of the model against which the others are judged; bem, or the last, if absent
     """
     from .studies.run.study import Run
 
-    return solve(Run.of(scene), output, **options)
+    return solve(Run.of(scene, models, reference), output, **options)
 
 
 def study(
     name: str | Path | None = None,
     size: str = "quick",
     output: str | Path = "crosscheck-study",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Test the paper's claims on many contacts in 1D and 3D.
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
+    models, reference : as of `run`; the study `trust` takes none
     """
     if name is None:
         from .library.ready import studies
@@ -128,7 +137,7 @@ def study(
 
     if name == TrustStudy.name:
         return solve(TrustStudy.of(size), output, **options)
-    return solve(ClaimStudy.of(str(name), size), output, **options)
+    return solve(ClaimStudy.of(str(name), size, models, reference), output, **options)
 
 
 def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
@@ -189,7 +198,7 @@ def regress(
     asked = Regress.of(baseline, quantities, update)
     report = solve(asked, output, **options)
     if update:
-        asked.store(report.claims)
+        asked.store(report.findings)
     return report
 
 
@@ -258,15 +267,17 @@ def topography(
 
 
 def sweep(
-    scene: Asked,
+    scene: SceneLike,
     speed: Sequence[float],
     load: Sequence[float] | None = None,
     depth: Sequence[float] | None = None,
     draws: int = 8,
     output: str | Path = "crosscheck-sweep",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
-    """Solve a scene at every speed and every load or depth in both dimensionalities.
+    """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
 
     Returns a Dataset with the dimensions solver, grid, speed, load or depth, and draw: every single draw with its
     `status` and `reason`, and the means over draws on the fine grid, `friction`, `force` and `reached`, each with
@@ -281,7 +292,7 @@ def sweep(
     from .statistics import griderror
     from .studies.sweep.study import Sweep
 
-    asked = Sweep.of(scene, speed, load, depth, draws)
+    asked = Sweep.of(scene, speed, load, depth, draws, models, reference)
     answers = solve(asked, output, **options).answers
     griderror.warn(answers)
     return asked.dataset(answers)
@@ -294,7 +305,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
     return figure_of(dataset)
 
 
-def trust(scene: Asked) -> Trust:
+def trust(scene: SceneLike) -> Advice:
     """Say whether to use 1D, multiply it, or solve in 3D. It takes about a second, as nothing rough is solved.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
@@ -307,7 +318,7 @@ def trust(scene: Asked) -> Trust:
     return found
 
 
-def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
+def plan(scene: SceneLike, figure: str | Path | None = None) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
@@ -323,7 +334,7 @@ def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
 
 
 def load(folder: str | Path) -> xarray.DataTree:
-    """Everything that a command solved, with each single draw: a Dataset for each rectangle and solver.
+    """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver.
 
     folder : folder that a command has written, or its results.nc
     """
@@ -390,7 +401,7 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
 
 
 def draw(
-    scene: Asked, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
+    scene: SceneLike, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
 ) -> Report:
     """Draw the contact in 3D and the row of springs in 1D.
 
@@ -412,7 +423,7 @@ def draw(
 
 
 def animate(
-    scene: Asked,
+    scene: SceneLike,
     output: str | Path | None = None,
     frames: int = 60,
     seconds: float = 6.0,

@@ -51,7 +51,7 @@ class MDR:
     Solves any elastomer, at rest with its relaxed modulus, in steady sliding and in time. The contact is exact on
     a profile that is linear between nodes; against a smooth shape the error is of second order in the pixel.
     Result.residual is the relative misfit of a prescribed load, at most 1e-10, and zero at a prescribed depth;
-    Result.applications counts sweeps along the profile.
+    Result.operator_applications counts sweeps along the profile.
 
     >>> from mdr1d import MDR
     >>> from scene import Kelvin, Scene, Slide, Sphere
@@ -179,7 +179,7 @@ class MDR:
             depth=approach + body.lowest,
             friction_force=modulus * contact.dissipation,
             residual=0.0 if load is None else abs(force / load - 1),
-            applications=sweeps,
+            operator_applications=sweeps,
             seconds=seconds,
             measures=measures(reduced, body, contact) | ({} if error is None else {"friction_error": error}),
             fields={

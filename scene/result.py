@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,8 @@ class Result:
     depth : of the macroscopic tip below the undeformed surface [m], > 0 into the elastomer; see Cylinder and Plane
         for what theirs is counted from
     residual : left in the discrete contact conditions, relative; the solver's docstring defines it
-    applications : operator applications, in equivalents of the finest grid
-    seconds : processor time of the solve [s]
+    operator_applications : operator applications, in equivalents of the finest grid
+    seconds : processor time of the solve [s]; these three are NaN of a model that does not tell
     measures : what else the solver measured, name -> number in SI units
     fields : arrays on the solver's grid, name -> array, SI units
     """
@@ -33,17 +34,17 @@ class Result:
     settings: Mapping[str, Any]
     normal_force: float
     depth: float
-    friction_force: float
-    residual: float
-    applications: float
-    seconds: float
+    friction_force: float = 0.0
+    residual: float = nan
+    operator_applications: float = nan
+    seconds: float = nan
     measures: Mapping[str, float] = field(default_factory=dict)
     fields: Mapping[str, np.ndarray] = field(default_factory=dict, repr=False)
 
     @property
     def friction_coefficient(self) -> float:
         """mu = F_x / F_N; NaN where nothing is pressed."""
-        return self.friction_force / self.normal_force if self.normal_force else float("nan")
+        return self.friction_force / self.normal_force if self.normal_force else nan
 
     def _repr_html_(self) -> str:
         kind, words = self.scene.indenter.type, {**NUMBERS, **MEASURES}

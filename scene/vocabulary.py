@@ -48,7 +48,7 @@ NUMBERS: Mapping[str, Entry] = {
         "Tangential force on the indenter, above zero where it opposes motion forwards, which is along -x."
     ),
     "residual": Entry("1", "Residual of the discrete conditions of contact, relative, as the solver defines it."),
-    "applications": Entry("1", "Operator applications of the solve, in equivalents of the finest grid."),
+    "operator_applications": Entry("1", "Operator applications of the solve, in equivalents of the finest grid."),
     "seconds": Entry("s", "Processor time of the solve."),
 }
 

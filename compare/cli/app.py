@@ -35,8 +35,8 @@ TYPES = {
     "int | None": int | None,
     "float": float,
     "bool": bool,
-    "Asked": str,
-    "Asked | Mapping[str, Asked] | None": str | None,
+    "SceneLike": str,
+    "SceneLike | Mapping[str, SceneLike] | None": str | None,
     "float | None": float | None,
     "str | float | None": str | None,
     "Measurements": Path,
@@ -45,6 +45,7 @@ TYPES = {
     "Surface": Path,
     "str | float | Sequence[str | float] | None": list[str] | None,
     "Sequence[str | float] | None": list[str] | None,
+    "Sequence[ModelLike] | None": str | None,
     "Any": str | None,
 }
 # Arguments by their place, though they may be absent.
@@ -178,7 +179,7 @@ def _keyword(name, annotation, default=False):
 
 def _as_json(found: Any) -> str:
     if hasattr(found, "findings"):
-        rows = json.loads(found.findings.to_json(orient="records", double_precision=15))
+        rows = json.loads(found.table.to_json(orient="records", double_precision=15))
         page = str(found.path) if found.path else None
         told = {"page": page, "doubts": list(found.page.first), "findings": rows}
         return json.dumps(told, indent=1)

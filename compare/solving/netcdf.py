@@ -44,7 +44,7 @@ def write(path: Path, answers: xarray.DataTree) -> None:
 
 
 def load(folder: str | Path) -> xarray.DataTree:
-    """Everything that a command solved, as it left it in a folder: a Dataset for each rectangle and solver.
+    """Everything that a command solved, as it left it in a folder: a Dataset for each parameter grid and solver.
 
     Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of
     several studies has each below its name.

@@ -12,7 +12,7 @@ from typing import Any
 from .outcome import Outcome
 from .store import Store, write
 from .task import Task
-from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, starting, unpacked
+from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, solved, starting, unpacked
 
 # Seconds after which an interrupt is noticed.
 PULSE = 0.2
@@ -94,6 +94,7 @@ def sweep(
     fresh : whether each task has a process of its own, one after the other
     scheduler : address of a dask scheduler, whose workers then solve the tasks in place of processes
 
+    What no other process can import, as the model of a script or a notebook, is solved in this one.
     While another run solves in the same folder, this one waits for it. A task that raises, or that workers die of,
     has failed: its outcome has the reason in every row, its traceback lies beside the store's file, and the next
     sweep solves it again. On an interrupt, any signal that raises KeyboardInterrupt, nothing more is started; what
@@ -201,6 +202,9 @@ class _Course:
         return self.queue.popleft()
 
     def _submit(self, task):
+        if not getattr(task, "portable", True):  # its class is known to this process alone
+            yield self._kept(task, solved(task))
+            return
         try:
             packed = pickle.dumps(task)
         except Exception as error:

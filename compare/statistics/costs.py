@@ -42,14 +42,14 @@ class Law:
     covariance: np.ndarray
 
     @property
-    def freedom(self) -> int:
+    def dof(self) -> int:
         """Degrees of freedom of the scatter."""
         return self.count - len(self.covariance)
 
     @property
     def exponent_interval(self) -> tuple[float, float]:
         """Interval of 95 % of the exponent, by Student."""
-        half = student(LEVEL, self.freedom) * sqrt(self.covariance[1, 1])
+        half = student(LEVEL, self.dof) * sqrt(self.covariance[1, 1])
         return float(self.exponent - half), float(self.exponent + half)
 
     def at(self, x):
@@ -72,7 +72,7 @@ class Law:
         parts = np.array([power, power * np.log(x / self.centre), np.full(len(x), self.overhead)])
         slopes = parts[: len(self.covariance)] / whole
         width = np.sqrt(self.scatter**2 + np.einsum("ik,ij,jk->k", slopes, self.covariance, slopes))
-        factor = np.exp(np.minimum(student(LEVEL, self.freedom) * width, 700.0))
+        factor = np.exp(np.minimum(student(LEVEL, self.dof) * width, 700.0))
         return whole / factor, whole * factor
 
 
@@ -114,8 +114,8 @@ def fit_whole(x: np.ndarray, cost: np.ndarray) -> Law | NoLaw:
     if len(np.unique(x)) < FEWEST:
         return _no_law(f"{len(x)} points are too few", x, cost)
     law = _fitted(x, cost)
-    squares = law.scatter**2 * law.freedom / REPEATABLE**2
-    if special.chdtrc(law.freedom, squares) < CHANCE:
+    squares = law.scatter**2 * law.dof / REPEATABLE**2
+    if special.chdtrc(law.dof, squares) < CHANCE:
         return _no_law("the misfit of a power is beyond the scatter", x, cost)
     return law
 
@@ -145,11 +145,11 @@ def _fitted(x, cost):
     beside = seen.min() + log(0.5)
     fitted = [_beside(x, centre, seen, (log(plain.factor), exponent, beside)) for exponent in STARTS]
     more = min((law for law in fitted if law), key=lambda law: law.scatter, default=plain)
-    without, with_it = (law.scatter**2 * law.freedom for law in (plain, more))
+    without, with_it = (law.scatter**2 * law.dof for law in (plain, more))
     if with_it >= without or more.exponent <= 0:  # what falls to a level is no cost that grows beside another
         return plain
-    gain = (without - with_it) / max(with_it / more.freedom, np.finfo(float).tiny)
-    return more if special.fdtrc(1, more.freedom, gain) < NEEDED else plain
+    gain = (without - with_it) / max(with_it / more.dof, np.finfo(float).tiny)
+    return more if special.fdtrc(1, more.dof, gain) < NEEDED else plain
 
 
 def _beside(x, centre, seen, start):
@@ -179,14 +179,14 @@ def _fixed_slopes(along, start, exponent, fixed):
 
 def _law(x, centre, seen, model, slopes, start):
     """Least squares in logarithms."""
-    along, freedom = np.log(x / centre), len(x) - len(start)
+    along, dof = np.log(x / centre), len(x) - len(start)
     with warnings.catch_warnings():
         # Without a fixed cost its logarithm has no error: the F test drops it.
         warnings.simplefilter("ignore", OptimizeWarning)
         found, covariance = curve_fit(model, along, seen, start, jac=slopes, method="trf", x_scale="jac")
     left = model(along, *found) - seen
     overhead = exp(found[2]) if len(found) > 2 else 0.0
-    scatter = sqrt(float(left @ left) / freedom)
+    scatter = sqrt(float(left @ left) / dof)
     ends = float(x.min()), float(x.max())
     return Law(overhead, exp(found[0]), float(found[1]), centre, *ends, len(x), scatter, covariance)
 

@@ -64,9 +64,9 @@ def run(
     swept = _solve(study.batches(), output, workers, scheduler, progress)
     try:
         answers = study.answers(swept.outcomes)
-        findings = study.findings(answers)
+        judged = study.judge(answers)
+        findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
-        page = study.page(answers, findings)
         page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=study.notes)
     except (SolveError, ValueError, ArithmeticError, LookupError) as error:
         # What is made of NaN alone raises nearly anything, and would hide what matters.

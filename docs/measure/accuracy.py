@@ -75,7 +75,7 @@ def kelvin() -> str:
                     f"{over:.4f}",
                     f"{mu:.4f}",
                     *deviations,
-                    f"{result.applications:.0f}",
+                    f"{result.operator_applications:.0f}",
                 )
 
     header = "v τ/a|points across 2a|F/F_Hertz|μR/a|against reference: F|μ|operator applications"

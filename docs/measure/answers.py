@@ -169,7 +169,7 @@ def _cell(row, percent: bool = False) -> str:
 def run_again() -> None:
     """Store the findings of the main job, and its title and first sentences as a terminal shows them."""
     report = compare.run(progress="lines")
-    write_text(RUN, text(report.findings))
+    write_text(RUN, text(report.table))
     write_text(RUN.with_suffix(".txt"), "\n\n".join(str(report).split("\n\n")[:LINES]) + "\n")
 
 

@@ -280,14 +280,14 @@ def iteration(scene: Scene, solver: BEM) -> tuple:
         wholes.append(whole.seconds)
         finest = min([run for run in runs if run[1].shape == runs[-1][1].shape], key=lambda run: run[0])
     seconds, operator, inverse = finest
-    counts = operator.applications, inverse.applications
+    counts = operator.operator_applications, inverse.operator_applications
     plane, out = np.ones(operator.shape), np.empty(operator.shape)
 
     def cost(product):
         return least(lambda: product(plane, out=out), solver.points)
 
     each = cost(operator), cost(inverse)
-    everywhere = whole.applications, whole.measures["transform_pairs"] - whole.applications
+    everywhere = whole.operator_applications, whole.measures["transform_pairs"] - whole.operator_applications
     over = [of / np.dot(count, each) for of, count in ((seconds, counts), (min(wholes), everywhere))]
     return *counts, *(1e3 * one for one in each), *over
 
@@ -337,7 +337,7 @@ def slid(solver: BEM, scene: Scene) -> dict:
         return {"reason": str(reason)}
     names = ("rounds", "transform_pairs", "friction_disagreement")
     return {
-        "applications": result.applications,
+        "operator_applications": result.operator_applications,
         "seconds": result.seconds,
         "friction": result.friction_coefficient,
     } | {name: result.measures[name] for name in names}

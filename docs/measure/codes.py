@@ -40,7 +40,7 @@ def by_us(scene: Scene, solver: BEM, tolerance: float) -> dict:
         result.fields["pressure"],
         result.fields["gap"],
         seconds=result.seconds,
-        iterations=result.applications,
+        iterations=result.operator_applications,
         pairs=result.measures["transform_pairs"],
     )
 

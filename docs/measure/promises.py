@@ -80,7 +80,7 @@ programs and of roughness without a shortest wave.
 
 ### Kept?
 
-Asked on {smooth} smooth and {rough} rough contacts of other seeds. Errors are against 128, 256 and 512
+SceneLike on {smooth} smooth and {rough} rough contacts of other seeds. Errors are against 128, 256 and 512
 points, by the order at which these change, where 512 are twice as many or more and the truth is known to a
 fifth of what is wanted. Those that were not confirmed, or broken: [promises.csv](promises/promises.csv).
 

@@ -129,7 +129,7 @@ def mean_of_draws(normal: bool, variation: float, count: int) -> tuple[int, int,
     """How often the interval of a mean and Student's hold it, and how much wider the former is."""
     draws, width = generator(3, normal, variation, count).normal(size=(DRAWN, count)), sqrt(np.log1p(variation**2))
     found = mean_ratio(1 + variation * draws if normal else np.exp(width * draws - width**2 / 2))
-    (low, high), half = found.interval(), found.error * student(0.95, found.freedom)
+    (low, high), half = found.interval(), found.error * student(0.95, found.dof)
     held = (low <= 1) & (high >= 1), np.abs(found.value - 1) <= half
     return *(int(each.sum()) for each in held), (high - low) / (2 * half)
 

@@ -33,7 +33,7 @@ ANSWER = (
 def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figures and the answer."""
     report = compare.study("steep-and-slow", "standard", progress="lines")
-    found = report.findings[report.findings["claim"].isin(CLAIMS)]
+    found = report.table[report.table["claim"].isin(CLAIMS)]
     write_text(PAGE.with_suffix(".csv"), text(found.drop(columns=["regime", "meaning", "plot"])))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))

@@ -16,9 +16,8 @@ import compare
 from bem3d import BEM
 from compare import commands
 from compare.cli.app import COMMANDS, PYTHON_ONLY, SHARED
-from compare.library.case import Case
-from compare.library.case import Study as Varied
-from compare.solving.parameter_grid import Rectangle, on_two_grids
+from compare.library.case import Case, Variations
+from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
@@ -38,7 +37,7 @@ TINY = Case(
     elastomer=SLIDING.elastomer,
     motion=SLIDING.motion,
     roughness=SLIDING.roughness,
-    study=Varied(
+    study=Variations(
         speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,), surfaces=2, profiles=2
     ),
     bem=BEM(points=32),
@@ -119,7 +118,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     again = compare.run({"tiny": TINY}, folder, report=False)
     assert capfd.readouterr() == ("", "")
     assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
-    assert list(again.findings.columns) == list(COLUMNS)
+    assert list(again.table.columns) == list(COLUMNS)
 
 
 def test_a_run_shows_itself_in_a_notebook(found):
@@ -140,7 +139,7 @@ def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
 def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder, found):
     tree = compare.load(folder)
     datasets = [node for node in tree.subtree if "status" in node]
-    assert any("draw" in node.dims for node in datasets)
+    assert any("seed" in node.dims for node in datasets)
     assert {str(each) for node in datasets for each in node.status.values.ravel()} <= {"solved", "no contact"}
     content = json.loads((folder / "manifest.json").read_text())
     assert content["command"] == "run"
@@ -159,7 +158,7 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
     answers = compare.sweep(
         TINY, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=tmp_path, workers=1, report=False
     )
-    assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "draw": 2}
+    assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "seed": 2}
     assert answers.speed.values.tolist() == [0.0, 0.1]
     assert set(answers.status.values.ravel()) == {"solved"}
     bem = answers.sel(solver="BEM", grid="fine")
@@ -177,7 +176,7 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
     answers = compare.sweep(
         replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
     )
-    assert "draw" not in answers.dims
+    assert "seed" not in answers.dims
     assert (answers.friction_high > answers.friction).all()
 
 
@@ -208,10 +207,10 @@ class Twice(compare.Study):
 
     title = "The factor of two"
 
-    def rectangles(self):
+    def grids(self):
         grids = on_two_grids(MDR(points=300), BEM(points=48))
         smooth = replace(SLIDING, roughness=None)
-        return {"smooth": Rectangle(scene=smooth, speeds=(0.005,), values=(1.0,), grids=grids, draws={})}
+        return {"smooth": ParameterGrid(scene=smooth, speeds=(0.005,), values=(1.0,), grids=grids, draws={})}
 
     def claims(self):
         def ratio(sample):
@@ -222,7 +221,7 @@ class Twice(compare.Study):
 
 def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
     report = compare.solve(Twice(), tmp_path, workers=1)
-    assert report.findings.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
+    assert report.table.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
     assert report.path == tmp_path / "report.html"
     assert compare.load(tmp_path)["smooth/BEM"].sizes["grid"] == 2
     assert compare.solve(Twice(), tmp_path, report=False).path is None

@@ -76,7 +76,7 @@ def test_intervals_of_exponents_and_forecasts_hold_as_often_as_they_say_and_narr
 def test_one_more_measurement_amid_the_others_scatters_by_them_and_by_their_mean():
     law = fit(GRIDS, noisy(1e-7 * GRIDS**2.2, 3))
     # Six points, two unknowns: Student's t of four degrees of freedom, 2.7764.
-    assert law.freedom == 4
+    assert law.dof == 4
     half = 2.7764 * law.scatter * sqrt(1 + 1 / 6)
     assert np.log(law.interval(law.centre)[1] / law.at(law.centre)) == pytest.approx(half, rel=1e-4)
 
@@ -130,7 +130,7 @@ def test_applications_of_a_smooth_solve_hardly_grow_with_the_grid():
     # a count, alike on every machine: from 64 to 512 points it may not grow by a fifth with each doubling, where
     # plain conjugate gradients take sqrt(2) times as many
     scene = Scene(SPHERE, KELVIN, Indent(load=LOAD))
-    counts = [BEM(points=n).solve(scene).applications for n in (64, 128, 256, 512)]
+    counts = [BEM(points=n).solve(scene).operator_applications for n in (64, 128, 256, 512)]
     assert all(after <= 1.2 * before for before, after in pairwise(counts)), counts
 
 

@@ -145,7 +145,7 @@ def test_one_scatter_stands_behind_all_points(tmp_path):
     errors = np.concatenate([curve.error for curve in data.curves])
     assert errors.max() / errors.min() == pytest.approx(np.sqrt(3), rel=1e-12)
     assert errors.min() == pytest.approx(0.01 / np.sqrt(3), rel=0.3)
-    assert data.freedom == len(lines) - errors.size
+    assert data.dof == len(lines) - errors.size
 
 
 def test_two_measurements_of_each_point_do_not_reject_a_law_that_holds(tmp_path):
@@ -599,7 +599,7 @@ def test_rows_of_the_figure_show_what_is_expected_where_curves_part_and_other_po
 def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):
     (tmp_path / "ball.csv").write_text(table())
     report = compare.mastercurve(tmp_path / "ball.csv", tmp_path / "out")
-    assert report.findings["verdict"].tolist()[:2] == [HOLDS, HOLDS]
+    assert report.table["verdict"].tolist()[:2] == [HOLDS, HOLDS]
     assert {"report.html", "findings.csv", "results.nc", "shifted-curves.png", "shifted-curves.csv"} <= {
         path.name for path in (tmp_path / "out").iterdir()
     }

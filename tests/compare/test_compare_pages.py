@@ -48,8 +48,8 @@ def folder(tmp_path_factory):
     drawn = []
     render.write(page(), FINDINGS, path, told=drawn.append)
     assert drawn == ["sphere/friction"]
-    values = {"friction_force": ("draw", [0.1, 1 / 3]), "status": ("draw", ["solved", "not asked"])}
-    dataset = xarray.Dataset(values, {"draw": [0, 1]})
+    values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
+    dataset = xarray.Dataset(values, {"seed": [0, 1]})
     netcdf.write(path / netcdf.NAME, xarray.DataTree.from_dict({"/sphere/MDR": dataset}))
     manifest.stamp(path, STUDY, page(), SWEPT, "solved")
     return path
@@ -420,7 +420,7 @@ def test_a_map_is_no_larger_than_the_grids_that_are_solved():
         with pytest.raises(ValueError, match="in pixels of"):
             touching.gridded(spread, "pressure", pixel)
     with pytest.raises(ValueError, match="not known at every"):
-        touching.rectangle(spread, "x", "y", "pressure")
+        touching.unstacked(spread, "x", "y", "pressure")
 
 
 def sealed(path, fill):

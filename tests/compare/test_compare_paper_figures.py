@@ -13,7 +13,7 @@ from compare.report.plots import style
 from compare.studies.paper import parameters
 from compare.studies.paper.claims import lines
 from compare.studies.paper.conditions import with_conditions
-from compare.studies.paper.contacts import contact_rectangle, contact_tables, with_nodes
+from compare.studies.paper.contacts import contact_grid, contact_tables, with_nodes
 from compare.studies.paper.figures import (
     contacts as paper_contacts,
 )
@@ -78,7 +78,7 @@ def ordered(x, y):
 def touching():
     found = {}
     for shape in parameters.SHAPES:
-        rectangle = contact_rectangle(shape)
+        rectangle = contact_grid(shape)
         outcomes = {task: task.solve() for task in rectangle.tasks()}
         found[shape] = with_nodes(rectangle.datasets(outcomes)["MDR"], rectangle.fields(outcomes))
     return found

@@ -10,14 +10,14 @@ from pandas import DataFrame
 
 import compare
 from bem3d import BEM
-from compare.library.case import Case, Study
+from compare.library.case import Case, Variations
 from compare.library.describe import described, slug
 from compare.report import csvfiles
 from compare.report.export import TABLES
 from compare.report.page import Findings, Plot, Table
 from compare.report.plots import style
 from compare.report.redraw import FIGURES
-from compare.solving.continuation import Path
+from compare.solving.continuation import Continuation
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FINE, tasks_of
 from compare.statistics import finding
@@ -47,7 +47,7 @@ CASE = Case(
     elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
     motion=Slide(speed=0.1, load=1.0),
     roughness=SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, shortest=2e-3, seed=5),
-    study=Study(
+    study=Variations(
         speeds=(0.1, 1.0),
         pressing=(0.3, 1.0, 3.0, 10.0),
         load_speeds=(0.03, 0.1, 0.3),
@@ -127,7 +127,7 @@ FRICTION, FORCE = 2.0, 1.1
 
 
 def contacts_on(task):
-    return task.contacts if isinstance(task, Path) else (task,)
+    return task.contacts if isinstance(task, Continuation) else (task,)
 
 
 def invented_of(run, **how):
@@ -235,7 +235,7 @@ def test_a_surface_that_failed_is_left_out_and_listed():
     assert found.loc["run.friction.own", "a case"]["value"] == pytest.approx(2)
     (case,) = run.judged(answers)
     assert set(case.failures["reason"]) == {"no answer"}
-    assert set(case.failures["draw"]) == {CASE.roughness.seed + 1}
+    assert set(case.failures["seed"]) == {CASE.roughness.seed + 1}
     points = case.points.query("solver == 'BEM' and body == 'rough'")
     assert set(points["failures"]) == {1}
     assert set(points["surfaces"]) == {2}
@@ -336,7 +336,7 @@ def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(re
 
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
 def test_one_value_of_everything_is_drawn_without_a_warning(motion):
-    one = Study(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
+    one = Variations(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
     run = Run({"one": replace(CASE, motion=motion, study=one)})
     answers = run.answers(invented_of(run))
     with style.applied():
@@ -382,7 +382,7 @@ def test_names_of_files_that_a_command_writes_are_those_of_folders_beside_them()
 
 @pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])
 def test_a_study_of_ones_own_is_written_below_its_folder(tmp_path, place):
-    study = type("Mine", (compare.Study,), {"place": place})()
+    study = type("Mine", (compare.Variations,), {"place": place})()
     with pytest.raises(InvalidInput, match=re.escape(place)):
         compare.solve(study, tmp_path / "out")
     assert not list(tmp_path.iterdir())

@@ -103,7 +103,7 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
     points, contacts = tables["sphere/points"], Contacts(asked.series[0], answers)
     assert len(points) == 2 * 2 * (1 + 6) * 5
     rough = points[(points["dimension"] == "3D") & (points["body"] == "rough")]
-    forces = (contacts("BEM")[name].mean("draw").values for name in ("friction_force", "normal_force"))
+    forces = (contacts("BEM")[name].mean("seed").values for name in ("friction_force", "normal_force"))
     ratio = np.divide(*forces)
     np.testing.assert_allclose(rough["friction_coefficient"].to_numpy().reshape(7, 5), ratio, rtol=1e-12)
     assert (rough["normal_force_low"] <= rough["normal_force"]).all()
@@ -117,7 +117,7 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
 def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
     study = ClaimStudy("empty", ReadyStudy("Empty", "About.", lambda size: [series]), "quick")
-    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.rectangles())}
+    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.grids())}
     answers = study.answers(outcomes)
     page = study.page(answers, study.findings(answers))
     assert list(page.answer) == []
@@ -137,5 +137,5 @@ def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(monkeyp
     page = both.page(tree, findings)
     assert len(page.answer) == len({each.claim.sentence for each in findings if each.verdict != REPORTED})
     assert {"mine/verdicts", "second/family"} <= {plot.name for plot in page.every(Plot)}
-    monkeypatch.setattr(AllStudies, "rectangles", lambda self: {})  # thousands of scenes
+    monkeypatch.setattr(AllStudies, "grids", lambda self: {})  # thousands of scenes
     assert [each.name for each in ClaimStudy.of("all").studies] == list(STUDIES)

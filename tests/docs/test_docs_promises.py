@@ -148,7 +148,9 @@ def test_a_promise_is_checked_where_the_truth_is_twice_as_fine_and_known():
 
 def test_costs_are_medians_of_what_solves_took_by_body_speed_and_points():
     tasks = list(costs.asked(range(6)))
-    spent = {task: Outcome((Row(1.0, seconds=float(k), applications=2.0 * k),)) for k, task in enumerate(tasks)}
+    spent = {
+        task: Outcome((Row(1.0, seconds=float(k), operator_applications=2.0 * k),)) for k, task in enumerate(tasks)
+    }
     found = costs.rows(tasks, spent)
     assert {each["cost"] for each in found} == set(COSTS)
     rest = [

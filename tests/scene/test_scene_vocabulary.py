@@ -67,7 +67,7 @@ UNITS = {
 LENGTH, MODULUS, TIME = 2.0**3, 2.0**-4, 2.0**5
 # What is left of rounding where a solver takes powers or logarithms, and iterates on them.
 TOLERANCE = 1e-6
-OF_THE_MACHINE = {"seconds", "residual", "applications"}
+OF_THE_MACHINE = {"seconds", "residual", "operator_applications"}
 
 
 @cache

@@ -15,6 +15,7 @@ from itertools import cycle
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
+from zlib import crc32
 
 import matplotlib
 import numpy as np
@@ -40,6 +41,7 @@ COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00"}
 MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "exact": ""}
 LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "exact": "-"}
 LABEL = {"MDR": "1D (MDR)", "CorrectedMDR": "1D, corrected", "BEM": "3D (BEM)", "exact": "closed form"}
+OTHERS = ("#009E73", "#CC79A7", "#8A6D00", "#7E57C2")  # colours of models that did not come with the package
 SERIES_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 
@@ -188,10 +190,10 @@ def chosen(look: Look) -> Iterator[None]:
 
 
 class _Palette(Mapping):
-    """Colours of solvers, and of closed forms, in the current look."""
+    """Colours of solvers, and of closed forms, in the current look; another model has one of its own for good."""
 
     def __getitem__(self, solver: str) -> str:
-        return ink() if solver == "exact" else current().palette[solver]
+        return ink() if solver == "exact" else current().palette.get(solver) or _own(solver, OTHERS)
 
     def __iter__(self) -> Iterator[str]:
         return iter((*COLOURS, "exact"))
@@ -246,8 +248,23 @@ def mark(times: float = 1.0) -> float:
 
 def look(solver: str, **other: Any) -> dict[str, Any]:
     """Colour, marker, line and label of a solver, with other settings of a curve."""
-    known = {"color": COLOUR[solver], "marker": MARKER[solver], "linestyle": LINE[solver], "label": LABEL[solver]}
+    known = {
+        "color": COLOUR[solver],
+        "marker": MARKER.get(solver) or ("" if solver == "exact" else _own(solver, SERIES_MARKERS[3:])),
+        "linestyle": LINE.get(solver) or _own(solver, SERIES_LINES[3:]),
+        "label": label(solver),
+    }
     return known | other
+
+
+def label(solver: str) -> str:
+    """Label of a solver: its name, of a model that did not come with the package."""
+    return LABEL.get(solver, solver)
+
+
+def _own(solver: str, choice: Sequence[Any]) -> Any:
+    """One of a choice for a model of a name, the same in every figure."""
+    return choice[crc32(solver.encode()) % len(choice)]
 
 
 def line(level: float, times: float = 1.0, **other: Any) -> dict[str, Any]:

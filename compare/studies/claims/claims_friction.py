@@ -91,7 +91,7 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
 
     def over_limit(answers):
         rest = answers.isel(speed=0)
-        force = rest["normal_force"].transpose(..., "draw").values
+        force = rest["normal_force"].transpose(..., "seed").values
         limit = series.speeds[0] * mean_ratio(slow_drag(series.scene.solid, solver, rest), force).value
         return geometric(mu(answers)[0] / limit)
 

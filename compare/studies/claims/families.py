@@ -11,7 +11,7 @@ from ...statistics.collapse import collapse
 from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
-from ...statistics.jackknife import Sample, friction, mean_ratio, measured
+from ...statistics.jackknife import DrawSet, friction, mean_ratio, measured
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
 from .judgement import JudgedSeries
@@ -40,7 +40,7 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
     loads, frictions = [], []
     for judged in members:
         answers, laws = sliding(judged.contacts(solver, ROUGH, grid)), judged.laws[solver]
-        force, drag = (answers[name].transpose(..., "draw").values for name in ("normal_force", "friction_force"))
+        force, drag = (answers[name].transpose(..., "seed").values for name in ("normal_force", "friction_force"))
         mean = mean_ratio(force).value[..., None]
         unit = 1 / laws.xi_under(mean[..., 0])[..., None] / mean
         loads.append((force * unit).reshape(-1, force.shape[2]))
@@ -89,7 +89,7 @@ def _slope_exponents(members, solver, shape):
     plateaus = np.array([each.plateau for each in laws])
     # The same surfaces are left out of all series.
     fine, coarse = (
-        Sample({each.series.name: each.contacts.sample(grid, ROUGH, solver)[solver] for each in alike})
+        DrawSet({each.series.name: each.contacts.sample(grid, ROUGH, solver)[solver] for each in alike})
         for grid in (FINE, COARSE)
     )
     slow = np.all([(each.xi[0] <= SLOW) & (each.slowest_loss <= SLOW) for each in laws], axis=0)

@@ -145,7 +145,7 @@ def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:
 def _draws(answers, name):
     """Variable with the draws along the last axis; smooth bodies have one."""
     values = answers[name]
-    return values.transpose(..., "draw").values if "draw" in values.dims else values.values[..., None]
+    return values.transpose(..., "seed").values if "seed" in values.dims else values.values[..., None]
 
 
 def _power(rates):

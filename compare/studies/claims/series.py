@@ -13,8 +13,8 @@ from scene import Program, Scene
 from scene.reading import InvalidInput
 
 from ...library.describe import slug
-from ...solving.parameter_grid import FINE, Rectangle, on_two_grids
-from ...statistics.jackknife import Sample
+from ...solving.parameter_grid import FINE, ParameterGrid, on_two_grids
+from ...statistics.jackknife import DrawSet
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
@@ -81,14 +81,14 @@ class Series:
         return bool(self.speeds) and not self.pressed_in
 
     @cached_property
-    def rectangles(self) -> Mapping[str, Rectangle]:
-        """Rectangles of the rough and of the smooth body, by "series/body"; the first speed is rest.
+    def grids(self) -> Mapping[str, ParameterGrid]:
+        """Parameter grids of the rough and of the smooth body, by "series/body"; the first speed is rest.
 
         Raises InvalidInput if the scene has no roughness.
         """
         if self.scene.roughness is None:
             raise InvalidInput(f"{self.title}: a series asks what roughness does, and this scene has none")
-        rough = Rectangle(
+        rough = ParameterGrid(
             scene=self.scene,
             speeds=(0.0, *self.speeds),
             values=self.values,
@@ -100,7 +100,7 @@ class Series:
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The rough scene under one load or depth, at rest or at a speed."""
-        return self.rectangles[f"{self.name}/{ROUGH}"].at(value, speed)
+        return self.grids[f"{self.name}/{ROUGH}"].at(value, speed)
 
 
 @dataclass(frozen=True)
@@ -121,11 +121,11 @@ class Contacts:
         nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
 
-    def sample(self, grid: str, body: str, *solvers: str) -> Sample:
+    def sample(self, grid: str, body: str, *solvers: str) -> DrawSet:
         """Datasets by the name of the solver, of which draws can be left out; always the same object."""
         key = grid, body, solvers
         if key not in self._samples:
-            self._samples[key] = Sample({solver: _measured(self(solver, body, grid)) for solver in solvers})
+            self._samples[key] = DrawSet({solver: _measured(self(solver, body, grid)) for solver in solvers})
         return self._samples[key]
 
     @cached_property

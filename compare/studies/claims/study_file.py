@@ -343,8 +343,8 @@ def _in_file(mistake, own, number):
 def _refused(stated: _Stated, number: int) -> Iterator[str]:
     """Refusals of the solvers at the least size."""
     try:
-        for rectangle in stated.series(SIZES["quick"]).rectangles.values():
-            rectangle.refuse()
+        for grid in stated.series(SIZES["quick"]).grids.values():
+            grid.refuse()
     except ValidationError as error:
         yield from (f"series.{number}: {each['msg']}" for each in error.errors())
     except (Refused, SolveError, ArithmeticError) as error:

@@ -109,7 +109,7 @@ def _points(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
     by = dict(zip(shifts.temperatures.tolist(), shifts.shifts.value.tolist(), strict=True))
     frame.insert(2, "reduced_speed", frame["speed"] * np.exp(frame["temperature"].map(by)))
     errors = np.array([pooled.error(each) for each in pooled.points])
-    width = errors * student(0.95, pooled.freedom)
+    width = errors * student(0.95, pooled.dof)
     frame["friction_coefficient_low"] = frame["friction_coefficient"] * np.exp(-width)
     frame["friction_coefficient_high"] = frame["friction_coefficient"] * np.exp(width)
     groups = frame.groupby("press")

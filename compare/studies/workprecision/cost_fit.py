@@ -18,7 +18,7 @@ MEMORY_FROM = 256**2
 GROWING = ("points", "modes", "steps")
 LABELS = {
     "processor": "processor time",
-    "applications": "operator applications",
+    "operator_applications": "operator applications",
     "per_application": "time of an application",
     "per_transform": "time of an application, of n² log n",
     "memory": "memory",
@@ -27,7 +27,7 @@ LABELS = {
 STEPS = (
     *("ladder", "label", "title", "solver", "dimension", "along", "x"),
     *("points", "steps", "tolerance", "precision"),
-    *("processor", "wall", "repeats", "memory", "bytes_a_point", "applications", "transform_pairs"),
+    *("processor", "wall", "repeats", "memory", "bytes_a_point", "operator_applications", "transform_pairs"),
     *("seconds_an_application", "over_limit", "stored_bytes", "status", "reason"),
 )
 
@@ -55,7 +55,7 @@ class CostFit:
         dimension, label = DIMENSIONS[about["solver"]], about["title"]
         title = label if dimension in label else f"{dimension} {label}"
         nodes = rows["points"].astype(float) if dimension == "1D" else rows["points"].astype(float) ** 2
-        plain = (rows["transform_pairs"] - rows["applications"]) * rows["plain_product"]
+        plain = (rows["transform_pairs"] - rows["operator_applications"]) * rows["plain_product"]
         steps = rows.assign(
             ladder=name,
             label=label,
@@ -65,8 +65,8 @@ class CostFit:
             along=about["setting"],
             nodes=nodes,
             bytes_a_point=rows["memory"] / nodes,
-            seconds_an_application=rows["processor"] / rows["applications"],
-            over_limit=rows["processor"] / (rows["applications"] * rows["padded_product"] + plain),
+            seconds_an_application=rows["processor"] / rows["operator_applications"],
+            over_limit=rows["processor"] / (rows["operator_applications"] * rows["padded_product"] + plain),
         )
         return cls(name, title, dimension, about["setting"], steps)
 
@@ -81,7 +81,7 @@ class CostFit:
         follows = fit if self.setting in GROWING else fit_whole
         found = {
             "processor": follows(x, self.known("processor")),
-            "applications": follows(x, self.known("applications")),
+            "operator_applications": follows(x, self.known("operator_applications")),
             "per_application": follows(x, each),
         }
         if self.dimension == "3D" and self.setting == "points":

@@ -113,7 +113,9 @@ def _tables(node: xarray.DataTree) -> Iterator[Table]:
 
 def _exponents_of(each):
     if each.setting == "points":
-        return ("processor", "memory") if each.dimension == "1D" else ("processor", "applications", "memory")
+        return (
+            ("processor", "memory") if each.dimension == "1D" else ("processor", "operator_applications", "memory")
+        )
     return ("processor",) if each.setting in GROWING else ()
 
 

@@ -104,7 +104,7 @@ class Ensemble:
 
         def filled(of, empty, kind=float):
             rows = [[of(row) for row in grid] + [empty] * (draws - len(grid)) for grid in grids]
-            return ("points", "draw"), np.array(rows, kind)
+            return ("points", "seed"), np.array(rows, kind)
 
         found = {
             VARIABLES[each.name]: filled(lambda row, of=each.of: of(row, {}), nan) for each in self.quantities
@@ -114,11 +114,14 @@ class Ensemble:
         measured = [[outcomes[task].rows[0] for task in self._timed_of(each)] for each in solvers]
         for cost in COSTS:
             found[cost] = "points", [np.mean([row.measures.get(cost, nan) for row in rows]) for rows in measured]
-        found["applications"] = "points", [np.mean([row.applications for row in rows]) for rows in measured]
+        found["operator_applications"] = (
+            "points",
+            [np.mean([row.operator_applications for row in rows]) for rows in measured],
+        )
         first = self.scene.roughness.seed
         coordinates = {
             "points": [solver.points for solver in solvers],
-            "draw": list(range(first, first + draws)),
+            "seed": list(range(first, first + draws)),
         }
         about = {"contact": self.name, "title": self.title, "solver": name}
         dataset = described(xarray.Dataset(found, coordinates, about), self.scene)
@@ -159,9 +162,9 @@ class Sample:
     def of(cls, dataset: xarray.Dataset, points: int) -> "Sample":
         """Sample of one grid of a solver."""
         grid = dataset.sel(points=points)
-        grid = grid.isel(draw=np.flatnonzero(grid["status"].values != NOT_ASKED))
+        grid = grid.isel(seed=np.flatnonzero(grid["status"].values != NOT_ASKED))
         values = {each.attrs["quantity"]: each.values for each in grid.values() if "quantity" in each.attrs}
-        costs = {name: grid[name].item() for name in (*COSTS, "applications")}
+        costs = {name: grid[name].item() for name in (*COSTS, "operator_applications")}
         reasons = tuple(str(reason) for reason in grid["reason"].values if reason)
         return cls(dataset.attrs["solver"], points, values, costs, reasons)
 
@@ -179,13 +182,13 @@ class MeasuredMean(Mean):
 
     truth : mean with its whole error: half of the interval of 95 % and that of the grid; NaN where more than
         MOST_FAILED of the surfaces have no answer
-    standard_error : statistical part of that error, relative; freedom : its degrees of freedom
+    standard_error : statistical part of that error, relative; dof : its degrees of freedom
     samples : of all grids of all solvers
     """
 
     truth: Known
     standard_error: float
-    freedom: float
+    dof: float
     samples: tuple[Sample, ...]
 
 
@@ -212,7 +215,7 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
                 "truth": mean.truth.value,
                 "scale": mean.truth.scale,
                 "truth_standard_error": mean.standard_error,
-                "truth_freedom": mean.freedom,
+                "truth_dof": mean.dof,
                 "truth_grid_error": mean.grid_error,
                 "solver": plan.solver,
                 "plan": plan.label,
@@ -225,14 +228,14 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
                 "scatter": level.scatter.value,
                 "scatter_low": low,
                 "scatter_high": high,
-                "scatter_freedom": level.scatter.freedom,
+                "scatter_dof": level.scatter.dof,
                 "surfaces": own.count,
                 "failed": len(own.reasons),
                 "reason": own.reasons[0] if own.reasons else "",
                 "processor": level.seconds,
                 "wall": own.costs["wall"],
                 "memory": own.costs["memory"],
-                "applications": own.costs["applications"],
+                "operator_applications": own.costs["operator_applications"],
             }
             rows.append(row)
     return rows
@@ -246,7 +249,7 @@ def _mean_of(variable, about, grids, lines):
     many, corrections = Scatter.of(first), best - first[: best.size]
     found = _corrected_mean(first, corrections)
     unit = variable.attrs.get("scale", abs(found.value) or nan)
-    known_mean = Estimated(found.value / unit, found.error / unit, found.freedom, found.skewness)
+    known_mean = Estimated(found.value / unit, found.error / unit, found.dof, found.skewness)
     known = np.isfinite(first)
     known[: corrections.size] &= np.isfinite(corrections)
     # Error of the finest grid at first order, from what it changes on the same surfaces.
@@ -266,12 +269,12 @@ def _mean_of(variable, about, grids, lines):
         values = sample.values[name]
         both = np.isfinite(values) & np.isfinite(first[: values.size])
         here, there = (Scatter.of(each[: values.size][both]) for each in (values, first))
-        scatter = Scatter(many.value * here.value / there.value / unit if there.value else nan, many.freedom)
+        scatter = Scatter(many.value * here.value / there.value / unit if there.value else nan, many.dof)
         return SamplingPlan("BEM", bias(sample), (Level((sample.points,), scatter, sample.costs["processor"]),))
 
     def corrected(sample):
         """A mean on the first grid, with what a finer one changes on surfaces of their own."""
-        scatter = Scatter(many.value / unit, many.freedom)
+        scatter = Scatter(many.value / unit, many.dof)
         coarse = Level((coarsest.points,), scatter, coarsest.costs["processor"])
         changes = sample.values[name] - first[: sample.values[name].size]
         spent = sample.costs["processor"] + coarsest.costs["processor"]
@@ -290,7 +293,7 @@ def _mean_of(variable, about, grids, lines):
     told = about["contact"], about["title"], name, variable.attrs["label"]
     samples = (*grids, *lines)
     failed = sum(len(sample.reasons) for sample in samples)
-    return MeasuredMean(*told, plans, left, failed, truth, known_mean.error, found.freedom, samples)
+    return MeasuredMean(*told, plans, left, failed, truth, known_mean.error, found.dof, samples)
 
 
 def _corrected_mean(first, corrections) -> Estimated:
@@ -301,14 +304,14 @@ def _corrected_mean(first, corrections) -> Estimated:
     value = float(many.value + few.value)
     if both.sum() < 2:
         return Estimated(value, nan, 0.0)
-    covariance = float(np.cov(shared[both], corrections[both])[0, 1]) / (many.freedom + 1)
+    covariance = float(np.cov(shared[both], corrections[both])[0, 1]) / (many.dof + 1)
     parts = float(many.error) ** 2, float(few.error) ** 2
     whole = sum(parts)
-    freedom = whole**2 / (parts[0] ** 2 / many.freedom + parts[1] ** 2 / few.freedom) if whole else inf
+    dof = whole**2 / (parts[0] ** 2 / many.dof + parts[1] ** 2 / few.dof) if whole else inf
     # What each surface adds to the sum of both.
-    added = np.nan_to_num(first - many.value) / (many.freedom + 1)
-    added[: corrections.size] += np.nan_to_num(corrections - few.value) / (few.freedom + 1)
-    return Estimated(value, sqrt(max(whole + 2 * covariance, 0.0)), freedom, float(skewness(added)))
+    added = np.nan_to_num(first - many.value) / (many.dof + 1)
+    added[: corrections.size] += np.nan_to_num(corrections - few.value) / (few.dof + 1)
+    return Estimated(value, sqrt(max(whole + 2 * covariance, 0.0)), dof, float(skewness(added)))
 
 
 def _mean(values):

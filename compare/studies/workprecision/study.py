@@ -13,7 +13,7 @@ from ...report.page import Block, Findings, Plot, Section, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...statistics.finding import Finding
-from ..study import Study
+from ..study import Hooked
 from . import elastic, extent, marching, mdr, precision, sliding
 from .costs import COSTS_DIAGRAM
 from .diagram import Diagram, advice
@@ -45,7 +45,7 @@ reason in the table."""
 
 
 @dataclass(frozen=True)
-class WorkPrecision(Study):
+class WorkPrecision(Hooked):
     """Diagrams of error over time.
 
     names : of DIAGRAMS
@@ -131,7 +131,7 @@ class WorkPrecision(Study):
             found.append(Section(each.title, [*figures, *tables, Findings(self._of(each, findings))]))
         return found
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    def settings(self, answers: xarray.DataTree) -> Sequence[Block]:
         """Meaning of errors and times, and the contacts of each diagram."""
         return [Text(ABOUT.replace("\n", " "))] + [
             Section(f"Contacts of the diagram: {each.title}", [Text(each.about)]) for each in self.diagrams

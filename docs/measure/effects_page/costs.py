@@ -62,7 +62,7 @@ class Cost:
     def multiples(self) -> dict[str, float]:
         """By the names of `scene.costs.COSTS`: over those without the effect; of a program, a step of it."""
         steps = self.row.measures.get("time_steps", 1.0)
-        applications = self.row.applications / self.over.applications
+        applications = self.row.operator_applications / self.over.operator_applications
         return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
 
 
@@ -155,7 +155,7 @@ def _cells(name, cost):
         name: seconds(cost.seconds),
         f"times, {name}": times,
         f"memory, {name}": size(memory) if isfinite(memory) else "not known",
-        f"applications, {name}": f"{cost.row.applications:.0f}",
+        f"applications, {name}": f"{cost.row.operator_applications:.0f}",
     }
 
 
@@ -170,7 +170,7 @@ def _sheet(name, cost):
         "wall": row.measures.get("wall", nan),
         "memory": row.measures.get("memory", nan),
         "repeats": row.measures.get("repeats", nan),
-        "applications": row.applications,
+        "operator_applications": row.operator_applications,
         "time_steps": row.measures.get("time_steps", nan),
         "reason": row.reason or "",
     }

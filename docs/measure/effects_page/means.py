@@ -47,12 +47,12 @@ def ratio(above: Estimate, below: Estimate) -> Estimated:
         return Estimated(nan, nan, 0)
     value = above.mean / below.mean
     off = _relative(above).less(_relative(below))
-    return Estimated(value, abs(value) * off.error, off.freedom, np.sign(value) * off.skewness)
+    return Estimated(value, abs(value) * off.error, off.dof, np.sign(value) * off.skewness)
 
 
 def _relative(one):
     found = one.found
-    return Estimated(1.0, found.error / abs(one.mean), found.freedom, np.sign(one.mean) * found.skewness)
+    return Estimated(1.0, found.error / abs(one.mean), found.dof, np.sign(one.mean) * found.skewness)
 
 
 def between(found: Estimated, unit: str = "") -> str:

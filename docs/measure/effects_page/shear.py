@@ -225,7 +225,7 @@ def _costs(outcomes) -> Rows:
         for rough in (False, True):
             answer = outcomes[_sized(points, rough)].rows[0]
             drawn = answer.measures.get("tangential_applications", np.nan)
-            body, pressed = "rough" if rough else "smooth", answer.applications - drawn
+            body, pressed = "rough" if rough else "smooth", answer.operator_applications - drawn
             row |= {
                 f"{body}: pressure": f"{pressed:.0f}",
                 f"{body}: tractions": f"{drawn:.0f}",

@@ -68,7 +68,7 @@ def figure(
     _against_points(times, by_points, laws, "processor", "processor time [s]")
     _forecasts(times, by_points, laws, forecasts, "time", "processor", largest)
     deep = {each: rows for each, rows in by_points.items() if rows["dimension"].iloc[0] == "3D"}
-    _against_points(applications, deep, laws, "applications", "operator applications [1]")
+    _against_points(applications, deep, laws, "operator_applications", "operator applications [1]")
     held = {}
     for each, rows in by_points.items():
         nodes = rows["x"] if rows["dimension"].iloc[0] == "1D" else rows["x"] ** 2

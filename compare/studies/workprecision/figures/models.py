@@ -184,7 +184,7 @@ def _mean_curve(axes, plan: SamplingPlan, look):
     (level,) = plan.levels
     if not (isfinite(level.seconds) and isfinite(plan.bias.size) and isfinite(level.scatter.value)):
         return
-    solved = level.scatter.freedom + 1
+    solved = level.scatter.dof + 1
     for first, last, line in ((1, solved, "-"), (solved, LONGEST, FORECAST)):
         counts = np.geomspace(first, last, 120)
         drawn = look | {"linestyle": line, "zorder": 3}

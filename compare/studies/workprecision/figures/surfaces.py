@@ -54,7 +54,7 @@ def _plan(rows: DataFrame) -> SamplingPlan:
     levels = tuple(
         Level(
             (int(row.points), *([int(row.coarser_points)] if row.coarser_points else [])),
-            Scatter(float(row.scatter), int(row.scatter_freedom)),
+            Scatter(float(row.scatter), int(row.scatter_dof)),
             float(row.processor),
         )
         for row in rows.itertuples()
