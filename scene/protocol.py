@@ -29,7 +29,7 @@ class Solver(Protocol):
 
     refusals(scene) : reasons why a scene cannot be solved, a sentence each; without it none is refused beforehand
     foreseen(scene) : reasons why a solve would fail, found beforehand; none
-    points, steps : settings of its grid and of its steps in time, halved to know their error; it has no coarser grid
+    points, steps : settings of its grid and its steps in time, halved to know their error; it has no coarser grid
     label : what it is called beside 1D and 3D; its name
     draws : what its means are taken over: "profiles" in one dimension, "surfaces", or "none"; surfaces
     packages : names of the packages whose code its answers depend on; the package of its class

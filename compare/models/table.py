@@ -115,9 +115,10 @@ class Models:
         Raises InvalidInput for another name, two models of one name, fewer than two, and another reference.
         """
         settings: Mapping[str, Solver] = own if own is not None else {name: make() for name, make in OWN.items()}
-        if isinstance(asked, str):
-            asked = [name.strip() for name in asked.split(",")]
-        found = [Model.of(named(each, settings) if isinstance(each, str) else each) for each in asked or settings]
+        found = [
+            Model.of(named(each, settings) if isinstance(each, str) else each)
+            for each in listed(asked) or settings
+        ]
         names = [each.name for each in found]
         if len(set(names)) < len(names):
             raise InvalidInput(f"models = {', '.join(names)}: two have one name, each its own is allowed")
@@ -152,6 +153,13 @@ class Models:
     def beside(self, name: str) -> str:
         """Dimension of a number of one model over the reference, as findings have it: 1D/3D."""
         return f"{self[name].label}/{self[self.reference].label}"
+
+
+def listed(asked: Sequence[ModelLike] | None) -> tuple[ModelLike, ...]:
+    """Models one by one, also of names separated by commas; none where none is asked for."""
+    if isinstance(asked, str):
+        return tuple(name.strip() for name in asked.split(","))
+    return tuple(asked or ())
 
 
 def named(name: str, own: Mapping[str, Solver]) -> Solver:

@@ -51,8 +51,6 @@ def averaged(points: DataFrame) -> str:
     if rough.empty:
         return "The body is smooth: bars are the change on halving the grid."
     count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
-    others = [f", {count[name]} draws ({name})" for name in count.keys() - {"MDR", "BEM"}]
-    return (
-        f"Means over {count.get('MDR', 0)} profiles (1D) and {count.get('BEM', 0)} surfaces (3D){''.join(sorted(others))}; "
-        "bars are intervals of 95 %."
-    )
+    means = [f"{count.get('MDR', 0)} profiles (1D)", f"{count.get('BEM', 0)} surfaces (3D)"]
+    means += [f"{number} draws ({name})" for name, number in count.items() if name not in ("MDR", "BEM")]
+    return f"Means over {', '.join(means[:-1])} and {means[-1]}; bars are intervals of 95 %."

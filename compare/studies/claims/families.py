@@ -15,7 +15,7 @@ from ...statistics.jackknife import DrawSet, friction, mean_ratio, measured
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
 from .judgement import JudgedSeries
-from .series import FAMILIES, ROUGH, SOLVERS, sliding
+from .series import FAMILIES, ROUGH, sliding
 
 PLOT = "family"
 
@@ -53,7 +53,7 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
 def family_findings(series: Sequence[JudgedSeries]) -> Iterator[Finding]:
     """Findings for each shape and dimensionality."""
     for shape, members in families(series).items():
-        for solver in SOLVERS:
+        for solver in members[0].laws:
             yield _one_curve(members, solver, shape)
             yield from _slope_exponents(members, solver, shape)
 
@@ -64,7 +64,7 @@ def _one_curve(members, solver, shape):
     found = eq23.finding(CLAIMS["eq18.one-curve"], fine, coarse, unknown)
     return replace(
         found,
-        dimension=SOLVERS[solver],
+        dimension=members[0].contacts.labels[solver],
         where=f"every {shape}",
         draws=members[0].series.draws[solver],
         regime=_words(members, solver),
@@ -109,7 +109,9 @@ def _slope_exponents(members, solver, shape):
             return power(plateaus, np.array(levels))
 
         words = at_xi(np.array([each.xi[place][values] for each in laws]), _words(alike, solver))
-        yield measured(claim(name, exponent, SOLVERS[solver]), fine, coarse, f"every {shape}", words, PLOT)
+        yield measured(
+            claim(name, exponent, members[0].contacts.labels[solver]), fine, coarse, f"every {shape}", words, PLOT
+        )
 
 
 def _apart_by_height(members):

@@ -1,6 +1,6 @@
 """Series of a study: one scene at every speed and every load or depth, rough and smooth, on the same surfaces."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
@@ -13,6 +13,7 @@ from scene import Program, Scene
 from scene.reading import InvalidInput
 
 from ...library.describe import slug
+from ...models.table import ModelLike, Models
 from ...solving.parameter_grid import FINE, ParameterGrid, on_two_grids
 from ...statistics.jackknife import DrawSet
 
@@ -21,8 +22,7 @@ ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # each, all that compares the dimensionalities, and what compares several series.
 COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = KINDS = "collapse", "friction", "depth", "dimensions", "families"
 SOLVERS = {"MDR": "1D", "BEM": "3D"}
-# What touches, a length [m] or an area [m²].
-CONTACT = {"MDR": "contact_length", "BEM": "contact_area"}
+CONTACT = {"profiles": "contact_length", "surfaces": "contact_area", "none": "contact_area"}  # [m], [m²]
 # Variables that claims are measured on; others are not copied for every draw that is left out.
 MEASURED = ("normal_force", "friction_force", "depth_reached")
 AT_REST = ("curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area")
@@ -41,6 +41,7 @@ class Series:
     bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
     note : what is to be said of it on the page
     claims : which kinds of claims are judged, out of KINDS
+    asked, reference : models and the reference among them, see `Models.of`; MDR and BEM if none is asked for
     """
 
     name: str
@@ -54,6 +55,8 @@ class Series:
     mdr: MDR
     note: str = ""
     claims: tuple[str, ...] = KINDS
+    asked: tuple[ModelLike, ...] = ()
+    reference: str = ""
 
     @property
     def folder(self) -> str:
@@ -67,8 +70,13 @@ class Series:
 
     @property
     def draws(self) -> dict[str, int]:
-        """Number of profiles or surfaces by the name of the solver."""
-        return {"MDR": self.profiles, "BEM": self.surfaces}
+        """Number of profiles or surfaces by the name of the model."""
+        return {each.name: each.count(self.profiles, self.surfaces) for each in self.models}
+
+    @cached_property
+    def models(self) -> Models:
+        """Models that are compared. Raises InvalidInput."""
+        return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
 
     @property
     def pressed_in(self) -> bool:
@@ -92,7 +100,7 @@ class Series:
             scene=self.scene,
             speeds=(0.0, *self.speeds),
             values=self.values,
-            grids=on_two_grids(self.mdr, self.bem),
+            grids=on_two_grids(*(each.solver for each in self.models)),
             draws=self.draws,
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
@@ -111,13 +119,26 @@ class Contacts:
     answers: xarray.DataTree
 
     def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> xarray.Dataset:
-        """Dataset on one grid, rest first."""
-        return self.datasets[solver, body].sel(grid=grid)
+        """Dataset on one grid, rest first; a model without another grid has no error of it."""
+        found = self.datasets[solver, body]
+        return found.sel(grid=grid if grid in found["grid"] else FINE)
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """Labels of the models by name: 1D, 3D."""
+        return self.series.models.labels
+
+    def pairs(self) -> Iterator[tuple[str, str, str]]:
+        """Each model and the reference, by name, and their dimension in findings: MDR, BEM, 1D/3D."""
+        models = self.series.models
+        return ((each.name, models.reference, models.beside(each.name)) for each in models.judged)
 
     @cached_property
     def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:
         """Datasets on both grids, by solver and body."""
-        places = {(solver, body): f"{self.series.name}/{body}/{solver}" for solver in SOLVERS for body in BODIES}
+        places = {
+            (solver, body): f"{self.series.name}/{body}/{solver}" for solver in self.labels for body in BODIES
+        }
         nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
 

@@ -16,6 +16,7 @@ from scene.reading import InvalidInput, text_of
 from ...library.describe import described, slug
 from ...library.lookup import located
 from ...library.ready import ready, studies
+from ...models.table import ModelLike, listed
 from ...report.page import Block, Findings, Section, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid, refuse
@@ -29,7 +30,7 @@ from .families import family_findings
 from .figures import tables as study_plots
 from .judgement import JudgedSeries, judge_series
 from .points import failures, points
-from .series import SOLVERS, Contacts, Series
+from .series import Contacts, Series
 from .study_file import study_of
 
 ALL = "all"
@@ -61,31 +62,41 @@ class ClaimStudy(Study):
     study : the question
     size : a name of SIZES
     source : text of the file of a study that does not come with the package
+    models, reference : in place of those that its file names, see `Models.of`
     """
 
     name: str
     study: ReadyStudy
     size: str
     source: str | None = None
+    models: tuple[ModelLike, ...] = ()
+    reference: str = ""
 
     command = "study"
 
     @classmethod
-    def of(cls, name: str | Path, size: str = "quick") -> "ClaimStudy | AllStudies":
+    def of(
+        cls,
+        name: str | Path,
+        size: str = "quick",
+        models: Sequence[ModelLike] | None = None,
+        reference: str | None = None,
+    ) -> "ClaimStudy | AllStudies":
         """The study of a name that comes with the package, all of them, or that of a file.
 
         Raises InvalidInput, Refused.
         """
         known("size", size, SIZES)
         found: ClaimStudy | AllStudies
+        chosen = listed(models), reference or ""
         if name == ALL:
-            found = AllStudies(tuple(cls(each, study, size) for each, study in STUDIES.items()))
+            found = AllStudies(tuple(cls(each, study, size, None, *chosen) for each, study in STUDIES.items()))
         elif name in STUDIES:
-            found = cls(str(name), STUDIES[str(name)], size)
+            found = cls(str(name), STUDIES[str(name)], size, None, *chosen)
         else:
             path = _located(name)
             text = text_of(path)
-            found = cls(path.stem, study_of(text, str(path)), size, text)
+            found = cls(path.stem, study_of(text, str(path)), size, text, *chosen)
         refuse(found.grids().values())
         return found
 
@@ -109,7 +120,13 @@ class ClaimStudy(Study):
     @cached_property
     def series(self) -> tuple[Series, ...]:
         """Series that are solved at this size."""
-        return tuple(self.study.series(SIZES[self.size]))
+        found = tuple(self.study.series(SIZES[self.size]))
+        if not (self.models or self.reference):
+            return found
+        return tuple(
+            replace(each, asked=self.models or each.asked, reference=self.reference or each.reference)
+            for each in found
+        )
 
     def grids(self) -> Mapping[str, ParameterGrid]:
         """Parameter grids of the rough and of the smooth body of every series, by "series/body"."""
@@ -272,9 +289,9 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
         f"{series.profiles} profiles of {series.mdr.points} points in 1D, {series.surfaces} surfaces of "
         f"{series.bem.points}² in 3D, each also on half the points a side"
     )
-    for solver, dimension in SOLVERS.items():
+    for solver, dimension in judged.contacts.labels.items():
         answers = judged.contacts(solver)
         known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)
         if np.isfinite(known).any():
-            words = f"; {judged.laws[solver].words}" if judged.laws else ""
+            words = f"; {judged.laws[solver].words}" if solver in judged.laws else ""
             yield f"{dimension}: rms slope {np.nanmean(known):.3g}{words}"

@@ -28,7 +28,7 @@ CURVES = {
 
 
 def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: str | None = None) -> Models:
-    """Models that are asked for, else those that a case names, with the settings of the case. Raises InvalidInput."""
+    """Models that are asked for, else those that a case names, with the case's settings. Raises InvalidInput."""
     own: dict[str, Solver] = {"mdr": case.mdr, "bem": case.bem}
     return Models.of(asked or case.models or None, reference or case.reference or None, own)
 

@@ -11,12 +11,12 @@ import xarray
 from pandas import DataFrame
 
 from scene import Refused, Scene, notes
-from scene.vocabulary import FIELDS as DEFINED
+from scene.result import labelled
 
 from ...library.case import Case, NotCompared, doubted
 from ...library.describe import described, folders
 from ...library.lookup import SceneLike, named_cases
-from ...models.table import ModelLike, Models
+from ...models.table import ModelLike, Models, listed
 from ...report.page import Block, Findings, Plot, Section, Table, Text
 from ...report.plots import contact_maps, shifted_curves
 from ...report.views import view
@@ -57,7 +57,7 @@ class Run(Study):
     """
 
     cases: Mapping[str, Case]
-    asked: tuple[ModelLike, ...] | None = None
+    asked: tuple[ModelLike, ...] = ()
     reference: str | None = None
 
     command, title = "run", "One dimension against three"
@@ -72,7 +72,7 @@ class Run(Study):
         """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
         asked = scene if isinstance(scene, str | Path) else "scene"
         try:
-            run = cls(named_cases(scene), None if models is None else tuple(models), reference)
+            run = cls(named_cases(scene), listed(models), reference)
             run.grids()
         except NotCompared as error:
             if not isinstance(scene, str | Path):
@@ -138,7 +138,7 @@ class Run(Study):
         for name, found in self._curves.items():
             folder = self.folders[name]
             for solver, kept in found[OWN].fields(outcomes).items():
-                parts[f"/{folder}/{FIELDS}/{solver}"] = _fields(kept, self.cases[name].indenter.type)
+                parts[f"/{folder}/{FIELDS}/{solver}"] = labelled(kept, self.cases[name].indenter.type)
             parts[f"/{folder}/{TIMES}"] = _times(parameter_grid.contacts_of(found), outcomes)
         return xarray.DataTree.from_dict(
             {node.path: node.to_dataset(inherit=False) for node in super().answers(outcomes).subtree} | parts
@@ -323,28 +323,6 @@ def _smooth_limit(found: CaseFindings) -> Plot | None:
     return smooth_limit.plot(
         table, slow_friction(found.case, found.models), found.models.reference, f"{found.folder}/"
     )
-
-
-def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
-    """Fields of one contact along the axes of the vocabulary, where all of them agree on how long those are."""
-    # A field that is called like an axis is that axis, or there is none.
-    axes = {name: np.asarray(values) for name, values in kept.items() if DEFINED[name].axes == (name,)}
-    lengths = {name: values.size if values.ndim == 1 else -1 for name, values in axes.items()}
-    variables = {}
-    for name, values in kept.items():
-        entry, values = DEFINED[name], np.asarray(values)
-        dims = entry.axes
-        if len(dims) > values.ndim:
-            dims = tuple(axis for axis in dims if axis != "y")
-        agree = len(dims) == values.ndim and all(
-            lengths.setdefault(axis, size) == size for axis, size in zip(dims, values.shape, strict=True)
-        )
-        if not agree:
-            dims = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-        plain = name.replace("_", " ")
-        said = {"units": entry.unit_under(indenter), "long_name": plain, "comment": entry.text}
-        variables[name] = dims, values, said if agree else {"long_name": plain}
-    return xarray.Dataset(variables)
 
 
 def _times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
