@@ -279,9 +279,10 @@ def sweep(
 ) -> xarray.Dataset:
     """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
 
-    Returns a Dataset with the dimensions solver, grid, speed, load or depth, and draw: every single draw with its
-    `status` and `reason`, and the means over draws on the fine grid, `friction`, `force` and `reached`, each with
-    `_low` and `_high`, the interval of 95 % with the scatter of draws and the change on halving the grid.
+    Returns a Dataset with the dimensions solver, grid, speed, load or depth, and seed: every single draw with its
+    `status` and `reason`, and the means over draws on the fine grid, `friction_coefficient_mean`,
+    `normal_force_mean` and `depth_reached_mean`, each with `_low` and `_high` in place of `_mean`: the interval of
+    95 % with the scatter of draws and the change on halving the grid.
     `friction_error` bounds what the grid leaves of friction in 95 % of draws; above a tenth UncertainFriction is
     warned.
 

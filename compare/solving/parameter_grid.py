@@ -35,11 +35,13 @@ SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked
 NO_DRAWS = "none"  # of a model that answers for all surfaces at once
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
 MOST_ASKED = 1000  # lines drawn, whether each fits its grid
-# What a solver gives of every contact, by the names of a Dataset.
+# What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
+# march answers half a step before.
 NUMBERS = {
     "normal_force": "normal_force",
     "depth_reached": "depth",
     "friction_force": "friction_force",
+    "friction_coefficient": "friction_coefficient",
     "residual": "residual",
     "operator_applications": "operator_applications",
     "seconds": "seconds",
@@ -175,7 +177,8 @@ class ParameterGrid:
         values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
         for measure in sorted({measure for row in rows for measure in row.measures}):
             values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
-        values["friction_force"] = np.where(touched, values["friction_force"], nan)
+        for name in ("friction_force", "friction_coefficient"):
+            values[name] = np.where(touched, values[name], nan)
         reasons = array(lambda row: row.reason or "", object)
         random = self.random and getattr(grids[FINE], "draws", "") != NO_DRAWS
         dims = ["grid", "speed", self.prescribed, "seed"]

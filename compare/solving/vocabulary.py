@@ -131,7 +131,6 @@ scatter_dof : Degrees of freedom of the scatter. [1]
 failed : Solves that ended with an error. [1]
 first_surfaces : Surfaces on the coarser grid of a plan. [1]
 cheapest : Whether the plan reaches the error in the least time of all.
-reached : Mean depth that was reached, above zero into the elastomer. [m]
 surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
 drag : Friction over real contact, over that under the least load. [1]
@@ -307,12 +306,12 @@ def _term(line: str) -> Term:
 LABELS: Mapping[str, Entry] = {
     **{name: _term(line) for name, line in documented(_WORDS)[1].items()},
     "load": Entry("N", "Normal force that was prescribed.", along_line="N/m"),
-    "force": Entry("N", "Mean normal force.", along_line="N/m"),
     "depth_reached": NUMBERS["depth"],
 }
 
 # What an ending adds to the meaning of a name.
 ENDINGS = {
+    "_mean": "Mean over draws. ",
     "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",

@@ -21,6 +21,7 @@ ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coeffi
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 # Never negative: their intervals are those of their logarithms.
 SIZES = ("rms_slope",)
+ENDS = "_mean", "_deviation", "_low", "_high"
 
 
 class Interval(NamedTuple):
@@ -67,7 +68,10 @@ def means(dataset: xarray.Dataset) -> DataFrame:
         found = interval(dataset, above, below, name in SIZES)
         one = fine[above] if below is None else fine[above] / fine[below].where(fine[below] != 0)
         deviation = one.std("seed", ddof=1) if "seed" in one.dims else xarray.full_like(one, nan)
-        columns |= {name: found.value, f"{name}_deviation": deviation.transpose("speed", prescribed).values}
+        columns |= {
+            f"{name}_mean": found.value,
+            f"{name}_deviation": deviation.transpose("speed", prescribed).values,
+        }
         columns |= {f"{name}_low": found.low, f"{name}_high": found.high}
     for name in AVERAGED:
         if name in fine:

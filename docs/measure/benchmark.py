@@ -361,7 +361,7 @@ def steady_sliding(largest: int) -> str:
                     name,
                     f"1e{decade}",
                     f"{row['rounds']:.0f}",
-                    f"{row['applications']:.0f}",
+                    f"{row['operator_applications']:.0f}",
                     f"{row['transform_pairs']:.0f}",
                     f"{row['seconds']:.3g}",
                     f"{row['friction']:.5g}",

@@ -162,11 +162,14 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
     assert answers.speed.values.tolist() == [0.0, 0.1]
     assert set(answers.status.values.ravel()) == {"solved"}
     bem = answers.sel(solver="BEM", grid="fine")
-    assert answers.friction.sel(solver="BEM").values == pytest.approx(friction(bem))
+    assert answers.friction_coefficient_mean.sel(solver="BEM").values == pytest.approx(friction(bem))
     assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
-    assert (answers.friction_low <= answers.friction).all()
+    assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
     grid = abs(friction(bem) - friction(answers.sel(solver="BEM", grid="coarse")))
-    assert (answers.friction_high.sel(solver="BEM") - answers.friction.sel(solver="BEM") >= grid - 1e-12).all()
+    assert (
+        answers.friction_coefficient_high.sel(solver="BEM") - answers.friction_coefficient_mean.sel(solver="BEM")
+        >= grid - 1e-12
+    ).all()
     assert isinstance(compare.friction_plot(answers), Figure)
     again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
     xarray.testing.assert_identical(again, answers)
@@ -177,7 +180,7 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
         replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
     )
     assert "seed" not in answers.dims
-    assert (answers.friction_high > answers.friction).all()
+    assert (answers.friction_coefficient_high > answers.friction_coefficient_mean).all()
 
 
 @pytest.mark.parametrize(

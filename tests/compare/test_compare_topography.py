@@ -210,7 +210,7 @@ def test_a_number_is_finite_or_has_its_reason(tmp_path, kind, length, pixel):
     heights = EDGES[kind].astype(float)
     heights *= length / np.abs(heights).max()
     study = Map.of(saved(tmp_path, heights), pixel=pixel, unit="m")
-    findings = study.findings(study.answers({}))
+    findings = study.judge(study.answers({})).findings
     assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
     assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
     assert all(np.isfinite(each.density).all() for each in (study.description.rings, study.description.rows))

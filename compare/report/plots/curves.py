@@ -12,12 +12,13 @@ from . import style
 def intervals(
     axes: Axes, x: Any, points: DataFrame, name: str, times: float = 1.0, less: Any = 0.0, **look: Any
 ) -> None:
-    """Points with intervals of 95 %, of the columns `name`, `name`_low and `name`_high.
+    """Points with intervals of 95 %, of the columns `name` or `name`_mean, `name`_low and `name`_high.
 
     times, less : factor on all three, after `less` is taken from them; look : of `errorbar`
     """
+    middle = "" if name in points else "_mean"
     value, low, high = (
-        times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in ("", "_low", "_high")
+        times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in (middle, "_low", "_high")
     )
     axes.errorbar(x, value, yerr=style.bars(value, low, high), **look)
 

@@ -316,8 +316,8 @@ def _smooth_limit(found: CaseFindings) -> Plot | None:
             "solver": points["solver"],
             "v_tau_over_a": [scaled_speed(found.case, speed) for speed in points["speed"]],
             "speed": points["speed"],
-            "friction_coefficient": points["friction_coefficient"],
-            "friction_over_slope": points["friction_coefficient"] / edge_slope(found.case),
+            "friction_coefficient": points["friction_coefficient_mean"],
+            "friction_over_slope": points["friction_coefficient_mean"] / edge_slope(found.case),
         }
     )
     return smooth_limit.plot(

@@ -38,7 +38,7 @@ def figure(tables: Tables) -> Figure:
                 label += f", {value:.3g} {UNITS[other]}"
             line = style.SERIES_LINES[index % len(style.SERIES_LINES)]
             look = style.look(solver, label=label, linestyle=line, capsize=2)
-            intervals(axes, curve[across], curve, "friction", **look)
+            intervals(axes, curve[across], curve, "friction_coefficient", **look)
     axes.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     axes.set_xlabel(f"{WORDS[across]} [{UNITS[across]}]")
     axes.legend()

@@ -31,12 +31,14 @@ from ..run.curves import models_of
 from ..study import Judgement, Study
 from . import figure as plots
 
-# Means over draws, by the names of a sweep: of a variable, or of one over another.
+# Means over draws: of a variable, or of one over another.
 MEANS = {
-    "friction": ("friction_force", "normal_force"),
-    "force": ("normal_force", None),
-    "reached": ("depth_reached", None),
+    "friction_coefficient": ("friction_force", "normal_force"),
+    "normal_force": ("normal_force", None),
+    "depth_reached": ("depth_reached", None),
 }
+
+WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,14 @@ class Sweep(Study):
 
     def _findings(self, answers):
         prescribed = self.case.motion.pressed_by
-        name = "friction" if max(self.speeds) > 0 else "force" if prescribed == "depth" else "reached"
+        name = (
+            "friction_coefficient"
+            if max(self.speeds) > 0
+            else "normal_force"
+            if prescribed == "depth"
+            else "depth_reached"
+        )
+        word = WORDS[name]
         above, below = MEANS[name]
         for (i, speed), (j, value), model in product(
             enumerate(self.speeds), enumerate(self.values), self.models.judged
@@ -135,8 +144,8 @@ class Sweep(Study):
             beside = self.models.beside(model.name)
             claim = said_of(
                 Claim(
-                    f"sweep.{name}",
-                    f"The {name.replace('reached', 'depth')} in 1D over that in 3D",
+                    f"sweep.{word}",
+                    f"The {word} in 1D over that in 3D",
                     meaning="Ratio of the means over draws.",
                     measure=ratio,
                 ),
@@ -171,14 +180,14 @@ class Sweep(Study):
         """One solver with its means; the points of a grid, which differ between solvers, as a variable."""
         for name, (above, below) in MEANS.items():
             for end, values in interval(dataset, above, below)._asdict().items():
-                label = name if end == "value" else f"{name}_{end}"
+                label = f"{name}_{'mean' if end == 'value' else end}"
                 dataset[label] = ("speed", self.case.motion.pressed_by), values, attributes(label)
         return dataset.reset_coords("points").drop_attrs(deep=False)
 
 
 def means(dataset: xarray.Dataset) -> DataFrame:
     """Means of a sweep with their intervals of 95 %: a row for each solver, speed, and load or depth."""
-    names = [f"{name}{end}" for name in MEANS for end in ("", "_low", "_high")]
+    names = [f"{name}{end}" for name in MEANS for end in ("_mean", "_low", "_high")]
     return dataset[names].to_dataframe().reset_index()
 
 

@@ -73,13 +73,13 @@ def _over_smooth(axes: Axes, points: DataFrame) -> None:
     known = next((own for solver in ("exact", "BEM") if len(own := smooth[smooth["solver"] == solver])), smooth)
     if known.empty:
         return
-    rows, names = [], ["normal_force", "normal_force_low", "normal_force_high"]
+    rows, names = [], ["normal_force_mean", "normal_force_low", "normal_force_high"]
     hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
     solvers = [each for each in points["solver"].unique() if each != "exact"]
     for index, solver in enumerate(solvers):
         for body, look in (("smooth", hollow), ("rough", {})):
             curve = points[(points["solver"] == solver) & (points["body"] == body)]
-            force = np.interp(curve["depth"], known["depth"], known["normal_force"])
+            force = np.interp(curve["depth"], known["depth"], known["normal_force_mean"])
             if len(curve):
                 own = 100 * (curve[names].div(force, axis=0) - 1)
                 x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - len(solvers) + 1)

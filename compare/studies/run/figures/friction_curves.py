@@ -89,7 +89,7 @@ def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
     known = (own["solver"] == "MDR") & np.isfinite(slope)
     own = own.assign(eq_19=nan)
     if known.any():
-        own.loc[known, "eq_19"] = law(own["normal_force"][known], own["speed"][known], slope)
+        own.loc[known, "eq_19"] = law(own["normal_force_mean"][known], own["speed"][known], slope)
     pressed = "" if "load" in own else " The depth is prescribed: loads are means."
     told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
     caption = (
@@ -106,7 +106,7 @@ def load_figure(tables: Tables) -> Figure:
     solvers = list(points["solver"].unique())
     panels = drawing.subplots(1, len(solvers), sharex=True, sharey=True, squeeze=False)[0]
     panels[0].set(xscale="log", yscale="log")
-    style.span(panels[0], points["normal_force"][points["normal_force"] > 0])
+    style.span(panels[0], points["normal_force_mean"][points["normal_force_mean"] > 0])
     for axes, solver in zip(panels, solvers, strict=True):
         axes.set(xlabel="normal force [N]", title=style.label(solver))
         curves = list(points[points["solver"] == solver].groupby("speed"))
@@ -114,8 +114,8 @@ def load_figure(tables: Tables) -> Figure:
             style.shades(solver, len(curves)), style.forms(), curves, strict=False
         ):
             look = style.look(solver, color=shade, **form, label=f"{speed:.3g} m/s", capsize=style.mark(0.6))
-            own = curve.sort_values("normal_force")
-            intervals(axes, own["normal_force"], own, "friction_coefficient", **look)
+            own = curve.sort_values("normal_force_mean")
+            intervals(axes, own["normal_force_mean"], own, "friction_coefficient", **look)
     _eq_19(panels[0], points[points["eq_19"].notna()])
     for axes in panels:
         axes.legend()
@@ -130,8 +130,8 @@ def _eq_19(axes, points):
     """Eq. 19 at each speed, without pressing the curves together where it lies far below them."""
     lowest, curves = axes.get_ylim()[0], list(points.groupby("speed"))
     for shade, (_, curve) in zip(style.shades("MDR", len(curves)), curves, strict=True):
-        curve = curve.sort_values("normal_force")
-        axes.plot(curve["normal_force"], curve["eq_19"], ":", color=shade, linewidth=style.width(1.1))
+        curve = curve.sort_values("normal_force_mean")
+        axes.plot(curve["normal_force_mean"], curve["eq_19"], ":", color=shade, linewidth=style.width(1.1))
     axes.set_ylim(bottom=max(axes.get_ylim()[0], lowest / 3))
     if curves:  # one entry for the lines of all speeds
         seen = "" if points["eq_19"].max() > axes.get_ylim()[0] else ": below"
@@ -140,9 +140,9 @@ def _eq_19(axes, points):
 
 def _slope(points) -> float:
     """Rms slope of the first model that measures it, of 1D profiles; NaN of a smooth body."""
-    known = points[points["rms_slope"].notna()] if "rms_slope" in points else points[:0]
+    known = points[points["rms_slope_mean"].notna()] if "rms_slope_mean" in points else points[:0]
     profiles = known[known["solver"] == known["solver"].iloc[0]] if len(known) else known
-    return float(profiles["rms_slope"].iloc[0]) if "rms_slope" in profiles and len(profiles) else nan
+    return float(profiles["rms_slope_mean"].iloc[0]) if "rms_slope_mean" in profiles and len(profiles) else nan
 
 
 def _law(points, law) -> DataFrame:

@@ -114,7 +114,7 @@ def one_wave_on_a_row(size):
 
 
 @case(
-    "Parameter grids of 3 x 40 to 40 x 3 points and a row of 60, at rest and in a flow.",
+    "Rectangles of 3 x 40 to 40 x 3 points and a row of 60, at rest and in a flow.",
     "Conditions of contact by a plain product to 1e-9.",
 )
 def oblong_problems(size):
