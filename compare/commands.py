@@ -101,7 +101,7 @@ def run(
     reference: str | None = None,
     **options: Unpack[Options],
 ) -> Report:
-    """Solve a scene in 1D and in 3D, or by other models, compare, and write a report.
+    """Solve a scene in 1D and in 3D, compare, and write a report.
 
     scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
         also a Scene or a Case, or several by name
@@ -126,7 +126,7 @@ def study(
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
-    models, reference : as of `run`; the study `trust` takes none
+    models, reference : like those of `run`; the study `trust` takes none
     """
     if name is None:
         from .library.ready import studies

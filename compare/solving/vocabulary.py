@@ -306,6 +306,7 @@ def _term(line: str) -> Term:
 LABELS: Mapping[str, Entry] = {
     **{name: _term(line) for name, line in documented(_WORDS)[1].items()},
     "load": Entry("N", "Normal force that was prescribed.", along_line="N/m"),
+    "force": Entry("N", "Mean normal force.", along_line="N/m"),
     "depth_reached": NUMBERS["depth"],
 }
 

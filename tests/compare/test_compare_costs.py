@@ -226,7 +226,7 @@ def test_forecasts_are_checked_on_a_point_left_out_and_come_of_no_law_that_misse
 def test_figure_and_answer_come_of_whatever_was_measured(failing):
     found = answers(failing=failing)
     findings = COSTS.findings(found)
-    (plot,) = COSTS.page(found, findings).every(Plot)
+    (plot,) = COSTS.judge(found).plots
     assert len(plot.tables["workprecision-costs"]) == sum(len(each.solves) for each in ladders("quick").values())
     with style.applied():
         assert len(plot.figure().axes) == 6

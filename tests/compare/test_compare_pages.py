@@ -518,9 +518,9 @@ def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp
         "solver",
         "speed [m/s]",
         "load [N]",
-        "friction",
-        "friction_low",
-        "friction_high",
+        "friction_coefficient_mean",
+        "friction_coefficient_low",
+        "friction_coefficient_high",
     ]
     solved = written["sphere/MDR.csv"]
     assert solved["friction_force [N]"].tolist() == [0.1]  # what was not asked for is no row
@@ -570,7 +570,7 @@ def test_an_ending_says_what_it_adds():
 def test_every_column_of_findings_is_defined_on_the_page(folder):
     assert all(vocabulary.entry(name) for name in COLUMNS)
     ids = Links((folder / "report.html").read_text()).ids
-    for name in ("verdict", "value", "tolerance", "friction", "speed", "pressure"):
+    for name in ("verdict", "value", "tolerance", "friction_coefficient", "speed", "pressure"):
         assert (f"def-{name}" in ids) == (name != "pressure")
 
 

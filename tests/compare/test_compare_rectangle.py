@@ -63,7 +63,7 @@ def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
 def test_every_number_stands_where_it_was_asked_for(answers):
     rough = answers["rough/MDR"].to_dataset()
     assert (rough.normal_force == rough["load"]).all()
-    assert (rough.seed_seen == rough.draw).all()
+    assert (rough.seed_seen == rough.seed).all()
     assert rough.friction_force.sel(speed=0.1, load=2.0).values == pytest.approx(0.02)
 
 
@@ -82,7 +82,7 @@ def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
     assert set(found.reason.sel(seed=6).values.ravel()) == {"too rough"}
     assert set(found.status.sel(seed=5).values.ravel()) == {"solved"}
     assert friction(found.sel(grid="fine"))[1] == pytest.approx([0.01] * 3)
-    assert np.isnan(mean(found.sel(grid="fine", draw=[6]), "normal_force")).all()
+    assert np.isnan(mean(found.sel(grid="fine", seed=[6]), "normal_force")).all()
 
 
 def test_a_body_that_does_not_touch_has_no_force_and_no_friction():

@@ -134,7 +134,7 @@ def test_a_page_has_errors_against_the_reference_and_costs_as_measured(monkeypat
     findings = study.findings(found)
     said = [(each.claim.id.removeprefix("workprecision.little."), each.verdict) for each in findings]
     assert said == [("order-2", "undecided"), ("order-2", "holds"), ("time", "reported"), ("time", "reported")]
-    (plot,) = study.page(found, findings).every(Plot)
+    (plot,) = study.judge(found).plots
     assert set(plot.tables) == {"workprecision-little", "workprecision-orders-little"}
     assert len(plot.tables["workprecision-little"]) == 5
 

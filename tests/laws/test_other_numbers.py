@@ -234,6 +234,8 @@ METHODS = {
     "lower": (1e4, "rad/m"),
 }
 NOT_NUMBERS = {
+    "models",
+    "reference",
     *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures", "figure"),
     *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
     *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
