@@ -29,5 +29,6 @@ from .studies.regress.quantity import Quantity as Quantity
 from .studies.regress.study import check as check
 from .studies.regress.study import update as update
 from .studies.report import Report as Report
+from .studies.study import Judgement as Judgement
 from .studies.study import Study as Study
 from .trustmap.corrected import CorrectedMDR as CorrectedMDR

@@ -28,8 +28,8 @@ LINES = 3  # parts of what the command prints that README.md shows
 BODIES, SCENES = ("sphere", "cone"), ("paper-sphere", "paper-cone")
 # Claims of the tables in words, by their names.
 OF_RUN = {
-    ("run.friction.smooth-slow", "1D/3D"): "friction 1D / 3D, smooth body at low speed; in the limit 2",
-    ("run.friction.own", "1D/3D"): "friction 1D / 3D, rough body, 0.1 m/s, 1 N; claimed 1",
+    ("friction.ratio.smooth-slow", "1D/3D"): "friction 1D / 3D, smooth body at low speed; in the limit 2",
+    ("friction.ratio.own", "1D/3D"): "friction 1D / 3D, rough body, 0.1 m/s, 1 N; claimed 1",
     ("eq23.predicted", "1D"): "misfit of the curves shifted as Eq. 22 predicts, in 1D",
     ("eq23.predicted", "3D"): "misfit of the curves shifted as Eq. 22 predicts, in 3D",
     ("eq23.collapse", "1D"): "misfit of the curves shifted at best, in 1D",
@@ -88,9 +88,7 @@ def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
     for (claim, dimension), words in OF_RUN.items():
         yield words, *(_cell(_row(found, claim, scene, dimension)) for scene in SCENES)
     for depth, place in (("shallow", 0), ("deep", -1)):
-        forces = [
-            found[found["claim"].eq("run.force-depth.rough") & found["where"].str.startswith(s)] for s in SCENES
-        ]
+        forces = [found[found["claim"].eq("force.ratio.rough") & found["where"].str.startswith(s)] for s in SCENES]
         cells = (_cell(each.iloc[place], percent=True) for each in forces)
         yield f"force 1D / 3D of the rough body at the same depth, less one, {depth}", *cells
 
@@ -137,8 +135,8 @@ def _reached(row) -> str:
 
 def _answer(run: DataFrame) -> str:
     """Three sentences in one list, of the smooth body, of friction and of its correction."""
-    smooth = run[run["claim"] == "run.force-depth.smooth"]["value"].abs().max()
-    slow_body, rough = (_row(run, f"run.friction.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
+    smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
+    slow_body, rough = (_row(run, f"friction.ratio.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
     return "\n".join(
         [
             f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",

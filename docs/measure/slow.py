@@ -19,9 +19,9 @@ BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
 CLAIMS = {
     "eq17.load-exponent": "friction goes with the load to the power",
     "eq17.level": "friction over the law",
-    "why17.contact-exponent": "real contact goes with the load to the power",
-    "why17.drag-exponent": "friction over real contact to the power",
-    "why17.slope-exponent": "slope of what touches to the power",
+    "eq17.contact": "real contact goes with the load to the power",
+    "eq17.friction-per-contact": "friction over real contact to the power",
+    "eq17.slope-in-contact": "slope of what touches to the power",
     "limit.slow": "friction over its exact limit",
 }
 ANSWER = (

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.report.page import Plot
 from compare.report.plots import style
 from compare.solving.outcome import Outcome, Row
 from compare.statistics.costs import REPEATABLE, Law, NoLaw, fit, fit_whole, held_out

@@ -64,10 +64,10 @@ def judged(tmp_path_factory):
 
 
 def test_a_model_is_judged_against_the_reference_by_the_claims_of_the_others(judged):
-    values, verdicts = found(judged, "run.force-depth.smooth", "Stiff/3D")
+    values, verdicts = found(judged, "force.ratio.smooth", "Stiff/3D")
     assert values == pytest.approx([0.1] * len(values), abs=0.01)
     assert set(verdicts) == {FAILS}
-    assert set(found(judged, "run.force-depth.smooth", "1D/3D")[1]) == {HOLDS}
+    assert set(found(judged, "force.ratio.smooth", "1D/3D")[1]) == {HOLDS}
     told = {each.claim.sentence for each in judged.findings}
     assert "The force on the smooth body at the same depth is the same in Stiff and 3D" in told
 
@@ -88,10 +88,10 @@ def test_every_model_has_its_curve_in_every_figure_of_a_run(judged):
 
 def test_another_reference_turns_the_ratio_around(judged, tmp_path):
     turned = compare.run(SMOOTH, tmp_path, models=[MDR(points=400), BEM(points=32)], reference="mdr", report=False)
-    (slow,), _ = found(turned, "run.friction.smooth-slow", "3D/1D")
-    (straight,), _ = found(judged, "run.friction.smooth-slow", "1D/3D")
+    (slow,), _ = found(turned, "friction.ratio.smooth-slow", "3D/1D")
+    (straight,), _ = found(judged, "friction.ratio.smooth-slow", "1D/3D")
     assert slow == pytest.approx(1 / straight, rel=1e-12)
-    (claim,) = (each.claim for each in turned.findings if each.claim.id == "run.friction.smooth-slow")
+    (claim,) = (each.claim for each in turned.findings if each.claim.id == "friction.ratio.smooth-slow")
     assert claim.expected == 0.5
 
 

@@ -271,7 +271,9 @@ def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_pat
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    csvfiles.write_text(tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction=0.3)))
+    csvfiles.write_text(
+        tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3))
+    )
     drawn = redraw(tmp_path)
     assert drawn[0] == tmp_path / "figures/sphere/friction.png"
     assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()

@@ -169,15 +169,15 @@ def judged(case=CASE, **how):
 
 def test_known_answers_are_found():
     _, answers, found = judged()
-    own = found.loc["run.friction.own", "a case"]
+    own = found.loc["friction.ratio.own", "a case"]
     assert own[["value", "low", "high", "draws", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
-    assert found.loc["run.friction.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
-    for claim in ("run.force-depth.rough", "run.force-depth.smooth"):
+    assert found.loc["friction.ratio.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
+    for claim in ("force.ratio.rough", "force.ratio.smooth"):
         rows = found.loc[claim]
         assert len(rows) == 2  # every depth, none chosen
         np.testing.assert_allclose(rows["value"], FORCE - 1, rtol=1e-12)
         assert set(rows["verdict"]) == {"fails"}
-    np.testing.assert_allclose(found.loc["run.friction.spread"]["value"], 0.02, rtol=1e-12)
+    np.testing.assert_allclose(found.loc["friction.spread"]["value"], 0.02, rtol=1e-12)
     in_3d = [task for task in Run({"a case": CASE}).batches()[0].tasks if task.solver.name == "BEM"]
     assert answers["a-case/times"]["seconds"].sel(solver="BEM") == 2.0 * sum(len(task.scenes) for task in in_3d)
     # a power law collapses by any shift
@@ -209,13 +209,13 @@ def test_a_shift_of_friction_itself_leads_the_answer_and_the_figure_shows_both()
 
 def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
     _, _, found = judged(halved=0.02)
-    own = found.loc["run.friction.own", "a case"]
+    own = found.loc["friction.ratio.own", "a case"]
     assert own["grid_error"] == pytest.approx(2 * (1 - 1 / 1.02))
     assert own["high"] - own["value"] == pytest.approx(own["grid_error"])
     assert own["grid_method"] == "change on halving"
-    assert found.loc["run.grid", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
+    assert found.loc["grid.change", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
     _, _, wide = judged(scatter=0.1)
-    low, high = wide.loc["run.friction.own", "a case"][["scatter_low", "scatter_high"]]
+    low, high = wide.loc["friction.ratio.own", "a case"][["scatter_low", "scatter_high"]]
     # Two surfaces, 10 % each way: 12.7 standard errors of 10 % of the ratio.
     assert high - low == pytest.approx(2 * 12.706 * 2 * 0.1, rel=0.02)
 
@@ -229,14 +229,14 @@ def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_s
 )
 def test_without_an_error_nothing_is_decided(case, reason):
     _, _, found = judged(case)
-    own = found.loc["run.friction.own", "a case"]
+    own = found.loc["friction.ratio.own", "a case"]
     assert own["verdict"] == "undecided"
     assert reason in own["reason"]
 
 
 def test_a_surface_that_failed_is_left_out_and_listed():
     run, answers, found = judged(broken={1}, case=replace(CASE, study=replace(CASE.study, surfaces=3)))
-    assert found.loc["run.friction.own", "a case"]["value"] == pytest.approx(2)
+    assert found.loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
     (case,) = (run._judged(name, answers) for name in run.cases)
     assert set(case.failures["reason"]) == {"no answer"}
     assert set(case.failures["seed"]) == {CASE.roughness.seed + 1}
@@ -292,7 +292,7 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     assert sorted(places[0]) == sorted(places[1])
     assert len(set(places[0])) == len(shown)
     assert {each.plot for each in shown} - {""} <= plots
-    slow = next(each for each in shown if each.claim.id == "run.friction.smooth-slow")
+    slow = next(each for each in shown if each.claim.id == "friction.ratio.smooth-slow")
     assert slow.value == pytest.approx(2, abs=0.1)
     assert all("±" not in line for line in page.answer)
     assert [line[:9] for line in page.answer][-3:] == ["Trust map", "Trust map", "The grid "]

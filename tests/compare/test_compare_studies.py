@@ -42,7 +42,7 @@ SERIES = Series(
 FEW = replace(SERIES, speeds=SERIES.speeds[::3], values=SERIES.values[::3])
 SLOPE = 0.2
 # Friction that grows as a length is none that is the same over every part of an area.
-DRAG = "why17.drag-exponent"
+DRAG = "eq17.friction-per-contact"
 HALF = "fewer than half of the surfaces"
 
 
@@ -196,7 +196,7 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
     three = verdicts(found, "3D")
     assert three | expected == three
     if expected.get("eq17.level") == "fails":
-        assert {each.verdict for each in of(found, "pair.friction")} == {"fails"}
+        assert {each.verdict for each in of(found, "friction.ratio.")} == {"fails"}
         assert {name for name, verdict in three.items() if verdict == "fails"} == {*LEVELS, DRAG}
     straight = [each.reason for each in of(found, "eq23", "3D") if each.verdict == "undecided"]
     assert all("straight" in reason for reason in straight if reason) or "eq17.level" in expected
@@ -274,9 +274,9 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     rough = [each for each in of(found, "") if each.draws]
     assert {each.verdict for each in rough} == {"undecided"}
     assert all("scatter" in each.reason and "straight" not in each.reason for each in rough)
-    (smooth,) = of(found, "pair.smooth")
+    (smooth,) = of(found, "friction.ratio.smooth")
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("holds", 0, (smooth.value, smooth.value))
-    (smooth,) = of(judge_series(spoiled(whole, np.s_[0, 1], body=SMOOTH)), "pair.smooth")
+    (smooth,) = of(judge_series(spoiled(whole, np.s_[0, 1], body=SMOOTH)), "friction.ratio.smooth")
     assert smooth.verdict == "undecided"
 
 
@@ -297,7 +297,9 @@ def test_speeds_are_named_by_where_they_lie_and_none_is_asked_twice(whole, judge
         (judge_series(cut(whole, speeds=3)), ["slow"]),
         (judge_series(cut(whole, speeds=1, values=1)), ["slow"]),
     ):
-        assert [each.claim.id for each in of(found, "pair.")][:-1] == [f"pair.friction-{name}" for name in names]
+        assert [each.claim.id for each in of(found, "friction.ratio.")][:-1] == [
+            f"friction.ratio.{name}" for name in names
+        ]
     assert not of(found, "eq17.load-exponent")  # through a single point
 
 
@@ -396,7 +398,7 @@ def test_solved_contacts_tell_the_known_truths(solved):
     # at low speed the exact limits hold, and the smooth bodies differ by 2
     found = judge_series(solved)
     assert [each.verdict for each in of(found, "limit.slow")] == ["holds", "holds"]
-    (smooth,) = of(found, "pair.smooth")
+    (smooth,) = of(found, "friction.ratio.smooth")
     assert smooth.verdict == "fails"
     assert smooth.value == pytest.approx(2, abs=smooth.grid + 0.02)
     rest = judge_series(cut(solved, speeds=0))
@@ -407,7 +409,7 @@ def test_solved_contacts_tell_the_known_truths(solved):
     ("kinds", "ids", "dimensions"),
     [
         (("collapse", "families"), {"eq23"}, {"1D", "3D"}),
-        (("friction",), {"eq14", "eq17", "why17", "eq19", "limit"}, {"1D", "3D"}),
+        (("friction",), {"eq14", "eq17", "eq19", "limit"}, {"1D", "3D"}),
         (("dimensions",), {"pair", "rest"}, {"1D/3D"}),
     ],
 )

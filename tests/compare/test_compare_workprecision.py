@@ -10,7 +10,6 @@ from scipy.integrate import quad
 
 from bem3d import BEM
 from compare.models.exact.waves import crossed_closure, crossed_contact_fraction_light
-from compare.report.page import Plot
 from compare.report.plots import lettering, style
 from compare.solving.outcome import Outcome, Row, row
 from compare.solving.runner import sweep

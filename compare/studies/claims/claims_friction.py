@@ -23,6 +23,8 @@ from .series import CONTACT, ROUGH, SMOOTH, Contacts, sliding
 SLOW, FAST = 0.1, 3.0
 # Ratio of xi to 1, or of 1 to xi, up to which the closest speed is at the knee.
 AT_THE_KNEE = 3.0
+# Claims on what is behind Eq. 17, by the column of its figure.
+WHY = {"contact": "eq17.contact", "drag": "eq17.friction-per-contact", "slope": "eq17.slope-in-contact"}
 
 
 def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
@@ -33,13 +35,13 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
         for name, measure, xi, expected in _one_sided(contacts.series, solver, law):
             each = claim(name, partial(_of_one, measure, solver), dimension, expected)
             regime = words if xi is None else at_xi(xi, words)
-            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name[:3] == "why" else "levels"
+            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name in WHY.values() else "levels"
             found.append(finding(each, contacts, ROUGH, regime, solver, plot=plot))
     known = laws[contacts.series.models.reference]
     for name, place in _places(known):
         regime = at_xi(known.xi[place], known.words)
         found += pair_findings(name, partial(_ratio, place), contacts, ROUGH, regime)
-    return [*found, *pair_findings("pair.smooth", partial(_ratio, 0), contacts, SMOOTH, known.words)]
+    return [*found, *pair_findings("friction.ratio.smooth", partial(_ratio, 0), contacts, SMOOTH, known.words)]
 
 
 def pair_findings(
@@ -122,7 +124,7 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
             for name, (variable, below) in behind(draws).items():
                 law = nominal_exponent(draws, exponent) if name == "contact" else None
                 measure = with_load(partial(_slowest, variable, below))
-                yield f"why17.{name}-exponent", measure, slowest, law
+                yield WHY[name], measure, slowest, law
         yield "eq17.level", lambda it: geometric(mu(it)[0] / (laws.plateau * xi(it)[0])), slowest, None
         # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
         if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
@@ -163,11 +165,11 @@ def _places(laws) -> Iterator[tuple[str, int]]:
     middle, knee = _closest_to_one(laws)
     last = len(middle) - 1
     if middle[0] < 1 and knee != 0:
-        yield "pair.friction-slow", 0
+        yield "friction.ratio.slow", 0
     if knee is not None:
-        yield "pair.friction-knee", knee
+        yield "friction.ratio.knee", knee
     if middle[last] > 1 and knee != last:
-        yield "pair.friction-fast", last
+        yield "friction.ratio.fast", last
 
 
 def _closest_to_one(laws) -> tuple[np.ndarray, int | None]:

@@ -36,47 +36,47 @@ TOLERANCE = 0.05
 AS_HALVED = "The change on halving understates the error by 1 / (1 - 2^-p) at order p: twice at first order."
 
 SLOW = Claim(
-    "run.friction.smooth-slow",
+    "friction.ratio.smooth-slow",
     "Slow friction of the smooth body is twice as high in 1D as in 3D",
     2.0,
     2 * TOLERANCE,
     "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
 )
 OWN_FRICTION = Claim(
-    "run.friction.own",
+    "friction.ratio.own",
     "Friction of the scene as it stands is the same in 1D and 3D",
     1.0,
     TOLERANCE,
     "Friction in 1D over 3D, ratio of the means over surfaces.",
 )
 ROUGH_FORCE = Claim(
-    "run.force-depth.rough",
+    "force.ratio.rough",
     "The force on the rough body at the same depth is the same in 1D and 3D",
     0.0,
     TOLERANCE,
     "Force in 1D over 3D less one, at rest; ratio of the means over surfaces, at every depth.",
 )
 SMOOTH_FORCE = Claim(
-    "run.force-depth.smooth",
+    "force.ratio.smooth",
     "The force on the smooth body at the same depth is the same in 1D and 3D",
     0.0,
     TOLERANCE,
     "Force in 1D over 3D less one, at rest, at every depth.",
 )
 # Numbers that tell how far those above can be trusted.
-AT_SPEEDS = Claim("run.friction.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
+AT_SPEEDS = Claim("friction.ratio.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
 CLOSED_FORM = Claim(
-    "run.force-depth.exact",
+    "force.closed-form",
     "Force on the smooth body over the closed form, less one",
     meaning="At rest, where the closed form is the truth.",
 )
 GRID = Claim(
-    "run.grid",
+    "grid.change",
     "Change of the scene's own answer from half the points to all",
     meaning=f"Relative, of friction, else of the depth under a load or the force at a depth. {AS_HALVED}",
 )
 SPREAD = Claim(
-    "run.friction.spread",
+    "friction.spread",
     "Spread of both estimates of 3D friction",
     meaning="Friction by traction less friction by energy lost, over friction: an indicator of the error of "
     "discretisation, no bound.",

@@ -16,7 +16,7 @@ from ....statistics.jackknife import friction, mean, mean_ratio
 from ....statistics.means import Interval
 from ...mastercurve import figures as shift_plots
 from ..claims_depth import closed_forms, loading
-from ..claims_friction import behind, nominal_exponent
+from ..claims_friction import WHY, behind, nominal_exponent
 from ..families import families, reduced
 from ..judgement import JudgedSeries
 from ..points import each_dimension, force_at, friction_at, interval, interval_columns, place_columns, stacked
@@ -72,7 +72,7 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
         if shifted := shift_plots.shifts(judged):
             yield shifted
         yield _levels(judged)
-        if any(each.claim.id.startswith("why17.") for each in judged.findings):
+        if any(each.claim.id in WHY.values() for each in judged.findings):
             yield _behind(judged)
     yield _depth(judged.contacts)
     if series.pressed_in and series.speeds:
