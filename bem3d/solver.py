@@ -1,5 +1,6 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
+import logging
 import time
 from dataclasses import replace
 from functools import partial
@@ -26,6 +27,7 @@ from .problem import Problem
 from .terms import TERMS
 from .trail import Trail
 
+_LOG = logging.getLogger(__name__)
 RELATIVE = UnitOfOthers("", kind="a relative error between 0 and 1")
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
@@ -214,6 +216,7 @@ class BEM:
             result = surrounded(solve, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
+        _LOG.info("answered with %s", result.settings)
         return result
 
     def _solved(self, scene, trail):
@@ -253,6 +256,7 @@ class BEM:
             better = window.improved(problem, grid, answer)
             if better is None:
                 return grid, answer
+            _LOG.debug("the contact does not fit a window %.3g m wide: %.3g m next", grid.extent, better.extent)
             grid, start, beside = better, None, None
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 

@@ -1,5 +1,6 @@
 """The one-dimensional solver: the method of dimensionality reduction (MDR) behind the common protocol."""
 
+import logging
 from dataclasses import replace
 from math import ceil, inf
 from time import process_time
@@ -30,6 +31,7 @@ from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, u
 from .surface import MOST_NODES, Band, Spectrum, band_of
 from .terms import TERMS
 
+_LOG = logging.getLogger(__name__)
 SPARE = 1.25  # of an extent, for the contacts of other draws
 FULLER = 1.01  # of two pixels, so that they are carried with few digits too
 
@@ -152,6 +154,7 @@ class MDR:
             result = surrounded(self._solved, terms_of(self.terms, scene))(scene)
             if not np.isfinite([result.normal_force, result.friction_force]).all():
                 raise ArithmeticError("forces beyond the range of numbers")
+            _LOG.info("answered with %s", result.settings)
             return result
 
     def _solved(self, scene: Scene) -> Result:

@@ -38,7 +38,7 @@ def _area(text, axes=()):
 
 STEPS, LINE, PLANE, INSTANTS = ("time",), ("x",), ("y", "x"), ("frame_time",)
 
-# Of every result.
+# Numbers that every result has.
 NUMBERS: Mapping[str, Entry] = {
     "normal_force": _force("Normal force that presses the indenter, above zero into the elastomer."),
     "depth": Entry(
@@ -52,7 +52,7 @@ NUMBERS: Mapping[str, Entry] = {
     "seconds": Entry("s", "Processor time of the solve."),
 }
 
-# Of some results, as the scene calls for them.
+# Numbers that some results have, as the scene calls for them.
 MEASURES: Mapping[str, Entry] = {
     "average_heating": Entry(
         "K", "Rise in temperature, averaged over the smooth contact, if its friction heats the elastomer alone."

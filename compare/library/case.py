@@ -23,6 +23,7 @@ from scene.rheology import Elastomer
 from scene.roughness import Roughness
 from scene.scales import elastic_contact
 from scene.scene import fit_together
+from scene.signatures import readable
 from scene.temperature import Temperature
 from scene.terms import terms_of
 
@@ -86,6 +87,7 @@ class SamplePoints:
     profiles: int
 
 
+@readable
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Case:
     """The content of a case file. A file that holds a scene and nothing else is a case.

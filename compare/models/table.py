@@ -157,9 +157,9 @@ class Models:
 
 def listed(asked: Sequence[ModelLike] | None) -> tuple[ModelLike, ...]:
     """Models one by one, also of names separated by commas; none where none is asked for."""
-    if isinstance(asked, str):
-        return tuple(name.strip() for name in asked.split(","))
-    return tuple(asked or ())
+    given = [asked] if isinstance(asked, str) else asked or []
+    parts = [each.split(",") if isinstance(each, str) else [each] for each in given]
+    return tuple(each.strip() if isinstance(each, str) else each for part in parts for each in part)
 
 
 def named(name: str, own: Mapping[str, Solver]) -> Solver:

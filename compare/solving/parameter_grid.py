@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import xarray
 
 FINE, COARSE = "fine", "coarse"
-# Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
+# Status of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
 SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
 NO_DRAWS = "none"  # of a model that answers for all surfaces at once
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
@@ -141,7 +141,7 @@ class ParameterGrid:
 
     @cached_property
     def contacts(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
-        """Solver's name and contacts of every point, by grid, speed and value; kept, as scenes are many.
+        """Solver's name and contacts of every point, by grid, speed and value. Cached: building scenes is slow.
 
         All profiles of a 1D contact are one, each surface in 3D is one.
         """

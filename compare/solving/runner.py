@@ -1,5 +1,6 @@
 """Solving tasks by workers; what the store has is not solved again, and what breaks does not stop the rest."""
 
+import logging
 import pickle
 import time
 from collections import Counter, deque
@@ -14,6 +15,7 @@ from .store import Store, write
 from .task import Task
 from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, solved, starting, unpacked
 
+_LOG = logging.getLogger(__name__)
 # Seconds after which an interrupt is noticed.
 PULSE = 0.2
 
@@ -119,6 +121,7 @@ def sweep(
         missing = sorted({task: None for task in tasks if task not in stored}, key=lambda task: -task.work)
         if other := store.by_other_code(missing):
             progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+        _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(stored), store.folder)
         progress.planned(missing, len(stored))
         with _workers(missing, workers, fresh, scheduler, progress) as pool:
             course = _Course(deque(missing), store, pool, progress, interrupts)

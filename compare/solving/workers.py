@@ -74,7 +74,7 @@ def solved(task: Task) -> Outcome | Fault:
         if not task.fits(outcome):
             raise ValueError(f"its answer is not whole: {len(outcome.rows)} rows, fields {[*outcome.fields]}")
         return outcome
-    # A worker is nobody's program: what a task ends by SystemExit ends that task.
+    # Catch SystemExit too: it must not end the worker.
     except (Exception, SystemExit) as error:
         return Fault.of(error)
 

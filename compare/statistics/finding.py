@@ -9,6 +9,7 @@ from typing import Any
 import pandas
 
 from scene.quantities import BARE, WHOLE, argument
+from scene.signatures import readable
 
 from . import digits
 
@@ -64,6 +65,7 @@ class Claim:
             object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
 
 
+@readable
 @dataclass(frozen=True)
 class Finding:
     """One claim, and what was measured of it in one place.

@@ -13,7 +13,7 @@ from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import DrawSet, mean_ratio, resample
 
-# Of a mean: what is averaged, or the two forces of which the means are divided.
+# Means of friction: the two forces whose means are divided.
 FRICTION = ("friction_force", "normal_force")
 RATIOS = {"friction_coefficient": FRICTION}
 # Told with deviation and interval, told as a mean alone.

@@ -11,6 +11,8 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from scene.signatures import readable
+
 from ..report import render
 from ..report.page import Page, Plot
 from ..report.plots import style
@@ -26,6 +28,7 @@ SHOWN = 3  # reasons that are said of tasks that broke
 SCREEN = 110  # dots per inch of what a notebook shows
 
 
+@readable
 @dataclass(frozen=True, repr=False)
 class Report:
     """Report of a study. Printed, it is what the command prints; in a notebook, tables and figures.

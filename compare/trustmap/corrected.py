@@ -12,6 +12,7 @@ from mdr1d import MDR
 from scene import EmptyContact, Result, Scene, SolveError
 from scene.protocol import refuse
 from scene.quantities import CLOSED
+from scene.signatures import readable
 
 from ..library.case import Draws
 from ..solving.outcome import Row
@@ -19,10 +20,11 @@ from ..solving.task import SceneTask, draws_of
 from ..statistics.jackknife import mean_ratio
 from .verdict import Correction, trust, unmeasured
 
-# Of profiles, what means are taken of.
+# Quantities whose means over profiles are taken.
 TAKEN = {"friction": "friction_force", "depth": "depth", "force": "normal_force"}
 
 
+@readable
 @dataclass(frozen=True, config=CLOSED)
 class CorrectedMDR:
     """The 1D model, corrected by the trust map to the mean over surfaces in 3D.

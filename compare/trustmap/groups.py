@@ -102,7 +102,7 @@ class FullContact:
         half = log(q_s / rough.q_min) / 2
         q = rough.q_min * np.exp(half * (1 + nodes))
         weights = weights * half * q
-        # Of unit height: the square of a tiny one would vanish.
+        # At unit height, as the square of a tiny one would vanish.
         unit, height = replace(rough, rms_height=1.0), rough.rms_height
         on_line, on_surface = weights * unit.density_1d(q, q_s), weights * q * unit.density_2d(q, q_s)
         cosine, shares = np.cos(pi / 4 * (1 + angles)), pi * shares

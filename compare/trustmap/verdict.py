@@ -42,7 +42,7 @@ SOLVE: Treatment = "solve"
 NONE: Treatment = "none"  # of neither solver
 # Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
 SMALL, WIDE = 0.05, 0.15
-# Of the range of a group, what may be missing to it.
+# Tolerated extrapolation, as a fraction of the measured range.
 SLACK = 0.02
 NEAREST = 3
 FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."

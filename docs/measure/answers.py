@@ -123,7 +123,7 @@ def _costs() -> Iterator[tuple[str, ...]]:
     for regime, rows in found.groupby("regime", sort=False):
         reached = (_reached(rows[rows["wanted"] == wanted].iloc[0]) for wanted in (0.1, 0.01))
         kept, least, most = (100 * rows.iloc[0][name] for name in ("floor_1d", "floor_1d_least", "floor_1d_most"))
-        # Of smooth bodies the interval is that of rounding beside the number.
+        # The interval of smooth bodies is that of rounding beside the number.
         known = number(kept, 3) if most - least < KNOWN * kept else interval(kept, least, most)
         yield regime, *reached, f"{known} %"
 

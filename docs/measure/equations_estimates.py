@@ -11,7 +11,7 @@ from mdr1d import MDR, estimates
 from mdr1d import equations as eq
 from scene import Elastic, Indent, Kelvin, Scene, Slide, Sphere, StandardLinearSolid
 
-# Of the paper's experiment: static and glassy modulus [Pa], speed [m/s], conductivity [W/(m K)], rms height [m].
+# The paper's experiment: static, glassy modulus [Pa], mu, speed [m/s], conductivity [W/(m K)], rms height [m].
 G0, GLASSY, MU, SPEED, CONDUCTIVITY, HEIGHT = 3e6, 1.5e9, 0.5, 1e-2, 20.0, 1e-7
 # Sphere on a bonded incompressible layer: a over the thickness, a over sqrt(R d), load over Hertz's at that depth.
 LAYER = ((0.2, 1.08065, 1.26977), (0.5, 1.19845, 1.85712), (1.0, 1.33700, 3.37110), (2.0, 1.4827, 8.4680))

@@ -18,7 +18,7 @@ SHAPE, LOAD = Sphere(1.0), 2.0
 # Many periods in the contact: the scatter is small, and no equation asks for the period.
 FINE = SelfAffine(hurst=0.4, rms_height=1e-6, longest=5e-4, shortest=1e-5)
 Q_MAX = FINE.q_max(0.0)
-# Of G''(q_max v) in the static modulus: full contact, and a depth that the static modulus governs.
+# G''(q_max v) over the static modulus: full contact, and a depth that the static modulus governs.
 SLOW = 0.003
 LOSSES, HURSTS = (1.0, 0.5, 0.2), (0.1, 0.3, 0.5, 0.7, 0.9)
 

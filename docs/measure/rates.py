@@ -29,7 +29,7 @@ SEED = 2014
 # As in the studies [m/s], [N].
 SPEED_RANGE, LOAD_RANGE = (7.5e-3, 2.0), (0.2, 20.0)
 SPEEDS, LOADS = np.geomspace(*SPEED_RANGE, 8), np.geomspace(*LOAD_RANGE, 8)
-# Of p(v) for a sphere on a Kelvin solid, and xi of the rough sphere of the studies at the middle speed and load.
+# Power of p(v) for a sphere on a Kelvin solid; xi of the studies' rough sphere at the middle speed and load.
 POWER, MIDDLE = -1.5, 0.11
 ALONG = np.log(SPEEDS) - np.log(SPEEDS).mean()
 ACROSS = np.log(LOADS) - np.log(LOADS).mean()
@@ -44,7 +44,7 @@ SCATTER, OWN = 0.05, 0.005
 COUNTS, SIZES = (3, 5, 10, 20), (0.0, 0.02, 0.05, 0.10)
 # Profiles in one dimension for each surface in three, as in the studies.
 PROFILES = 6
-# Of the common polynomial where it is not sought: what it mostly is at this scatter.
+# Degree of the common polynomial where it is not sought: what it mostly is at this scatter.
 DEGREE = 8
 DRAWN, SAMPLED = 20_000, (3, 5, 8, 10, 15, 20, 50)
 CHEAP, REFITS, PIPELINE, SURFACES = 1000, 300, 200, 10

@@ -193,7 +193,7 @@ def ball(points, extent, middle=(0.0, 0.0), **other):
     return Measured(heights=-(x**2 + y**2) / (2 * BALL.radius), pixel=grid.pixel, **other)
 
 
-# Of a contact some 25 pixels in radius: the lowest pixel is not quite the apex, and windows are not the same.
+# A contact some 25 pixels in radius: the lowest pixel is not quite the apex, and windows are not the same.
 @pytest.mark.parametrize(
     ("motion", "allowed"),
     [(Indent(load=0.3), 3e-3), (Indent(depth=1e-5), 1e-2), (Slide(speed=0.5, load=0.3), 5e-3)],

@@ -96,19 +96,24 @@ def test_every_name_of_the_package_is_there_is_listed_and_hides_no_module():
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
 def test_a_command_and_its_function_have_one_name_and_the_same_arguments_and_defaults(command):
-    name = {"list": "ready"}.get(command.title, command.title)
-    assert getattr(compare, name) is command.function
+    assert getattr(compare, command.title) is command.function
     function = inspect.signature(command.function).parameters
     asked = inspect.signature(command.callback()).parameters
     own = {each for each in function if each not in PYTHON_ONLY | {"options"}}
     assert own == set(asked) - set(SHARED) - {"quiet", "verbose", "json"} or not command.solves
-    for each in own:
-        default = asked[each].default
-        assert default == function[each].default or str(default) == str(function[each].default)
-    if command.solves:
-        assert set(SHARED) | {"progress"} == set(commands.Options.__annotations__)
-        defaults = inspect.signature(pipeline.run).parameters
-        assert {each: defaults[each].default for each in SHARED} == SHARED
+    assert {each: asked[each].default for each in own} == {each: function[each].default for each in own}
+
+
+def test_options_of_all_commands_have_the_names_types_and_defaults_that_solving_has():
+    solve, options = inspect.signature(commands.solve).parameters, commands.Options.__annotations__
+    assert set(options) == {*SHARED, "progress"}
+    assert {name: solve[name].annotation for name in options} == {
+        name: each.__forward_arg__ for name, each in options.items()
+    }
+    defaults = inspect.signature(pipeline.run).parameters
+    assert {name: each.default for name, each in SHARED.items()} == {
+        name: defaults[name].default for name in SHARED
+    }
 
 
 def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd):

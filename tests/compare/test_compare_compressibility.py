@@ -38,7 +38,7 @@ solvers = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.n
 ratios = pytest.mark.parametrize("nu", [-0.9, 0.4, pytest.param(0.0, marks=pytest.mark.slow)])
 # Iterations on numbers that differ by rounding.
 SCALED = {"MDR": 1e-11, "BEM": 1e-8}
-# Of three dimensions on 32 points a side: a pixel of a tenth of the radius.
+# Three dimensions on 32 points a side: a pixel of a tenth of the radius.
 GRID = {"MDR": 1e-4, "BEM": 0.02}
 
 G, TIME, RADIUS = 1e6, 1e-3, 1e-2

@@ -37,7 +37,7 @@ ROUGH = Scene(
 AT_DEPTH = replace(ROUGH, motion=Slide(speed=0.1, depth=1.5e-4))
 SMOOTH = replace(ROUGH, roughness=None)
 FEW = CorrectedMDR(MDR(points=1000), profiles=8)
-# Of sums in another order.
+# Sums in another order.
 ROUNDING = 1e-12
 WORTH = Correction(2.0, 1.9, 2.1, 1.5, 2.5, "multiply", "Made up.")
 

@@ -20,7 +20,7 @@ from scene import Indent, Scene
 
 ROUNDING = 1e-9
 TRIALS = 200
-# Of a share of 95 % over TRIALS: three standard deviations, 3 sqrt(0.95 * 0.05 / 200).
+# Three standard deviations of a share of 95 % over TRIALS, 3 sqrt(0.95 * 0.05 / 200).
 CHANCE = 0.046
 GRIDS = np.array([64.0, 128, 256, 512, 1024, 2048])
 SCATTER = 0.03  # of timings

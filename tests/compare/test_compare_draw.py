@@ -105,7 +105,7 @@ def test_an_arrow_points_where_the_indenter_slides(drawn):
 
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
     folder = drawn["rough"].output
-    again = compare.figures(folder, output=tmp_path)
+    again = compare.redraw(folder, output=tmp_path)
     png = next(path for path in again if path.suffix == ".png")
     assert png.read_bytes() == (folder / "draw.png").read_bytes()
 

@@ -10,7 +10,7 @@ from compare.statistics.intervals import Estimated, RmsMisfit
 from compare.statistics.jackknife import MOST_GROUPS, Replicates, groups, left_out, mean_ratio, resample
 
 DRAWS = 250
-# Of an interval of 95 %: what it may lose to first-order theory, 2 %, and three deviations of as many draws.
+# Least coverage of an interval of 95 %: 2 % lost to first-order theory, and three deviations of as many draws.
 LEAST = 0.93 - 3 * sqrt(0.93 * 0.07 / DRAWS)
 
 

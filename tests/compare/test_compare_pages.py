@@ -314,6 +314,33 @@ def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(("stated", "age"), [(None, "an earlier"), (1, "an earlier"), (10**6, "a later")])
+def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, stated, age):
+    content = json.loads((folder / "manifest.json").read_text())
+    del content["format"]
+    stated_there = {} if stated is None else {"format": stated}
+    # also where the rest cannot be understood
+    for changed in (content, {"plots": "elsewhere"}):
+        (tmp_path / "manifest.json").write_text(json.dumps(changed | stated_there))
+        for ask in (redraw, tables.export):
+            with pytest.raises(
+                InvalidInput, match=rf"manifest\.json: was written by {age} version of this program"
+            ):
+                ask(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("label", "age"),
+    [(b"", "an earlier"), (netcdf.LABEL.replace(b"2", b"1234"), "a later")],
+    ids=["none", "later"],
+)
+def test_results_of_another_version_say_so_in_one_line(tmp_path, label, age):
+    sealed(tmp_path / "results.nc", lambda file: file.create_group("a"), label)
+    for ask in (netcdf.load, lambda folder: tables.export(folder / "results.nc")):
+        with pytest.raises(InvalidInput, match=rf"results\.nc: was written by {age} version of this program"):
+            ask(tmp_path)
+
+
 KEYS = ["plots", "command", "inputs", "tables", "solved", "name"]
 JSON = st.recursive(
     st.none() | st.booleans() | st.floats(allow_nan=False) | st.text(max_size=3),
@@ -425,12 +452,12 @@ def test_a_map_is_no_larger_than_the_grids_that_are_solved():
         touching.unstacked(spread, "x", "y", "pressure")
 
 
-def sealed(path, fill):
+def sealed(path, fill, label=netcdf.LABEL):
     """A file of results with a seal that fits, as anyone can make one."""
     image = BytesIO()
     with h5py.File(image, "w") as file:
         fill(file)
-    content = image.getvalue()
+    content = image.getvalue() + label
     path.write_bytes(content + netcdf.SEAL + hashlib.sha256(content).hexdigest().encode())
 
 

@@ -285,7 +285,7 @@ def test_forms_of_eq_22_are_shown_by_their_deviation_from_the_simulation():
     curved = [line for line in axes.lines if len(line.get_xdata()) == len(parameters.FORCES)]
     for line, off in zip(curved, (-70, -70, -70, -10, -10, -10, 10, 10, 10), strict=True):
         np.testing.assert_allclose(line.get_ydata(), off, rtol=1e-9)
-    # Of three speeds the two faster ones break a condition.
+    # The two faster ones of three speeds break a condition.
     assert (len(points(axes, False)), len(points(axes, True))) == (3 * 10, 3 * 2 * 10)
 
 

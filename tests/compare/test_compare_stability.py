@@ -23,7 +23,7 @@ from scene.reading import InvalidInput
 
 QUICK = SIZES["quick"]
 STUDY = Stability.of("quick")
-# Of each: found, allowed, message; a case that raises has a reason.
+# Found, allowed and message of each; a case that raises has a reason.
 MADE_UP = {
     "speed-zero": Outcome((Row(seconds=1.0, measures={"found": 0.5, "allowed": 1.0}, settings={"what": "a"}),)),
     "no-shapes": Outcome((Row(measures={"found": 0.0, "allowed": 0.0}, settings={"what": "b", "message": "no"}),)),

@@ -98,7 +98,7 @@ def test_one_wave_is_all_in_one_ring():
     assert "isotropic" in found.warnings[1]
 
 
-# Of 40 intervals of 95 % as many or fewer hold with a chance of 1e-3.
+# As many of 40 intervals of 95 % or fewer hold with a chance of 1e-3.
 HOLD = int(binom.ppf(1e-3, 40, 0.95))
 
 

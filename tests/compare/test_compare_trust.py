@@ -498,7 +498,7 @@ def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, name):
     """The claims of docs/results/trust.md, on scenes that were neither fitted nor chosen by."""
     score, used = scores[name], scores[name].used
     half, most = study.WANTED[name]
-    # Of a third of the scenes the depth is lost in the roughness, and a sixth has none above zero.
+    # The depth of a third of the scenes is lost in the roughness, and a sixth has none above zero.
     assert score.usable.mean() > {"friction": 0.8, "depth": 0.6, "force": 0.8}[name]
     assert not np.any(score.usable & np.isnan(score.measured.logarithm))
     assert np.quantile(np.abs(used.errors), 0.5) < half

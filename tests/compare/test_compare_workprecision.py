@@ -90,7 +90,7 @@ def test_a_timed_solve_has_the_answer_of_its_solver_and_what_that_took():
     plain, more = (TimedSolve.of(BEM(points=64, tolerance=1e-7), PRESSED, products=each) for each in (False, True))
     found = plain.solve().rows[0]
     assert found.normal_force == plain.solver.solve(PRESSED).normal_force
-    # Of quick solves the least of several is taken.
+    # Quick solves are repeated, and the least time is taken.
     assert found.measures["repeats"] >= 3
     assert min(found.measures["processor"], found.measures["wall"]) > 0
     products = more.solve().rows[0].measures

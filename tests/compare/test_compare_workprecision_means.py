@@ -258,7 +258,7 @@ def test_corrected_by_the_true_ratio_one_dimension_keeps_no_error_and_pays_for_t
     assert found.floor("CorrectedMDR").least == 0.0 < found.floor().least
     assert own.setup == pytest.approx(SETUP)
     assert own.levels[0].seconds == line.levels[0].seconds == SECONDS[1000]
-    # Of one profile relative to the true mean, scattered as much more as its mean is less.
+    # Scatter of one profile relative to the true mean: as much more as its mean is less.
     assert own.levels[0].scatter.value == pytest.approx(line.levels[0].scatter.value / (1 - FLOOR))
     assert own.least_seconds == pytest.approx(SETUP + SECONDS[1000])
     assert own.error(SETUP + 25 * SECONDS[1000]) == pytest.approx(own.error_of(25))

@@ -23,7 +23,7 @@ def solved(solver, solid, *stages):
     return solver.solve(Scene(Sphere(R), solid, Program(stages=tuple(Stage(**stage) for stage in stages)))).fields
 
 
-# Of the greatest force, in the mean and at most: pixels of which 16 span the radius; a dashpot that touches again
+# Misfits over the greatest force, in the mean and at most: 16 pixels span the radius; a dashpot that touches again
 # jumps within a step of 1/40 period.
 @pytest.mark.parametrize(
     ("solid", "mean", "most"),

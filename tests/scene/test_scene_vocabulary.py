@@ -49,7 +49,7 @@ SCENES = {
         Program(stages=(Stage(duration=0.01, load=1.0), Stage(duration=0.01, load=1.0, speed=0.05))),
     ),
 }
-# Of length, modulus of elasticity and time.
+# Powers of length, modulus of elasticity and time.
 UNITS = {
     "1": (0, 0, 0),
     "m": (1, 0, 0),

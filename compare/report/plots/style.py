@@ -45,9 +45,9 @@ OTHERS = ("#009E73", "#CC79A7", "#8A6D00", "#7E57C2")  # colours of models that 
 SERIES_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 
-# Of the text, for all but labels and titles, and for what is written at points; heights are made for TEXT [point].
+# Font sizes relative to the base size: of all but labels and titles, of texts at points; the base size [point].
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
-# Of the page, what numbers and label of a vertical axis take.
+# Share of the page that numbers and label of a vertical axis take.
 BESIDE = 0.06
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
@@ -325,7 +325,7 @@ def head(axes: Axes, text: str, count: int) -> None:
 
 def columns(labels: Iterable[str], inches: float, most: int) -> int:
     """Number of columns of a legend of these labels, so that it is no wider; at most so many."""
-    # Of matplotlib: the handle, its gap to the label, and that between columns, in multiples of the text.
+    # Widths of matplotlib: the handle, its gap to the label, and that between columns, in multiples of the text.
     around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
     points = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
     widest = max(text_width(label, points) for label in labels) + around * points / 72

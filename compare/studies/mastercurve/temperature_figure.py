@@ -20,7 +20,7 @@ from ...statistics.temperatureshifts import TemperatureShifts
 NAME = "temperature-shifts"
 SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"
 LOG10 = np.log(10)
-# Of more, so many are drawn, from the lowest to the highest.
+# Most that are drawn, from the lowest to the highest.
 TEMPERATURES, LOADS = len(style.SERIES_MARKERS), 3
 LINES = {"WLF": "-", "Arrhenius": "--"}
 

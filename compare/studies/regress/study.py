@@ -33,7 +33,7 @@ from .quantities import shipped
 from .quantity import Quantity, Unmeasured
 
 SHIPPED = Path(__file__).with_name("baseline.toml")
-# Of a stored value: no tolerance is less than what they leave.
+# Digits of a stored value: no tolerance is less than these leave.
 DIGITS = 10
 HEADING = "# Written by `crosscheck regress --update`, see docs/howto/regression.md: quantities as found.\n"
 NEW, GONE = "not in the baseline", "no longer measured"
@@ -217,7 +217,7 @@ def write_baseline(path: Path, values: Mapping[str, float]) -> None:
 def check(
     baseline: str | Path = SHIPPED,
     quantities: Sequence[Quantity] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     workers: int | None = None,
 ) -> None:
     """Assert in a test that nothing has moved. Raises AssertionError that lists what has, InvalidInput.
@@ -234,7 +234,7 @@ def check(
 def update(
     baseline: str | Path,
     quantities: Sequence[Quantity] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     workers: int | None = None,
 ) -> str:
     """Rewrite a baseline, or begin one; arguments as for check. Returns what was stored, in words."""
@@ -247,7 +247,7 @@ def update(
 def _solved(study, folder, workers):
     (batch,) = study.batches()
     with tempfile.TemporaryDirectory() as passing:
-        outcomes = sweep(batch.tasks, Store(folder or Path(passing)), workers).outcomes
+        outcomes = sweep(batch.tasks, Store(Path(folder or passing)), workers).outcomes
     return study.measured(study.answers(outcomes))
 
 

@@ -67,7 +67,7 @@ def _size(name: str) -> Size:
     learned, held_out = (
         tuple(int(each) for each in table.read(path)["point"]) for path in (table.LEARNED, table.HELD_OUT)
     )
-    # Of those drawn evenly the smooth ones are in no table; the blunt ones after them are all rough.
+    # Among those drawn evenly the smooth ones are in no table; the blunt ones after them are all rough.
     evenly = [point for point in held_out if point < design.BLUNT_HELD_OUT]
     held_out = *range(evenly[-1] + 1), *held_out[len(evenly) :]
     sizes = {"quick": Size((), held_out[:24]), "standard": Size(learned, held_out)}

@@ -19,9 +19,9 @@ from .timed_solve import TimedSolve
 # Relaxed shear modulus [Pa], retardation time [s], radius [m], and that of the smooth contact at rest [m].
 MODULUS, MEMORY, RADIUS, REACH = 1e6, 1e-3, 10e-3, 1e-3
 SPHERE, KELVIN, LOAD = Sphere(RADIUS), Kelvin(MODULUS, MEMORY), 16 / 3 * MODULUS * REACH**3 / RADIUS
-# Of the sphere: the same at any number of points, with four of them a wave on the coarsest grid.
+# Roughness of the sphere: the same at any number of points, with four a wave on the coarsest grid.
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=10e-3, shortest=0.5e-3, seed=1)
-# Of the plane: its shortest wave is so many pixels, so that finer grids carry more waves.
+# Rms slope of the plane, and pixels to its shortest wave, so that finer grids carry more waves.
 SLOPE, PIXELS_A_WAVE = 0.1, 8
 PRESSURE = 0.035  # of the plane on all grids, over E* and its rms slope
 # Stiffening of the Prony series over all its modes, and decades that their times span.

@@ -15,7 +15,7 @@ from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
 from .scenes import FULL, QUICK, at
 
 LOAD = 1.0
-# Of sliding, in contact radii per relaxation time on the smooth body; in shortest waves on the rough one.
+# Sliding speeds, in contact radii per relaxation time on the smooth body, in shortest waves on the rough one.
 SMOOTH_SPEEDS = {"slow": 0.01, "middle": 1.0, "fast": 100.0}
 ROUGH_SPEEDS = {"slow": 0.02, "middle": 0.2, "fast": 20.0}
 GLASSY_OVER_RUBBERY = 10.0

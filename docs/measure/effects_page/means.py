@@ -10,7 +10,7 @@ from compare.statistics import digits
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio
 
-# Of the mean: bodies that differ by less do not scatter, and the mean stands alone.
+# Relative to the mean: bodies that differ by less do not scatter, and the mean stands alone.
 ALIKE = 1e-6
 # Said once on the page, where the first of them stands.
 MEANING = (

@@ -26,7 +26,7 @@ from .means import Estimate, between, estimate, ratio, written
 
 NAME, TITLE = "topography", "Measured topography"
 BODY = Scene(Sphere(radius=10e-3), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(depth=1e-4))
-# Of the piece that is cut out: pixels a side, and of the surface that it is cut from; side of a pixel [m].
+# Pixels a side of the piece that is cut out, and of the surface that it is cut from; side of a pixel [m].
 PIXELS, SURFACE, PIXEL = 128, 320, 31.25e-6
 SHORTEST = 125e-6  # kept [m]: four pixels
 LOAD = 1.0  # [N]

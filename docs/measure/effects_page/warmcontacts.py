@@ -22,7 +22,7 @@ GLASS, ROOM = 223.0, 296.0  # [K]: where the rubber turns to glass, and where it
 C2 = UNIVERSAL["c2"] + ROOM - GLASS
 LAW = WLF(temperature=ROOM, reference=ROOM, c1=UNIVERSAL["c1"] * UNIVERSAL["c2"] / C2, c2=C2)
 SPHERE, MODULUS = Sphere(radius=50e-3), 3e6
-# Of all frequencies that are seen at all temperatures; its glassy modulus is 1.5 GPa.
+# A law for all frequencies that are seen at all temperatures; its glassy modulus is 1.5 GPa.
 POWER = Fractional(
     modulus=MODULUS,
     relaxation_time=1e-2,

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from compare.report.plots import style
 
 NAME = "effect-costs"
-# Of a row: how far from its middle each dimensionality is drawn.
+# Distance from the middle of a row at which each dimensionality is drawn.
 ASIDE = {"3D": -0.14, "1D": 0.14}
 SOLVERS = {"3D": "BEM", "1D": "MDR"}
 ROW = 0.26
