@@ -214,6 +214,23 @@ def test_a_regime_stands_in_the_first_row_of_its_place_alone(form, end, tmp_path
     assert (text.count(f"slowly{end}"), text.count(f"fast{end}")) == (2, 1)
 
 
+def test_a_page_in_markdown_shows_whole_tables_of_forty_rows_in_all_and_names_the_files_of_the_others(tmp_path):
+    tables = [Table(name, DataFrame({"x": range(rows)})) for name, rows in (("a", 30), ("b", 11), ("c", 10))]
+    many = Findings(FINDINGS[:1] * 41)
+    text = render.write(Page("Long", (), (*tables, many)), FINDINGS, tmp_path, "markdown").read_text()
+    assert text.count("\n| ") == 30 + 10 + 2 * 2
+    assert "41 findings stand in [findings.csv](findings.csv)." in text
+    assert "Every digit of 11 rows: [b.csv](b.csv)." in text
+
+
+def test_a_caption_of_several_figures_stands_on_a_page_in_markdown_once(tmp_path):
+    (plot,) = page().every(Plot)
+    other = replace(plot, name="plane/friction")
+    text = render.write(Page("Two", (), (plot, other)), FINDINGS, tmp_path, "markdown").read_text()
+    assert text.count(plot.caption.partition("$")[0]) == 1
+    assert "Caption as above. Data: [friction.csv](plane/friction.csv)." in text
+
+
 def test_the_terminal_shows_a_claim_once_and_its_findings_below():
     text = terminal.text(page())
     assert text.count("Depths at rest agree (claimed 1 ± 0.05):") == 1

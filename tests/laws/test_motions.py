@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
+import changing_motion as motions
 import numpy as np
 import pytest
-from effects_page import closed_forms as motions
-from effects_page.track import Track, harmonic
+from changing_motion import harmonic
+from effects_page.track import Track
 from pydantic import ValidationError
 
 from bem3d import BEM

@@ -12,11 +12,6 @@ from compare.statistics.jackknife import mean_ratio
 
 # Relative to the mean: bodies that differ by less do not scatter, and the mean stands alone.
 ALIKE = 1e-6
-# Said once on the page, where the first of them stands.
-MEANING = (
-    "Here and in every chapter brackets hold the interval of 95 % of a mean over surfaces, lines or places or of\n"
-    "a ratio of such means; a number without it is of one body, or of bodies alike to six digits."
-)
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ LOAD = 10.0  # [N]
 # The experiment of the paper: friction of about a half, of which a smooth rubber loses little inside.
 RUBBING = Coulomb(0.5)
 FINE = SelfAffine(hurst=0.8, rms_height=1e-7, longest=20e-3, shortest=4e-3)
-CONTACTS = ((1.0, 1e-2), (10.0, 1e-2), (100.0, 3e-3), (100.0, 1e-2), (100.0, 2e-2))  # [N], [m/s]
+CONTACTS = ((1.0, 1e-2), (100.0, 1e-2), (100.0, 2e-2))  # [N], [m/s]
 CONDUCTIVITIES = {"steel": 20.0, "polymer": 0.2}  # [W/(m K)]
 FEEDBACKS: tuple[Literal["average", "flash"] | None, ...] = (None, "average", "flash")
 
