@@ -6,6 +6,8 @@ from typing import Any, ClassVar
 
 import xarray
 
+from scene.signatures import readable
+
 from ..report.page import Block, Findings, Page, Plot, Section, Text
 from ..solving import parameter_grid
 from ..solving.cost import Cost
@@ -20,6 +22,7 @@ from ..statistics.jackknife import judge
 SETTING = "Setting"
 
 
+@readable
 @dataclass(frozen=True)
 class Judgement:
     """What the answers of a study come to, made once.

@@ -119,7 +119,7 @@ def _of_spectrum() -> str:
 def _answer(run: DataFrame) -> str:
     """Three sentences in one list, of the smooth body, of friction and of its correction."""
     smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
-    slow_body, rough = (_row(run, f"run.friction.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
+    slow_body, rough = (_row(run, f"friction.ratio.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
     return "\n".join(
         [
             f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",
@@ -150,7 +150,7 @@ def _cell(row, percent: bool = False) -> str:
 def run_again() -> None:
     """Store the findings of the main job, and its title and first sentences as a terminal shows them."""
     report = compare.run(progress="lines")
-    write_text(RUN, text(report.findings))
+    write_text(RUN, text(report.table))
     write_text(RUN.with_suffix(".txt"), "\n\n".join(str(report).split("\n\n")[:LINES]) + "\n")
 
 

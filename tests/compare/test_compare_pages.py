@@ -616,7 +616,7 @@ def test_an_ending_says_what_it_adds():
 def test_every_column_of_findings_is_defined_on_the_page(folder):
     assert all(vocabulary.entry(name) for name in COLUMNS)
     ids = Links((folder / "report.html").read_text()).ids
-    for name in ("verdict", "value", "tolerance", "friction_coefficient", "speed", "pressure"):
+    for name in ("verdict", "value", "tolerance", "friction-coefficient", "speed", "pressure"):
         assert (f"def-{name}" in ids) == (name != "pressure")
 
 
