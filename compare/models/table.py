@@ -26,6 +26,7 @@ ModelLike: TypeAlias = Solver | str
 KNOWN: Mapping[str, tuple[str, Draws]] = {
     "MDR": ("1D", PROFILES),
     "BEM": ("3D", SURFACES),
+    "CorrectedMDR": ("1D corrected", NONE),
     "exact": ("closed form", NONE),
 }
 OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these

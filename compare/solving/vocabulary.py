@@ -52,7 +52,7 @@ sentence : The claim in words.
 meaning : How the number is measured, and what a deviation from it says.
 where : Case, series or diagram in which it was measured.
 dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
-    corrected: over the ratio that the trust map predicts.
+    corrected: over the ratio that the trust map predicts. Other models have their label.
 verdict : holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it does;
     undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value
     the verdict is whether the number is within its bound.
@@ -87,7 +87,7 @@ smooth : Logarithm of the ratio of the smooth body. [1]
 
 Of points, and of curves through them.
 solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
-    boundary elements, 3D. exact: closed form.
+    boundary elements, 3D. exact: closed form. Another name: a model that did not come with the package.
 body : Rough, or smooth: the same body without its roughness.
 curve : Curve that a point belongs to.
 friction : Coefficient of friction: mean friction force over mean normal force. [1] | \mu = F_x/F_N | theory, Eq. 2

@@ -45,7 +45,7 @@ class CorrectedMDR:
     """
 
     # Whose code and data the answer depends on.
-    packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.models.exact", "compare.studies.trust")
+    packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.models.exact", "compare.trustmap")
 
     mdr: MDR = MDR(points=4000)
     profiles: Draws = 40

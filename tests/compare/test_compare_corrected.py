@@ -225,5 +225,5 @@ def test_every_measure_has_a_unit_and_a_meaning():
 
 
 def test_a_stored_answer_depends_on_the_code_of_both_solvers_and_of_the_map():
-    assert {"scene", "mdr1d", "bem3d", "compare.studies.trust"} <= set(SceneTask(FEW, (ROUGH,)).packages)
+    assert {"scene", "mdr1d", "bem3d", "compare.trustmap"} <= set(SceneTask(FEW, (ROUGH,)).packages)
     assert SceneTask(MDR(), (ROUGH,)).packages == ("scene", "mdr1d")
