@@ -1,7 +1,15 @@
 """The three-dimensional answer: boundary elements on a viscoelastic half-space."""
 
+import logging
+
+from scene.signatures import make_readable
+
+from .accuracy import Unconfirmed
 from .refinement import refined
 from .solver import BEM
 from .trail import Trail
 
-__all__ = ["BEM", "Trail", "refined"]
+__all__ = ["BEM", "Trail", "Unconfirmed", "refined"]
+
+make_readable(globals()[name] for name in __all__)
+logging.getLogger(__name__).addHandler(logging.NullHandler())

@@ -1,5 +1,6 @@
 """Settings for a wanted accuracy: points are doubled until what changes over two halvings confirms it."""
 
+import logging
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -14,6 +15,7 @@ from scene.scales import elastic_contact
 if TYPE_CHECKING:
     from .solver import BEM
 
+_LOG = logging.getLogger(__name__)
 FIRST, MOST = 32, 1024  # points a side
 SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
 NARROW = 1e-7  # tolerance of a prescribed gap, at least: a narrow one is lost in a looser one
@@ -96,6 +98,7 @@ def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
             continue
         seen = {name: changes(scene, name, answers) for name in wanted}
         choice = Choice(settings, answers[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
+        _LOG.info("%d points a side: errors %s", settings.points, choice.error)
         if choice.confirmed or any(
             _needed(settings.points, *each, wanted[name]) > HOPELESS * MOST for name, each in seen.items()
         ):

@@ -23,12 +23,12 @@ class FreeConvolution:
             symbol = engine.symmetric(downstream, padded)
         else:
             symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
-        self.shape, self.applications = (ny, nx), 0
+        self.shape, self.operator_applications = (ny, nx), 0
         self._product = engine.product(symbol, self.shape, padded)
 
     def __call__(self, pressure, out=None):
         """Displacement (ny, nx) of a pressure (ny, nx)."""
-        self.applications += 1
+        self.operator_applications += 1
         return self._product(pressure, out)
 
 
@@ -45,12 +45,12 @@ class FreePair:
         symbols = [
             engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)
         ]
-        self.shape, self.applications = (ny, nx), 0
+        self.shape, self.operator_applications = (ny, nx), 0
         self._product = engine.pair(symbols, self.shape, padded)
 
     def __call__(self, planes, out=None):
         """Displacements (2, ny, nx) of tractions (2, ny, nx)."""
-        self.applications += 2
+        self.operator_applications += 2
         return self._product(planes, out)
 
 
@@ -59,12 +59,12 @@ class PeriodicFilter:
 
     def __init__(self, shape, symbol, engine=PLAIN):
         """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array."""
-        self.shape, self.applications = shape, 0
+        self.shape, self.operator_applications = shape, 0
         self._product = engine.product(symbol(*_wave_numbers(shape)), shape, shape)
 
     def __call__(self, values, out=None):
         """The filtered values (ny, nx)."""
-        self.applications += 1
+        self.operator_applications += 1
         return self._product(values, out)
 
 
@@ -82,12 +82,12 @@ class PeriodicPair:
         q_y, q_x = _wave_numbers(shape)
         xx, xy, yy = symbols(q_y, q_x)
         xy = np.where((q_y > SHORTEST) | (q_x > SHORTEST), 0.0, xy)
-        self.shape, self.applications = shape, 0
+        self.shape, self.operator_applications = shape, 0
         self._product = engine.pair((xx, xy, yy), shape, shape)
 
     def __call__(self, planes, out=None):
         """The filtered planes (2, ny, nx)."""
-        self.applications += 2
+        self.operator_applications += 2
         return self._product(planes, out)
 
 

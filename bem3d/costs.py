@@ -16,7 +16,7 @@ from .sliding import Flow
 MEASURED = Path(__file__).with_name("costs.csv")
 BANDS = ("rest", "slow", "middle", "fast")
 SLOW, FAST = 0.1, 10.0  # memory over the shortest length of the contact, between which it slides at middle speed
-COSTS = "seconds", "applications"  # of a solve, medians by points a side
+COSTS = "seconds", "operator_applications"  # of a solve, medians by points a side
 
 
 def band(scene: Scene) -> str:

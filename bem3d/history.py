@@ -31,7 +31,7 @@ def marched(solver, scene, started) -> Result:
         depth=float(history.depth[-1]),
         friction_force=float(history.friction_by_traction[-1]),
         residual=float(history.residual.max()),
-        applications=problem.work / points,
+        operator_applications=problem.work / points,
         seconds=time.process_time() - started,
         measures={
             **measured(problem, seen, history.pressure, history.gap),

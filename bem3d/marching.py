@@ -226,8 +226,10 @@ class _Press:
     def count(self):
         """Add what all contacts took to the work of the problem."""
         problem, points = self._problem, self._grid.points * self._grid.rows
-        problem.work += self._operator.applications * points
-        problem.transforms += (self._operator.applications + self._preconditioner.applications) * points
+        problem.work += self._operator.operator_applications * points
+        problem.transforms += (
+            self._operator.operator_applications + self._preconditioner.operator_applications
+        ) * points
 
     def _load(self, time):
         """Sum of the pressure over E* on all pixels."""

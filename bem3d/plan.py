@@ -107,7 +107,7 @@ class _March:
             yield Array(f"modes on sheet {k}", (self.modes, *sheet.shape))
             yield from product(engine, f"response, sheet {k}", sheet.shape, padded(engine, sheet.shape), real=True)
         if self.back:
-            # Of each sheet but the widest, columns of all modes.
+            # Columns of all modes, of each sheet but the widest.
             for finer in [self.grid, *self.sheets][: len(self.sheets)]:
                 columns = ceil(self.back / finer.pixel)
                 yield Array(f"left behind {by(finer.shape)} points", (columns, self.modes * finer.rows + PIECE))

@@ -217,11 +217,11 @@ class Problem:
             ) from error
         finally:
             self._count(grid, operator)
-            self.transforms += preconditioner.applications * grid.points * grid.rows
+            self.transforms += preconditioner.operator_applications * grid.points * grid.rows
 
     def _count(self, grid, product):
-        self.work += product.applications * grid.points * grid.rows
-        self.transforms += product.applications * grid.points * grid.rows
+        self.work += product.operator_applications * grid.points * grid.rows
+        self.transforms += product.operator_applications * grid.points * grid.rows
 
     def _pressed(self, grid, heights):
         """Depth [pixel] or load [pixels times E*], the other None. Raises EmptyContact, Unseen."""

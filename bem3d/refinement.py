@@ -113,7 +113,7 @@ def _refined(solver, scene, coarse, fields, steps):
         depth=depth,
         friction_force=friction.force,
         residual=violation,
-        applications=float(rounds),
+        operator_applications=float(rounds),
         seconds=process_time() - started,
         measures={
             **measured(problem, spots, pressure, np.zeros(spots.shape)),

@@ -73,7 +73,7 @@ class Flow:
         """
         if self.at_rest:
             return 0.0
-        # Of a fast contact the first order in the speed has no bound: nothing may be left of it.
+        # The first order in the speed has no bound in a fast contact: nothing may be left of it.
         return 1 / (1 + min(4 * self.memory / grid.pixel, 1e75) ** 4)
 
     def in_pixels(self, grid: Grid) -> np.ndarray:

@@ -1,5 +1,6 @@
 """The three-dimensional solver: its settings, and what it answers."""
 
+import logging
 import time
 from dataclasses import replace
 from functools import partial
@@ -26,6 +27,7 @@ from .problem import Problem
 from .terms import TERMS
 from .trail import Trail
 
+_LOG = logging.getLogger(__name__)
 RELATIVE = UnitOfOthers("", kind="a relative error between 0 and 1")
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
@@ -63,7 +65,7 @@ class BEM:
     >>> print(f"{1e3 * answer.depth:.3f} mm, {answer.friction_coefficient:.4f}")
     0.152 mm, 0.0095
 
-    Result.applications counts operator applications, Result.measures["transform_pairs"] those of the
+    Result.operator_applications counts operator applications, Result.measures["transform_pairs"] those of the
     preconditioner too, both in equivalents of the finest grid.
     Result.measures: pixel [m], contact_area [m^2], contact_points, points_across_contact, spot_radius [m] (of a
     disc with the area over rim of the contact), rounds, transform_pairs;
@@ -94,7 +96,7 @@ class BEM:
     which together are the friction. Under a Shear: friction_force is the tangential force; measures
     friction_in_interface, tangential_displacement [m], stick_area, slip_area [m^2], tangential_residual (slip
     where it sticks and slip across the traction where it slips, over the displacement; or the misfit of the force
-    if that is more), tangential_applications, also part of Result.applications, tangential_rounds; fields
+    if that is more), tangential_applications, also part of Result.operator_applications, tangential_rounds; fields
     traction_x, traction_y [Pa], on the indenter, and slip_x, slip_y [m], of the elastomer past it, zero outside
     the contact; those along y only where a traction along x also displaces along y.
     """
@@ -214,6 +216,7 @@ class BEM:
             result = surrounded(solve, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
+        _LOG.info("answered with %s", result.settings)
         return result
 
     def _solved(self, scene, trail):
@@ -253,6 +256,7 @@ class BEM:
             better = window.improved(problem, grid, answer)
             if better is None:
                 return grid, answer
+            _LOG.debug("the contact does not fit a window %.3g m wide: %.3g m next", grid.extent, better.extent)
             grid, start, beside = better, None, None
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
@@ -271,7 +275,7 @@ class BEM:
             depth=answer.depth * grid.pixel,
             friction_force=friction.force,
             residual=answer.violation,
-            applications=problem.work / (grid.points * grid.rows),
+            operator_applications=problem.work / (grid.points * grid.rows),
             seconds=time.process_time() - started,
             measures={
                 **measured(problem, grid, pressure, answer.gap * grid.pixel),

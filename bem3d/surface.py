@@ -56,7 +56,7 @@ class RoughSurface:
         k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
         k = np.hypot(k_x, k_y)
         drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))
-        # Of unit height: the square of a tiny one would vanish.
+        # At unit height, as the square of a tiny one would vanish.
         power = np.where(drawn, _cell_means(replace(roughness, rms_height=1.0), top, q_max), 0.0)
         power /= power.sum()
         order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))

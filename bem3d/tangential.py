@@ -81,7 +81,7 @@ class Drawn(Term):
         return replace(
             result,
             friction_force=result.friction_force + tangential.friction(found),
-            applications=result.applications + tangential.work,
+            operator_applications=result.operator_applications + tangential.work,
             seconds=result.seconds + time.process_time() - started,
             measures={
                 **result.measures,
@@ -234,8 +234,8 @@ class Tangential:
             )
         finally:
             share = grid.points * grid.rows / (self._grid.points * self._grid.rows)
-            self.work += share * operator.applications
-            self.transforms += share * (operator.applications + inverse.applications)
+            self.work += share * operator.operator_applications
+            self.transforms += share * (operator.operator_applications + inverse.operator_applications)
         there = engine.asnumpy
         return replace(
             found, traction=there(found.traction), slip=there(found.slip), slipping=there(found.slipping)
@@ -293,10 +293,10 @@ class Counted:
     """A product of vectors (components, m); `applications` counts one for each component."""
 
     def __init__(self, product):
-        self._product, self.applications = product, 0
+        self._product, self.operator_applications = product, 0
 
     def __call__(self, planes):
-        self.applications += len(planes)
+        self.operator_applications += len(planes)
         return self._product(planes)
 
 
@@ -308,7 +308,7 @@ class Alone:
 
     @property
     def applications(self) -> int:
-        return self._product.applications
+        return self._product.operator_applications
 
     def __call__(self, planes):
         return self._product(planes[0])[None]

@@ -115,7 +115,7 @@ class Returning(Endless):
     def __init__(self, window: Sheet, path: float, half_space, kept):
         super().__init__(window, path, half_space)
         self._kept = kept
-        # Of each sheet, what has left it forwards and backwards: the last to leave is the first to come back.
+        # What has left each sheet forwards and backwards: the last to leave is the first to come back.
         self._behind: dict[Sheet, dict[int, deque]] = {
             sheet: {1: deque(), -1: deque()} for sheet in self._sheets[:-1]
         }

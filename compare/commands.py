@@ -10,7 +10,7 @@ output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor
 scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
 format : format of the page: html, markdown or latex
-figures : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
+figure_format : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
 report : write the page and its figures. Findings, tables and results are written in any case
 yes : agree to a study of more than a day or of more than 300,000 contacts
 progress : whether the terminal shows how far it is
@@ -27,9 +27,11 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -37,8 +39,10 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from .library.lookup import Asked
+    from .library.lookup import SceneLike
     from .library.ready import Listing
+    from .models.table import ModelLike
+    from .solving.runner import Progress
     from .solving.terminal import Preparing
     from .studies.mastercurve.measurements import Measurements
     from .studies.plan import Plans
@@ -46,39 +50,83 @@ if TYPE_CHECKING:
     from .studies.report import Report
     from .studies.study import Study
     from .studies.topography.study import Surface
-    from .trustmap.verdict import Trust
+    from .trustmap.verdict import Advice
+
+
+# Allowed values, which a shell completes. Others are refused where they are used.
+Size = Literal["quick", "standard", "full"]
+Format = Literal["html", "markdown", "latex"]
+FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
+Diagram = Literal["models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "all"]
+Journal = Literal[
+    "default",
+    "acs",
+    "aip",
+    "aps",
+    "elsevier",
+    "ieee",
+    "iop",
+    "nature",
+    "royal-society",
+    "sage",
+    "springer",
+    "taylor-francis",
+    "wiley",
+]
+LengthUnit = Literal["m", "mm", "um", "nm"]
+Missing = Literal["refuse", "fill"]
+Level = Literal["mean", "tilt", "curvature", "cubic"]
+Repeat = Literal["mirror", "periodic"]
+Peaks = Literal["up", "down"]
 
 
 class Options(TypedDict, total=False):
-    """Options of every command that solves, see the module."""
+    """Options of every command that solves: those of `solve`."""
 
     workers: int | None
     scheduler: str | None
-    format: str
-    figures: str
+    format: Format
+    figure_format: FigureFormat
     report: bool
     yes: bool
     progress: bool | str | Preparing
 
 
-def solve(study: Study, output: str | Path, **options: Unpack[Options]) -> Report:
+def solve(
+    study: Study,
+    output: str | Path,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    format: Format = "html",
+    figure_format: FigureFormat = "png",
+    report: bool = True,
+    yes: bool = False,
+    progress: bool | str | Preparing = False,
+) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
     """
-    from .solving.terminal import Preparing, shown
     from .studies import pipeline
 
     _warn(study.doubts)
-    chosen: dict[str, Any] = dict(options)
-    progress = chosen.pop("progress", False)
+    with _shown(progress) as told:
+        found = pipeline.run(study, output, workers, scheduler, format, figure_format, report, yes, told)
+    _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
+    return found
+
+
+@contextmanager
+def _shown(progress: bool | str | Preparing) -> Iterator[Progress | None]:
+    """Progress that a terminal shows, in lines or as a bar; None where nothing is to be shown."""
     if not progress:
-        report = pipeline.run(study, output, **chosen)
-    else:
-        with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
-            report = pipeline.run(study, output, progress=shown(preparing), **chosen)
-    _warn([" ".join(report.unsolved.sentences)] if report.unsolved.failed else [])
-    return report
+        yield None
+        return
+    from .solving.terminal import Preparing, shown
+
+    with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
+        yield shown(preparing)
 
 
 def _warn(sentences: Sequence[str]) -> None:
@@ -94,30 +142,38 @@ def _warn(sentences: Sequence[str]) -> None:
 
 
 def run(
-    scene: Asked | Mapping[str, Asked] | None = None,
+    scene: SceneLike | Mapping[str, SceneLike] | None = None,
     output: str | Path = "crosscheck-report",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
     **options: Unpack[Options],
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
 
     scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
         also a Scene or a Case, or several by name
+    models : names of the models, separated by commas: mdr, bem, those of installed packages, MODULE:NAME; mdr,bem
+        if absent. From Python also objects, see `scene.Solver`
+    reference : name of the model against which the others are judged; bem, or the last, if absent
     """
     from .studies.run.study import Run
 
-    return solve(Run.of(scene), output, **options)
+    return solve(Run.of(scene, models, reference), output, **options)
 
 
 def study(
     name: str | Path | None = None,
-    size: str = "quick",
+    size: Size = "quick",
     output: str | Path = "crosscheck-study",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Test the paper's claims on many contacts in 1D and 3D.
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
+    models, reference : like those of `run`; the study `trust` takes none
     """
     if name is None:
         from .library.ready import studies
@@ -128,10 +184,10 @@ def study(
 
     if name == TrustStudy.name:
         return solve(TrustStudy.of(size), output, **options)
-    return solve(ClaimStudy.of(str(name), size), output, **options)
+    return solve(ClaimStudy.of(str(name), size, models, reference), output, **options)
 
 
-def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
+def paper(size: Size = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
     """Repeat the paper in 1D: figures, parameter studies, claims.
 
     size : how many rough profiles are averaged: quick (20), standard (50) or full (200, as published)
@@ -142,8 +198,8 @@ def paper(size: str = "full", output: str | Path = "crosscheck-paper", **options
 
 
 def workprecision(
-    name: str | None = None,
-    size: str = "quick",
+    name: Diagram | None = None,
+    size: Size = "quick",
     output: str | Path = "crosscheck-workprecision",
     **options: Unpack[Options],
 ) -> Report | Listing:
@@ -162,7 +218,7 @@ def workprecision(
 
 
 def stability(
-    size: str = "quick", output: str | Path = "crosscheck-stability", **options: Unpack[Options]
+    size: Size = "quick", output: str | Path = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
     """Solve hard cases and check the law of each. The status is 1 if any case breaks its law.
 
@@ -191,7 +247,7 @@ def regress(
     asked = Regress.of(baseline, quantities, update)
     report = solve(asked, output, **options)
     if update:
-        asked.store(report.claims)
+        asked.store(report.findings)
     return report
 
 
@@ -223,15 +279,15 @@ def mastercurve(
 def topography(
     file: Surface,
     pixel: str | float | Sequence[str | float] | None = None,
-    unit: str | None = None,
+    unit: LengthUnit | None = None,
     channel: str | None = None,
     crop: Sequence[str | float] | None = None,
     outliers: float | None = None,
-    missing: str = "refuse",
-    level: str | None = None,
+    missing: Missing = "refuse",
+    level: Level | None = None,
     shortest_kept: str | float | None = None,
-    repeat: str = "mirror",
-    peaks: str = "up",
+    repeat: Repeat = "mirror",
+    peaks: Peaks = "up",
     output: str | Path = "topography",
     **options: Unpack[Options],
 ) -> Report:
@@ -260,19 +316,22 @@ def topography(
 
 
 def sweep(
-    scene: Asked,
+    scene: SceneLike,
     speed: Sequence[float],
     load: Sequence[float] | None = None,
     depth: Sequence[float] | None = None,
     draws: int = 8,
     output: str | Path = "crosscheck-sweep",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
-    """Solve a scene at every speed and every load or depth in both dimensionalities.
+    """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
 
-    Returns a Dataset with the dimensions solver, grid, speed, load or depth, and draw: every single draw with its
-    `status` and `reason`, and the means over draws on the fine grid, `friction`, `force` and `reached`, each with
-    `_low` and `_high`, the interval of 95 % with the scatter of draws and the change on halving the grid.
+    Returns a Dataset with the dimensions solver, grid, speed, load or depth, and seed: every single draw with its
+    `status` and `reason`, and the means over draws on the fine grid, `friction_coefficient_mean`,
+    `normal_force_mean` and `depth_reached_mean`, each with `_low` and `_high` in place of `_mean`: the interval of
+    95 % with the scatter of draws and the change on halving the grid.
     `friction_error` bounds what the grid leaves of friction in 95 % of draws; above a tenth UncertainFriction is
     warned.
 
@@ -283,7 +342,7 @@ def sweep(
     from .statistics import griderror
     from .studies.sweep.study import Sweep
 
-    asked = Sweep.of(scene, speed, load, depth, draws)
+    asked = Sweep.of(scene, speed, load, depth, draws, models, reference)
     answers = solve(asked, output, **options).answers
     griderror.warn(answers)
     return asked.dataset(answers)
@@ -296,7 +355,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
     return figure_of(dataset)
 
 
-def trust(scene: Asked) -> Trust:
+def trust(scene: SceneLike) -> Advice:
     """Say whether to use 1D, multiply it, or solve in 3D. It takes about a second, as nothing rough is solved.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
@@ -309,7 +368,7 @@ def trust(scene: Asked) -> Trust:
     return found
 
 
-def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
+def plan(scene: SceneLike, figure: str | Path | None = None) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
@@ -325,7 +384,7 @@ def plan(scene: Asked, figure: str | Path | None = None) -> Plans:
 
 
 def load(folder: str | Path) -> xarray.DataTree:
-    """Everything that a command solved, with each single draw: a Dataset for each rectangle and solver.
+    """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver.
 
     folder : folder that a command has written, or its results.nc
     """
@@ -334,7 +393,7 @@ def load(folder: str | Path) -> xarray.DataTree:
     return netcdf.load(folder)
 
 
-def ready() -> Listing:
+def scenes() -> Listing:
     """List the scenes and studies that come with the package."""
     from .library.ready import offered
 
@@ -344,7 +403,7 @@ def ready() -> Listing:
 def new(name: str, file: str | Path | None = None) -> Path:
     """Copy a ready scene or study into a file of your own.
 
-    name : ready scene or study, see `crosscheck list`
+    name : ready scene or study, see `crosscheck scenes`
     file : file to write; if absent, NAME.toml. A file that exists is never overwritten
     """
     from .library.ready import write
@@ -352,7 +411,7 @@ def new(name: str, file: str | Path | None = None) -> Path:
     return write(name, file or f"{name}.toml")
 
 
-def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, Any]:
+def schema(kind: Literal["scene", "study"] = "scene", output: str | Path | None = None) -> dict[str, Any]:
     """Print the JSON schema of scene files or study files. Editors use it to complete and check TOML.
 
     kind : schema of which files: scene or study
@@ -363,13 +422,17 @@ def schema(kind: str = "scene", output: str | Path | None = None) -> dict[str, A
     return schema(kind, output)
 
 
-def figures(
-    folder: str | Path, journal: str = "default", style: Any = None, output: str | Path | None = None
+def redraw(
+    folder: str | Path,
+    journal: Journal = "default",
+    style: str | PathLike | Mapping[str, Any] | None = None,
+    output: str | Path | None = None,
 ) -> list[Path]:
     """Draw the figures of a folder again, for a journal. Nothing is solved: the figures are drawn from tables.
 
     folder : folder that a command has written
-    journal : journal or publisher that sets column widths, smallest text and thinnest lines
+    journal : journal or publisher that sets column widths, smallest text and thinnest lines: default, acs, aip,
+        aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
     style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
     output : folder for the figures; if absent, `figures` in the folder
     """
@@ -378,7 +441,9 @@ def figures(
     return redraw(folder, journal, style, output)
 
 
-def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
+def export(
+    folder: str | Path, to: Literal["csv", "latex", "vtk"] = "csv", output: str | Path | None = None
+) -> list[Path]:
     """Write tables as CSV or LaTeX, surfaces for ParaView.
 
     folder : folder that a command has written, or its results.nc
@@ -392,7 +457,7 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
 
 
 def draw(
-    scene: Asked, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
+    scene: SceneLike, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
 ) -> Report:
     """Draw the contact in 3D and the row of springs in 1D.
 
@@ -414,7 +479,7 @@ def draw(
 
 
 def animate(
-    scene: Asked,
+    scene: SceneLike,
     output: str | Path | None = None,
     frames: int = 60,
     seconds: float = 6.0,
@@ -430,13 +495,7 @@ def animate(
     seconds : length of the animation [s]
     folder : folder for the solved contacts
     """
-    from .solving.terminal import Preparing, shown
     from .studies.animate.animation import animate
 
-    if not progress:
-        return animate(scene, output, frames, seconds, folder, workers, None)
-    with (
-        progress if isinstance(progress, Preparing) else Preparing() as preparing,
-        shown(preparing).solving() as told,
-    ):
-        return animate(scene, output, frames, seconds, folder, workers, told)
+    with _shown(progress) as told, told.solving() if told else nullcontext() as solving:
+        return animate(scene, output, frames, seconds, folder, workers, solving)

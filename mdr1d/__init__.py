@@ -1,5 +1,9 @@
 """One-dimensional solver: the method of dimensionality reduction on a viscoelastic foundation, solved exactly."""
 
+import logging
+
+from scene.signatures import make_readable
+
 from . import equations, estimates
 from .foundation import Contact, sweep
 from .lines import draw
@@ -26,3 +30,6 @@ __all__ = [
     "sweep",
     "sweep_modes",
 ]
+
+make_readable(globals()[name] for name in __all__)
+logging.getLogger(__name__).addHandler(logging.NullHandler())

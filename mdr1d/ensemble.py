@@ -25,7 +25,7 @@ from .surface import MOST_NODES, Surface, family_of, nodes_needed
 _AIM = 1e-11
 # Profiles that are drawn at once.
 _TOGETHER = 4
-# Of a scene, no more and no less.
+# Parts of a scene that are taken, no more and no less.
 _PARTS = {"indenter", "elastomer", "motion", "roughness"}
 
 

@@ -20,7 +20,7 @@ from scipy.integrate import quad_vec
 from .domain import between, in_si, not_negative, one_of, positive
 
 Form = Literal["corrected", "as_printed"]
-# Of Eq. 19, the paper's best fit.
+# Exponent of Eq. 19, the paper's best fit.
 ALPHA = 1.5
 _QUADRATURE = 1e-12
 

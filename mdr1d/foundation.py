@@ -17,7 +17,7 @@ from scene.quantities import METRE, takes
 
 # How every loop of this package is compiled: this module is its only door to numba.
 compiled = njit(cache=True, nogil=True, error_model="numpy")
-# Of short loops that only sum: side by side, in whatever order that takes, at the place of the call.
+# Compiled for short loops that only sum: in any order, side by side, at the place of the call.
 summed = njit(
     cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"}, forceinline=True
 )
@@ -217,7 +217,7 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
                 end, finish = begin, start
             elif begin + pressing / slope < pixel:
                 end, finish = begin + pressing / slope, memory * slope
-        # Of a first touch just before a node only the heights know the width.
+        # Only the heights know the width of a first touch just before a node.
         width = (start - finish) / slope if begin > 0.0 and slope < 0.0 else end - begin
         push = width * (0.5 * (start + finish) - memory * slope)
         if pushed is not None:

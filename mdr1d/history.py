@@ -31,7 +31,7 @@ def marched(solver, scene: Scene, reduced: Scene, started: float) -> Result:
         depth=float(history.depth[-1]),
         friction_force=float(friction[-1]),
         residual=modulus * history.misfit / program.greatest if by_load else 0.0,
-        applications=marches * len(history.time),
+        operator_applications=marches * len(history.time),
         seconds=process_time() - started,
         measures=_measures(scene, body, history),
         fields={

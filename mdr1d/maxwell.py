@@ -382,7 +382,7 @@ def _sweep(
             if begin > 0.0:
                 # Where the free surface meets the flank, the flatter of the two knows the height.
                 start = met if fall < abs(rate) else max(here + rate * begin, 0.0)
-                # Of a touch just before a node only the heights know the width.
+                # Only the heights know the width of a touch just before a node.
                 width = min(max((there - start) / rate, 0.0), pixel) if rate > 0.0 else pixel - begin
             shift += 1.0 - slackened
             stiffness += drag * (1.0 - slackened)

@@ -104,5 +104,5 @@ def _expected(scene, nodes, steps):
         each = MAXWELL + BRANCH * len(moduli) if scene.motion.speed and len(moduli) else KELVIN
     drawn = DRAWN if scene.roughness is not None else 0.0
     others = [part for part in scene.parts.values() if not isinstance(part, COUNTED)]
-    plain = {"applications": float(sweeps), "seconds": START + nodes * (sweeps * each + drawn)}
+    plain = {"operator_applications": float(sweeps), "seconds": START + nodes * (sweeps * each + drawn)}
     return expected(lambda: plain, MEASURED, others, EFFECTS)

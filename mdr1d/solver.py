@@ -1,5 +1,6 @@
 """The one-dimensional solver: the method of dimensionality reduction (MDR) behind the common protocol."""
 
+import logging
 from dataclasses import replace
 from math import ceil, inf
 from time import process_time
@@ -30,6 +31,7 @@ from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, u
 from .surface import MOST_NODES, Band, Spectrum, band_of
 from .terms import TERMS
 
+_LOG = logging.getLogger(__name__)
 SPARE = 1.25  # of an extent, for the contacts of other draws
 FULLER = 1.01  # of two pixels, so that they are carried with few digits too
 
@@ -51,7 +53,7 @@ class MDR:
     Solves any elastomer, at rest with its relaxed modulus, in steady sliding and in time. The contact is exact on
     a profile that is linear between nodes; against a smooth shape the error is of second order in the pixel.
     Result.residual is the relative misfit of a prescribed load, at most 1e-10, and zero at a prescribed depth;
-    Result.applications counts sweeps along the profile.
+    Result.operator_applications counts sweeps along the profile.
 
     >>> from mdr1d import MDR
     >>> from scene import Kelvin, Scene, Slide, Sphere
@@ -152,6 +154,7 @@ class MDR:
             result = surrounded(self._solved, terms_of(self.terms, scene))(scene)
             if not np.isfinite([result.normal_force, result.friction_force]).all():
                 raise ArithmeticError("forces beyond the range of numbers")
+            _LOG.info("answered with %s", result.settings)
             return result
 
     def _solved(self, scene: Scene) -> Result:
@@ -179,7 +182,7 @@ class MDR:
             depth=approach + body.lowest,
             friction_force=modulus * contact.dissipation,
             residual=0.0 if load is None else abs(force / load - 1),
-            applications=sweeps,
+            operator_applications=sweeps,
             seconds=seconds,
             measures=measures(reduced, body, contact) | ({} if error is None else {"friction_error": error}),
             fields={

@@ -13,7 +13,7 @@ from scene import Profile, SelfAffine, Topography
 from scene.quantities import BARE, takes
 from scene.roughness import Roughness
 
-# Of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
+# Spectrum of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
 Spectrum = Literal["mapped", "line-scan"]
 
 # Spawn keys keep a line apart from a surface drawn with the same seed, and the moduli of waves from the phases.

@@ -12,12 +12,14 @@ from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
 from .profile import Profile
 from .protocol import EmptyContact, OutOfMemory, Refused, SolveError, Solver
+from .reading import InvalidInput
 from .regime import Regime
 from .result import Result
 from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from .roughness import CrossedWaves, Wave
 from .scene import Scene
 from .selfaffine import SelfAffine
+from .signatures import make_readable
 from .table import CreepTable, RelaxationTable, Table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius
@@ -38,6 +40,7 @@ __all__ = [
     "Fractional",
     "Heating",
     "Indent",
+    "InvalidInput",
     "Kelvin",
     "KelvinChain",
     "Layer",
@@ -70,3 +73,5 @@ __all__ = [
     "notes",
     "read_table",
 ]
+
+make_readable(globals()[name] for name in __all__)

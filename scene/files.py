@@ -13,7 +13,7 @@ from typing import Any
 
 from .printable import brief
 
-# Of encodings, by the mark at the beginning of a file.
+# Encodings, by the mark at the beginning of a file.
 _MARKS = {"utf-8-sig": b"\xef\xbb\xbf", "utf-16": (b"\xff\xfe", b"\xfe\xff")}
 _BEGINNING = 1000  # bytes in which zeros are sought
 # What a name of a file has if "C:\\new" stood in double quotes.

@@ -3,7 +3,7 @@
 import numpy as np
 
 DEGREES = {"mean": 0, "tilt": 1, "curvature": 2, "cubic": 3}
-# Of the largest height: what is left of a form once it is taken off.
+# Rest of a form once it is taken off, relative to the largest height.
 ROUNDING = 1e-13
 
 

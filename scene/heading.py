@@ -20,7 +20,7 @@ _BEHIND = re.compile(
     r"(?P<name>.+?)[_ ](?P<a>[mkMGµμu]?(?:[hH]z|[pP]a)|[nuµμmk]m|[uµμmk]N"
     rf"|(?:[nuµμmck]?m|rad){_PER}s|[uµμm]s|°C|deg_?[CF])"
 )
-# Of one letter only behind what needs it: "F_N" is a force, and "T_g" a temperature.
+# A unit of one letter counts only behind what needs it: "F_N" is a force, and "T_g" a temperature.
 _LETTER = re.compile(
     r"(?P<name>(?:.*[_ ])?[^\W_]{2,}(?=[_ ]N$)|[tT](?:emp(?:erature)?)?(?=[_ ][CKF]$))[_ ](?P<a>[NCKF])"
 )
@@ -155,7 +155,7 @@ def _are_units(cells):
         return True
     units = [_unit(each) for each in cells]
     said = [each for each in units if each not in (*_NONE, "%")]
-    # Of columns that nobody asks for the unit may be unknown.
+    # The unit may be unknown of columns that nobody asks for.
     return len(said) > 0 and sum(map(_is_unit, said)) > len(said) / 2
 
 

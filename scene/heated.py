@@ -49,7 +49,7 @@ class Heated(Term):
         return replace(
             plan,
             method=f"{plan.method}; again, until it is as warm as its friction makes it",
-            applications=plan.applications.times(SOLVES, again),
+            operator_applications=plan.operator_applications.times(SOLVES, again),
             seconds=plan.seconds.times(SOLVES, again),
         )
 
@@ -66,7 +66,7 @@ class Heated(Term):
 
             def attempt(warmer):
                 result = solve(_warmer(scene, warmer))
-                spent.append((result.applications, result.seconds))
+                spent.append((result.operator_applications, result.seconds))
                 return _Trial(warmer, result, self._estimates(result), f"{self.part.feedback}_heating")
 
             trial = settled(attempt)
@@ -76,7 +76,7 @@ class Heated(Term):
                 "temperature": trial.result.scene.temperature.temperature,
                 "heating_solves": float(len(spent)),
             }
-            result = replace(trial.result, applications=applications, seconds=seconds)
+            result = replace(trial.result, operator_applications=applications, seconds=seconds)
             return _completed(result, scene, measures)
 
         return answered

@@ -29,7 +29,8 @@ class Heating:
     flash_heating, zero of a smooth indenter and infinite where the elastomer has no glassy modulus. With feedback
     the answer is that at T = temperature.temperature + rise(T), to 1e-6 of the rise or 1e-9 K. Where several T
     agree it is the lowest, to which a contact warms up from the temperature of the scene. Its measures are
-    temperature [K] and heating_solves, how many it took; Result.applications and Result.seconds are of all.
+    temperature [K] and heating_solves, how many it took; operator_applications and seconds of the Result are of
+    all.
     """
 
     conductivity: Conductivity

@@ -199,9 +199,9 @@ def _weighed(bins, seen, unit, length):
             "its spectrum is nothing like that of a self-affine surface, and no surface stands for it: of regular "
             'waves take type = "wave", or measure a map'
         )
-    freedom = max(1, end - UNKNOWNS)
+    dof = max(1, end - UNKNOWNS)
     own = float(deviance[best] - laws.penalty * (len(seen) - end))
-    spread = max(1.0, own / freedom)
+    spread = max(1.0, own / dof)
     random = np.random.default_rng(0)
     weights = np.cumsum(np.exp((deviance.min() - deviance.ravel()) / (2 * spread)))
     drawn = np.unravel_index(np.searchsorted(weights, random.random(DRAWN) * weights[-1]), deviance.shape)
@@ -227,6 +227,6 @@ def _weighed(bins, seen, unit, length):
         shortest=told(length / one[2], length / many[2]),
         length=length,
         cutoff=bool(one[2] < bins.nyquist),
-        follows=bool(chdtrc(freedom, own) > UNLIKELY),
+        follows=bool(chdtrc(dof, own) > UNLIKELY),
         beyond=float(slopes[end:].sum() / slopes.sum()),
     )

@@ -105,7 +105,7 @@ class Names:
         for name, child in self._node(node, content).get("properties", {}).items():
             value = _part(content, name)
             if value is None:
-                # Of a table that is not there, one without types: it would be one name in it.
+                # A table that is not there, one without types: it would be one name in it.
                 yield (*where, name), child
             if value is None or isinstance(value, dict):
                 yield from self._unstated((*where, name), child, value or {})

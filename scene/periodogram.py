@@ -82,7 +82,7 @@ def bins_of(count: int, degree: int, periodic: bool) -> Bins:
     edges = np.append(np.arange(LOW), np.rint(LOW * (top / LOW) ** (np.arange(wide + 1) / wide)))
     edges = np.unique(edges.astype(int))
     starts, number = edges[:-1], np.diff(edges)
-    # Of a falling spectrum the mean over a bin is that at a mean which favours its lower end.
+    # The mean of a falling spectrum over a bin is that at a mean which favours its lower end.
     waves = np.arange(1, top + 1.0)
     u = (np.add.reduceat(waves**-2.5, starts) / number) ** (-1 / 2.5)
     # Neighbours share what a taper smears: in the sum over many of them.

@@ -107,7 +107,7 @@ class Plan:
     modes: Modes
     arrays: tuple[Array, ...]
     steps: int
-    applications: Expected
+    operator_applications: Expected
     seconds: Expected
     left_out: Mapping[str, str] = field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()
@@ -130,7 +130,7 @@ class Plan:
             "modes": {"": self.modes},
             "steps in time": {"": self.steps or "none"},
             f"memory, {size(self.memory)}": {array.name: array for array in self.arrays},
-            "expected": {"applications": self.applications, "seconds": self.seconds},
+            "expected": {"operator_applications": self.operator_applications, "seconds": self.seconds},
             "left out": self.left_out,
         }
         rows = [(title, name, said) for title, group in groups.items() for name, said in group.items()]
@@ -148,7 +148,9 @@ class Plan:
         yield from _list("modes", [self.modes])
         yield from _list("steps in time", [self.steps or "none"])
         yield from _table(f"memory, {size(self.memory)}", {array.name: array for array in self.arrays})
-        yield from _table("expected", {"applications": self.applications, "seconds": self.seconds})
+        yield from _table(
+            "expected", {"operator_applications": self.operator_applications, "seconds": self.seconds}
+        )
         yield from _table("left out", self.left_out)
 
 

@@ -23,19 +23,26 @@ class EmptyContact(SolveError):
 
 
 class Solver(Protocol):
-    """A frozen settings object that answers scenes: a dataclass."""
+    """A model: a frozen dataclass of settings that answers scenes.
+
+    `name` and `solve` are all that a model must have. What else it may have, and what is taken where it has not:
+
+    refusals(scene) : reasons why a scene cannot be solved, a sentence each; without it none is refused beforehand
+    foreseen(scene) : reasons why a solve would fail, found beforehand; none
+    points, steps : settings of its grid and its steps in time, halved to know their error; it has no coarser grid
+    label : what it is called beside 1D and 3D; its name
+    draws : what its means are taken over: "profiles" in one dimension, "surfaces", or "none"; surfaces
+    packages : names of the packages whose code its answers depend on; the package of its class
+    """
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     @property
     def name(self) -> str:
-        """Short name, unique among solvers."""
-
-    def refusals(self, scene: Scene) -> list[str]:
-        """Reasons why the scene cannot be solved, one sentence each; empty when it can."""
+        """Short name, unique among models."""
 
     def solve(self, scene: Scene) -> Result:
-        """The answer. Raises Refused before, SolveError after the attempt."""
+        """The answer. Raises Refused of what the model lacks, SolveError of an attempt that failed."""
 
 
 class OutOfMemory(MemoryError):
@@ -64,7 +71,7 @@ def trusted():
 def refuse(solver: Solver, scene: Scene) -> None:
     """Raise Refused with every reason at once, if there is any; SolveError as `trusted`."""
     with trusted():
-        reasons = solver.refusals(scene)
+        reasons = lacking(solver, scene)
     _raise(solver, reasons)
 
 
@@ -77,7 +84,12 @@ def foresee(solver: Solver, scene: Scene) -> None:
 
 def why_not(solver: Solver, scene: Scene) -> list[str]:
     """Reasons why a solver refuses a scene, or else those that its `foreseen`, if it has one, finds beforehand."""
-    return solver.refusals(scene) or getattr(solver, "foreseen", lambda scene: [])(scene)
+    return lacking(solver, scene) or getattr(solver, "foreseen", lambda scene: [])(scene)
+
+
+def lacking(solver: Solver, scene: Scene) -> list[str]:
+    """Reasons why a solver refuses a scene; none of a solver that states none beforehand."""
+    return getattr(solver, "refusals", lambda scene: [])(scene)
 
 
 def _raise(solver, reasons):

@@ -57,7 +57,7 @@ Finite = Annotated[float, BeforeValidator(_as_float), Field(strict=True, allow_i
 Positive = Annotated[Finite, Field(gt=0)]
 NonNegative = Annotated[Finite, Field(ge=0)]
 Whole = Annotated[int, BeforeValidator(_as_int), Field(strict=True)]
-# Of a tuple of numbers: an array of any library, which keeps its unit.
+# Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
 ROW = BeforeValidator(one_by_one)
 
 

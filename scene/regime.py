@@ -34,7 +34,7 @@ class Regime:
         """
         (c, n), (a, d) = profile, contact
         macro = c * n * a ** (n - 1) / np.sqrt(2 * n - 1)
-        # Of heights that are all zero.
+        # Heights that are all zero have no slope.
         with np.errstate(divide="ignore"):
             over_rough = np.divide(macro, rms_slope)
         return cls(rms_height / d, 2 * a / longest, over_rough, rms_slope)

@@ -54,7 +54,7 @@ PIXELS = (
     ("pixel size", "pixel", "pixel spacing", "spacing", "step size", "point spacing", "pitch", "xy calibration"),
 )
 _HEIGHTS = {"height", "heights", "z", "topography", "elevation"}
-# Of a length that a line speaks of and does not give a number in.
+# A length that a line speaks of without a number.
 _SPOKEN = re.compile(r"(?<![\d.,]\s)(?<![^\W_])(?:[pnuµμmc]m|Å|microns?|angstroms?)(?![^\W_])")
 _LINE = re.compile(r"([^:=;\t]*[^\W\d][^:=;\t]*?)\s*[:=;\t,]\s*(.*?)[\s;,]*")
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"

@@ -215,7 +215,7 @@ def _product(factors):
     product = None
     for name, power in factors:
         called = _called(name)
-        # Of a product, a degree is a difference.
+        # A degree in a product is a difference.
         called = called if alone or called not in _COUNTED else f"delta_{called}"
         unit = registry.Quantity(Fraction(1), called) ** power
         product = unit if product is None else product * unit

@@ -38,7 +38,7 @@ def _area(text, axes=()):
 
 STEPS, LINE, PLANE, INSTANTS = ("time",), ("x",), ("y", "x"), ("frame_time",)
 
-# Of every result.
+# Numbers that every result has.
 NUMBERS: Mapping[str, Entry] = {
     "normal_force": _force("Normal force that presses the indenter, above zero into the elastomer."),
     "depth": Entry(
@@ -48,11 +48,11 @@ NUMBERS: Mapping[str, Entry] = {
         "Tangential force on the indenter, above zero where it opposes motion forwards, which is along -x."
     ),
     "residual": Entry("1", "Residual of the discrete conditions of contact, relative, as the solver defines it."),
-    "applications": Entry("1", "Operator applications of the solve, in equivalents of the finest grid."),
+    "operator_applications": Entry("1", "Operator applications of the solve, in equivalents of the finest grid."),
     "seconds": Entry("s", "Processor time of the solve."),
 }
 
-# Of some results, as the scene calls for them.
+# Numbers that some results have, as the scene calls for them.
 MEASURES: Mapping[str, Entry] = {
     "average_heating": Entry(
         "K", "Rise in temperature, averaged over the smooth contact, if its friction heats the elastomer alone."

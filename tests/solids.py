@@ -40,5 +40,5 @@ CYCLES = {
     "depth": ((1.0, 0.2), (0.2, 0.02), (0.5, 0.02), (0.3, 0.1), (0.1, 0.0), (1.0, 0.15), (1e-6, 0.16)),
     "load": ((1.0, 0.1), (0.2, 0.0), (0.5, 0.0), (0.3, 0.05), (0.1, 0.01), (1.0, 0.12)),
 }
-# Of sums of some thousand terms over some hundred steps.
+# Sums of some thousand terms over some hundred steps.
 ROUNDING = 1e-11

@@ -5,16 +5,16 @@ import json
 import os
 import re
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from types import NoneType, SimpleNamespace, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import typer
 
 from .. import commands
 from ..library import ready as library
-from ..report.plots.journals import JOURNALS
 from ..solving.docstrings import documented
 from .completion import completion
 from .console import FAILED, MISTAKE, said_to_people, say
@@ -27,31 +27,17 @@ app = typer.Typer(
     context_settings={"max_content_width": 100},
 )
 
-# What stands on a command line for what a function takes.
-TYPES = {
-    "str": str,
-    "str | None": str | None,
-    "int": int,
-    "int | None": int | None,
-    "float": float,
-    "bool": bool,
-    "Asked": str,
-    "Asked | Mapping[str, Asked] | None": str | None,
-    "float | None": float | None,
-    "str | float | None": str | None,
-    "Measurements": Path,
-    "str | Path": Path,
-    "str | Path | None": Path | None,
-    "Surface": Path,
-    "str | float | Sequence[str | float] | None": list[str] | None,
-    "Sequence[str | float] | None": list[str] | None,
-    "Any": str | None,
-}
+# What stands on a command line for types that are slow to import.
+STAND_INS = {"SceneLike": str, "ModelLike": str, "Measurements": Path, "Surface": Path}
 # Arguments by their place, though they may be absent.
 PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
 PYTHON_ONLY = {"quantities", "progress", "options"}
-SHARED = {"workers": None, "scheduler": None, "format": "html", "figures": "png", "report": True, "yes": False}
+SHARED = {
+    name: each
+    for name, each in inspect.signature(commands.solve).parameters.items()
+    if name not in {"study", "output", *PYTHON_ONLY}
+}
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
@@ -68,13 +54,12 @@ class Command:
 
     function: Callable[..., Any]
     said: Callable[[Any], str] = str
-    name: str = ""
     details: str = ""
 
     @property
     def title(self) -> str:
-        """Name on the command line."""
-        return self.name or self.function.__name__
+        """Name on the command line, and in Python."""
+        return self.function.__name__
 
     @property
     def solves(self) -> bool:
@@ -89,14 +74,15 @@ class Command:
     def callback(self) -> Callable[..., None]:
         """Function with a signature that typer turns into arguments and options."""
         found = inspect.signature(self.function).parameters
-        own = {name: (each.annotation, each.default) for name, each in found.items() if name not in PYTHON_ONLY}
+        taken = {name: each for name, each in found.items() if name not in PYTHON_ONLY}
         if self.solves:
-            shared = {name: each.__forward_arg__ for name, each in commands.Options.__annotations__.items()}
-            own |= {name: (shared[name], default) for name, default in SHARED.items()}
-        about, said = documented(self.function.__doc__)
-        texts = documented(commands.__doc__)[1] | said
+            taken |= SHARED
+        about, own = documented(self.function.__doc__)
+        texts = documented(commands.__doc__)[1] | own
+        stated = SimpleNamespace(__annotations__={name: each.annotation for name, each in taken.items()})
+        hints = get_type_hints(stated, vars(commands), STAND_INS)
         parameters = [
-            _parameter(name, *each, texts[name], completion(self.title, name)) for name, each in own.items()
+            _parameter(self.title, name, hints[name], each.default, texts[name]) for name, each in taken.items()
         ]
         if self.solves:
             parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
@@ -143,33 +129,37 @@ class Command:
             raise typer.Exit(MISTAKE)
 
 
-def _parameter(
-    name: str, annotation: str, default: Any, text: str, completed: Callable[[str], list[str]] | None
-) -> inspect.Parameter:
+def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> inspect.Parameter:
     """Argument or option of a command.
 
     text : what the docstring says of it, with more on Python alone
-    completed : what a shell completes
     """
-    kind = TYPES[annotation]
+    kind, values = _on_command_line(hint)
     text = text.partition(". From Python")[0]
-    if name == "journal":
-        text += f": {', '.join(JOURNALS)}"
-    text = f"{text[:1].upper()}{text[1:]}."
+    about: Any = {"help": f"{text[:1].upper()}{text[1:]}.", "autocompletion": completion(command, name, values)}
     if default is inspect.Parameter.empty or name in PLACED:
-        told = typer.Argument(help=text, autocompletion=completed)
-    elif kind is bool and default:
-        told = typer.Option(f"--{name}/--no-{name}", help=text)
+        told = typer.Argument(**about)
+    elif kind is bool and not default:
+        told = typer.Option(f"--{name}", **about)  # no --no-NAME beside it
     else:
-        told = typer.Option(
-            f"--{name.replace('_', '-')}",
-            help=text,
-            min=1 if name == "workers" else None,
-            autocompletion=completed,
-        )
-    if isinstance(default, str) and kind in (Path, Path | None):
-        default = Path(default)
+        told = typer.Option(**about)
     return _keyword(name, Annotated[kind, told], default)
+
+
+def _on_command_line(hint: Any) -> tuple[Any, list[str]]:
+    """Type on a command line of what a function takes, and its values where these are fixed.
+
+    A string stands for all that Python states in other ways too.
+    """
+    members = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    values = [value for each in members if get_origin(each) is Literal for value in get_args(each)]
+    if any(get_origin(each) is Sequence for each in members):
+        kind: Any = list[str]
+    elif Path in members:
+        kind = Path
+    else:
+        kind = members[0] if members[0] in (bool, int, float) else str
+    return (kind | None if NoneType in members else kind), values
 
 
 def _keyword(name, annotation, default=False):
@@ -178,7 +168,7 @@ def _keyword(name, annotation, default=False):
 
 def _as_json(found: Any) -> str:
     if hasattr(found, "findings"):
-        rows = json.loads(found.findings.to_json(orient="records", double_precision=15))
+        rows = json.loads(found.table.to_json(orient="records", double_precision=15))
         page = str(found.path) if found.path else None
         told = {"page": page, "doubts": list(found.page.first), "findings": rows}
         return json.dumps(told, indent=1)
@@ -211,10 +201,10 @@ COMMANDS = (
     Command(commands.mastercurve),
     Command(commands.topography),
     Command(commands.plan, details="Print settings, grids, kernels, arrays, and the advice on 1D as well."),
-    Command(commands.ready, name="list", details="Print what each scene and each study is about."),
+    Command(commands.scenes, details="Print what each scene and each study is about."),
     Command(commands.new, said=_written_ready),
     Command(commands.schema, said=_schema),
-    Command(commands.figures, said=_paths),
+    Command(commands.redraw, said=_paths),
     Command(commands.export, said=_paths),
     Command(commands.draw),
     Command(commands.animate, said=lambda path: f"Animation: {path.resolve()}"),

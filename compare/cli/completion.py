@@ -1,10 +1,9 @@
-"""Completion in a shell: names of scenes, studies and diagrams, and values of options."""
+"""Completion in a shell: names of scenes and studies, and values that are allowed."""
 
 from collections.abc import Callable, Sequence
 from glob import glob
 
 from ..library import ready as library
-from ..report.plots.journals import JOURNALS
 
 FILES = "*.toml"  # in this folder: scenes or studies of one's own
 
@@ -24,38 +23,17 @@ def studies() -> list[str]:
     return [*library.studies(), "all", *sorted(glob(FILES))]
 
 
-def diagrams() -> list[str]:
-    """Diagrams of `crosscheck workprecision`."""
-    return [*library.DIAGRAMS, "all"]
+# By command and argument, or by argument alone.
+NAMES = {("study", "name"): studies, ("new", "name"): copied, "scene": scenes}
 
 
-# By the name of an argument or option.
-VALUES: dict[str, Sequence[str] | Callable[[], Sequence[str]]] = {
-    "scene": scenes,
-    "size": ("quick", "standard", "full"),
-    "format": ("html", "markdown", "latex"),
-    "figures": ("png", "pdf", "svg"),
-    "unit": ("m", "mm", "um", "nm"),
-    "level": ("mean", "tilt", "curvature", "cubic"),
-    "missing": ("refuse", "fill"),
-    "repeat": ("mirror", "periodic"),
-    "peaks": ("up", "down"),
-    "kind": ("scene", "study"),
-    "to": ("csv", "latex", "vtk"),
-    "journal": tuple(JOURNALS),
-}
-# By the name of a command: of its argument `name`.
-NAMES = {"study": studies, "new": copied, "workprecision": diagrams}
-
-
-def completion(command: str, parameter: str) -> Callable[[str], list[str]] | None:
-    """The values of a parameter that begin as what is typed; None where there are none to complete."""
-    values = NAMES[command] if parameter == "name" else VALUES.get(parameter)
-    if values is None:
+def completion(command: str, parameter: str, values: Sequence[str]) -> Callable[[str], list[str]] | None:
+    """The names or values of a parameter that begin as what is typed; None where there are none to complete."""
+    names = NAMES.get((command, parameter)) or NAMES.get(parameter)
+    if not (names or values):
         return None
 
     def completed(incomplete: str) -> list[str]:
-        offered = values() if callable(values) else values
-        return [each for each in offered if each.startswith(incomplete)]
+        return [each for each in (names() if names else values) if each.startswith(incomplete)]
 
     return completed

@@ -23,6 +23,7 @@ from scene.rheology import Elastomer
 from scene.roughness import Roughness
 from scene.scales import elastic_contact
 from scene.scene import fit_together
+from scene.signatures import readable
 from scene.temperature import Temperature
 from scene.terms import terms_of
 
@@ -30,6 +31,7 @@ from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
 Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
+MOST_MODELS = 8  # compared at once
 Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 
 
@@ -51,7 +53,7 @@ def _rough(roughness):
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class Study:
+class Variations:
     """Variations around the scene. Whatever is absent follows from the scene; see `Case.plan`.
 
     speeds : of the curve of friction against speed [m/s]
@@ -73,8 +75,8 @@ class Study:
 
 
 @dataclass(frozen=True)
-class Plan:
-    """Values that are solved at: those of Study, and smooth_speeds [m/s] of the smooth body."""
+class SamplePoints:
+    """Values that are solved at: those of Variations, and smooth_speeds [m/s] of the smooth body."""
 
     speeds: tuple[float, ...]
     pressing: tuple[float, ...]
@@ -85,6 +87,7 @@ class Plan:
     profiles: int
 
 
+@readable
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Case:
     """The content of a case file. A file that holds a scene and nothing else is a case.
@@ -93,6 +96,9 @@ class Case:
     departures : of a case of the paper: sentences that say how the case departs from it
     indenter, elastomer, motion, roughness, layer, temperature, heating, interface : of the scene
     study : what is varied around it
+    models : names of the models that are compared: mdr, bem, those of installed packages, MODULE:NAME; mdr and bem
+        if none is named
+    reference : name of the one against which the others are judged; bem, or the last, if absent
     bem, mdr : settings of the solvers in three dimensions and in one
     """
 
@@ -107,7 +113,9 @@ class Case:
     temperature: Temperature | None = None
     heating: Heating | None = None
     interface: Coulomb | None = None
-    study: Study = Study()
+    study: Variations = Variations()
+    models: Annotated[tuple[str, ...], Field(max_length=MOST_MODELS)] = ()
+    reference: str = ""
     bem: BEM = BEM(points=128)
     mdr: MDR = MDR(points=5000)
 
@@ -155,7 +163,7 @@ class Case:
             if reasons:
                 raise NotCompared(f"{solver.name} cannot solve this scene: {'; '.join(reasons)}")
 
-    def plan(self) -> Plan:
+    def plan(self) -> SamplePoints:
         """Plan of what is given in [study], the rest derived from the scene.
 
         Speeds are multiples of the scene's own (at rest: of a tenth of a/tau); the curves of friction against load
@@ -167,11 +175,11 @@ class Case:
         pressing = given.pressing or self._pressing()
         surfaces, profiles = (given.surfaces, given.profiles) if self.roughness else (1, 1)
         if not self.slides:
-            return Plan((), (), (), depths, (), surfaces, profiles)
+            return SamplePoints((), (), (), depths, (), surfaces, profiles)
         times = self.scene.solid.retardation()[2]
         natural = contact.radius / float(max(times))
         own = self.motion.speed or natural / 10
-        return Plan(
+        return SamplePoints(
             speeds=given.speeds or tuple(own * f for f in (0.03, 0.1, 0.3, 1.0, 3.0, 10.0)),
             pressing=pressing,
             load_speeds=given.load_speeds or (own / 3, own, own * 3),

@@ -18,10 +18,10 @@ from .ready import FOLDERS, ready
 
 COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
 # A scene as a file, as the name of a ready one, or as an object.
-Asked: TypeAlias = str | Path | Case | Scene
+SceneLike: TypeAlias = str | Path | Case | Scene
 
 
-def named_cases(asked: Asked | Mapping[str, Asked] | None = None) -> dict[str, Case]:
+def named_cases(asked: SceneLike | Mapping[str, SceneLike] | None = None) -> dict[str, Case]:
     """Cases by name: one, several by their names, or the paper's sphere and cone where nothing is asked.
 
     Raises InvalidInput, and Refused of a case that cannot be compared.
@@ -38,7 +38,7 @@ def named_cases(asked: Asked | Mapping[str, Asked] | None = None) -> dict[str, C
     return cases
 
 
-def case_of(asked: Asked) -> Case:
+def case_of(asked: SceneLike) -> Case:
     """One case, whether or not both solvers can solve it. Raises InvalidInput."""
     if isinstance(asked, Case):
         return asked

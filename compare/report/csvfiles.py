@@ -13,7 +13,7 @@ from scene.reading import InvalidInput
 from ..solving.store import write
 
 NOT_KNOWN = "nan"
-# Of a table that is read; those of a page have some megabytes and at most some dozens of columns.
+# Largest table that is read; those of a page have some megabytes and at most some dozens of columns.
 MOST_BYTES, MOST_COLUMNS = 2**28, 1000
 
 

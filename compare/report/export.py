@@ -107,7 +107,7 @@ def _printable(frame: DataFrame) -> DataFrame:
 def _latex(frame: DataFrame, name: str) -> str:
     try:
         return latex.table(frame, _title(name), f"tab:{name}")
-    # Of columns that are not what their names say.
+    # Columns are not always what their names say.
     except (TypeError, ValueError, ArithmeticError) as error:
         raise InvalidInput(f"table {name} cannot be printed: {brief(str(error))}") from error
 

@@ -17,6 +17,7 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..solving.folder_format import FORMAT, UNSTATED, refuse_other
 from ..solving.store import PACKAGES
 from .csvfiles import write_text
 from .page import Page, Plot
@@ -30,7 +31,7 @@ FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
 
 
-# Of a file, which has the heights of measured maps in it; of a list, and letters of a name.
+# Most bytes of a file, which has the heights of measured maps in it; most items of a list, letters of a name.
 MOST_BYTES, MOST_LISTED, MOST_LETTERS = 2**30, 10_000, 1000
 
 
@@ -48,6 +49,12 @@ def _of_folder(name: str) -> str:
 
 Name = Annotated[str, AfterValidator(_of_folder)]
 Names = Annotated[tuple[Name, ...], Field(max_length=MOST_LISTED)]
+
+
+class Format(BaseModel):
+    """Part of the manifest that all versions have: the format of the folder."""
+
+    format: int = UNSTATED
 
 
 class PlotEntry(BaseModel):
@@ -87,6 +94,7 @@ class Folder:
 def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved: str) -> None:
     """Write the manifest of a folder, last of all: what it lists is there. Raises OSError."""
     left = {
+        "format": FORMAT,
         "command": study.command,
         "title": page.title,
         "inputs": study.inputs,
@@ -163,7 +171,9 @@ def _entry(plot):
 
 def _read(path):
     try:
-        return Manifest.model_validate_json(content(path, MOST_BYTES))
+        text = content(path, MOST_BYTES)
+        refuse_other(path, Format.model_validate_json(text).format)
+        return Manifest.model_validate_json(text)
     except Unreadable as error:
         raise InvalidInput(str(error)) from error
     except ValidationError as error:

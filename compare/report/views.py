@@ -17,8 +17,8 @@ from scene.scales import elastic_contact
 
 Fields = Mapping[str, np.ndarray]
 
-# Of the greater of the contact's length and the smooth relaxed contact's: seen before it, beside it, and behind
-# it, there as many memories as fit in, up to the most.
+# Margins of the view, as fractions of the contact length, which is the greater of the contact's and the smooth
+# relaxed contact's: before it, beside it, and behind it, there up to the most, so that as many memories fit in.
 BEFORE, BESIDE, BEHIND, MOST_BEHIND, MEMORIES = 0.3, 0.15, 0.5, 2.0, 3.0
 
 

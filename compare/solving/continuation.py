@@ -14,7 +14,7 @@ LONGEST = 1e9
 
 
 @dataclass(frozen=True)
-class Path:
+class Continuation:
     """Contacts of one body and surface, of which each starts from those before it; equal if these are.
 
     contacts : of one scene each, in the order in which they are solved
@@ -67,7 +67,7 @@ class Path:
         return len(outcome.rows) == len(self.contacts)
 
 
-def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Path]:
+def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:
     """Contacts as tasks: what differs in speed and grid alone as one path, from rest on, from coarse to fine.
 
     Contacts of other solvers, in time, and those that keep fields stay alone.
@@ -82,7 +82,7 @@ def by_contact(outcomes: Mapping[Task, Outcome]) -> dict[Task, Outcome]:
     """Outcomes by contact, also of those that were solved on a path."""
     found: dict[Task, Outcome] = {}
     for task, outcome in outcomes.items():
-        if isinstance(task, Path):
+        if isinstance(task, Continuation):
             found |= {each: Outcome((row,)) for each, row in zip(task.contacts, outcome.rows, strict=True)}
         else:
             found[task] = outcome
@@ -103,7 +103,7 @@ def _place(contact):
     return getattr(contact.scenes[0].motion, "speed", 0.0), getattr(contact.solver, "points", 0)
 
 
-def _cut(contacts: list[SceneTask]) -> Iterator[SceneTask | Path]:
+def _cut(contacts: list[SceneTask]) -> Iterator[SceneTask | Continuation]:
     """Paths of LONGEST at most."""
     while contacts:
         work, count = 0.0, 0
@@ -111,4 +111,4 @@ def _cut(contacts: list[SceneTask]) -> Iterator[SceneTask | Path]:
             work += contacts[count].work
             count += 1
         first, contacts = contacts[:count], contacts[count:]
-        yield Path(tuple(first)) if count > 1 else first[0]
+        yield Continuation(tuple(first)) if count > 1 else first[0]

@@ -1,6 +1,7 @@
 """File of results: everything that a command solved, as one netCDF-4 file under a seal."""
 
 import hashlib
+import re
 from collections.abc import Iterator
 from io import BytesIO
 from math import prod
@@ -16,9 +17,12 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 
 from . import store
+from .folder_format import FORMAT, UNSTATED, refuse_other
 
 NAME = "results.nc"
-# Behind the last byte that the format knows of: readers pass over it, and any change of any byte shows.
+# Behind the last byte that HDF5 knows of, which readers pass over: the format of the folder, and a seal, by which
+# any change of any byte shows.
+LABEL, LABELLED = f"crosscheck format {FORMAT} ".encode(), re.compile(rb"crosscheck format (\d{1,9}) \Z")
 SEAL = b"sha256:"
 SEALED = len(SEAL) + 64
 # Arrays from so many bytes on are compressed.
@@ -27,7 +31,7 @@ LARGE = 2**12
 NAMELESS = b"This is a netCDF dimension but not a netCDF variable."
 OF_FORMAT = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST"}
 BESIDE = "coordinates"
-# Of a file, and of what it unpacks to; gzip, the only packing of ours, makes nothing smaller than by a factor.
+# Most bytes of a file, and the factor by which it may unpack: gzip, the only packing of ours, packs no more.
 MOST_BYTES, PACKED = 2**31, 1032
 LEAST_READ = 16  # texts at once
 FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE}
@@ -38,18 +42,19 @@ def write(path: Path, answers: xarray.DataTree) -> None:
     made = BytesIO()
     with h5py.File(made, "w", track_order=True) as file:
         _fill(file, answers)
-    image = made.getvalue()
+    image = made.getvalue() + LABEL
     seal = SEAL + hashlib.sha256(image).hexdigest().encode()
     store.write(path, lambda file: file.write(image + seal))
 
 
 def load(folder: str | Path) -> xarray.DataTree:
-    """Everything that a command solved, as it left it in a folder: a Dataset for each rectangle and solver.
+    """Everything that a command solved, as it left it in a folder: a Dataset for each parameter grid and solver.
 
     Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of
     several studies has each below its name.
 
-    Raises InvalidInput where there are no results, or they are damaged, too large or no such file.
+    Raises InvalidInput where there are no results, or they are damaged, too large, no such file, or of another
+    version.
     """
     folder = Path(folder)
     if not folder.exists():
@@ -62,11 +67,15 @@ def load(folder: str | Path) -> xarray.DataTree:
         place = "" if path == folder or path.parent == folder else f"/{path.parent.relative_to(folder).as_posix()}"
         try:
             image = _unsealed(content(path, MOST_BYTES))
+            label = LABELLED.search(image[-2 * len(LABEL) :])
+            refuse_other(path, int(label[1]) if label else UNSTATED)
             with h5py.File(BytesIO(image)) as file:
                 read = _Reader(len(image))
                 parts |= {f"{place}{at}".rstrip("/") or "/": dataset for at, dataset in read.datasets(file)}
         except Unreadable as error:
             raise InvalidInput(str(error)) from error
+        except InvalidInput:
+            raise
         # A file that was made to look like one of ours raises nearly anything.
         except Exception as error:
             raise InvalidInput(

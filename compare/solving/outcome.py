@@ -9,7 +9,7 @@ import numpy as np
 
 from scene import Result
 
-NUMBERS = ("normal_force", "depth", "friction_force", "residual", "applications", "seconds")
+NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Row:
     depth: float = nan
     friction_force: float = nan
     residual: float = nan
-    applications: float = nan
+    operator_applications: float = nan
     seconds: float = nan
     measures: Mapping[str, float] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Rectangle: contacts of one scene at every speed and every load or depth, and what they came to as Datasets."""
+"""Parameter grid: contacts of one scene at every speed and every load or depth, and their answers as Datasets."""
 
 # xarray is imported where a Dataset is made: to count contacts, as `crosscheck plan` does, takes none.
 from __future__ import annotations
@@ -16,11 +16,11 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Refused, Scene, Slide, Solver, Stage
 from scene.motion import PRESSES, UNITS, Motion
-from scene.protocol import trusted, why_not
+from scene.protocol import lacking, trusted, why_not
 from scene.quantities import SPEED, WHOLE, argument
 from scene.scales import elastic_contact
 
-from .continuation import Path, by_contact, joined
+from .continuation import Continuation, by_contact, joined
 from .cost import Cost
 from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of
@@ -30,23 +30,26 @@ if TYPE_CHECKING:
     import xarray
 
 FINE, COARSE = "fine", "coarse"
-# Of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
+# Status of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
 SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
+NO_DRAWS = "none"  # of a model that answers for all surfaces at once
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
 MOST_ASKED = 1000  # lines drawn, whether each fits its grid
-# What a solver gives of every contact, by the names of a Dataset.
+# What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
+# march answers half a step before.
 NUMBERS = {
     "normal_force": "normal_force",
     "depth_reached": "depth",
     "friction_force": "friction_force",
+    "friction_coefficient": "friction_coefficient",
     "residual": "residual",
-    "applications": "applications",
+    "operator_applications": "operator_applications",
     "seconds": "seconds",
 }
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rectangle:
+class ParameterGrid:
     """Contacts of one scene at every speed and every load or depth, each solver on its grids, on the same draws.
 
     scene : its motion says whether a load or a depth is prescribed; a Program is pressed in from nothing at a
@@ -112,10 +115,10 @@ class Rectangle:
         return [self.at(value, speed) for value in reversed(values) for speed in speeds]
 
     def refuse(self) -> None:
-        """Raise as `refuse` of this rectangle alone."""
+        """Raise as `refuse` of this one alone."""
         refuse([self])
 
-    def tasks(self) -> list[SceneTask | Path]:
+    def tasks(self) -> list[SceneTask | Continuation]:
         """Every task, each once: all profiles of a 1D contact, and all speeds on a surface in 3D."""
         return tasks_of({"": self})
 
@@ -138,7 +141,7 @@ class Rectangle:
 
     @cached_property
     def contacts(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
-        """Solver's name and contacts of every point, by grid, speed and value; kept, as scenes are many.
+        """Solver's name and contacts of every point, by grid, speed and value. Cached: building scenes is slow.
 
         All profiles of a 1D contact are one, each surface in 3D is one.
         """
@@ -174,23 +177,25 @@ class Rectangle:
         values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
         for measure in sorted({measure for row in rows for measure in row.measures}):
             values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
-        values["friction_force"] = np.where(touched, values["friction_force"], nan)
+        for name in ("friction_force", "friction_coefficient"):
+            values[name] = np.where(touched, values[name], nan)
         reasons = array(lambda row: row.reason or "", object)
-        dims = ["grid", "speed", self.prescribed, "draw"]
+        random = self.random and getattr(grids[FINE], "draws", "") != NO_DRAWS
+        dims = ["grid", "speed", self.prescribed, "seed"]
         coordinates = {
             "grid": list(grids),
             "speed": list(self.speeds),
             self.prescribed: list(self.values),
             "points": ("grid", [getattr(solver, "points", 0) for solver in grids.values()]),
         }
-        if self.random:
+        if random:
             first = self.scene.roughness.seed
-            coordinates["draw"] = list(range(first, first + status.shape[-1]))
+            coordinates["seed"] = list(range(first, first + status.shape[-1]))
         else:
             dims = dims[:3]
 
         def variable(values, label):
-            return xarray.Variable(dims, values if self.random else values[..., 0], attributes(label, self.scene))
+            return xarray.Variable(dims, values if random else values[..., 0], attributes(label, self.scene))
 
         made = {label: variable(found, label) for label, found in values.items()}
         made |= {"status": variable(status, "status"), "reason": variable(reasons, "reason")}
@@ -200,43 +205,49 @@ class Rectangle:
         return dataset
 
 
-def on_two_grids(*solvers: MDR | BEM) -> dict[str, dict[str, Solver]]:
-    """Settings of solvers on their own grid and on one of half the points, and of half the steps in time."""
-    return {
-        each.name: {FINE: each, COARSE: replace(each, points=each.points // 2, steps=max(1, each.steps // 2))}
-        for each in solvers
-    }
+def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
+    """Settings of solvers on their own grid and on one of half the points, if they have points."""
+    both = {each.name: {FINE: each, COARSE: halved(each)} for each in solvers}
+    return {name: {grid: each for grid, each in grids.items() if each is not None} for name, grids in both.items()}
 
 
-def refuse(rectangles: Iterable[Rectangle]) -> None:
+def halved(solver: Solver) -> Any:
+    """The solver on half the points, and half the steps in time; None of one without `points`."""
+    if not hasattr(solver, "points"):
+        return None
+    steps = {"steps": max(1, solver.steps // 2)} if hasattr(solver, "steps") else {}
+    return replace(solver, points=solver.points // 2, **steps)
+
+
+def refuse(parameter_grids: Iterable[ParameterGrid]) -> None:
     """Raise Refused where a solver cannot solve a contact of these, SolveError where numbers are too far apart.
 
     Of each solver the reasons are told against the widest contact that it cannot solve: what mends that mends all.
-    Asked at the corners of a rectangle, between which nothing else is lacking; of the widest contact also what is
-    foreseen of its solve, and, where one line hardly fits its grid, whether every other does.
+    Asked at the corners of a parameter grid, between which nothing else is lacking; of the widest contact also
+    what is foreseen of its solve, and, where one line hardly fits its grid, whether every other does.
     """
-    asked = [(each, grids) for each in rectangles for grids in each.grids.values()]
+    asked = [(each, grids) for each in parameter_grids for grids in each.grids.values()]
     asked.sort(key=lambda pair: -_width(pair[0].corners[0]))
     told: dict[str, str] = {}
     with trusted():
-        for rectangle, grids in asked:
+        for one, grids in asked:
             for solver in (each for each in grids.values() if each.name not in told):
-                if reason := _reason(solver, rectangle):
+                if reason := _reason(solver, one):
                     told[solver.name] = reason
     if told:
         raise Refused("; ".join(told.values()))
 
 
-def _reason(solver, rectangle):
-    """Why a solver cannot solve all of a rectangle; empty where nothing is known."""
-    widest, *others = rectangle.corners
+def _reason(solver, one):
+    """Why a solver cannot solve all of a parameter grid; empty where nothing is known."""
+    widest, *others = one.corners
     if why := why_not(solver, widest):
         return _against(solver, widest, why)
     draws: tuple[Scene, ...] = ()
     if isinstance(solver, MDR) and replace(solver, points=max(8, int(solver.points / ROOM))).refusals(widest):
-        draws = draws_of(widest, min(rectangle.draws.get(solver.name, 1), MOST_ASKED))
+        draws = draws_of(widest, min(one.draws.get(solver.name, 1), MOST_ASKED))
     for scene in (*others, *draws[1:]):
-        if why := solver.refusals(scene):
+        if why := lacking(solver, scene):
             return _against(solver, scene, why)
     return ""
 
@@ -258,30 +269,30 @@ def _width(scene):
         return inf
 
 
-def tasks_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask | Path]:
-    """Tasks of several rectangles: those that cross share the contacts where they do."""
-    return joined(contacts_of(rectangles))
+def tasks_of(grids: Mapping[str, ParameterGrid]) -> list[SceneTask | Continuation]:
+    """Tasks of several grids: those that cross share the contacts where they do."""
+    return joined(contacts_of(grids))
 
 
-def contacts_of(rectangles: Mapping[str, Rectangle]) -> list[SceneTask]:
-    """Contacts of several rectangles, each once."""
+def contacts_of(grids: Mapping[str, ParameterGrid]) -> list[SceneTask]:
+    """Contacts of several grids, each once."""
     found: dict[SceneTask, SceneTask] = {}
-    for rectangle in rectangles.values():
-        for contact in (each for _, contacts in rectangle.contacts for each in contacts):
+    for grid in grids.values():
+        for contact in (each for _, contacts in grid.contacts for each in contacts):
             if contact not in found or contact.keeps_fields:
                 found[contact] = contact
     return list(found.values())
 
 
-def tree(rectangles: Mapping[str, Rectangle], outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-    """Everything solved of some rectangles: a Dataset for each rectangle and solver, at /rectangle/solver."""
+def tree(grids: Mapping[str, ParameterGrid], outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+    """Everything solved of some grids: a Dataset for each of them and solver, at /name/solver."""
     import xarray
 
     answers = by_contact(outcomes)
     parts = {
         f"/{name}/{solver}": dataset
-        for name, rectangle in rectangles.items()
-        for solver, dataset in rectangle.datasets(answers).items()
+        for name, each in grids.items()
+        for solver, dataset in each.datasets(answers).items()
     }
     return xarray.DataTree.from_dict(parts)
 

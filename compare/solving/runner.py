@@ -1,5 +1,6 @@
 """Solving tasks by workers; what the store has is not solved again, and what breaks does not stop the rest."""
 
+import logging
 import pickle
 import time
 from collections import Counter, deque
@@ -12,8 +13,9 @@ from typing import Any
 from .outcome import Outcome
 from .store import Store, write
 from .task import Task
-from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, starting, unpacked
+from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, solved, starting, unpacked
 
+_LOG = logging.getLogger(__name__)
 # Seconds after which an interrupt is noticed.
 PULSE = 0.2
 
@@ -94,6 +96,7 @@ def sweep(
     fresh : whether each task has a process of its own, one after the other
     scheduler : address of a dask scheduler, whose workers then solve the tasks in place of processes
 
+    What no other process can import, as the model of a script or a notebook, is solved in this one.
     While another run solves in the same folder, this one waits for it. A task that raises, or that workers die of,
     has failed: its outcome has the reason in every row, its traceback lies beside the store's file, and the next
     sweep solves it again. On an interrupt, any signal that raises KeyboardInterrupt, nothing more is started; what
@@ -118,6 +121,7 @@ def sweep(
         missing = sorted({task: None for task in tasks if task not in stored}, key=lambda task: -task.work)
         if other := store.by_other_code(missing):
             progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+        _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(stored), store.folder)
         progress.planned(missing, len(stored))
         with _workers(missing, workers, fresh, scheduler, progress) as pool:
             course = _Course(deque(missing), store, pool, progress, interrupts)
@@ -201,6 +205,9 @@ class _Course:
         return self.queue.popleft()
 
     def _submit(self, task):
+        if not getattr(task, "portable", True):  # its class is known to this process alone
+            yield self._kept(task, solved(task))
+            return
         try:
             packed = pickle.dumps(task)
         except Exception as error:

@@ -33,12 +33,12 @@ except ImportError:  # Windows: two runs at once may solve a task twice
 FILE = "answers.txt"
 TRACE = ".fault.txt"  # of how a task broke, behind its key
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
-# Of a file that is being written: name of the file, process, and some letters.
+# Name of a file that is being written: that of the file, the process, and some letters.
 TEMPORARY = re.compile(r"\..+\.([1-9][0-9]*)\.[a-z0-9_]{8}")
 DIGEST = 32  # letters of a digest
 SOURCES = {".py", ".json", ".gz"}  # what answers are made of
 HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
-# Of the file, of a line in it (a longer one is passed over), and of the fields of a task.
+# Most bytes of the file, of a line in it (a longer one is passed over), and of the fields of a task.
 MOST_BYTES, MOST_LINE, MOST_FIELDS = 2**34, 2**26, 2**32
 KINDS = "iufb"  # of the numbers of fields
 

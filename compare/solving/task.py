@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from math import nan
+from importlib import import_module
+from inspect import getsource
+from math import isfinite, nan
+from time import process_time
 from typing import Any, NamedTuple, Protocol
 
 from pydantic import TypeAdapter
 
-from scene import EmptyContact, Program, Scene, SolveError, Solver
+from scene import EmptyContact, Program, Refused, Scene, SolveError, Solver
 from scene.motion import UNITS
 
 from .outcome import Outcome, Row, row
@@ -84,38 +87,48 @@ class SceneTask:
 
     @property
     def question(self) -> dict:
-        """The scenes, and the solver by its name and settings."""
+        """The scenes, and the solver by its name and settings; its source too, where it is in no module."""
         scenes = SCENES.dump_python(self.scenes, mode="json")
-        return {"scenes": scenes, "solver": self.solver.name, "settings": asdict(self.solver)}
+        asked = {"scenes": scenes, "solver": self.solver.name, "settings": asdict(self.solver)}
+        return asked if self.portable else asked | {"source": _source(type(self.solver))}
 
     @property
     def packages(self) -> tuple[str, ...]:
         """Packages of the scenes and of the solver, which names them where it has several."""
         module = type(self.solver).__module__
-        return "scene", *getattr(self.solver, "packages", (module.rpartition(".")[0] or module,))
+        own = (module.rpartition(".")[0] or module,) if self.portable else ()
+        return "scene", *getattr(self.solver, "packages", own)
+
+    @property
+    def portable(self) -> bool:
+        """Whether another process can import the class of the solver: not of a script, a notebook, a function."""
+        kind = type(self.solver)
+        return kind.__module__ != "__main__" and getattr(import_module(kind.__module__), kind.__name__, 0) is kind
 
     def solve(self, *trail: Any) -> Outcome:
         """Solve every scene, one after the other.
 
         trail : of neighbouring contacts, for a solver that begins where they were
 
-        An empty contact has forces of zero; any other SolveError becomes a row of NaN with its reason; any other
-        exception is a fault of the program and is raised.
+        An empty contact has forces of zero; Refused, and any other SolveError, becomes a row of NaN with its
+        reason; any other exception is a fault of the program and is raised.
         """
         rows, fields = [], {}
         for scene in self.scenes:
             try:
+                began = process_time()
                 result = self.solver.solve(scene, *trail)
             except EmptyContact:
                 depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
-                rows.append(Row(0.0, depth, 0.0, residual=0.0, applications=0.0, seconds=0.0))
+                rows.append(Row(0.0, depth, 0.0, residual=0.0, operator_applications=0.0, seconds=0.0))
                 continue
-            except SolveError as error:
+            except (Refused, SolveError) as error:
                 rows.append(Row(reason=str(error) or type(error).__name__))
                 continue
             if self.keeps_fields and not rows:
                 fields = dict(result.fields)
-            rows.append(row(result))
+            seconds = result.seconds if isfinite(result.seconds) else process_time() - began
+            rows.append(row(replace(result, seconds=seconds)))
         return Outcome(tuple(rows), fields)
 
     def failed(self, reason: str) -> Outcome:
@@ -125,6 +138,22 @@ class SceneTask:
     def fits(self, outcome: Outcome) -> bool:
         """Whether the outcome has a row for each scene."""
         return len(outcome.rows) == len(self.scenes)
+
+
+def _source(kind) -> str:
+    """Source of a class; of one whose source is lost, the code of its methods."""
+    try:
+        return getsource(kind)
+    except (OSError, TypeError):  # of a notebook: cells are known by function
+        pass
+    methods = {name: each for name, each in vars(kind).items() if hasattr(each, "__code__")}
+    told = []
+    for name, each in methods.items():
+        try:
+            told.append(getsource(each))
+        except (OSError, TypeError):
+            told.append(f"{name} {each.__code__.co_code.hex()} {each.__code__.co_consts!r}")
+    return "\n".join(told)
 
 
 def draws_of(scene: Scene, count: int) -> tuple[Scene, ...]:

@@ -25,7 +25,7 @@ grid : Which grid of the solver: fine, as the settings say, or coarse, with half
 points : Points of the grid along a side. [1]
 speed : Speed of sliding that was prescribed, or rate of pressing in; 0 is rest. [m/s]
 depth : Depth that was prescribed, above zero into the elastomer. [m]
-draw : Seed of the rough surface. [1]
+seed : Seed of the rough surface. [1]
 status : Whether a contact was solved, has no contact, failed, or was not asked for.
 reason : Why a solve failed; empty where it did not.
 
@@ -52,7 +52,7 @@ sentence : The claim in words.
 meaning : How the number is measured, and what a deviation from it says.
 where : Case, series or diagram in which it was measured.
 dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
-    corrected: over the ratio that the trust map foretells.
+    corrected: over the ratio that the trust map predicts. Other models have their label.
 verdict : holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it does;
     undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value
     the verdict is whether the number is within its bound.
@@ -71,7 +71,7 @@ draws : Number of rough surfaces behind a number; 0 of smooth bodies. [1]
 regime : Range of the dimensionless groups in which a number was measured.
 plot : Figure that shows it.
 
-Of the trust map: ratios of 1D over 3D, foretold and measured.
+Of the trust map: ratios of 1D over 3D, predicted and measured.
 advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D;
     none beyond every linear theory.
 surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none where
@@ -87,7 +87,7 @@ smooth : Logarithm of the ratio of the smooth body. [1]
 
 Of points, and of curves through them.
 solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
-    boundary elements, 3D. exact: closed form.
+    boundary elements, 3D. exact: closed form. Another name: a model that did not come with the package.
 body : Rough, or smooth: the same body without its roughness.
 curve : Curve that a point belongs to.
 friction : Coefficient of friction: mean friction force over mean normal force. [1] | \mu = F_x/F_N | theory, Eq. 2
@@ -106,15 +106,14 @@ converges : Whether the error falls without end as settings become finer.
 truth : Best estimate of the true answer, in its unit.
 scale : Number that errors are relative to, in the unit of the answer.
 truth_standard_error : Standard error of the best estimate over surfaces, relative. [1]
-truth_freedom : Degrees of freedom of that standard error. [1]
+truth_dof : Degrees of freedom of that standard error. [1]
 truth_grid_error : Error of discretisation of the best estimate, relative. [1]
 plan : Sampling plan: points a side, or two grids of which the coarser has most surfaces.
 coarser_points : Points a side of the coarser of two grids; 0 without one. [1]
 bias : Relative error that more surfaces do not take away. [1]
 setup : Processor time before the first surface: that of the trust map. [s]
-scatter_freedom : Degrees of freedom of the scatter. [1]
+scatter_dof : Degrees of freedom of the scatter. [1]
 failed : Solves that ended with an error. [1]
-reached : Mean depth that was reached, above zero into the elastomer. [m]
 surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
 drag : Friction over real contact, over that under the least load. [1]
@@ -150,9 +149,9 @@ density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_\mathrm{1
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
 ratio : Number in one dimension over that in three. [1]
-friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map foretells it. [1]
-depth_ratio : Depth in one dimension over that in three, as the trust map foretells it. [1]
-force_ratio : Normal force in one dimension over that in three, as the trust map foretells it. [1]
+friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map predicts it. [1]
+depth_ratio : Depth in one dimension over that in three, as the trust map predicts it. [1]
+force_ratio : Normal force in one dimension over that in three, as the trust map predicts it. [1]
 deviation : Number in one dimension over that in three, less one. [1]
 v_tau_over_a : Speed times retardation time over the radius of the smooth relaxed contact. [1]
 friction_over_slope : Friction over the slope of the body at the edge of the contact. [1]
@@ -294,6 +293,7 @@ LABELS: Mapping[str, Entry] = {
 
 # What an ending adds to the meaning of a name.
 ENDINGS = {
+    "_mean": "Mean over draws. ",
     "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",

@@ -17,6 +17,7 @@ from typing import Protocol, Self
 from scene.reading import whole
 
 from .outcome import Outcome
+from .task import Task
 
 MOST = 1024
 # A worker solves on one thread; two workers with two threads each are slower than either alone.
@@ -61,14 +62,21 @@ class Fault:
 def answered(packed: bytes) -> bytes:
     """The outcome or Fault of a task, both pickled; whatever is raised on the way is a fault."""
     try:
-        task = pickle.loads(packed)
+        return pickle.dumps(solved(pickle.loads(packed)))
+    except Exception as error:
+        return pickle.dumps(Fault.of(error))
+
+
+def solved(task: Task) -> Outcome | Fault:
+    """The outcome of a task, solved in this process; whatever is raised on the way is a fault."""
+    try:
         outcome = task.solve()
         if not task.fits(outcome):
             raise ValueError(f"its answer is not whole: {len(outcome.rows)} rows, fields {[*outcome.fields]}")
-        return pickle.dumps(outcome)
-    # A worker is nobody's program: what a task ends by SystemExit ends that task.
+        return outcome
+    # Catch SystemExit too: it must not end the worker.
     except (Exception, SystemExit) as error:
-        return pickle.dumps(Fault.of(error))
+        return Fault.of(error)
 
 
 def unpacked(packed: bytes) -> Outcome | Fault:

@@ -18,7 +18,7 @@ from .intervals import Estimated, RmsMisfit
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
 # the scatter is less than that, the curve gets more freedom as long as that pays.
 DEGREE, HIGHEST_DEGREE = 4, 10
-# Of ln mu: parallel straight lines that miss no more are straight. Friction is solved, and Eq. 19 is followed by a
+# Misfit in ln mu up to which parallel lines count as straight. Friction is solved, and Eq. 19 is followed by a
 # polynomial of the fourth degree, to about that, so less curvature does not tell one shift from the other.
 STRAIGHT = 0.01
 # Share of coefficients that scatter alone asks for, at each rise of the degree.
@@ -27,7 +27,7 @@ CHANCE = 0.05
 POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 # Misfit of ln mu that rounding leaves.
 ROUNDING = 1e-9
-# Of the names of columns: a number, and the ends of its interval.
+# Endings of the names of columns: a number, and the ends of its interval.
 ENDS = ("", "_low", "_high")
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
 PARTED = "the fit asks for less than the least overlap of neighbours"

@@ -210,7 +210,7 @@ def unfollowed(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
 
     here = at(fit.degree)
     before, after = (np.abs(here - at(fit.degree + by)) for by in (-2, 2))
-    # Of the tangent the last columns are the shifts along the load, those before them the levels.
+    # The last columns of the tangent are the shifts along the load, those before them the levels.
     count = len(fit.curves) - 1
     inverse = np.linalg.pinv(fit.tangent(near(fit, guess)))[-2 * count :]
     gradients = _lever(fit) @ inverse.reshape(2, count, -1)

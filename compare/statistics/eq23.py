@@ -13,7 +13,7 @@ from .commoncurve import LEAST_OVERLAP
 from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
 from .intervals import Estimated, RmsMisfit
 
-# Of ln mu, and relative of an exponent: what still counts as one curve, and as the exponent predicted.
+# Largest misfit in ln mu that counts as one curve, and relative error of an exponent that counts as predicted.
 TOLERANCE = 0.05
 _MISFIT = "rms of ln mu about one curve, without what scatter adds"
 COLLAPSE = Claim(

@@ -1,13 +1,15 @@
 """Claim and finding: what is claimed, what was measured of it, and the one rule of the verdict."""
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite, nan
 from typing import Any
 
 import pandas
 
 from scene.quantities import BARE, WHOLE, argument
+from scene.signatures import readable
 
 from . import digits
 
@@ -43,8 +45,8 @@ class Claim:
         tolerance of NaN the number is reported without a claim
     meaning : how the number is measured, and what a deviation from it says
     dimension : "1D", "3D", or "1D/3D" of a comparison
-    curves : names of the rectangles that it is measured on
-    measure : function of one sample of these rectangles, see `statistics.jackknife.Sample`, that returns a number,
+    curves : names of the grids that it is measured on
+    measure : function of one sample of these grids, see `statistics.jackknife.Sample`, that returns a number,
         or an array of which the root mean square counts
     """
 
@@ -63,6 +65,7 @@ class Claim:
             object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
 
 
+@readable
 @dataclass(frozen=True)
 class Finding:
     """One claim, and what was measured of it in one place.
@@ -270,3 +273,15 @@ def _listed(parts):
 def number(found: Finding) -> str:
     """Value and interval of a finding in words."""
     return found.found(3) if isfinite(found.value) else "not measured"
+
+
+def said_of(claim: Claim, beside: str) -> Claim:
+    """A claim on 1D over 3D, said of two other models. beside : their labels, with a slash between"""
+    if beside == BOTH:
+        return claim
+    labels = dict(zip(BOTH.split("/"), beside.split("/"), strict=True))
+
+    def said(text):
+        return re.sub("1D|3D", lambda found: labels[found[0]], text)
+
+    return replace(claim, sentence=said(claim.sentence), meaning=said(claim.meaning))

@@ -131,13 +131,13 @@ class MeasuredCurves:
     """Curves of which every point was measured by itself.
 
     curves : with the standard error of each ln mu, NaN where unknown
-    freedom : degrees of freedom of the one relative scatter behind these errors; infinite if it is known exactly
+    dof : degrees of freedom of the one relative scatter behind these errors; infinite if it is known exactly
     levers : change of ln v of each curve with ln mu of each point (S, N), where friction itself says by how much
         speeds are shifted, in the order of the curves, which is that of their speeds; None of speeds as measured
     """
 
     curves: tuple[Curve, ...]
-    freedom: float = inf
+    dof: float = inf
     levers: np.ndarray | None = None
 
     @property
@@ -180,7 +180,7 @@ class MeasuredCurves:
 
     def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers whose deviations follow from those of independent points."""
-        return Replicates(value, sqrt(len(deviations)) * deviations, self.freedom)
+        return Replicates(value, sqrt(len(deviations)) * deviations, self.dof)
 
     @property
     def _errors(self):

@@ -25,21 +25,21 @@ NO_SKEWNESS = 1e-12
 Value = TypeVar("Value", float, np.ndarray)
 
 
-def student(level: float, freedom: float | np.ndarray) -> float:
+def student(level: float, dof: float | np.ndarray) -> float:
     """Number of standard errors to either end of an interval that covers as often as stated."""
     # scipy.stats has the same functions, and takes a second to import.
-    with_errors = np.where(np.asarray(freedom) > 0, freedom, nan)
+    with_errors = np.where(np.asarray(dof) > 0, dof, nan)
     found = np.where(
         np.isinf(with_errors), special.ndtri((1 + level) / 2), special.stdtrit(with_errors, (1 + level) / 2)
     )
     return found[()]
 
 
-def sides(level: float, freedom: float | np.ndarray, skewed: float | np.ndarray) -> tuple:
+def sides(level: float, dof: float | np.ndarray, skewed: float | np.ndarray) -> tuple:
     """Number of standard errors to the lower and to the upper end of such an interval of a skewed number."""
-    quantile = student(level, freedom)
+    quantile = student(level, dof)
     most = MOST_SKEWED / np.maximum(quantile, 1.0)
-    seen = skewed * (1 + UNSEEN / np.sqrt(np.asarray(freedom) + 1))
+    seen = skewed * (1 + UNSEEN / np.sqrt(np.asarray(dof) + 1))
     # Without skewness the limit.
     skewed = np.where(np.abs(seen) > NO_SKEWNESS, np.clip(seen, -most, most), NO_SKEWNESS)
 
@@ -60,14 +60,14 @@ def skewness(deviations: np.ndarray, axis: int = 0) -> np.ndarray:
 class Estimated(Generic[Value]):
     """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
 
-    freedom : degrees of freedom of the error
+    dof : degrees of freedom of the error
     skewness : third moment of what the number is off by, over the cube of its error
     bias : what it may be off by beside its scatter, at most, to either side
     """
 
     value: Value
     error: Value
-    freedom: float | np.ndarray
+    dof: float | np.ndarray
     skewness: float | np.ndarray = 0.0
     bias: float | np.ndarray = 0.0
 
@@ -78,7 +78,7 @@ class Estimated(Generic[Value]):
 
     def interval(self, level: float = 0.95) -> tuple:
         """Ends between which the number is, as often as stated."""
-        below, above = sides(level, self.freedom, self.skewness)
+        below, above = sides(level, self.dof, self.skewness)
         return self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
 
     def size_interval(self, level: float = 0.95) -> tuple:
@@ -86,7 +86,7 @@ class Estimated(Generic[Value]):
         exact = np.asarray(self.error) == 0
         with np.errstate(invalid="ignore", divide="ignore"):
             share = np.where(exact, 0.0, self.error / np.where(exact, 1.0, self.value))
-        logarithm = Estimated(np.zeros_like(share), share, self.freedom, self.skewness)
+        logarithm = Estimated(np.zeros_like(share), share, self.dof, self.skewness)
         low, high = logarithm.interval(level)
         return self.value * np.exp(low), self.value * np.exp(high)
 
@@ -95,9 +95,9 @@ class Estimated(Generic[Value]):
         parts = np.array([self.error, other.error])
         error = np.sqrt(np.sum(np.square(parts), axis=0))
         with np.errstate(invalid="ignore", divide="ignore"):
-            freedom = error**4 / np.sum(parts**4 / [self.freedom, other.freedom], axis=0)
+            dof = error**4 / np.sum(parts**4 / [self.dof, other.dof], axis=0)
             skewed = (parts[0] ** 3 * self.skewness - parts[1] ** 3 * other.skewness) / error**3
-        return Estimated(self.value - other.value, error, freedom, skewed)
+        return Estimated(self.value - other.value, error, dof, skewed)
 
     def apart(self, other: Self) -> float:
         """Distance from another number."""
@@ -112,8 +112,8 @@ class RmsMisfit:
     noise : mean of the variances
     along : of that, what changes the size to first order
     modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
-    freedom : degrees of freedom of the noise
-    pooled : whether one scatter, common to all numbers, is known with that freedom, and not that of each mode
+    dof : degrees of freedom of the noise
+    pooled : whether one scatter, common to all numbers, is known with that dof, and not that of each mode
     skewness : of what changes the size to first order
     """
 
@@ -121,7 +121,7 @@ class RmsMisfit:
     noise: float
     along: float
     modes: float
-    freedom: float
+    dof: float
     pooled: bool = False
     skewness: float = 0.0
 
@@ -146,8 +146,8 @@ class RmsMisfit:
             return nan, nan
         if self.noise == 0:
             return self.value, self.value
-        down, up = (self.along * side**2 for side in sides(level, self.freedom, self.skewness))
-        known = self.freedom * (1.0 if self.pooled else self.modes)
+        down, up = (self.along * side**2 for side in sides(level, self.dof, self.skewness))
+        known = self.dof * (1.0 if self.pooled else self.modes)
         second = (special.fdtri(self.modes, min(known, KNOWN), level) - 1) * self.noise
         middle = self.square + 2 * down
         above = self.square**2 - second**2

@@ -27,7 +27,7 @@ class Grouped(Protocol):
         """Indices of the surfaces that are left out together; none of a body that has no random surface."""
 
     def without(self, group: np.ndarray) -> "Grouped":
-        """Sample without some surfaces."""
+        """DrawSet without some surfaces."""
 
 
 class Drawn(Grouped, Protocol):
@@ -62,7 +62,7 @@ class Replicates:
         return cls(value, _deviations(without, np.ones(len(without))))
 
     @property
-    def freedom(self) -> float:
+    def dof(self) -> float:
         """Degrees of freedom of the errors."""
         if self.pooled is not None:
             return self.pooled
@@ -76,7 +76,7 @@ class Replicates:
         error = np.sqrt(np.mean(np.square(self.deviations), axis=0))
         # One scatter common to all is taken for normal: what few measurements of it show is not skewness.
         skewed = skewness(self.deviations) if self.pooled is None else 0.0
-        return Estimated(self.value, error, self.freedom, skewed)
+        return Estimated(self.value, error, self.dof, skewed)
 
     @property
     def rms(self) -> RmsMisfit:
@@ -95,7 +95,7 @@ class Replicates:
         modes = noise**2 / float(np.sum(np.square(products))) if noise else 1.0
         count, pooled = value.size, self.pooled is not None
         skewed = 0.0 if pooled else float(skewness(longer))
-        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.freedom, pooled, skewed)
+        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.dof, pooled, skewed)
 
 
 def groups(count: int) -> list[np.ndarray]:
@@ -163,15 +163,15 @@ DIMENSIONS = {"1D": ("MDR",), "3D": ("BEM",), "1D/3D": ("MDR", "BEM")}
 
 
 @dataclass(frozen=True)
-class Sample(Mapping[str, xarray.Dataset]):
-    """Datasets of one grid by "rectangle/solver", from which draws can be left out.
+class DrawSet(Mapping[str, xarray.Dataset]):
+    """Datasets of one grid by "name/solver", from which draws can be left out.
 
     Draws of different solvers are independent: a share of each is left out together, which counts both errors with
     the degrees of freedom of the fewer.
     """
 
     datasets: Mapping[str, xarray.Dataset]
-    _left: dict[tuple[int, ...], "Sample"] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _left: dict[tuple[int, ...], "DrawSet"] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod
     def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
@@ -190,7 +190,7 @@ class Sample(Mapping[str, xarray.Dataset]):
 
     @property
     def _counts(self) -> set[int]:
-        return {each.sizes["draw"] for each in self.values() if "draw" in each.dims}
+        return {each.sizes["seed"] for each in self.values() if "seed" in each.dims}
 
     @property
     def draws(self) -> int:
@@ -204,7 +204,7 @@ class Sample(Mapping[str, xarray.Dataset]):
             return [np.array([k]) for k in range(min(self.draws, MOST_GROUPS))]
         return groups(self.draws) if self.draws else []
 
-    def without(self, group: np.ndarray) -> "Sample":
+    def without(self, group: np.ndarray) -> "DrawSet":
         """The sample without one group of draws, or without one share of the draws of each solver.
 
         It is kept, as every claim on the same Datasets asks for the same ones.
@@ -212,24 +212,24 @@ class Sample(Mapping[str, xarray.Dataset]):
         key = tuple(group.tolist())
         if key not in self._left:
             shares = len(self.groups) if len(self._counts) > 1 else 0
-            self._left[key] = Sample({name: _without(each, group, shares) for name, each in self.items()})
+            self._left[key] = DrawSet({name: _without(each, group, shares) for name, each in self.items()})
         return self._left[key]
 
 
 def _without(dataset, group, shares):
-    if "draw" not in dataset.dims:
+    if "seed" not in dataset.dims:
         return dataset
-    every = np.arange(dataset.sizes["draw"])
-    return dataset.isel(draw=np.delete(every, np.array_split(every, shares)[int(group[0])] if shares else group))
+    every = np.arange(dataset.sizes["seed"])
+    return dataset.isel(seed=np.delete(every, np.array_split(every, shares)[int(group[0])] if shares else group))
 
 
 def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.ndarray:
     """Mean over draws of a variable, or ratio of two means, NaN where fewer than half of the draws have it."""
     values = dataset[name]
-    if "draw" not in values.dims:
+    if "seed" not in values.dims:
         return values.values / (1.0 if below is None else dataset[below].values)
-    over = values.transpose(..., "draw").values
-    under = 1.0 if below is None else dataset[below].transpose(..., "draw").values
+    over = values.transpose(..., "seed").values
+    under = 1.0 if below is None else dataset[below].transpose(..., "seed").values
     enough = 2 * np.isfinite(over).sum(axis=-1) >= over.shape[-1]
     return np.where(enough, mean_ratio(over, under).value, nan)
 
@@ -245,7 +245,7 @@ def judge(claim: Claim, answers: xarray.DataTree, where: str = "", regime: str =
     An array counts by its root mean square, without what scatter adds.
     """
     names = [f"{curve}/{solver}" for curve in claim.curves for solver in DIMENSIONS[claim.dimension]]
-    fine, coarse = (Sample.of(answers, names, grid) for grid in ("fine", "coarse"))
+    fine, coarse = (DrawSet.of(answers, names, grid) for grid in ("fine", "coarse"))
     return measured(claim, fine, coarse, where, regime, plot)
 
 

@@ -11,9 +11,9 @@ from pandas import DataFrame
 
 from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
-from .jackknife import Sample, mean_ratio, resample
+from .jackknife import DrawSet, mean_ratio, resample
 
-# Of a mean: what is averaged, or the two forces of which the means are divided.
+# Means of friction: the two forces whose means are divided.
 FRICTION = ("friction_force", "normal_force")
 RATIOS = {"friction_coefficient": FRICTION}
 # Told with deviation and interval, told as a mean alone.
@@ -21,6 +21,7 @@ ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coeffi
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 # Never negative: their intervals are those of their logarithms.
 SIZES = ("rms_slope",)
+ENDS = "_mean", "_deviation", "_low", "_high"
 
 
 class Interval(NamedTuple):
@@ -39,7 +40,7 @@ class Interval(NamedTuple):
 
 def pressed(dataset: xarray.Dataset) -> str:
     """Name of the dimension that is prescribed: load or depth."""
-    return next(name for name in map(str, dataset.dims) if name not in ("grid", "speed", "draw"))
+    return next(name for name in map(str, dataset.dims) if name not in ("grid", "speed", "seed"))
 
 
 def with_spread(dataset: xarray.Dataset) -> xarray.Dataset:
@@ -66,8 +67,11 @@ def means(dataset: xarray.Dataset) -> DataFrame:
             continue
         found = interval(dataset, above, below, name in SIZES)
         one = fine[above] if below is None else fine[above] / fine[below].where(fine[below] != 0)
-        deviation = one.std("draw", ddof=1) if "draw" in one.dims else xarray.full_like(one, nan)
-        columns |= {name: found.value, f"{name}_deviation": deviation.transpose("speed", prescribed).values}
+        deviation = one.std("seed", ddof=1) if "seed" in one.dims else xarray.full_like(one, nan)
+        columns |= {
+            f"{name}_mean": found.value,
+            f"{name}_deviation": deviation.transpose("speed", prescribed).values,
+        }
         columns |= {f"{name}_low": found.low, f"{name}_high": found.high}
     for name in AVERAGED:
         if name in fine:
@@ -101,7 +105,7 @@ class Compared:
 
 
 def compared(
-    statistic: Callable[[Mapping], np.ndarray], fine: Sample, coarse: Mapping | None, size: bool = False
+    statistic: Callable[[Mapping], np.ndarray], fine: DrawSet, coarse: Mapping | None, size: bool = False
 ) -> Compared:
     """Numbers that a statistic of Datasets gives; `coarse` are those on half the points, None if not solved.
 
@@ -137,10 +141,10 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
 
 
 def _estimated(dataset, above, below):
-    order = ("speed", pressed(dataset), *(["draw"] if "draw" in dataset.dims else []))
+    order = ("speed", pressed(dataset), *(["seed"] if "seed" in dataset.dims else []))
     over = dataset[above].transpose(*order).values
     under = np.ones_like(over) if below is None else dataset[below].transpose(*order).values
-    if "draw" in dataset.dims:
+    if "seed" in dataset.dims:
         return mean_ratio(over, under)
     with np.errstate(invalid="ignore", divide="ignore"):
         value = over / under
@@ -150,4 +154,4 @@ def _estimated(dataset, above, below):
 def _over_draws(array, how):
     """A number over the draws of each point (S, P); that of the point where there are none."""
     array = array.transpose("speed", ...)
-    return (getattr(array, how)("draw") if "draw" in array.dims else array).values
+    return (getattr(array, how)("seed") if "seed" in array.dims else array).values

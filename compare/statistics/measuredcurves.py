@@ -45,11 +45,11 @@ def curves_of(pooled: Pooled, shifts: TemperatureShifts | None = None) -> Measur
     order = in_order(pooled, shifts)
     curves = tuple(_curve([pooled.points[k] for k in places], speed, pooled) for speed, places in order)
     if shifts is None or not shifts.found:
-        return MeasuredCurves(curves, pooled.freedom)
+        return MeasuredCurves(curves, pooled.dof)
     warm = {at: number for number, at in enumerate(shifts.temperatures.tolist())}
     owner = [warm[pooled.points[places[0]].temperature] for _, places in order]
     every = np.concatenate([places for _, places in order])
-    return MeasuredCurves(curves, pooled.freedom, shifts.levers[owner][:, every])
+    return MeasuredCurves(curves, pooled.dof, shifts.levers[owner][:, every])
 
 
 def in_order(pooled: Pooled, shifts: TemperatureShifts | None = None) -> list[tuple[float, list[int]]]:

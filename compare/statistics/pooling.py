@@ -45,7 +45,7 @@ class Pooled:
         return int(self.presses.max()) + 1
 
     @property
-    def freedom(self) -> int:
+    def dof(self) -> int:
         """Degrees of freedom of the scatter; 0 where no point was measured twice."""
         return sum(len(each.repeats) - 1 for each in self.points)
 
@@ -53,7 +53,7 @@ class Pooled:
     def scatter(self) -> float:
         """Standard deviation of a measurement relative to the mean of its point; NaN without repeats."""
         squares = sum(float(np.sum(np.square(each.repeats / each.friction - 1))) for each in self.points)
-        return sqrt(squares / self.freedom) if self.freedom else nan
+        return sqrt(squares / self.dof) if self.dof else nan
 
     def error(self, point: Point) -> float:
         """Standard error of ln mu of a point."""

@@ -74,10 +74,10 @@ def fit(
     offset, deviation = digamma(half) - np.log(half), np.sqrt(polygamma(1, half) + COARSE**2)
     y = np.log(density) - offset
     bands = _bands(x, deviation)
-    freedom = np.array([max(1, len(x) - band.unknowns) for band in bands])
+    dof = np.array([max(1, len(x) - band.unknowns) for band in bands])
     squares, slopes = _tried(bands, y[:, None])
     # A spectrum that scatters more than it should about every law is taken at its own scatter.
-    spread = max(1.0, float(np.min(squares[:, 0] / freedom)))
+    spread = max(1.0, float(np.min(squares[:, 0] / dof)))
     best = _best(bands, squares / spread, slopes)[0]
     band = bands[best]
     random = np.random.default_rng(seed)
@@ -97,8 +97,8 @@ def fit(
         shortest=float(2 * pi / edges[band.end]),
         rolloff=band.first > 0,
         cutoff=band.end < len(x),
-        misfit=float(squares[best, 0] / freedom[best]),
-        follows=bool(chdtrc(freedom[best], squares[best, 0]) > UNLIKELY),
+        misfit=float(squares[best, 0] / dof[best]),
+        follows=bool(chdtrc(dof[best], squares[best, 0]) > UNLIKELY),
     )
 
 

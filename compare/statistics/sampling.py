@@ -18,7 +18,7 @@ class Scatter:
     """Standard deviation between surfaces, from so many degrees of freedom; NaN from none."""
 
     value: float
-    freedom: int
+    dof: int
 
     @classmethod
     def of(cls, values: Sequence[float] | np.ndarray) -> Self:
@@ -29,10 +29,10 @@ class Scatter:
 
     def interval(self) -> tuple[float, float]:
         """Interval of 95 % by the chi-square distribution of normal deviates; what is skewed scatters more."""
-        if self.freedom < 1:
+        if self.dof < 1:
             return nan, nan
-        low, high = special.chdtri(self.freedom, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
-        return self.value * sqrt(self.freedom / low), self.value * sqrt(self.freedom / high)
+        low, high = special.chdtri(self.dof, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+        return self.value * sqrt(self.dof / low), self.value * sqrt(self.dof / high)
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class SamplingPlan:
 
     @property
     def label(self) -> str:
-        """Grids of its levels in words, the finest of a correction first."""
+        """Parameter grids of its levels in words, the finest of a correction first."""
         return " + ".join(level.label for level in self.levels)
 
     def error(self, seconds: np.ndarray | float) -> np.ndarray | float:

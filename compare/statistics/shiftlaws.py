@@ -94,12 +94,12 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
         c1 = law @ seen / (law @ law)
         return float(np.sum(np.square(seen - c1 * law))), float(c1), float((law @ law) ** -0.5)
 
-    freedom = found.shifts.freedom
-    quantile = student(LEVEL, freedom) if known else nan
+    dof = found.shifts.dof
+    quantile = student(LEVEL, dof) if known else nan
     square, c1, error = fitted(reference)
     scale = log(10) * GAS_CONSTANT * reference
     energy = Number(*(scale * each for each in (c1, c1 - quantile * error, c1 + quantile * error)))
-    wrong = _unlikely(square, len(above) - 1, freedom)
+    wrong = _unlikely(square, len(above) - 1, dof)
     if not known:
         return ShiftLaw(reference, NONE, NONE, energy, UNSCATTERED, UNSCATTERED)
     if energy.high < 0:
@@ -119,11 +119,11 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     )
     out = wrong or not c2.low <= reference <= c2.high
     against = f"it is the case c2 = {reference:.4g} K of WLF, which the shifts leave out" if out else ""
-    wrong = _unlikely(squares[best], len(above) - 2, freedom)
+    wrong = _unlikely(squares[best], len(above) - 2, dof)
     reason = WRONG if wrong else "" if c2.told else OPEN
     return ShiftLaw(reference, c1s, c2, energy, reason, against)
 
 
-def _unlikely(square, left, freedom):
+def _unlikely(square, left, dof):
     """Whether scatter would hardly make such a chi square, of so many degrees of freedom."""
-    return left > 0 and square / left > special.fdtri(left, min(freedom, KNOWN), 1 - UNLIKELY)
+    return left > 0 and square / left > special.fdtri(left, min(dof, KNOWN), 1 - UNLIKELY)

@@ -105,19 +105,19 @@ class Surface(Projected):
         )
 
 
-def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, freedom: float) -> TemperatureShifts:
+def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: float) -> TemperatureShifts:
     """What shifts ln a_T (K,) that are stated make of isotherms."""
     increments = np.diff(shifts)
     surface = _freest(isotherms, loads, lambda each: increments)
     exact = np.zeros((len(shifts), len(shifts))), np.zeros((len(shifts), surface.y.size))
-    return _shifted(surface, increments, Estimated.exact(np.asarray(shifts, float)), *exact, freedom, found=False)
+    return _shifted(surface, increments, Estimated.exact(np.asarray(shifts, float)), *exact, dof, found=False)
 
 
-def found(isotherms: Sequence[Isotherm], loads: int, freedom: float) -> TemperatureShifts:
+def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureShifts:
     """Shifts that bring isotherms closest to one function; that of the middle temperature is nil.
 
     loads : number of loads that are told apart
-    freedom : degrees of freedom of the one relative scatter behind the errors
+    dof : degrees of freedom of the one relative scatter behind the errors
 
     Raises ValueError where neighbours share too little of their loads or speeds to be brought together.
     """
@@ -138,44 +138,44 @@ def found(isotherms: Sequence[Isotherm], loads: int, freedom: float) -> Temperat
     covariance = levers * errors**2 @ levers.T
     further = Surface(isotherms, surface.degree + 1, loads)
     bias = np.abs(against @ (near(further, increments) - increments))
-    shifts = Estimated(against @ increments, np.sqrt(np.diag(covariance)), freedom, bias=bias)
-    return _shifted(surface, increments, shifts, covariance, levers, freedom, found=True)
+    shifts = Estimated(against @ increments, np.sqrt(np.diag(covariance)), dof, bias=bias)
+    return _shifted(surface, increments, shifts, covariance, levers, dof, found=True)
 
 
-def _shifted(surface, increments, shifts, covariance, levers, freedom, found):
+def _shifted(surface, increments, shifts, covariance, levers, dof, found):
     unmoved = np.zeros_like(increments)
     return TemperatureShifts(
         tuple(surface.isotherms),
         shifts,
         covariance,
         levers,
-        _missed(surface, increments, freedom, surface.tangent(increments) if found else None),
-        _missed(surface, unmoved, freedom),
-        _straight(surface, freedom),
+        _missed(surface, increments, dof, surface.tangent(increments) if found else None),
+        _missed(surface, unmoved, dof),
+        _straight(surface, dof),
         surface.degree,
         found,
     )
 
 
-def _missed(surface, increments, freedom, tangent=None):
+def _missed(surface, increments, dof, tangent=None):
     """Misfit of a surface; tangent : of what is fitted, the coefficients alone if None."""
     basis = surface.common(increments).basis if tangent is None else tangent
-    return _misfit(surface, freedom, _orthonormal(basis), surface.residuals(increments))
+    return _misfit(surface, dof, _orthonormal(basis), surface.residuals(increments))
 
 
-def _straight(surface, freedom):
+def _straight(surface, dof):
     """Misfit of parallel planes, one a temperature."""
     levels = surface.owner[:, None] == np.arange(len(surface.isotherms))
     loads = np.concatenate([each.log_load for each in surface.isotherms])
     planes = _orthonormal(np.column_stack([levels, surface.x, loads]))
-    return _misfit(surface, freedom, planes, surface.y - planes @ (planes.T @ surface.y))
+    return _misfit(surface, dof, planes, surface.y - planes @ (planes.T @ surface.y))
 
 
-def _misfit(surface, freedom, fitted, missed):
+def _misfit(surface, dof, fitted, missed):
     """Misfit of what is missed, where an orthonormal basis of what is fitted takes scatter away."""
     errors = np.concatenate([each.error for each in surface.isotherms])
     deviations = np.diag(errors) - errors[:, None] * fitted @ fitted.T
-    return Replicates(missed, sqrt(len(errors)) * deviations, freedom).rms
+    return Replicates(missed, sqrt(len(errors)) * deviations, dof).rms
 
 
 def _orthonormal(basis):

@@ -29,7 +29,7 @@ def run(
     workers: int | None = None,
     scheduler: str | None = None,
     format: str = "html",
-    figures: str = "png",
+    figure_format: str = "png",
     report: bool = True,
     yes: bool = False,
     progress: Progress | None = None,
@@ -40,7 +40,7 @@ def run(
     workers : processes; as many as processors if absent
     scheduler : address of a scheduler of dask.distributed, whose workers solve then
     format : of the page, "html", "markdown" or "latex"
-    figures : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
+    figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
     report : whether the page and its figures are written; findings and results always are
     yes : agree to what takes more than a day
     progress : told how far it is
@@ -49,10 +49,10 @@ def run(
     solved, where the folder cannot be written; Broken where so many tasks broke that nothing can be judged.
     """
     output, progress = Path(output), progress or Progress()
-    forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figures.split(",") if form.strip())]))
+    forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
     known("format", format, render.FORMATS)
     for form in forms:
-        known("figures", form, render.FORMS)
+        known("figure_format", form, render.FORMS)
     cost, count = study.cost(), counted(workers)
     cost.refuse(count, yes)
     below = manifest.inside(output, study.place) if study.place else output
@@ -64,9 +64,9 @@ def run(
     swept = _solve(study.batches(), output, workers, scheduler, progress)
     try:
         answers = study.answers(swept.outcomes)
-        findings = study.findings(answers)
+        judged = study.judge(answers)
+        findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
-        page = study.page(answers, findings)
         page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=study.notes)
     except (SolveError, ValueError, ArithmeticError, LookupError) as error:
         # What is made of NaN alone raises nearly anything, and would hide what matters.

@@ -15,18 +15,19 @@ from scene.protocol import foresee
 from scene.reading import InvalidInput
 
 from ..library.case import Case, NotCompared, doubted
-from ..library.lookup import Asked, case_of
+from ..library.lookup import SceneLike, case_of
+from ..models.table import KNOWN
 from ..solving.amounts import duration, pascals, seconds
 from ..solving.cost import Cost
-from ..trustmap.verdict import Trust, trust
-from .run.curves import DIMENSIONS, curves
+from ..trustmap.verdict import Advice, trust
+from .run.curves import curves, models_of
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
 INDENT = 11  # of the lines, after their names
 
 
-class Plans(dict[str, Plan | str | Trust]):
+class Plans(dict[str, Plan | str | Advice]):
     """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, six lines.
 
     scene : the scene that is planned
@@ -37,7 +38,7 @@ class Plans(dict[str, Plan | str | Trust]):
 
     def __init__(
         self,
-        plans: Mapping[str, Plan | str | Trust],
+        plans: Mapping[str, Plan | str | Advice],
         scene: Scene,
         cost: Cost | str,
         refused: bool = False,
@@ -115,7 +116,7 @@ class Plans(dict[str, Plan | str | Trust]):
             yield "refused" if self.refused else "alone", told
 
     def _by_dimension(self, told: Callable[[Plan], str]) -> str:
-        return ", ".join(f"{told(plan)} in {DIMENSIONS[name]}" for name, plan in self._plans.items())
+        return ", ".join(f"{told(plan)} in {KNOWN[name][0]}" for name, plan in self._plans.items())
 
 
 def _stiffness(scene):
@@ -130,13 +131,13 @@ def _stiffness(scene):
     return f"{at_rest}; {pascals(instant)}, {pascals(stiffer * instant)} at the instant"
 
 
-def plans(asked: Asked) -> Plans:
+def plans(asked: SceneLike) -> Plans:
     """The plans of a case, of a scene alone, of a file or of a ready scene, whether or not both can solve it.
 
     Raises InvalidInput.
     """
     case = case_of(asked)
-    made: dict[str, Plan | str | Trust] = {
+    made: dict[str, Plan | str | Advice] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
     cost, refused = _cost(case)
@@ -157,7 +158,7 @@ def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
 def _cost(case: Case) -> tuple[Cost | str, bool]:
     """Cost of all contacts that `crosscheck run` solves, or why it solves none, and whether that is a refusal."""
     try:
-        return sum((each.cost for each in curves(case).values()), Cost()), False
+        return sum((each.cost for each in curves(case, models_of(case)).values()), Cost()), False
     except NotCompared as reason:
         return str(reason), False
     except Refused as reason:

@@ -11,6 +11,8 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from scene.signatures import readable
+
 from ..report import render
 from ..report.page import Page, Plot
 from ..report.plots import style
@@ -26,13 +28,14 @@ SHOWN = 3  # reasons that are said of tasks that broke
 SCREEN = 110  # dots per inch of what a notebook shows
 
 
+@readable
 @dataclass(frozen=True, repr=False)
 class Report:
     """Report of a study. Printed, it is what the command prints; in a notebook, tables and figures.
 
     study : the question
-    answers : everything that was solved, an xarray.DataTree with a Dataset for each rectangle and solver
-    claims : findings one by one; `findings` has them as a DataFrame
+    answers : everything that was solved, an xarray.DataTree with a Dataset for each parameter grid and solver
+    findings : one by one; `table` has them as a DataFrame
     page : the page, with its plots
     swept : number of tasks that were solved and reused, and what broke
     output : folder of the page and of what has been solved
@@ -42,7 +45,7 @@ class Report:
 
     study: Study
     answers: xarray.DataTree
-    claims: Sequence[Finding]
+    findings: Sequence[Finding]
     page: Page
     swept: SweepResult
     output: Path
@@ -50,9 +53,9 @@ class Report:
     unsolved: Unsolved = NONE_UNSOLVED
 
     @property
-    def findings(self) -> DataFrame:
+    def table(self) -> DataFrame:
         """Findings as a DataFrame, the same columns whatever command they come from."""
-        return finding.table(self.claims)
+        return finding.table(self.findings)
 
     @property
     def figures(self) -> "Figures":
@@ -62,7 +65,7 @@ class Report:
     @property
     def failed(self) -> bool:
         """Whether a task broke, many contacts or a scene's own have no answer, or what has to hold does not."""
-        return bool(self.swept.faults) or self.unsolved.serious or self.study.failed(self.claims)
+        return bool(self.swept.faults) or self.unsolved.serious or self.study.failed(self.findings)
 
     @property
     def doubts(self) -> Sequence[str]:

@@ -1,15 +1,18 @@
 """Study: the declaration behind a command: what is solved, what is claimed, what its page shows."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import xarray
+
+from scene.signatures import readable
 
 from ..report.page import Block, Findings, Page, Plot, Section, Text
 from ..solving import parameter_grid
 from ..solving.cost import Cost
 from ..solving.outcome import Outcome
-from ..solving.parameter_grid import Rectangle
+from ..solving.parameter_grid import ParameterGrid
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import finding, griderror
@@ -19,11 +22,40 @@ from ..statistics.jackknife import judge
 SETTING = "Setting"
 
 
-class Study:
-    """A question, declared: what is solved for it, what is claimed, and what its page shows.
+@readable
+@dataclass(frozen=True)
+class Judgement:
+    """What the answers of a study come to, made once.
 
-    A study overrides what differs: `rectangles` and `claims` are enough. One whose tasks are no rectangles
-    overrides `batches` and `answers`; one that measures claims in its own way, `findings`.
+    findings : one by one
+    answer : sentences; one for each claim if absent
+    blocks : figures, findings and other tables of the page, alone or in sections; all findings if absent
+    setting : what was solved and how it is judged; it stands last on the page
+    """
+
+    findings: Sequence[Finding]
+    answer: Sequence[str] | None = None
+    blocks: Sequence[Block] | None = None
+    setting: Sequence[Block] = ()
+
+    @property
+    def plots(self) -> tuple[Plot, ...]:
+        """Every figure."""
+        return tuple(self.page("", xarray.DataTree()).every(Plot))
+
+    def page(self, title: str, answers: xarray.DataTree) -> Page:
+        """Page with the answer first, what the grids leave uncertain among it, and the setting last."""
+        told = finding.sentences(self.findings) if self.answer is None else self.answer
+        blocks = [Findings(self.findings)] if self.blocks is None else self.blocks
+        last = [Section(SETTING, self.setting)] if self.setting else []
+        return Page(title, griderror.told(answers, told), [*blocks, *last])
+
+
+class Study:
+    """A question, declared: what is solved for it, what is claimed, and what its answers come to.
+
+    A study overrides what differs: `grids` and `claims` are enough. One whose tasks are no parameter grids
+    overrides `batches` and `answers`; one that measures claims in its own way, or has figures, `judge`.
 
     command : name of the command, and of the Python function
     title, about : for people
@@ -51,65 +83,71 @@ class Study:
         return ()
 
     def unsolved(self, outcomes: Mapping[Task, Outcome]) -> Unsolved:
-        """Contacts of the rectangles without an answer."""
-        return Unsolved.of(parameter_grid.contacts_of(self.rectangles()), outcomes, self.own)
+        """Contacts of the grids without an answer."""
+        return Unsolved.of(parameter_grid.contacts_of(self.grids()), outcomes, self.own)
 
     @property
     def inputs(self) -> Mapping[str, Any]:
         """Inputs of the command, as JSON can hold them."""
         return {}
 
-    def rectangles(self) -> Mapping[str, Rectangle]:
-        """Rectangles of contacts by name. Raises InvalidInput, Refused."""
+    def grids(self) -> Mapping[str, ParameterGrid]:
+        """Parameter grids of contacts by name. Raises InvalidInput, Refused."""
         return {}
 
     def claims(self) -> Sequence[Claim]:
-        """Claims that are measured on the rectangles."""
+        """Claims that are measured on the grids."""
         return ()
 
     def cost(self) -> Cost:
-        """Upper bound of the cost of all solves; rectangles are counted before their tasks are built."""
-        if rectangles := self.rectangles():
-            return sum((each.cost for each in rectangles.values()), Cost())
+        """Upper bound of the cost of all solves; grids are counted before their tasks are built."""
+        if grids := self.grids():
+            return sum((each.cost for each in grids.values()), Cost())
         return Cost.of(task for batch in self.batches() for task in batch.tasks)
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved."""
-        return (Batch(parameter_grid.tasks_of(self.rectangles())),)
+        return (Batch(parameter_grid.tasks_of(self.grids())),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved, labelled."""
-        return parameter_grid.tree(self.rectangles(), outcomes)
+        return parameter_grid.tree(self.grids(), outcomes)
 
-    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        """Findings on each claim."""
-        return [judge(claim, answers) for claim in self.claims()]
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """What the answers come to: once for the same answers, and all of it."""
+        return Judgement([judge(claim, answers) for claim in self.claims()], setting=self.setting)
+
+    @property
+    def setting(self) -> Sequence[Block]:
+        """Setting of the study, which stands last on the page: what it is about."""
+        return [Text(self.about)] if self.about else []
 
     def failed(self, findings: Sequence[Finding]) -> bool:
         """Whether the command ends with status 1: a law or a stored value does not hold."""
         return any(each.stated == FAILS for each in findings)
 
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
-        """Figures of the page."""
+
+class Hooked(Study):
+    """Study by parts."""
+
+    def findings(self, answers):
+        return [judge(claim, answers) for claim in self.claims()]
+
+    def plots(self, answers, findings):
         return ()
 
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """The answer: a sentence for each claim, those that contradict included."""
+    def answer(self, findings):
         return finding.sentences(findings)
 
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        """Figures, findings and other tables, alone or in sections."""
+    def blocks(self, answers, findings, plots):
         return [*plots, Findings(findings)]
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
-        """Setting of the study: what was solved and how it is judged; it stands last on the page."""
-        return [Text(self.about)] if self.about else []
+    def settings(self, answers):
+        return self.setting
 
-    def page(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Page:
-        """Page with the answer first, what its grids leave uncertain among it, and the setting last."""
-        blocks = self.blocks(answers, findings, self.plots(answers, findings))
-        setting = self.setting(answers)
-        last = [Section(SETTING, setting)] if setting else []
-        return Page(self.title, griderror.told(answers, self.answer(findings)), [*blocks, *last])
+    def judge(self, answers):
+        findings = self.findings(answers)
+        plots = self.plots(answers, findings)
+        return Judgement(
+            findings, self.answer(findings), self.blocks(answers, findings, plots), self.settings(answers)
+        )

@@ -1,4 +1,4 @@
-"""Answers of three dimensions from one: means over profiles over the ratios that the trust map foretells."""
+"""Answers of three dimensions from one: means over profiles over the ratios that the trust map predicts."""
 
 from collections.abc import Iterator, Sequence
 from math import exp, hypot, isfinite, log, nan
@@ -12,17 +12,19 @@ from mdr1d import MDR
 from scene import EmptyContact, Result, Scene, SolveError
 from scene.protocol import refuse
 from scene.quantities import CLOSED
+from scene.signatures import readable
 
 from ..library.case import Draws
 from ..solving.outcome import Row
 from ..solving.task import SceneTask, draws_of
 from ..statistics.jackknife import mean_ratio
-from .verdict import Worth, trust, unmeasured
+from .verdict import Correction, trust, unmeasured
 
-# Of profiles, what means are taken of.
+# Quantities whose means over profiles are taken.
 TAKEN = {"friction": "friction_force", "depth": "depth", "force": "normal_force"}
 
 
+@readable
 @dataclass(frozen=True, config=CLOSED)
 class CorrectedMDR:
     """The 1D model, corrected by the trust map to the mean over surfaces in 3D.
@@ -31,7 +33,7 @@ class CorrectedMDR:
     profiles : over which means are taken, of the seeds seed, seed + 1, ...; a smooth body is solved once
 
     Friction coefficient, mean F_x over mean F_N, depth under a load and force at a depth are those in 1D over
-    their ratio 1D/3D as the map foretells it; what is prescribed stays. A depth is nan where the roughness lifts
+    their ratio 1D/3D as the map predicts it; what is prescribed stays. A depth is nan where the roughness lifts
     the body, so that its mean over profiles is not above zero. Where the map knows a ratio but advises to
     solve in 3D, the interval is wide. Of a smooth body the map solves both dimensions, which costs what 3D costs.
 
@@ -43,7 +45,7 @@ class CorrectedMDR:
     """
 
     # Whose code and data the answer depends on.
-    packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.models.exact", "compare.studies.trust")
+    packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.models.exact", "compare.trustmap")
 
     mdr: MDR = MDR(points=4000)
     profiles: Draws = 40
@@ -64,8 +66,8 @@ class CorrectedMDR:
         """
         start = process_time()
         refuse(self, scene)
-        worths, motion = trust(scene).worths, scene.motion
-        for name, worth in worths.items():
+        corrections, motion = trust(scene).corrections, scene.motion
+        for name, worth in corrections.items():
             if not isfinite(worth.ratio):
                 raise SolveError(f"the ratio 1D/3D of {name} is not known. {worth.reason}")
         rough = scene.roughness is not None and not scene.roughness.flat
@@ -75,8 +77,8 @@ class CorrectedMDR:
         most = max(rows, key=lambda row: row.normal_force)
         if not most.normal_force:
             raise EmptyContact(f"none of {len(rows)} profiles touches at a depth of {motion.depth:g} m")
-        means = {name: _mean(name, rows, rough) for name in worths}
-        values = {name: means[name][0] / worth.ratio for name, worth in worths.items()}
+        means = {name: _mean(name, rows, rough) for name in corrections}
+        values = {name: means[name][0] / worth.ratio for name, worth in corrections.items()}
         if not any(map(isfinite, values.values())):
             raise SolveError(f"no mean over {len(rows)} profiles is above zero, so that no ratio corrects it")
         force = values["force"] if motion.load is None else motion.load
@@ -88,11 +90,11 @@ class CorrectedMDR:
             depth=values["depth"] if motion.depth is None else motion.depth,
             friction_force=values.get("friction", 0.0) * force,
             residual=max(row.residual for row in rows),
-            applications=sum(row.applications for row in rows),
+            operator_applications=sum(row.operator_applications for row in rows),
             seconds=process_time() - start,
             measures={
                 measure: number
-                for name, worth in worths.items()
+                for name, worth in corrections.items()
                 for measure, number in _measures(name, worth, values[name], *means[name][1:])
             },
         )
@@ -112,7 +114,7 @@ def _mean(quantity: str, rows: Sequence[Row], rough: bool) -> tuple[float, float
 
 
 def _measures(
-    quantity: str, worth: Worth, value: float, below: float, above: float
+    quantity: str, worth: Correction, value: float, below: float, above: float
 ) -> Iterator[tuple[str, float]]:
     """Ratio, and ends of the intervals of a corrected value; below, above : of the profiles' mean, relative."""
     yield f"{quantity}_ratio", worth.ratio

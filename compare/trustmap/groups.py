@@ -1,4 +1,4 @@
-"""Dimensionless groups of a rough scene, from which the ratio of 1D over 3D is foretold."""
+"""Dimensionless groups of a rough scene, from which the ratio of 1D over 3D is predicted."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -39,7 +39,7 @@ class Answer(Protocol):
 
 
 @dataclass(frozen=True)
-class Smooth:
+class SmoothReference:
     """The body without its roughness, in both dimensionalities.
 
     friction, depth, force : 1D over 3D; friction is 1 at rest
@@ -59,7 +59,7 @@ class Smooth:
     line_radius: float
 
     @classmethod
-    def of(cls, scene: Scene, line: Answer | None = None, space: Answer | None = None) -> "Smooth":
+    def of(cls, scene: Scene, line: Answer | None = None, space: Answer | None = None) -> "SmoothReference":
         """Smooth body of a scene; line, space : its answers, solved here if absent. Raises SolveError."""
         smooth = replace(scene, roughness=None)
         line = LINE.solve(smooth) if line is None else line
@@ -93,7 +93,7 @@ class FullContact:
     pressure: float
 
     @classmethod
-    def of(cls, scene: Scene, smooth: Smooth) -> "FullContact":
+    def of(cls, scene: Scene, smooth: SmoothReference) -> "FullContact":
         """Full contact of a rough scene."""
         rough, speed, rest = _roughness(scene), scene.motion.speed, elastic_contact(scene)
         q_s = rough.q_max(0.0)
@@ -102,7 +102,7 @@ class FullContact:
         half = log(q_s / rough.q_min) / 2
         q = rough.q_min * np.exp(half * (1 + nodes))
         weights = weights * half * q
-        # Of unit height: the square of a tiny one would vanish.
+        # At unit height, as the square of a tiny one would vanish.
         unit, height = replace(rough, rms_height=1.0), rough.rms_height
         on_line, on_surface = weights * unit.density_1d(q, q_s), weights * q * unit.density_2d(q, q_s)
         cosine, shares = np.cos(pi / 4 * (1 + angles)), pi * shares
@@ -126,7 +126,7 @@ class FullContact:
 
 
 @dataclass(frozen=True)
-class Groups:
+class DimensionlessGroups:
     """Dimensionless groups of a rough scene; logarithms except for shape, prescribed, hurst and shares.
 
     a, d, p : radius, depth and mean pressure of the smooth contact at rest
@@ -162,7 +162,7 @@ class Groups:
     share: float  # of the roughness in that friction in 3D
 
     @classmethod
-    def of(cls, scene: Scene, smooth: Smooth) -> "Groups":
+    def of(cls, scene: Scene, smooth: SmoothReference) -> "DimensionlessGroups":
         """Groups of a rough scene."""
         rough, rest, solid = _roughness(scene), elastic_contact(scene), scene.solid
         speed, a, n = scene.motion.speed, rest.radius, scene.indenter.exponent

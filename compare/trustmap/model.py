@@ -7,11 +7,11 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from scipy.special import digamma, polygamma
 
-from .groups import Groups
+from .groups import DimensionlessGroups
 from .regions import LOST, WIDENED, parts
 from .regression import Process, Scales
 
-NAMES = tuple(each.name for each in fields(Groups))
+NAMES = tuple(each.name for each in fields(DimensionlessGroups))
 # Estimate in closed form, of which the model learns the rest: exact where the body is smooth, and in full contact.
 ESTIMATES = {"friction": "friction", "depth": "smooth_depth", "force": "smooth_force"}
 # Change of the grid that is taken where half the points have no answer.
@@ -36,7 +36,7 @@ MOST_SCATTER = 1 / NORMAL
 Points: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-class Foretold(NamedTuple):
+class Predicted(NamedTuple):
     """Logarithm of the ratio, its standard error, and the relative scatter of one surface (M,)."""
 
     logarithm: np.ndarray
@@ -71,7 +71,7 @@ class Measurements:
         return Measurements(*(getattr(self, each.name)[chosen] for each in fields(self)))
 
     def variance(self, scatter: np.ndarray) -> np.ndarray:
-        """Variance of each logarithm; scatter : of one surface as foretold, for four of them hardly know it."""
+        """Variance of each logarithm; scatter : of one surface as predicted, for four of them hardly know it."""
         grid = np.nan_to_num(self.grid, nan=UNKNOWN_GRID)
         return np.maximum(self.line_error**2 + scatter**2 / self.surfaces + grid**2 / 2, LEAST_VARIANCE)
 
@@ -127,14 +127,14 @@ class Model:
         process = Process.fitted(*_learned(quantity, usable, scatter))
         return cls(quantity, process, scatter, _fitted(quantity, process, scatter))
 
-    def foretold(self, groups: np.ndarray) -> Foretold:
+    def predicted(self, groups: np.ndarray) -> Predicted:
         """Ratios at groups (M, D)."""
-        rest, variance = self.process.foretold(groups)
+        rest, variance = self.process.predicted(groups)
         error = self.fitted.widened(np.sqrt(variance), groups)
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
-        logarithm, spread = self.scatter.foretold(groups)
-        return Foretold(estimate(self.quantity, groups) + rest, error, np.exp(logarithm + spread / 2))
+        logarithm, spread = self.scatter.predicted(groups)
+        return Predicted(estimate(self.quantity, groups) + rest, error, np.exp(logarithm + spread / 2))
 
 
 def lost(groups: np.ndarray) -> np.ndarray:

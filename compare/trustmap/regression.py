@@ -66,7 +66,7 @@ class Process:
         """Means (M,) at new inputs (M, D)."""
         return self._common(inputs) @ self._weights + self.values.mean()
 
-    def foretold(self, inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def predicted(self, inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Means (M,) and variances (M,) at new inputs (M, D), without the noise of a measurement."""
         left = solve_triangular(self._factor, self._common(inputs).T, lower=True, check_finite=False)
         scales = self.scales
@@ -74,7 +74,7 @@ class Process:
         return self.mean(inputs), own - np.sum(left**2, axis=0) + scales.noise**2
 
     def left_out(self) -> tuple[np.ndarray, np.ndarray]:
-        """Errors (N,) of each value foretold from all others, and their variances (N,), its noise included."""
+        """Errors (N,) of each value predicted from all others, and their variances (N,), its noise included."""
         inverse = np.diag(cho_solve((self._factor, True), np.eye(self.values.size)))
         return self._weights / inverse, 1 / inverse
 

@@ -1,4 +1,4 @@
-"""Worth of the 1D answer to a scene: use it, multiply it, or solve in 3D."""
+"""Correction of the 1D answer to a scene: use it, multiply it, or solve in 3D."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ from scene import (
 from scene.doubt import beyond_linear
 
 from . import shipped, table
-from .groups import LINE, SPACE, Groups, Smooth
+from .groups import LINE, SPACE, DimensionlessGroups, SmoothReference
 from .model import MOST_SCATTER, NAMES, NORMAL, lost
 from .ratio import QUANTITIES, asked_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-Advice = Literal["use", "multiply", "solve", "none"]
-USE: Advice = "use"
-MULTIPLY: Advice = "multiply"
-SOLVE: Advice = "solve"
-NONE: Advice = "none"  # of neither solver
+Treatment = Literal["use", "multiply", "solve", "none"]
+USE: Treatment = "use"
+MULTIPLY: Treatment = "multiply"
+SOLVE: Treatment = "solve"
+NONE: Treatment = "none"  # of neither solver
 # Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
 SMALL, WIDE = 0.05, 0.15
-# Of the range of a group, what may be missing to it.
+# Tolerated extrapolation, as a fraction of the measured range.
 SLACK = 0.02
 NEAREST = 3
 FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."
@@ -75,8 +75,8 @@ MOST, FEW = 0.5, 2.0
 
 
 @dataclass(frozen=True)
-class Worth:
-    """Worth of the 1D answer for one quantity.
+class Correction:
+    """Correction of the 1D answer for one quantity.
 
     ratio : mean over profiles in 1D over mean over surfaces in 3D; nan if not known
     low, high : its interval of 95 %
@@ -91,7 +91,7 @@ class Worth:
     high: float
     surface_low: float
     surface_high: float
-    advice: Advice
+    advice: Treatment
     reason: str
 
     @property
@@ -125,8 +125,8 @@ class Neighbour:
 
 
 @dataclass(frozen=True)
-class Trust:
-    """Worth of 1D for a scene; None where a quantity is prescribed or zero.
+class Advice:
+    """Correction of 1D for a scene; None where a quantity is prescribed or zero.
 
     friction, depth, force : of the coefficient of friction, the depth under a load, the force at a depth
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
@@ -135,25 +135,25 @@ class Trust:
     notes : on what was read for it
     """
 
-    friction: Worth | None
-    depth: Worth | None
-    force: Worth | None
+    friction: Correction | None
+    depth: Correction | None
+    force: Correction | None
     groups: Mapping[str, float]
     nearest: tuple[Neighbour, ...]
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
-    def worths(self) -> dict[str, Worth]:
+    def corrections(self) -> dict[str, Correction]:
         """Quantities that the scene has, by name."""
         return {name: worth for name in QUANTITIES if (worth := getattr(self, name))}
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
-        lines += [f"{name}: {worth}" for name, worth in self.worths.items()]
+        lines += [f"{name}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
             lines.append(f"place on the map: {_placed(self.groups)}")
-        first = next(iter(self.worths), "")
+        first = next(iter(self.corrections), "")
         lines += [f"measured: {first} 1D/3D = {each.ratio:.3g} at {_placed(each.groups)}" for each in self.nearest]
         return "\n".join(lines)
 
@@ -169,11 +169,11 @@ class Trust:
 
     @property
     def _rows(self):
-        return [(name, *astuple(worth)) for name, worth in self.worths.items()]
+        return [(name, *astuple(worth)) for name, worth in self.corrections.items()]
 
 
-def trust(scene: Scene) -> Trust:
-    """Worth of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved.
+def trust(scene: Scene) -> Advice:
+    """Correction of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved.
 
     A measured line is judged as the surface that is fitted to it. Beyond every linear theory of contact there is
     no advice: 3D is as linear as 1D.
@@ -193,8 +193,8 @@ def _advised(scene):
     try:
         if scene.roughness is None or scene.roughness.flat:
             return _smooth(scene)
-        smooth = Smooth.of(scene)
-        groups = Groups.of(scene, smooth)
+        smooth = SmoothReference.of(scene)
+        groups = DimensionlessGroups.of(scene, smooth)
         named = {name: value if name in PLAIN else exp(value) for name, value in asdict(groups).items()}
     except (SolveError, ArithmeticError, ValueError) as error:
         return _unknown(scene, f"Off the map: the smooth body in its place has no answer ({error}).")
@@ -204,8 +204,8 @@ def _advised(scene):
         return replace(_unknown(scene, f"Off the map: {'; '.join(told)}."), groups=named)
     place = np.clip(place, *limits())
     asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
-    worths = {name: _foretold(name, place, groups) for name in asked}
-    return _of(worths, named, tuple(_nearest(asked[0], place)))
+    corrections = {name: _predicted(name, place, groups) for name in asked}
+    return _of(corrections, named, tuple(_nearest(asked[0], place)))
 
 
 def as_judged(scene: Scene) -> Scene:
@@ -216,7 +216,7 @@ def as_judged(scene: Scene) -> Scene:
 
 def _of_fit(found):
     """Worths with what a fit adds to their uncertainty."""
-    told = {name: replace(worth, reason=f"{worth.reason} {FITTED}") for name, worth in found.worths.items()}
+    told = {name: replace(worth, reason=f"{worth.reason} {FITTED}") for name, worth in found.corrections.items()}
     return replace(found, **told)
 
 
@@ -242,43 +242,45 @@ def unmeasured(scene: Scene) -> list[str]:
 
 
 def _unknown(scene, reason, advice=SOLVE):
-    worth = Worth(nan, nan, nan, nan, nan, advice, reason)
+    worth = Correction(nan, nan, nan, nan, nan, advice, reason)
     asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else QUANTITIES
     return _of(dict.fromkeys(asked, worth))
 
 
 def _of(
-    worths: Mapping[str, Worth], groups: Mapping[str, float] | None = None, nearest: tuple[Neighbour, ...] = ()
-) -> Trust:
-    friction, depth, force = (worths.get(name) for name in QUANTITIES)
-    return Trust(friction, depth, force, groups or {}, nearest)
+    corrections: Mapping[str, Correction],
+    groups: Mapping[str, float] | None = None,
+    nearest: tuple[Neighbour, ...] = (),
+) -> Advice:
+    friction, depth, force = (corrections.get(name) for name in QUANTITIES)
+    return Advice(friction, depth, force, groups or {}, nearest)
 
 
-def _smooth(scene) -> Trust:
+def _smooth(scene) -> Advice:
     """Solved in both dimensionalities, on two grids in 3D: their change is the interval."""
     finer = replace(SPACE, points=2 * SPACE.points)
     line = LINE.solve(replace(scene, roughness=None))
     fine, coarse = (
-        Smooth.of(scene, line, solver.solve(replace(scene, roughness=None))) for solver in (finer, SPACE)
+        SmoothReference.of(scene, line, solver.solve(replace(scene, roughness=None))) for solver in (finer, SPACE)
     )
-    worths = {}
+    corrections = {}
     for name in asked_of(scene):
         if name == "friction" and not fine.friction_coefficient:
             continue
         ratio, other = getattr(fine, name), getattr(coarse, name)
         error = abs(log(ratio / other)) / NORMAL
-        worths[name] = _worth(ratio, error, 0.0, "the body is smooth, and both solvers answered it")
-    return _of(worths)
+        corrections[name] = _worth(ratio, error, 0.0, "the body is smooth, and both solvers answered it")
+    return _of(corrections)
 
 
-def _foretold(name, place, groups):
-    found = shipped.model(name).foretold(place[None])
+def _predicted(name, place, groups):
+    found = shipped.model(name).predicted(place[None])
     logarithm, error, scatter = (float(each[0]) for each in found)
     return _worth(exp(logarithm), error, scatter, _because(name, groups))
 
 
-def advice_on(ratio: float, error: float) -> Advice:
-    """Advice on a ratio whose logarithm has a standard error."""
+def advice_on(ratio: float, error: float) -> Treatment:
+    """Treatment on a ratio whose logarithm has a standard error."""
     half = NORMAL * error
     if ratio * exp(-half) >= 1 - SMALL and ratio * exp(half) <= 1 + SMALL:
         return USE
@@ -296,7 +298,7 @@ def _worth(ratio, error, scatter, because):
         SOLVE: f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}",
     }[advice]
     told = f"{reason}: {because}." if isfinite(whole) else f"{reason}: {because}. {NOTHING}"
-    return Worth(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, told)
+    return Correction(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, told)
 
 
 def _because(name, groups):

@@ -1,17 +1,12 @@
-"""Docstrings of this project as reStructuredText, and signatures that name the kinds of number.
+"""Docstrings of this project as reStructuredText, and the signatures that are shown in Python.
 
 A docstring is plain text. A line `name : text [unit]`, with its indented continuations, states a field or an
 argument, and becomes an entry of a list; of several on one line, separated by semicolons, each does. Stars, bars
 and underscores are themselves. What stands in single backticks is a name.
 """
 
-import dataclasses
 import inspect
 import re
-import types
-import typing
-
-from kinds import named
 
 _NAME = r"[A-Za-z_]\w*"
 _FIELD = re.compile(rf"^({_NAME}(?:, {_NAME})*) : (.*)$")
@@ -50,60 +45,18 @@ def listed(lines: list[str]) -> list[str]:
     return found
 
 
-def kind(annotation) -> str:
-    """An annotation as it reads in the source: the name of a kind of number for what that stands for."""
-    name = named(annotation)
-    if name:
-        return name
-    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
-    if origin is typing.Annotated:
-        return kind(arguments[0])
-    if origin in (typing.Union, types.UnionType):
-        return " | ".join(kind(each) for each in arguments)
-    if origin is typing.Literal:
-        return " | ".join(repr(each) for each in arguments)
-    if origin is tuple:
-        return f"tuple[{', '.join('...' if each is ... else kind(each) for each in arguments)}]"
-    if annotation is type(None):
-        return "None"
-    if inspect.isclass(annotation) and not arguments and annotation.__module__ != "builtins":
-        return f"~{annotation.__module__}.{annotation.__name__}"  # packages share names; the name alone is shown
-    return inspect.formatannotation(annotation).rsplit(".", 1)[-1] if not arguments else _generic(annotation)
-
-
-def _generic(annotation) -> str:
-    return re.sub(r"\b(?:\w+\.)+(\w+)", r"\1", inspect.formatannotation(annotation))
-
-
 def signature(owner) -> str | None:
-    """Arguments of a dataclass in the words of its fields; None where it has none of its own to show.
+    """Arguments of a class or function whose package makes them readable; None of any other.
 
     A field `type` of one value only tells tables of a file apart and is left out.
     """
-    if not (inspect.isclass(owner) and dataclasses.is_dataclass(owner)):
+    if not isinstance(getattr(owner, "__signature__", None), inspect.Signature):
         return None
-    shown, by_name = [], False
-    for field in dataclasses.fields(owner):
-        if not field.init or field.name == "type":
-            continue
-        if field.kw_only and not by_name:
-            shown.append("*")
-            by_name = True
-        default = _default(field)
-        spaced = f": {kind(field.type)}" if not isinstance(field.type, str) else f": {field.type}"
-        shown.append(f"{field.name}{spaced}" + (f" = {default}" if default else ""))
-    return f"({', '.join(shown)})"
-
-
-def _default(field) -> str:
-    value = field.default
-    if hasattr(value, "get_default"):
-        value = value.get_default(call_default_factory=True)
-        if type(value).__name__ == "PydanticUndefinedType":
-            return ""
-    if value is dataclasses.MISSING:
-        return "..." if field.default_factory is not dataclasses.MISSING else ""
-    return repr(value)
+    found = owner.__signature__
+    kept = [each for each in found.parameters.values() if each.name != "type"]
+    return str(found.replace(parameters=kept, return_annotation=inspect.Signature.empty)).replace(
+        "<factory>", "..."
+    )
 
 
 def _process_docstring(app, what, name, owner, options, lines):
@@ -111,8 +64,11 @@ def _process_docstring(app, what, name, owner, options, lines):
 
 
 def _process_signature(app, what, name, owner, options, given, returned):
-    found = signature(owner) if what == "class" else None
-    return None if found is None else (found, None)
+    # Sphinx links the types of a function: it is left as it is, unless they spell out checks.
+    if what == "class" or "Annotated[" in (given or ""):
+        found = signature(owner)
+        return None if found is None else (found, None if what == "class" else returned)
+    return None
 
 
 def setup(app):

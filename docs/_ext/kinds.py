@@ -1,37 +1,14 @@
-"""Kinds of number of a scene by name, and `{kinds}`: a table of what each allows and of its unit."""
+"""`{kinds}`: a table of the kinds of number of a scene, what each allows, and its unit."""
 
-import typing
 from dataclasses import astuple
 
 from annotated_types import Ge, Gt
 from sphinx.util.docutils import SphinxDirective
 
-import scene.quantities
 from scene.quantities import Unit
+from scene.signatures import kinds
 
 BOUNDS = {Gt: "above", Ge: "at least"}
-
-
-def kinds() -> dict[str, typing.Any]:
-    """The annotated numbers that scene.quantities declares, by name."""
-    return {
-        name: alias
-        for name, alias in vars(scene.quantities).items()
-        if not name.startswith("_") and typing.get_origin(alias) is typing.Annotated
-    }
-
-
-def named(annotation) -> str | None:
-    """Name of the kind that an annotation is, or narrows further; None of anything else."""
-    if typing.get_origin(annotation) is not typing.Annotated:
-        return None
-    stated = annotation.__metadata__
-    fitting = {
-        name: alias.__metadata__
-        for name, alias in kinds().items()
-        if alias.__origin__ == annotation.__origin__ and stated[: len(alias.__metadata__)] == alias.__metadata__
-    }
-    return max(fitting, key=lambda name: len(fitting[name]), default=None)
 
 
 def _allowed(alias) -> str:

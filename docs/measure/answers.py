@@ -23,13 +23,12 @@ from compare.statistics.digits import interval, number
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
 RUN = DOCS / "answers" / "run.csv"
-KNOWN = 1e-2  # of a number: an interval this narrow is not shown
 LINES = 3  # parts of what the command prints that README.md shows
 BODIES, SCENES = ("sphere", "cone"), ("paper-sphere", "paper-cone")
 # Claims of the tables in words, by their names.
 OF_RUN = {
-    ("run.friction.smooth-slow", "1D/3D"): "friction 1D / 3D, smooth body at low speed; in the limit 2",
-    ("run.friction.own", "1D/3D"): "friction 1D / 3D, rough body, 0.1 m/s, 1 N; claimed 1",
+    ("friction.ratio.smooth-slow", "1D/3D"): "friction 1D / 3D, smooth body at low speed; in the limit 2",
+    ("friction.ratio.own", "1D/3D"): "friction 1D / 3D, rough body, 0.1 m/s, 1 N; claimed 1",
     ("eq23.predicted", "1D"): "misfit of the curves shifted as Eq. 22 predicts, in 1D",
     ("eq23.predicted", "3D"): "misfit of the curves shifted as Eq. 22 predicts, in 3D",
     ("eq23.collapse", "1D"): "misfit of the curves shifted at best, in 1D",
@@ -72,7 +71,6 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
-        (PAGE, "costs"): table("to know friction in 3D|within 10 %|within 1 %|error that 1D keeps", _costs()),
         (PAGE, "spectrum"): _of_spectrum(),
         (README, "answer"): _answer(run),
         (README, "slow"): slow.answer(slow_found),
@@ -88,9 +86,7 @@ def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
     for (claim, dimension), words in OF_RUN.items():
         yield words, *(_cell(_row(found, claim, scene, dimension)) for scene in SCENES)
     for depth, place in (("shallow", 0), ("deep", -1)):
-        forces = [
-            found[found["claim"].eq("run.force-depth.rough") & found["where"].str.startswith(s)] for s in SCENES
-        ]
+        forces = [found[found["claim"].eq("force.ratio.rough") & found["where"].str.startswith(s)] for s in SCENES]
         cells = (_cell(each.iloc[place], percent=True) for each in forces)
         yield f"force 1D / 3D of the rough body at the same depth, less one, {depth}", *cells
 
@@ -120,25 +116,10 @@ def _of_spectrum() -> str:
     return " ".join(spectrum.sentence(shape, found[found["shape"] == shape]) for shape in BODIES)
 
 
-def _costs() -> Iterator[tuple[str, ...]]:
-    found = pandas.read_csv(DOCS / "workprecision" / "workprecision-models-answers-friction.csv")
-    for regime, rows in found.groupby("regime", sort=False):
-        reached = (_reached(rows[rows["wanted"] == wanted].iloc[0]) for wanted in (0.1, 0.01))
-        kept, least, most = (100 * rows.iloc[0][name] for name in ("floor_1d", "floor_1d_least", "floor_1d_most"))
-        # Of smooth bodies the interval is that of rounding beside the number.
-        known = number(kept, 3) if most - least < KNOWN * kept else interval(kept, least, most)
-        yield regime, *reached, f"{known} %"
-
-
-def _reached(row) -> str:
-    known = isinstance(row["settings"], str)
-    return f"{row['model']}, {row['settings']}: {number(row['seconds'], 2)} s" if known else "not reached"
-
-
 def _answer(run: DataFrame) -> str:
     """Three sentences in one list, of the smooth body, of friction and of its correction."""
-    smooth = run[run["claim"] == "run.force-depth.smooth"]["value"].abs().max()
-    slow_body, rough = (_row(run, f"run.friction.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
+    smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
+    slow_body, rough = (_row(run, f"friction.ratio.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
     return "\n".join(
         [
             f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",
@@ -169,7 +150,7 @@ def _cell(row, percent: bool = False) -> str:
 def run_again() -> None:
     """Store the findings of the main job, and its title and first sentences as a terminal shows them."""
     report = compare.run(progress="lines")
-    write_text(RUN, text(report.findings))
+    write_text(RUN, text(report.table))
     write_text(RUN.with_suffix(".txt"), "\n\n".join(str(report).split("\n\n")[:LINES]) + "\n")
 
 

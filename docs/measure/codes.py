@@ -10,17 +10,15 @@ import numpy as np
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from scene import Plane, Scene
+from scene import Scene
 
 MOST = 1000  # iterations allowed to a peer
 
 
 def heights_of(scene: Scene, solver: BEM) -> np.ndarray:
-    """What a peer is given: z on the points of our grid."""
-    side = solver.extent or 1.0
-    x = (np.arange(solver.points) - (solver.points - 1) / 2) * side / solver.points
-    surface = RoughSurface.of(scene.roughness, scene.roughness.q_max(side / solver.points))
-    return scene.indenter.height(x[None, :], x[:, None]) + surface.heights(x, x)
+    """What a peer is given: z on the points of our grid, of a cell of the side 1."""
+    x = (np.arange(solver.points) - (solver.points - 1) / 2) / solver.points
+    return RoughSurface.of(scene.roughness, scene.roughness.q_max(1 / solver.points)).heights(x, x)
 
 
 def outcome(heights, tolerance, pressure, gap, **more) -> dict:
@@ -33,14 +31,14 @@ def outcome(heights, tolerance, pressure, gap, **more) -> dict:
 
 def by_us(scene: Scene, solver: BEM, tolerance: float) -> dict:
     """From the scene to the result: drawing the surface and the coarser grids are included."""
-    result = BEM(points=solver.points, extent=solver.extent, tolerance=tolerance).solve(scene)
+    result = BEM(points=solver.points, tolerance=tolerance).solve(scene)
     return outcome(
         heights_of(scene, solver),
         tolerance,
         result.fields["pressure"],
         result.fields["gap"],
         seconds=result.seconds,
-        iterations=result.applications,
+        iterations=result.operator_applications,
         pairs=result.measures["transform_pairs"],
     )
 
@@ -81,38 +79,23 @@ def printed():
             lines += file.read().splitlines()
 
 
-def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float, helped: bool = True) -> dict:
-    """The same method there; the solve alone. At a depth it is helped by our first guess, the overlap."""
+def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float) -> dict:
+    """The same method there; the solve alone."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         import ContactMechanics
         from SurfaceTopography import Topography
-    n, side, heights = solver.points, solver.extent or 1.0, heights_of(scene, solver)
-    periodic = isinstance(scene.indenter, Plane)
-    kind = ContactMechanics.PeriodicFFTElasticHalfSpace if periodic else ContactMechanics.FreeFFTElasticHalfSpace
-    substrate = kind((n, n), 1.0, (side, side))
-    system = ContactMechanics.Systems.NonSmoothContactSystem(substrate, Topography(-heights, (side, side)))
-    value = scene.motion.greatest
-    match scene.motion.pressed_by:
-        case "depth" if helped:
-            forces = np.zeros((2 * n, 2 * n))
-            forces[:n, :n] = -np.maximum(value - heights, 0) * side / n
-            pressed = {"offset": value, "initial_forces": forces}
-        case "depth":
-            pressed = {"offset": value}
-        case _:
-            pressed = {"external_force": value * (side**2 if periodic else 1)}
+    n, heights = solver.points, heights_of(scene, solver)
+    substrate = ContactMechanics.PeriodicFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
+    system = ContactMechanics.Systems.NonSmoothContactSystem(substrate, Topography(-heights, (1.0, 1.0)))
     started = time.process_time()
-    found = system.minimize_proxy(pentol=tolerance * heights.std(), maxiter=MOST, **pressed)
+    found = system.minimize_proxy(
+        pentol=tolerance * heights.std(), maxiter=MOST, external_force=scene.motion.pressure
+    )
     seconds = time.process_time() - started
     gap = found.x[:n, :n] + heights - found.offset
     counts = {"iterations": found.nit, "pairs": found.nfev}
     return outcome(heights, tolerance, found.jac, gap, seconds=seconds, **counts)
-
-
-def unhelped(scene, solver, tolerance):
-    """ContactMechanics from its own first guess."""
-    return by_contact_mechanics(scene, solver, tolerance, helped=False)
 
 
 CODES = {"this": by_us, "tamaas": by_tamaas, "ContactMechanics": by_contact_mechanics}

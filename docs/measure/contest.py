@@ -1,7 +1,7 @@
 """Which estimate of friction is worth its time: writes docs/results/contest.md, .csv and .png.
 
 One asperity, crossed waves, a rough cell and the steep sphere at three speeds, each on a ladder of grids. What has
-been solved once is in docs/contest/solved; from nothing it takes half an hour and 5 GB of memory.
+been solved once is in docs/results/contest/solved; from nothing it takes half an hour and 5 GB of memory.
 """
 
 from dataclasses import dataclass, replace
@@ -9,8 +9,8 @@ from math import pi
 from pathlib import Path
 
 import numpy as np
+from campaign import solved
 from pandas import DataFrame
-from rich.console import Console
 from spectrum import Refined
 from tables import limit, replaced, table
 
@@ -18,10 +18,7 @@ from bem3d import BEM
 from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
 from compare.report.plots.lettering import lettered
-from compare.solving.runner import sweep
-from compare.solving.store import Store
 from compare.solving.task import SceneTask
-from compare.solving.terminal import SweepBar
 from compare.statistics.digits import number
 from compare.studies.claims.contacts import STEEP
 from scene import CrossedWaves, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
@@ -107,16 +104,13 @@ def _of_wave(wavelength, time):
 def main() -> None:
     """Solve what is not solved yet, and write the page, its table and its figure."""
     tasks = {case.name: case.tasks() for case in cases()}
-    every = [task for each in tasks.values() for task in each.values()]
-    with SweepBar(Console()) as progress:
-        # One at a time: what is timed does not share the processor.
-        swept = sweep(every, Store(PAGE.with_suffix("") / "solved"), workers=1, progress=progress)
+    # One at a time: what is timed does not share the processor.
+    outcomes = solved(PAGE, [task for each in tasks.values() for task in each.values()], workers=1)
     rows = []
     for name, each in tasks.items():
         for speed in SPEEDS:
-            solved = {place[1:]: swept.outcomes[task].rows[0] for place, task in each.items() if place[0] == speed}
-            solved = {place: row for place, row in solved.items() if not row.reason}
-            rows += _rungs(name, speed, solved)
+            found = {place[1:]: outcomes[task].rows[0] for place, task in each.items() if place[0] == speed}
+            rows += _rungs(name, speed, {place: row for place, row in found.items() if not row.reason})
     frame = DataFrame(rows)
     write_text(PAGE.with_suffix(".csv"), text(frame))
     header = "|".join(["case", "known to", *ESTIMATES.values()])
@@ -125,11 +119,11 @@ def main() -> None:
         _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
 
 
-def _rungs(case, speed, solved):
+def _rungs(case, speed, found):
     """Error and processor time of each estimate on each grid; the finest grid is the reference."""
-    grids = sorted(points for points, times in solved if times == 1)
-    finest, before = (solved[points, 1].friction_coefficient for points in (grids[-1], grids[-2]))
-    at = {points: solved[points, 1] for points in grids[:-1]}
+    grids = sorted(points for points, times in found if times == 1)
+    finest, before = (found[points, 1].friction_coefficient for points in (grids[-1], grids[-2]))
+    at = {points: found[points, 1] for points in grids[:-1]}
 
     def rung(estimate, points, value, seconds):
         return {
@@ -151,7 +145,7 @@ def _rungs(case, speed, solved):
         value = limit(values, LEAST_ORDER)
         value = value if np.isfinite(value) else values[-1]
         yield rung("extrapolated", three[-1], value, sum(at[points].seconds for points in three))
-    for (points, times), row in solved.items():
+    for (points, times), row in found.items():
         if times > 1:
             yield rung("refined", points * times, row.friction_coefficient, at[points].seconds + row.seconds)
 

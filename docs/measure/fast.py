@@ -46,7 +46,7 @@ def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figure and the answers."""
     reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
     trees = [compare.load(report.path.parent) for report in reports]
-    found, fine = (report.findings for report in reports)
+    found, fine = (report.table for report in reports)
     rows = []
     for body in EXPONENT:
         for dimension in ("1D", "3D"):
@@ -127,7 +127,7 @@ def _corrected(found, fine, trees, claim, place, body):
 def _friction(tree, body):
     """Speeds, loads, and friction of each surface (speeds, loads, surfaces) on the finer grid of a study."""
     sliding = tree[f"{body}/rough/BEM"].to_dataset(inherit=False).sel(grid="fine").isel(speed=slice(1, None))
-    coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "draw")
+    coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "seed")
     return sliding["speed"].values, sliding["load"].values, coefficient.values
 
 
@@ -148,7 +148,7 @@ def _figure(tree) -> Figure:
     for column, (body, exponent) in enumerate(EXPONENT.items()):
         for axes, (solver, name) in zip(panels[:, column], {"MDR": "1D", "BEM": "3D"}.items(), strict=True):
             sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(grid="fine")
-            mean = sliding.isel(speed=slice(1, None)).mean("draw")
+            mean = sliding.isel(speed=slice(1, None)).mean("seed")
             speeds = mean["speed"].values
             scale = between(speeds)
             for place, speed in enumerate(speeds):

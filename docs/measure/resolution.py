@@ -1,7 +1,7 @@
 """What converges of a steep sphere, and what does not: writes docs/results/resolution.md, .csv and .png.
 
 The steep sphere of the studies at 0.4 N, one surface, at rest and at three speeds, on a ladder of grids. What has
-been solved once is in docs/resolution/solved; from nothing it takes half an hour and 1.5 GB of memory.
+been solved once is in docs/results/resolution/solved; from nothing it takes half an hour and 1.5 GB of memory.
 """
 
 from dataclasses import replace
@@ -9,18 +9,15 @@ from math import log2, nan, pi
 from pathlib import Path
 
 import numpy as np
+from campaign import solved
 from pandas import DataFrame
-from rich.console import Console
-from tables import table
+from tables import replaced, table
 
 from bem3d import BEM
 from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
 from compare.report.plots.lettering import lettered
-from compare.solving.runner import sweep
-from compare.solving.store import Store
 from compare.solving.task import SceneTask
-from compare.solving.terminal import SweepBar
 from compare.studies.claims.contacts import STEEP
 from scene import Indent, Slide
 
@@ -33,18 +30,6 @@ ESTIMATES = {"curvature": "by curvature", "traction": "by traction", "loss": "by
 HEADER = (
     "points|pixels a wave|pixels across a spot|by curvature|by traction|by loss|as answered|depth|real contact"
 )
-INTRODUCTION = """# What converges, and what does not
-
-The steep sphere of the studies (rms slope 0.28, shortest wave 32 µm, h₀ = 3 µm) under 0.4 N, one surface, on grids
-of 2.9 to 23 pixels to the shortest wave. Numbers are over those on the finest grid: friction by each estimate
-([theory](../explanation/theory.md), Eqs. 5c to 5e) over the answer there; at rest the curvature that the
-pressure weighs, which is friction over vτ at low speed. A spot is as wide as a disc with the area over rim of the
-real contact.
-Which estimate is worth its time shows [a contest](contest.md). Written by `python docs/measure/resolution.py`.
-
-![Friction of the steep sphere over that on the finest grid](resolution.png)
-
-"""
 
 
 def main() -> None:
@@ -57,17 +42,14 @@ def main() -> None:
         motion = Slide(speed=speed * wave, load=LOAD) if speed else Indent(load=LOAD)
         moving = replace(scene, roughness=rough, motion=motion)
         tasks |= {(speed, points): SceneTask(BEM(points=points), (moving,), work=points**2) for points in POINTS}
-    with SweepBar(Console()) as progress:
-        swept = sweep(list(tasks.values()), Store(PAGE.with_suffix("") / "solved"), progress=progress)
-    frame = DataFrame([_row(*place, swept.outcomes[task].rows[0]) for place, task in tasks.items()])
+    outcomes = solved(PAGE, tasks.values())
+    frame = DataFrame([_row(*place, outcomes[task].rows[0]) for place, task in tasks.items()])
     write_text(PAGE.with_suffix(".csv"), text(frame))
     with style.applied():
         _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
-    parts = (
-        f"## {name.capitalize()}\n\n{_table(frame, speed)}\n\n{_orders(frame, speed)}"
-        for speed, name in SPEEDS.items()
-    )
-    write_text(PAGE, "\n\n".join([INTRODUCTION + _summary(frame), *parts]) + "\n")
+    replaced(PAGE, "summary", _summary(frame))
+    for speed, name in SPEEDS.items():
+        replaced(PAGE, name, f"{_table(frame, speed)}\n\n{_orders(frame, speed)}")
 
 
 def _row(speed, points, row):

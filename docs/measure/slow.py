@@ -19,9 +19,9 @@ BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
 CLAIMS = {
     "eq17.load-exponent": "friction goes with the load to the power",
     "eq17.level": "friction over the law",
-    "why17.contact-exponent": "real contact goes with the load to the power",
-    "why17.drag-exponent": "friction over real contact to the power",
-    "why17.slope-exponent": "slope of what touches to the power",
+    "eq17.contact": "real contact goes with the load to the power",
+    "eq17.friction-per-contact": "friction over real contact to the power",
+    "eq17.slope-in-contact": "slope of what touches to the power",
     "limit.slow": "friction over its exact limit",
 }
 ANSWER = (
@@ -33,7 +33,7 @@ ANSWER = (
 def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figures and the answer."""
     report = compare.study("steep-and-slow", "standard", progress="lines")
-    found = report.findings[report.findings["claim"].isin(CLAIMS)]
+    found = report.table[report.table["claim"].isin(CLAIMS)]
     write_text(PAGE.with_suffix(".csv"), text(found.drop(columns=["regime", "meaning", "plot"])))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))

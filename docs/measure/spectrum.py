@@ -1,6 +1,6 @@
 """Bodies of Fig. 1 with every wave of the paper's spectrum: writes docs/results/spectrum.md, .csv and the figure.
 
-What has been solved once is in docs/spectrum/solved; from nothing it takes an hour and 8 GB of memory.
+What has been solved once is in docs/results/spectrum/solved; from nothing it takes an hour and 8 GB of memory.
 """
 
 from dataclasses import dataclass, replace
@@ -8,18 +8,15 @@ from math import nan, pi
 from pathlib import Path
 
 import numpy as np
+from campaign import solved
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from rich.console import Console
 from tables import limit, replaced, table
 
 from bem3d import BEM, refined
 from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
-from compare.solving.runner import sweep
-from compare.solving.store import Store
 from compare.solving.task import SceneTask, draws_of
-from compare.solving.terminal import SweepBar
 from compare.studies.paper import parameters
 from mdr1d import MDR
 from scene import Result, Scene
@@ -58,11 +55,9 @@ class Refined:
 def main() -> None:
     """Solve what is not solved yet, and write the page, its table and its figure."""
     tasks = {shape: _tasks(shape) for shape in SHAPES}
-    with SweepBar(Console()) as progress:
-        # The finest takes 8 GB: one at a time.
-        store, every = Store(PAGE.with_suffix("") / "solved"), [task for each in tasks.values() for task in each]
-        swept = sweep(every, store, workers=1, progress=progress)
-    rows = [_row(shape, task, swept.outcomes[task].rows) for shape, each in tasks.items() for task in each]
+    # The finest takes 8 GB: one at a time.
+    outcomes = solved(PAGE, [task for each in tasks.values() for task in each], workers=1)
+    rows = [_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each]
     frame = DataFrame(rows)
     write_text(PAGE.with_suffix(".csv"), text(frame))
     for shape in SHAPES:
@@ -70,7 +65,7 @@ def main() -> None:
         replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + sentence(shape, own))
     finest = tasks["sphere"][-2]
     with style.applied():
-        drawing = _figure(finest.scenes[0], swept.outcomes[finest])
+        drawing = _figure(finest.scenes[0], outcomes[finest])
         drawing.savefig(PAGE.with_suffix(".png"), dpi=200)
 
 
@@ -88,24 +83,24 @@ def _tasks(shape):
     return [*kept, SceneTask(MDR(points=ONE), draws_of(first, PROFILES))]
 
 
-def _row(shape, task, solved):
+def _row(shape, task, rows):
     """Means over surfaces or profiles."""
-    nominal, mean = elastic_contact(task.scenes[0]).radius, DataFrame([row.measures for row in solved]).mean()
-    three, count = not isinstance(task.solver, MDR), len(solved)
-    force = solved[0].normal_force
+    nominal, mean = elastic_contact(task.scenes[0]).radius, DataFrame([row.measures for row in rows]).mean()
+    three, count = not isinstance(task.solver, MDR), len(rows)
+    force = rows[0].normal_force
     return {
         "shape": shape,
         "dimension": "3D" if three else "1D",
         "points": task.solver.points,
         "pixels_a_wave": mean.get("points_per_shortest_wave", nan),
-        "friction": sum(row.friction_coefficient for row in solved) / count,
-        "depth": sum(row.depth for row in solved) / count,
+        "friction": sum(row.friction_coefficient for row in rows) / count,
+        "depth": sum(row.depth for row in rows) / count,
         "contact": mean["contact_area"] / (pi * nominal**2) if three else mean["contact_length"] / (2 * nominal),
         "contact_points": mean.get("contact_points", nan),
         "rms_slope": mean.get("rms_slope", nan),
         "by_traction": mean["friction_by_traction"] / force if three else nan,
         "by_loss": mean["friction_by_loss"] / force if three else nan,
-        "seconds": sum(row.seconds for row in solved),
+        "seconds": sum(row.seconds for row in rows),
     }
 
 

@@ -1,7 +1,7 @@
 """Tables of the pages that are measured."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -36,3 +36,11 @@ def replaced(path: Path, name: str, text: str) -> None:
     pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
     assert len(pattern.findall(page)) == 1, (path, name)
     path.write_text(pattern.sub(lambda found: f"{found[1]}{text.strip()}\n{found[2]}", page), encoding="utf-8")
+
+
+def write(page: Path, sections: Mapping[str, Callable[[], str]]) -> None:
+    """Measure each section; its table goes where the page has one between comments of its name."""
+    for name, measure in sections.items():
+        text = measure()
+        print(name, text, sep="\n", flush=True)
+        replaced(page, name, text)

@@ -7,7 +7,7 @@ those learned from, beside the modules that read them, and the tables of docs/re
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +18,12 @@ from tables import table as markdown
 
 import compare
 from compare.studies.trust.scoring import Score
-from compare.studies.trust.statements import advice_rows, coverage_rows, evenly
+from compare.studies.trust.statements import advice_rows, evenly
 from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy
 from compare.trustmap import shipped, table
 from compare.trustmap.model import Model
 from compare.trustmap.ratio import QUANTITIES
-from compare.trustmap.regions import BODIES, SHAPES
+from compare.trustmap.regions import BODIES
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
 README = PAGE.parents[2] / "README.md"
@@ -95,19 +95,6 @@ def errors(found: Mapping[str, tuple[Score, Mapping[str, np.ndarray]]]) -> Itera
         }
 
 
-def coverage(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
-    """A row for each speed, roughness and what is prescribed, a cell for each body: share inside, of how many."""
-    cells: dict[str, dict[str, str]] = {}
-    for row in rows:
-        if row["quantity"] == quantity:
-            given = "under a load" if row["prescribed"] == "load" else "at a depth"
-            cell = f"{100 * row['in 95 %']:.0f} % of {row['scenes']}"
-            name = f"{row['speed']}, {given}, roughness {row['roughness']}"
-            cells.setdefault(name, {})[row["body"]] = f"**{cell}, fails**" if row["fails"] else cell
-    for name, found in cells.items():
-        yield {"": name, **{body: found.get(body, "") for body in SHAPES}}
-
-
 def told(rows: Iterator[dict[str, str]]) -> str:
     """Rows as a Markdown table."""
     first, *others = rows
@@ -117,14 +104,10 @@ def told(rows: Iterator[dict[str, str]]) -> str:
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     found = scores()
-    even, regions = evenly(found), list(coverage_rows(found))
+    even = evenly(found)
     rows = list(advice_rows(even))
-    tables = {"advice": partial(advice, rows), "coverage": partial(coverage, regions)}
     return {
-        **{
-            (PAGE, part): "\n\n".join(f"**{name}**\n\n{told(table_of(name))}" for name in found)
-            for part, table_of in tables.items()
-        },
+        (PAGE, "advice"): "\n\n".join(f"**{name}**\n\n{told(advice(rows, name))}" for name in found),
         (PAGE, "errors"): told(errors(even)),
         (README, "friction"): in_short(told(advice(rows, "friction"))),
     }

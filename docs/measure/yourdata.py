@@ -17,10 +17,10 @@ from compare.cli.app import app
 from scene import Prony
 
 FOLDER = Path(__file__).parents[1] / "howto" / "yourdata"
-# Of the rubber: shear modulus at rest [MPa], branches a decade apart, and how their times shift with temperature.
+# The rubber: shear modulus at rest [MPa], branches a decade apart, and how their times shift with temperature.
 REST, MODULI, TIMES = 1.1, (0.6, 0.9, 1.4, 2.2, 3.4, 5.0, 7.0), 10.0 ** np.arange(-6, 1)[::-1]
 REFERENCE, C1, C2 = 20.0, 8.9, 145.0  # [°C], [1], [K]
-# Of friction: one function of the load [N] times this power of the speed [mm/s] at the reference temperature.
+# Friction is one function of the load [N] times this power of the speed [mm/s] at the reference temperature.
 BY_SPEED = -0.6
 
 

@@ -27,7 +27,7 @@ def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx, even):
     convolution = FreeConvolution(kernel)
     np.testing.assert_allclose(convolution(pressure), expected, rtol=ROUNDING)
     np.testing.assert_allclose(convolution(2 * pressure), 2 * expected, rtol=ROUNDING)
-    assert convolution.applications == 2
+    assert convolution.operator_applications == 2
 
 
 @pytest.mark.parametrize(("ny", "nx"), SHAPES)

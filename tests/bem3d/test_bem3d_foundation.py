@@ -122,7 +122,7 @@ def test_a_finer_grid_starts_with_its_foundation_sunk_as_much():
     np.testing.assert_allclose(taken[there], fine.resample(sunk, coarse)[there], rtol=1e-9)
 
 
-# Of 300 scenes drawn at random, at 256² and at 512², those that took most, and quick ones beside.
+# Those of 300 scenes drawn at random, at 256² and at 512², that took most, and quick ones beside.
 HARD = {
     "slow": (Kelvin(1e6, 1e-3), 0.004, None),
     "smooth, fast": (Kelvin(1e6, 1e-3), 380.0, None),

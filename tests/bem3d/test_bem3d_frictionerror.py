@@ -76,7 +76,7 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
         error = abs(answer.friction_coefficient / slow_law(scene) - 1)
         beyond.append(error / answer.measures["friction_error"])
         assert error < 0.1
-    # Of a bound of 95 % one in ten may lie beyond; by half of it none.
+    # One in ten may lie beyond a bound of 95 %; by half of it none.
     assert sorted(beyond)[-2] <= 1
     assert max(beyond) < 1.5
 

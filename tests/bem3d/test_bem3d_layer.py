@@ -303,7 +303,7 @@ def test_a_layer_is_solved_in_about_as_many_steps_as_a_half_space():
         plain = BEM(points=128).solve(scene)
         for thickness in (1e-1, 1e-4):
             layered = BEM(points=128).solve(replace(scene, layer=Layer(thickness=thickness)))
-            assert layered.applications < 1.5 * plain.applications
+            assert layered.operator_applications < 1.5 * plain.operator_applications
 
 
 WAVE = Wave(amplitude=1e-6, wavelength=1e-3)

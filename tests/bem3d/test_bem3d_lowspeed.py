@@ -38,11 +38,11 @@ ROUGH_SCENES = [
 ]
 # Sums of some ten thousand numbers.
 ROUNDING = 1e-12
-# Of second order in the pixel: of smooth bodies on 128 points; of 9 and 18 pixels to the shortest wave.
+# Errors of second order in the pixel: smooth bodies on 128 points; 9 and 18 pixels to the shortest wave.
 SMOOTH, RESOLVED = 1e-4, 3e-3
-# Of first order: of a cone on 256 points.
+# Error of first order: a cone on 256 points.
 TIP = 4e-3
-# Of slow friction on 256 points, which is half of that on 128.
+# Error of slow friction on 256 points, which is half of that on 128.
 GRID = 0.01
 
 
@@ -183,7 +183,7 @@ def test_a_wave_in_full_contact_is_curved_as_its_pressure_says(wave, waves):
     measures = BEM(points=points).solve(Scene(Plane(), KELVIN, Indent(pressure=mean_pressure), wave)).measures
     assert measures["contact_fraction"] == 1
     expected = 2 * G * sqrt(waves) * q_x**3 * wave.rms_height**2 / mean_pressure
-    # Of a pressure that is constant on each pixel: of second order.
+    # A pressure that is constant on each pixel has an error of second order.
     assert measures["curvature_by_pressure"] == pytest.approx(expected, rel=(q_x * 1e-3 / points) ** 2)
 
 

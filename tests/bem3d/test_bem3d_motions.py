@@ -3,10 +3,10 @@
 from dataclasses import replace
 from functools import cache
 
+import changing_motion as motions
 import numpy as np
 import pytest
-from effects_page import closed_forms as motions
-from effects_page.track import harmonic
+from changing_motion import harmonic
 
 import bem3d.timeline
 from bem3d import BEM, marching, upstream

@@ -20,7 +20,7 @@ from bem3d.sliding import Flow
 from bem3d.surface import RoughSurface
 from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
 
-# Of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
+# A warning of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
 pytestmark = pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
 
 ELASTIC = Elastic(0.25)  # E* = 4G = 1

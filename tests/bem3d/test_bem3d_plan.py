@@ -266,7 +266,7 @@ def test_the_applications_expected_are_near_those_that_it_takes(name, tolerance)
     # medians over other contacts: a factor of two is their scatter
     scene = SCENES[name]
     asked = replace(solver(scene, points=128), tolerance=tolerance, extent=None)
-    expected, taken = asked.plan(scene).applications, asked.solve(scene).applications
+    expected, taken = asked.plan(scene).operator_applications, asked.solve(scene).operator_applications
     assert taken / 2 < expected.value < taken * 2
     assert "medians" in expected.why
 
@@ -276,7 +276,7 @@ def test_costs_that_the_ladder_does_not_have_are_said_to_be_unknown():
     for scene in (SCENES["line"], bare, SCENES["wave"], SCENES["measured"], *PLANES):
         plan = solver(scene).plan(scene)
         assert plan.seconds.value is None
-        assert plan.applications.value is None
+        assert plan.operator_applications.value is None
         assert "not known: " in str(plan)
 
 
@@ -286,14 +286,14 @@ def test_parts_that_the_ladder_does_not_have_multiply_its_costs_by_what_they_wer
     plain, layered = asked.plan(SCENES["slide"]), asked.plan(scene)
     assert layered.seconds.value == pytest.approx(plain.seconds.value * known["Layer"]["seconds"])
     held, march = asked.plan(SCENES["rest"]), asked.plan(replace(SCENES["pressed"], elastomer=KELVIN))
-    expected = held.applications.value * known["Program"]["applications"] * march.steps
-    assert march.applications.value == pytest.approx(expected)
+    expected = held.operator_applications.value * known["Program"]["operator_applications"] * march.steps
+    assert march.operator_applications.value == pytest.approx(expected)
 
 
 def test_a_looser_tolerance_is_expected_to_take_less_and_a_closer_one_more():
     scene = SCENES["slide"]
     plans = [BEM(points=128, tolerance=tolerance).plan(scene) for tolerance in (1e-3, 1e-5, 1e-7, 1e-9)]
-    for cost in ("applications", "seconds"):
+    for cost in ("operator_applications", "seconds"):
         values = [getattr(plan, cost).value for plan in plans]
         assert values == sorted(values)
         assert values[0] < values[-1]

@@ -195,7 +195,7 @@ def test_every_speed_converges_by_a_bounded_work(speed, roughness):
     result = BEM(points=96).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=10.0), roughness))
     assert result.residual <= 1e-5
     assert result.friction_force > 0
-    assert result.applications <= 2 * WORK  # the window is sought on 64 points, here nearly as many
+    assert result.operator_applications <= 2 * WORK  # the window is sought on 64 points, here nearly as many
 
 
 SOLIDS = {
@@ -222,7 +222,7 @@ def test_the_work_is_bounded_on_512_points_at_every_speed(shape, roughness, soli
     extent = 3.6 * A if roughness is None else 6 * A
     result = BEM(points=512, extent=extent).solve(scene)
     assert result.residual <= 1e-5
-    assert result.applications <= WORK
+    assert result.operator_applications <= WORK
 
 
 @pytest.mark.parametrize(

@@ -355,7 +355,11 @@ def test_friction_without_a_pull_builds_nothing_and_changes_no_pressure(motion, 
     plain = Scene(Sphere(R), Kelvin(G, 1e-3), motion, ROUGH)
     one, other = (BEM(points=48).solve(scene) for scene in (plain, replace(plain, interface=Coulomb(MU))))
     np.testing.assert_array_equal(one.fields["pressure"], other.fields["pressure"])
-    assert (one.depth, one.applications, one.residual) == (other.depth, other.applications, other.residual)
+    assert (one.depth, one.operator_applications, one.residual) == (
+        other.depth,
+        other.operator_applications,
+        other.residual,
+    )
     added = MU * one.normal_force if motion.speed else 0.0
     assert other.friction_force == one.friction_force + added
 
@@ -370,7 +374,7 @@ def test_a_pull_of_nothing_is_the_contact_at_rest(drawn, untouched):
     assert not other.fields["traction_x"].any()
     assert not other.fields["slip_x"].any()
     assert other.measures["slip_area"] == 0
-    assert (one.depth, one.applications) == (other.depth, other.applications)
+    assert (one.depth, one.operator_applications) == (other.depth, other.operator_applications)
 
 
 def test_without_friction_all_slips_at_once(untouched):
@@ -384,7 +388,9 @@ def test_the_pressure_is_that_of_the_contact_at_rest():
     scene = sphere(roughness=ROUGH, displacement=2e-5)
     one, other = BEM(points=48).solve(at_rest(scene)), BEM(points=48).solve(scene)
     np.testing.assert_array_equal(one.fields["pressure"], other.fields["pressure"])
-    assert other.applications == pytest.approx(one.applications + other.measures["tangential_applications"])
+    assert other.operator_applications == pytest.approx(
+        one.operator_applications + other.measures["tangential_applications"]
+    )
     assert other.friction_force > 0.1 * MU * LOAD
 
 

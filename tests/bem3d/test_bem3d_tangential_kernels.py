@@ -43,7 +43,7 @@ def test_a_free_product_is_the_sum_over_pairs_of_pixels(points):
         expected[:, row, column] += matrix @ given[:, j, i]
     product = cerruti.free(Grid(points, 1.0), NU, Engine())
     np.testing.assert_allclose(product(given), expected, atol=ROUNDING * np.abs(expected).max())
-    assert product.applications == 2
+    assert product.operator_applications == 2
 
 
 @pytest.mark.parametrize("points", [12, 15])

@@ -69,7 +69,7 @@ def test_a_plane_with_the_map_of_a_surface_is_the_plane_with_that_surface(map_, 
     same(one, other, 1e-9 if motion.pressed_by == "gap" else ROUNDING)
     assert one.measures["rms_height"] == pytest.approx(other.measures["rms_height"], rel=ROUNDING)
     assert one.measures["rms_slope"] == pytest.approx(other.measures["rms_slope"], rel=ROUNDING)
-    assert one.applications == other.applications
+    assert one.operator_applications == other.operator_applications
 
 
 def test_a_program_with_the_map_of_a_surface_is_that_with_the_surface():
@@ -142,7 +142,7 @@ def test_a_map_without_heights_is_no_roughness():
     flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
     smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))
     same(smooth, bare, 0.0)
-    assert smooth.applications == bare.applications
+    assert smooth.operator_applications == bare.operator_applications
 
 
 def test_the_map_is_built_once_for_all_grids(monkeypatch):
@@ -193,7 +193,7 @@ def ball(points, extent, middle=(0.0, 0.0), **other):
     return Measured(heights=-(x**2 + y**2) / (2 * BALL.radius), pixel=grid.pixel, **other)
 
 
-# Of a contact some 25 pixels in radius: the lowest pixel is not quite the apex, and windows are not the same.
+# A contact some 25 pixels in radius: the lowest pixel is not quite the apex, and windows are not the same.
 @pytest.mark.parametrize(
     ("motion", "allowed"),
     [(Indent(load=0.3), 3e-3), (Indent(depth=1e-5), 1e-2), (Slide(speed=0.5, load=0.3), 5e-3)],

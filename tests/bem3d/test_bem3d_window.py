@@ -32,7 +32,7 @@ ROUGH = SelfAffine(hurst=0.2, rms_height=2e-4, longest=1e-2, shortest=5e-4, seed
 LIGHT = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1e-2), ROUGH)
 
 
-# Of the last two the window that is found first leaves asperities out.
+# For the last two the window that is found first leaves asperities out.
 @pytest.mark.parametrize(("seed", "load"), [(1, 1e-2), (2, 0.1), (3, 1.0), (9, 0.03), (35, 0.03)])
 def test_fitted_window_leaves_no_asperity_out(seed, load):
     # the same pixels on a window far larger than any contact

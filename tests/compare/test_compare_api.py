@@ -16,9 +16,8 @@ import compare
 from bem3d import BEM
 from compare import commands
 from compare.cli.app import COMMANDS, PYTHON_ONLY, SHARED
-from compare.library.case import Case
-from compare.library.case import Study as Varied
-from compare.solving.parameter_grid import Rectangle, on_two_grids
+from compare.library.case import Case, Variations
+from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
@@ -38,7 +37,7 @@ TINY = Case(
     elastomer=SLIDING.elastomer,
     motion=SLIDING.motion,
     roughness=SLIDING.roughness,
-    study=Varied(
+    study=Variations(
         speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,), surfaces=2, profiles=2
     ),
     bem=BEM(points=32),
@@ -97,19 +96,24 @@ def test_every_name_of_the_package_is_there_is_listed_and_hides_no_module():
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
 def test_a_command_and_its_function_have_one_name_and_the_same_arguments_and_defaults(command):
-    name = {"list": "ready"}.get(command.title, command.title)
-    assert getattr(compare, name) is command.function
+    assert getattr(compare, command.title) is command.function
     function = inspect.signature(command.function).parameters
     asked = inspect.signature(command.callback()).parameters
     own = {each for each in function if each not in PYTHON_ONLY | {"options"}}
     assert own == set(asked) - set(SHARED) - {"quiet", "verbose", "json"} or not command.solves
-    for each in own:
-        default = asked[each].default
-        assert default == function[each].default or str(default) == str(function[each].default)
-    if command.solves:
-        assert set(SHARED) | {"progress"} == set(commands.Options.__annotations__)
-        defaults = inspect.signature(pipeline.run).parameters
-        assert {each: defaults[each].default for each in SHARED} == SHARED
+    assert {each: asked[each].default for each in own} == {each: function[each].default for each in own}
+
+
+def test_options_of_all_commands_have_the_names_types_and_defaults_that_solving_has():
+    solve, options = inspect.signature(commands.solve).parameters, commands.Options.__annotations__
+    assert set(options) == {*SHARED, "progress"}
+    assert {name: solve[name].annotation for name in options} == {
+        name: each.__forward_arg__ for name, each in options.items()
+    }
+    defaults = inspect.signature(pipeline.run).parameters
+    assert {name: each.default for name, each in SHARED.items()} == {
+        name: defaults[name].default for name in SHARED
+    }
 
 
 def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd):
@@ -119,7 +123,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     again = compare.run({"tiny": TINY}, folder, report=False)
     assert capfd.readouterr() == ("", "")
     assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
-    assert list(again.findings.columns) == list(COLUMNS)
+    assert list(again.table.columns) == list(COLUMNS)
 
 
 def test_a_run_shows_itself_in_a_notebook(found):
@@ -140,7 +144,7 @@ def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
 def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder, found):
     tree = compare.load(folder)
     datasets = [node for node in tree.subtree if "status" in node]
-    assert any("draw" in node.dims for node in datasets)
+    assert any("seed" in node.dims for node in datasets)
     assert {str(each) for node in datasets for each in node.status.values.ravel()} <= {"solved", "no contact"}
     content = json.loads((folder / "manifest.json").read_text())
     assert content["command"] == "run"
@@ -159,15 +163,18 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
     answers = compare.sweep(
         TINY, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=tmp_path, workers=1, report=False
     )
-    assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "draw": 2}
+    assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "seed": 2}
     assert answers.speed.values.tolist() == [0.0, 0.1]
     assert set(answers.status.values.ravel()) == {"solved"}
     bem = answers.sel(solver="BEM", grid="fine")
-    assert answers.friction.sel(solver="BEM").values == pytest.approx(friction(bem))
+    assert answers.friction_coefficient_mean.sel(solver="BEM").values == pytest.approx(friction(bem))
     assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
-    assert (answers.friction_low <= answers.friction).all()
+    assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
     grid = abs(friction(bem) - friction(answers.sel(solver="BEM", grid="coarse")))
-    assert (answers.friction_high.sel(solver="BEM") - answers.friction.sel(solver="BEM") >= grid - 1e-12).all()
+    assert (
+        answers.friction_coefficient_high.sel(solver="BEM") - answers.friction_coefficient_mean.sel(solver="BEM")
+        >= grid - 1e-12
+    ).all()
     assert isinstance(compare.friction_plot(answers), Figure)
     again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
     xarray.testing.assert_identical(again, answers)
@@ -177,8 +184,8 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
     answers = compare.sweep(
         replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
     )
-    assert "draw" not in answers.dims
-    assert (answers.friction_high > answers.friction).all()
+    assert "seed" not in answers.dims
+    assert (answers.friction_coefficient_high > answers.friction_coefficient_mean).all()
 
 
 @pytest.mark.parametrize(
@@ -208,10 +215,10 @@ class Twice(compare.Study):
 
     title = "The factor of two"
 
-    def rectangles(self):
+    def grids(self):
         grids = on_two_grids(MDR(points=300), BEM(points=48))
         smooth = replace(SLIDING, roughness=None)
-        return {"smooth": Rectangle(scene=smooth, speeds=(0.005,), values=(1.0,), grids=grids, draws={})}
+        return {"smooth": ParameterGrid(scene=smooth, speeds=(0.005,), values=(1.0,), grids=grids, draws={})}
 
     def claims(self):
         def ratio(sample):
@@ -222,7 +229,7 @@ class Twice(compare.Study):
 
 def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
     report = compare.solve(Twice(), tmp_path, workers=1)
-    assert report.findings.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
+    assert report.table.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
     assert report.path == tmp_path / "report.html"
     assert compare.load(tmp_path)["smooth/BEM"].sizes["grid"] == 2
     assert compare.solve(Twice(), tmp_path, report=False).path is None

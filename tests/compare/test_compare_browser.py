@@ -20,7 +20,7 @@ PHONE, DESK = {"width": 360, "height": 740}, {"width": 1280, "height": 900}
 # Between the margins of A4, at 96 dots per inch; tables of data lie across.
 PAPER = {"width": int((210 - 2 * 12) / 25.4 * 96), "height": 1000}
 LANDSCAPE = {"width": int((297 - 2 * 10) / 25.4 * 96), "height": 700}
-# Of text against what lies behind it, which WCAG 2 asks of level AA.
+# Least contrast of text against what lies behind it, WCAG 2, level AA.
 CONTRAST = 4.5
 # A picture said in fewer letters says nothing of what is seen.
 SAID = 20

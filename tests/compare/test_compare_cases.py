@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from compare.cli.app import app
 from compare.library.case import read_case, shipped_cases
 from compare.library.lookup import case_of
-from compare.studies.run.curves import SMOOTH_DEPTH, curves
+from compare.studies.run.curves import SMOOTH_DEPTH, curves, models_of
 from compare.studies.run.study import Run
 from scene import Cone, Coulomb, Elastic, Indent, Kelvin, Program, Refused, Slide, Sphere, Stage
 from scene.reading import InvalidInput
@@ -92,7 +92,7 @@ def test_what_says_nothing_of_the_elastomer_is_refused_though_both_solvers_take_
 
 def test_friction_of_the_interface_of_what_is_pressed_in_adds_nothing_and_is_compared_with_the_closed_form(case):
     rubbing = replace(case, interface=Coulomb(0.3), motion=Indent(load=1.0))
-    assert set(curves(rubbing)[SMOOTH_DEPTH].grids) == {"MDR", "BEM", "exact"}
+    assert set(curves(rubbing, models_of(rubbing))[SMOOTH_DEPTH].grids) == {"MDR", "BEM", "exact"}
 
 
 def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):

@@ -66,12 +66,12 @@ def smooth(exact):
     return SimulatedCurves(SPEEDS, load, np.exp(exact) * load)
 
 
-def measured(rng, exact, error=0.01, freedom=np.inf, known=True):
+def measured(rng, exact, error=0.01, dof=np.inf, known=True):
     """Curves of which every point scatters by itself."""
     noisy = exact + error * rng.normal(size=exact.shape)
     errors = np.full(len(LOADS), error if known else np.nan)
     return MeasuredCurves(
-        tuple(Curve(v, np.log(LOADS), mu, errors) for v, mu in zip(SPEEDS, noisy, strict=True)), freedom
+        tuple(Curve(v, np.log(LOADS), mu, errors) for v, mu in zip(SPEEDS, noisy, strict=True)), dof
     )
 
 
@@ -211,14 +211,14 @@ def test_units_of_load_friction_and_speed_and_the_order_of_surfaces_change_nothi
 
 def test_a_dataset_gives_the_same_curves_whatever_the_order_of_its_dimensions():
     given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
-    dims = ("speed", "load", "draw")
+    dims = ("speed", "load", "seed")
     dataset = xarray.Dataset(
         {"normal_force": (dims, given.load), "friction_force": (dims, given.friction_force)},
         {"speed": SPEEDS, "load": LOADS},
     )
-    found = SimulatedCurves.of(dataset.transpose("draw", "load", "speed"))
+    found = SimulatedCurves.of(dataset.transpose("seed", "load", "speed"))
     np.testing.assert_array_equal(found.friction_force, given.friction_force)
-    flat = SimulatedCurves.of(dataset.isel(draw=0, drop=True))
+    flat = SimulatedCurves.of(dataset.isel(seed=0, drop=True))
     assert (flat.load.ndim, flat.surfaces, flat.groups) == (2, 1, [])
 
 
@@ -230,11 +230,11 @@ def test_the_scatter_of_loads_along_a_curve_is_no_deviation_from_it():
 
 
 def test_the_mean_of_measured_points_has_their_error_over_the_root_of_their_number():
-    given = measured(np.random.default_rng(6), friction(knee), 0.01, freedom=7)
+    given = measured(np.random.default_rng(6), friction(knee), 0.01, dof=7)
     found = given.resampled(lambda part: {"": np.mean([curve.log_friction for curve in part.curves])})[
         ""
     ].estimated
-    assert (found.error, found.freedom) == (pytest.approx(0.01 / sqrt(40), rel=1e-9), 7)
+    assert (found.error, found.dof) == (pytest.approx(0.01 / sqrt(40), rel=1e-9), 7)
 
 
 def test_every_surface_doubled_changes_no_value_and_narrows_errors():
@@ -282,7 +282,7 @@ def test_points_and_surfaces_that_failed_are_left_out_and_counted():
 def test_where_scatter_is_not_known_there_are_values_and_no_verdict():
     given = simulated(np.random.default_rng(7), friction(knee), 2)
     two, one = collapse(given), collapse(given.without(np.array([1])))
-    assert two.horizontal.exponent.freedom == 1
+    assert two.horizontal.exponent.dof == 1
     assert np.isfinite(two.horizontal.exponent.error)
     for found in (one, collapse(measured(np.random.default_rng(7), friction(knee), known=False))):
         assert found.inseparable == found.both.reason == UNSCATTERED
@@ -358,13 +358,13 @@ def on_surfaces(surfaces, scatter):
     return lambda rng, exact: simulated(rng, exact, surfaces, scatter)
 
 
-def by_points(error, freedom):
+def by_points(error, dof):
     """Measured curves whose error is known from so many degrees of freedom."""
 
     def draw(rng, exact):
         data = measured(rng, exact, error)
-        factor = sqrt(rng.chisquare(freedom) / freedom)
-        return MeasuredCurves(tuple(replace(each, error=factor * each.error) for each in data.curves), freedom)
+        factor = sqrt(rng.chisquare(dof) / dof)
+        return MeasuredCurves(tuple(replace(each, error=factor * each.error) for each in data.curves), dof)
 
     return draw
 

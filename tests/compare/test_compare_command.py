@@ -16,7 +16,6 @@ from test_compare_cases import SCENE
 from typer.testing import CliRunner
 
 from compare import commands
-from compare.cli import completion
 from compare.cli.app import COMMANDS, app
 from compare.library import ready as library
 from compare.library.ready import ready
@@ -182,7 +181,7 @@ def ask(*arguments):
 @pytest.mark.parametrize(
     ("command", "names", "width"),
     [
-        ("list", (*ready(), *library.studies()), 120),
+        ("scenes", (*ready(), *library.studies()), 120),
         ("study", (*STUDIES, "trust", *(name for name, each in ready().items() if each.kind == "study")), 80),
         ("workprecision", tuple(DIAGRAMS), 100),
     ],
@@ -199,14 +198,14 @@ def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, widt
 
 def test_all_lists_name_the_same_studies_and_say_more_where_more_is_asked():
     (heading,) = library.studies().groups
-    short, listed = (re.sub("[- \\n]+", " ", ask(each).output) for each in ("study", "list"))
+    short, listed = (re.sub("[- \\n]+", " ", ask(each).output) for each in ("study", "scenes"))
     assert short.partition(" `")[0] in listed
     long = " ".join(ask("study", "-v").output.split())
     assert long.startswith(f"{heading} Name Title ")
     for name, each in library.studies().items():
         assert f"{name} {each.title} {each.about}" in long
         assert each.about not in short
-    assert " ".join(ready()["hertz"].about.split()) in " ".join(ask("list", "-v").output.split())
+    assert " ".join(ready()["hertz"].about.split()) in " ".join(ask("scenes", "-v").output.split())
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
@@ -247,26 +246,35 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
     assert complete("new", "quick") == ["quick-start"]
     assert complete("workprecision", "ex") == ["extent"]
-    assert complete("figures", "folder", "--journal", "el") == ["elsevier"]
+    assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
     assert complete("run", "quick-start", "--form") == ["--format"]
 
 
-def test_the_values_that_a_shell_completes_are_those_that_are_allowed():
-    values = completion.VALUES
-    assert set(values["size"]) == set(SIZES)
-    assert set(values["format"]) == set(render.FORMATS)
-    assert set(values["figures"]) == set(render.FORMS)
-    assert set(values["unit"]) == set(UNITS)
-    assert set(values["missing"]) == set(FILL)
-    assert set(values["to"]) == set(FORMS)
-    assert set(values["kind"]) == set(KINDS)
-    for name in ("level", "repeat", "peaks"):
-        assert set(values[name]) == set(get_args(get_type_hints(Topography)[name]))
+TOPOGRAPHY = get_type_hints(Topography)
+VALUES = {
+    ("study", "--size"): SIZES,
+    ("run", "--format"): render.FORMATS,
+    ("run", "--figure-format"): render.FORMS,
+    ("redraw", "--journal"): JOURNALS,
+    ("workprecision",): (*DIAGRAMS, "all"),
+    ("topography", "--unit"): UNITS,
+    ("topography", "--missing"): FILL,
+    **{("topography", f"--{name}"): get_args(TOPOGRAPHY[name]) for name in ("level", "repeat", "peaks")},
+    ("export", "--to"): FORMS,
+    ("schema",): KINDS,
+}
+
+
+@pytest.mark.parametrize("words", VALUES, ids=" ".join)
+def test_a_shell_completes_every_value_that_is_allowed(words):
+    assert set(complete(*words, "")) == {str(each) for each in VALUES[words] if each}
 
 
 def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    compared, alone = ask("list").output.split("Scenes that crosscheck run does not compare: crosscheck plan NAME")
+    compared, alone = ask("scenes").output.split(
+        "Scenes that crosscheck run does not compare: crosscheck plan NAME"
+    )
     assert "\nhertz " in compared
     assert "\nthin-layer " in alone
     for name, command in (("quick-start", "run"), ("thin-layer", "plan")):
@@ -292,7 +300,7 @@ MISTAKES = {
     "run thin-layer": "crosscheck plan says what each solver makes of it",
     "run mine.tml": "no such file, and no ready scene; did you mean mine.toml?",
     "run quick-start --format word": "format = word: allowed are html, markdown, latex",
-    "run quick-start --figures png,jpg": "figures = jpg: allowed are ",
+    "run quick-start --figure-format png,jpg": "figure_format = jpg: allowed are ",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "plan quick-strat": "did you mean quick-start?",
     "study colapse": "NAME = colapse: allowed are collapse, ",
@@ -308,8 +316,8 @@ MISTAKES = {
     "new quick-strat": "did you mean quick-start?",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
     "schema scenes": "KIND = scenes: allowed are scene, study",
-    "figures nowhere": "nowhere: no such folder",
-    "figures .": "no manifest.json here",
+    "redraw nowhere": "nowhere: no such folder",
+    "redraw .": "no manifest.json here",
     "export . --to word": "to = word: allowed are csv, latex",
     "export nowhere": "nowhere",
     "mastercurve nowhere.csv": "nowhere.csv",

@@ -38,7 +38,7 @@ solvers = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.n
 ratios = pytest.mark.parametrize("nu", [-0.9, 0.4, pytest.param(0.0, marks=pytest.mark.slow)])
 # Iterations on numbers that differ by rounding.
 SCALED = {"MDR": 1e-11, "BEM": 1e-8}
-# Of three dimensions on 32 points a side: a pixel of a tenth of the radius.
+# Three dimensions on 32 points a side: a pixel of a tenth of the radius.
 GRID = {"MDR": 1e-4, "BEM": 0.02}
 
 G, TIME, RADIUS = 1e6, 1e-3, 1e-2
@@ -162,9 +162,9 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
         grids = {"bem": BEM(points=64), "mdr": MDR(points=200)}
         series = Series("one", "One", scene, (0.1, 0.3), (0.05, 0.1), surfaces=1, profiles=1, **grids)
         missing = Outcome((Row(reason="not asked for"),))
-        contacts = parameter_grid.contacts_of(series.rectangles)
+        contacts = parameter_grid.contacts_of(series.grids)
         outcomes = {each: each.solve() if each.solver.name == "MDR" else missing for each in contacts}
-        return laws(Contacts(series, parameter_grid.tree(series.rectangles, outcomes)), "MDR")
+        return laws(Contacts(series, parameter_grid.tree(series.grids, outcomes)), "MDR")
 
     wanted, found = ruled(0.5), ruled(0.0)
     for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):

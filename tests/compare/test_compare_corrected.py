@@ -12,7 +12,7 @@ from compare.solving import vocabulary
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.trustmap import corrected
-from compare.trustmap.verdict import Trust, Worth, trust
+from compare.trustmap.verdict import Advice, Correction, trust
 from mdr1d import MDR
 from scene import (
     Elastic,
@@ -37,27 +37,27 @@ ROUGH = Scene(
 AT_DEPTH = replace(ROUGH, motion=Slide(speed=0.1, depth=1.5e-4))
 SMOOTH = replace(ROUGH, roughness=None)
 FEW = CorrectedMDR(MDR(points=1000), profiles=8)
-# Of sums in another order.
+# Sums in another order.
 ROUNDING = 1e-12
-WORTH = Worth(2.0, 1.9, 2.1, 1.5, 2.5, "multiply", "Made up.")
+WORTH = Correction(2.0, 1.9, 2.1, 1.5, 2.5, "multiply", "Made up.")
 
 
 @pytest.fixture
 def worth(monkeypatch):
-    """A map that foretells a ratio of two of everything, and counts how often it is asked."""
+    """A map that predicts a ratio of two of everything, and counts how often it is asked."""
     asked = []
 
-    def foretold(scene):
+    def predicted(scene):
         asked.append(scene)
         friction = WORTH if getattr(scene.motion, "speed", 0.0) else None
-        return Trust(friction, *_free(scene, WORTH), {}, ())
+        return Advice(friction, *_free(scene, WORTH), {}, ())
 
-    monkeypatch.setattr(corrected, "trust", foretold)
+    monkeypatch.setattr(corrected, "trust", predicted)
     return asked
 
 
 def _free(scene, worth):
-    """Worth of depth and of force: of the one that is not prescribed."""
+    """Correction of depth and of force: of the one that is not prescribed."""
     return (worth, None) if scene.motion.load is not None else (None, worth)
 
 
@@ -84,17 +84,19 @@ def test_a_smooth_body_slides_with_the_friction_of_three_dimensions(speed):
 
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 def test_what_is_prescribed_stays_and_all_else_is_its_mean_over_the_ratio(scene):
-    found, drawn, worths = FEW.solve(scene), profiles_of(scene), trust(scene).worths
+    found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).corrections
     force, friction, depth = (
         np.mean([getattr(each, name) for each in drawn]) for name in ("normal_force", "friction_force", "depth")
     )
     given, free = (found.normal_force, found.depth) if scene is ROUGH else (found.depth, found.normal_force)
     name, mean = ("depth", depth) if scene is ROUGH else ("force", force)
     assert given == scene.motion.greatest
-    assert mean / free == pytest.approx(worths[name].ratio, rel=ROUNDING)
-    assert friction / force / found.friction_coefficient == pytest.approx(worths["friction"].ratio, rel=ROUNDING)
-    assert found.measures[f"{name}_ratio"] == worths[name].ratio
-    assert set(worths) == {"friction", name}
+    assert mean / free == pytest.approx(corrections[name].ratio, rel=ROUNDING)
+    assert friction / force / found.friction_coefficient == pytest.approx(
+        corrections["friction"].ratio, rel=ROUNDING
+    )
+    assert found.measures[f"{name}_ratio"] == corrections[name].ratio
+    assert set(corrections) == {"friction", name}
 
 
 def test_at_rest_and_in_an_elastic_solid_there_is_no_friction():
@@ -122,7 +124,7 @@ def test_an_interval_holds_its_value_and_is_wider_for_fewer_profiles_and_for_one
 
 
 def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_has(monkeypatch):
-    silent = Trust(replace(WORTH, surface_low=nan, surface_high=nan), WORTH, None, {}, ())
+    silent = Advice(replace(WORTH, surface_low=nan, surface_high=nan), WORTH, None, {}, ())
     monkeypatch.setattr(corrected, "trust", lambda scene: silent)
     ends = FEW.solve(ROUGH).measures
     assert isnan(ends["friction_surface_low"])
@@ -135,7 +137,7 @@ def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_
 def test_the_part_of_the_profiles_in_an_interval_is_what_means_of_them_scatter_by(scene, monkeypatch):
     """Of 60 means of eight, the ratio exact; allowed: three deviations of an rms of so many, 3/sqrt(2 * 59)."""
     exact = replace(WORTH, low=WORTH.ratio, high=WORTH.ratio)
-    monkeypatch.setattr(corrected, "trust", lambda _: Trust(exact, *_free(scene, exact), {}, ()))
+    monkeypatch.setattr(corrected, "trust", lambda _: Advice(exact, *_free(scene, exact), {}, ()))
     seeds = (replace(scene.roughness, seed=FEW.profiles * k) for k in range(60))
     found = [FEW.solve(replace(scene, roughness=each)) for each in seeds]
     logarithms = np.log([each.friction_coefficient for each in found])
@@ -162,7 +164,7 @@ def test_off_the_map_there_is_no_answer_but_the_reason():
 
 def test_where_the_map_is_vague_the_answer_has_a_wide_interval(monkeypatch):
     vague = replace(WORTH, low=1.0, high=4.0, advice="solve")
-    monkeypatch.setattr(corrected, "trust", lambda scene: Trust(vague, vague, None, {}, ()))
+    monkeypatch.setattr(corrected, "trust", lambda scene: Advice(vague, vague, None, {}, ()))
     ends = FEW.solve(ROUGH).measures
     assert ends["friction_high"] / ends["friction_low"] > 4.0
 
@@ -206,7 +208,7 @@ def test_equal_scenes_have_equal_answers_and_costs_are_those_of_every_profile():
     first, second = (replace(FEW.solve(ROUGH), seconds=0.0) for _ in range(2))
     assert first == second
     drawn = profiles_of(ROUGH)
-    assert first.applications == sum(each.applications for each in drawn)
+    assert first.operator_applications == sum(each.operator_applications for each in drawn)
     assert first.residual == max(each.residual for each in drawn)
     assert first.settings["profiles"] == FEW.profiles
     assert first.settings["points"] == drawn[0].settings["points"]
@@ -223,5 +225,5 @@ def test_every_measure_has_a_unit_and_a_meaning():
 
 
 def test_a_stored_answer_depends_on_the_code_of_both_solvers_and_of_the_map():
-    assert {"scene", "mdr1d", "bem3d", "compare.studies.trust"} <= set(SceneTask(FEW, (ROUGH,)).packages)
+    assert {"scene", "mdr1d", "bem3d", "compare.trustmap"} <= set(SceneTask(FEW, (ROUGH,)).packages)
     assert SceneTask(MDR(), (ROUGH,)).packages == ("scene", "mdr1d")

@@ -63,8 +63,8 @@ def test_under_a_smooth_sphere_at_rest_the_springs_carry_the_pressure_integrated
     """The force per length of the MDR is the Abel transform of the pressure, which is its integral over y."""
     lines = table(drawn["rest"], draw.LINES)
     assert lines["line_force_1d"].max() == pytest.approx(lines["line_force_3d"].max(), rel=5e-3)
-    found = {each.claim.id: each.value for each in drawn["rest"].claims}
-    assert found[APART.id] < 0.01 < {each.claim.id: each.value for each in drawn["rough"].claims}[APART.id]
+    found = {each.claim.id: each.value for each in drawn["rest"].findings}
+    assert found[APART.id] < 0.01 < {each.claim.id: each.value for each in drawn["rough"].findings}[APART.id]
 
 
 @pytest.mark.parametrize("name", ["rest", "fast", "rough"])
@@ -105,7 +105,7 @@ def test_an_arrow_points_where_the_indenter_slides(drawn):
 
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
     folder = drawn["rough"].output
-    again = compare.figures(folder, output=tmp_path)
+    again = compare.redraw(folder, output=tmp_path)
     png = next(path for path in again if path.suffix == ".png")
     assert png.read_bytes() == (folder / "draw.png").read_bytes()
 

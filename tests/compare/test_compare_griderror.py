@@ -17,7 +17,7 @@ def answers(three, one=(1e-5, 2e-5)):
 
     def dataset(errors):
         both = np.array([errors, np.full(len(errors), 0.9)])
-        return xarray.Dataset({"friction_error": (("grid", "draw"), both)}, {"grid": ["fine", "coarse"]})
+        return xarray.Dataset({"friction_error": (("grid", "seed"), both)}, {"grid": ["fine", "coarse"]})
 
     return xarray.DataTree.from_dict({"/contacts/BEM": dataset(three), "/contacts/MDR": dataset(one)})
 

@@ -10,7 +10,7 @@ from compare.solving.parameter_grid import FINE
 from compare.statistics.finding import Claim, Finding
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import Estimated, student
-from compare.statistics.jackknife import Replicates, Sample, mean_ratio, resample
+from compare.statistics.jackknife import DrawSet, Replicates, mean_ratio, resample
 from compare.statistics.means import compared, interval
 from compare.statistics.sampling import Bias
 
@@ -152,9 +152,9 @@ def test_the_size_of_one_number_far_from_nil_has_its_interval():
 def test_every_place_gives_the_same_interval_of_the_same_draws():
     values = drawn("lognormal", 1.0, 12)[0]
     expected = mean_ratio(values).interval()
-    forces = {name: (("speed", "load", "draw"), values[None, None]) for name in ("normal_force", "friction_force")}
+    forces = {name: (("speed", "load", "seed"), values[None, None]) for name in ("normal_force", "friction_force")}
     grids = xarray.Dataset(forces, {"speed": [1.0], "load": [1.0]}).expand_dims(grid=[FINE])
-    told = compared(lambda sample: sample["a"]["normal_force"].mean("draw").values, *_sample(grids))
+    told = compared(lambda sample: sample["a"]["normal_force"].mean("seed").values, *_sample(grids))
     bias = Bias.of(mean_ratio(values), 0.0)
     curves = SimulatedCurves(np.ones(1), np.ones((1, 1, 12)), values[None, None])
     friction = curves.replicates(1.0, values.mean() * curves.deviations()[:, 0]).estimated.interval()
@@ -169,4 +169,4 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
 
 
 def _sample(grids):
-    return Sample({"a": grids.sel(grid=FINE)}), None
+    return DrawSet({"a": grids.sel(grid=FINE)}), None

@@ -10,7 +10,7 @@ from compare.statistics.intervals import Estimated, RmsMisfit
 from compare.statistics.jackknife import MOST_GROUPS, Replicates, groups, left_out, mean_ratio, resample
 
 DRAWS = 250
-# Of an interval of 95 %: what it may lose to first-order theory, 2 %, and three deviations of as many draws.
+# Least coverage of an interval of 95 %: 2 % lost to first-order theory, and three deviations of as many draws.
 LEAST = 0.93 - 3 * sqrt(0.93 * 0.07 / DRAWS)
 
 
@@ -49,7 +49,7 @@ def test_the_error_of_a_mean_is_its_standard_error():
     found = resample(mean, sample)["mean"].estimated
     first = sample.values[0]
     assert found.error == pytest.approx(first.std(ddof=1) / sqrt(7), rel=1e-12)
-    assert found.freedom == 6
+    assert found.dof == 6
     assert mean_ratio(np.append(first, np.nan)).error == pytest.approx(found.error, rel=1e-12)
 
 
@@ -113,7 +113,7 @@ def test_one_surface_gives_a_value_and_no_error():
 def test_what_knows_no_surface_is_exact():
     assert Estimated.exact(0.7).interval() == (0.7, 0.7)
     found = Replicates.first_order(np.array([3.0, 4.0]), np.empty((0, 2)))
-    assert found.estimated.freedom == inf
+    assert found.estimated.dof == inf
     np.testing.assert_array_equal(found.estimated.error, 0.0)
     assert found.rms.interval() == pytest.approx((sqrt(12.5), sqrt(12.5)), rel=1e-15)
 
@@ -197,16 +197,16 @@ def test_a_size_is_nil_for_all_that_is_known_where_there_is_less_than_the_scatte
     assert np.mean(np.array(seen) < 0) > 0.3
 
 
-@pytest.mark.parametrize("freedom", [4, 40])
-def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_as_stated(freedom):
+@pytest.mark.parametrize("dof", [4, 40])
+def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_as_stated(dof):
     rng, truth = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5)
     kept = dict.fromkeys((True, False), 0)
     for _ in range(DRAWS):
-        scatter = 0.2 * sqrt(rng.chisquare(freedom) / freedom)
+        scatter = 0.2 * sqrt(rng.chisquare(dof) / dof)
         value = truth + 0.2 * rng.normal(size=truth.size)
         for right in kept:
             error = scatter * (1.0 if right else 0.5) * sqrt(truth.size)
-            low, high = Replicates(value, error * np.eye(truth.size), freedom).rms.interval()
+            low, high = Replicates(value, error * np.eye(truth.size), dof).rms.interval()
             kept[right] += low <= sqrt(0.125) <= high
     assert kept[True] >= LEAST * DRAWS
     assert kept[False] < LEAST * DRAWS
@@ -214,7 +214,7 @@ def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_
 
 def test_a_scatter_that_is_known_exactly_is_one_of_many_freedoms():
     value, errors = np.array([0.1, -0.2, 0.05]), 0.1 * np.eye(3)
-    ends = [Replicates(value, errors, freedom).rms.interval() for freedom in (np.inf, 1e7)]
+    ends = [Replicates(value, errors, dof).rms.interval() for dof in (np.inf, 1e7)]
     assert ends[0] == pytest.approx(ends[1], rel=1e-5)
 
 

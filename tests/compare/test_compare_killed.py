@@ -64,7 +64,7 @@ def series():
 
 
 def tasks():
-    return tasks_of(series().rectangles)
+    return tasks_of(series().grids)
 
 
 def names(task):

@@ -74,7 +74,7 @@ def test_those_that_are_not_compared_say_how_they_are_solved():
 def test_every_study_is_read_and_can_be_asked(name, tmp_path):
     study = ClaimStudy.of(written(name, tmp_path))
     assert study.title == find(name).title
-    assert study.rectangles()
+    assert study.grids()
 
 
 COMPARED = sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"})
@@ -87,7 +87,7 @@ COMPARED = sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"})
 def test_every_scene_that_can_be_compared_is(name, tmp_path):
     report = run(written(name, tmp_path), tmp_path / "out", workers=1, report=False)
     assert not report.faults
-    assert report.claims
+    assert report.findings
 
 
 def test_a_copy_may_name_a_schema_for_editors(tmp_path):

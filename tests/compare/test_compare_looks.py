@@ -1,6 +1,6 @@
 """Looks of figures: widths and texts of journals, styles of one's own, colours that every reader tells apart.
 
-Every figure that a command can leave is drawn from the tables in plots, as `crosscheck figures` draws it.
+Every figure that a command can leave is drawn from the tables in plots, as `crosscheck redraw` draws it.
 """
 
 import re

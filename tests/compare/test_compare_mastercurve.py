@@ -7,7 +7,6 @@ import pandas
 import pytest
 
 import compare
-from compare.report.page import Plot
 from compare.report.plots import shifted_curves, style
 from compare.solving.vocabulary import entry
 from compare.statistics.eq23 import NO_SHIFT
@@ -35,7 +34,7 @@ def study(tmp_path, text, name="ball.csv"):
 
 
 def found(study):
-    return {each.claim.id.removeprefix("mastercurve."): each for each in study.findings(study.answers({}))}
+    return {each.claim.id.removeprefix("mastercurve."): each for each in study.judge(study.answers({})).findings}
 
 
 def test_coefficients_that_no_pair_of_bodies_has_are_told():
@@ -76,7 +75,7 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
         low, high = told[name].interval
         # rounding of a fit without scatter
         assert low - 1e-3 * (noise == 0) <= planted <= high + 1e-3 * (noise == 0), name
-    first, *others = made.answer(list(made.findings(made.answers({}))))
+    first, *others = made.judge(made.answers({})).answer
     if vertical:
         assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
         assert first.startswith(
@@ -97,7 +96,7 @@ def test_of_straight_curves_no_shift_is_the_answer(tmp_path, vertical):
     assert "straight parallel lines" in told["vertical-exponent"].reason
     assert np.isnan(told["vertical-exponent"].value)
     assert told["vertical"].verdict == UNDECIDED
-    assert not any("is shifted as" in each for each in made.answer(list(made.findings(made.answers({})))))
+    assert not any("is shifted as" in each for each in made.judge(made.answers({})).answer)
 
 
 @pytest.mark.slow
@@ -116,8 +115,7 @@ def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertic
 
 def test_the_figure_of_both_shifts_has_one_curve_and_both_exponents_of_the_words(tmp_path):
     made = study(tmp_path, table(vertical=0.1))
-    findings = made.findings(made.answers({}))
-    (plot,) = made.page(made.answers({}), findings).every(Plot)
+    (plot,) = made.judge(made.answers({})).plots
     with style.applied():
         drawing = shifted_curves.figure(again(plot), **plot.options)
     _, middle, right, _ = drawing.axes
@@ -145,7 +143,7 @@ def test_one_scatter_stands_behind_all_points(tmp_path):
     errors = np.concatenate([curve.error for curve in data.curves])
     assert errors.max() / errors.min() == pytest.approx(np.sqrt(3), rel=1e-12)
     assert errors.min() == pytest.approx(0.01 / np.sqrt(3), rel=0.3)
-    assert data.freedom == len(lines) - errors.size
+    assert data.dof == len(lines) - errors.size
 
 
 def test_two_measurements_of_each_point_do_not_reject_a_law_that_holds(tmp_path):
@@ -222,7 +220,7 @@ def test_a_heading_says_the_units_of_the_columns(tmp_path, heading):
 def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
     for repeats, drawn in ((3, True), (1, False)):
         made = study(tmp_path, table(repeats))
-        (plot,) = made.plots(made.answers({}), made.findings(made.answers({})))
+        (plot,) = made.judge(made.answers({})).plots
         points = plot.tables[shifted_curves.NAME]
         with style.applied():
             axes = shifted_curves.figure(plot.tables, **plot.options).axes[0]
@@ -294,7 +292,7 @@ def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones(tmp_pat
     assert told["exponent"].interval == pytest.approx(nominal["exponent"].interval, abs=0.006)
     with pytest.raises(InvalidInput, match=r"has 1 load|speeds: 2 to 100"):
         Mastercurve.of(tmp_path / "jittered.csv", tolerance=0)
-    assert "Loads within 5 % of one another are one" in scattering.setting(None)[0].markdown
+    assert "Loads within 5 % of one another are one" in scattering.setting[0].markdown
 
 
 @pytest.mark.parametrize("tolerance", [-0.1, 0.6, np.nan, True, "wide"])
@@ -473,10 +471,10 @@ def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
     assert low - 0.01 <= -0.5 <= high + 0.01
     assert high - low < 0.05
     assert told["temperatures-unshifted"].value > 0.2
-    first, *_ = made.answer(list(told.values()))
-    assert "Shifts along the speed bring the temperatures together" in " ".join(made.answer(list(told.values())))
+    first, *_ = made.judge(None).answer
+    assert "Shifts along the speed bring the temperatures together" in " ".join(made.judge(None).answer)
     assert first.startswith("Shifts along the load")
-    points, shifts = made.plots(None, list(told.values()))
+    points, shifts = made.judge(None).plots
     assert set(points.tables["shifted-curves"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
     with style.applied():
         drawing = shifted_curves.figure(again(points), **points.options)
@@ -489,7 +487,7 @@ def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
         own["temperature"].map(dict(zip(made.shifts.temperatures, made.shifts.shifts.value, strict=True))),
         atol=1e-12,
     )
-    for block in made.blocks(None, list(told.values()), []):
+    for block in made.judge(None).blocks:
         for name in getattr(block, "frame", pandas.DataFrame()).columns:
             assert entry(name) is not None
 
@@ -546,7 +544,7 @@ def test_a_name_that_would_be_a_formula_is_drawn_as_it_is(tmp_path):
     path = tmp_path / r"$\frac{$.csv"
     path.write_text(table())
     made = Mastercurve.of(path)
-    (plot,) = made.plots(made.answers({}), made.findings(made.answers({})))
+    (plot,) = made.judge(made.answers({})).plots
     with style.applied():
         drawing = shifted_curves.figure(again(plot), **plot.options)
     drawing.canvas.draw()
@@ -556,8 +554,8 @@ def test_a_name_that_would_be_a_formula_is_drawn_as_it_is(tmp_path):
 @pytest.mark.parametrize("text", [table(), bent()], ids=["holds", "fails"])
 def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     made = study(tmp_path, text)
-    findings = made.findings(made.answers({}))
-    (plot,) = made.page(made.answers({}), findings).every(Plot)
+    told = made.judge(made.answers({}))
+    findings, (plot,) = told.findings, told.plots
     tables = again(plot)
     with style.applied():
         drawing = shifted_curves.figure(tables, **plot.options)
@@ -599,7 +597,7 @@ def test_rows_of_the_figure_show_what_is_expected_where_curves_part_and_other_po
 def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):
     (tmp_path / "ball.csv").write_text(table())
     report = compare.mastercurve(tmp_path / "ball.csv", tmp_path / "out")
-    assert report.findings["verdict"].tolist()[:2] == [HOLDS, HOLDS]
+    assert report.table["verdict"].tolist()[:2] == [HOLDS, HOLDS]
     assert {"report.html", "findings.csv", "results.nc", "shifted-curves.png", "shifted-curves.csv"} <= {
         path.name for path in (tmp_path / "out").iterdir()
     }

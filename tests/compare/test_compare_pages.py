@@ -48,8 +48,8 @@ def folder(tmp_path_factory):
     drawn = []
     render.write(page(), FINDINGS, path, told=drawn.append)
     assert drawn == ["sphere/friction"]
-    values = {"friction_force": ("draw", [0.1, 1 / 3]), "status": ("draw", ["solved", "not asked"])}
-    dataset = xarray.Dataset(values, {"draw": [0, 1]})
+    values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
+    dataset = xarray.Dataset(values, {"seed": [0, 1]})
     netcdf.write(path / netcdf.NAME, xarray.DataTree.from_dict({"/sphere/MDR": dataset}))
     manifest.stamp(path, STUDY, page(), SWEPT, "solved")
     return path
@@ -214,6 +214,23 @@ def test_a_regime_stands_in_the_first_row_of_its_place_alone(form, end, tmp_path
     assert (text.count(f"slowly{end}"), text.count(f"fast{end}")) == (2, 1)
 
 
+def test_a_page_in_markdown_shows_whole_tables_of_forty_rows_in_all_and_names_the_files_of_the_others(tmp_path):
+    tables = [Table(name, DataFrame({"x": range(rows)})) for name, rows in (("a", 30), ("b", 11), ("c", 10))]
+    many = Findings(FINDINGS[:1] * 41)
+    text = render.write(Page("Long", (), (*tables, many)), FINDINGS, tmp_path, "markdown").read_text()
+    assert text.count("\n| ") == 30 + 10 + 2 * 2
+    assert "41 findings stand in [findings.csv](findings.csv)." in text
+    assert "Every digit of 11 rows: [b.csv](b.csv)." in text
+
+
+def test_a_caption_of_several_figures_stands_on_a_page_in_markdown_once(tmp_path):
+    (plot,) = page().every(Plot)
+    other = replace(plot, name="plane/friction")
+    text = render.write(Page("Two", (), (plot, other)), FINDINGS, tmp_path, "markdown").read_text()
+    assert text.count(plot.caption.partition("$")[0]) == 1
+    assert "Caption as above. Data: [friction.csv](plane/friction.csv)." in text
+
+
 def test_the_terminal_shows_a_claim_once_and_its_findings_below():
     text = terminal.text(page())
     assert text.count("Depths at rest agree (claimed 1 ± 0.05):") == 1
@@ -271,7 +288,9 @@ def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_pat
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    csvfiles.write_text(tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction=0.3)))
+    csvfiles.write_text(
+        tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3))
+    )
     drawn = redraw(tmp_path)
     assert drawn[0] == tmp_path / "figures/sphere/friction.png"
     assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()
@@ -310,6 +329,33 @@ def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
     with pytest.raises(InvalidInput, match=re.escape(said)):
         redraw(tmp_path, output=tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("stated", "age"), [(None, "an earlier"), (1, "an earlier"), (10**6, "a later")])
+def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, stated, age):
+    content = json.loads((folder / "manifest.json").read_text())
+    del content["format"]
+    stated_there = {} if stated is None else {"format": stated}
+    # also where the rest cannot be understood
+    for changed in (content, {"plots": "elsewhere"}):
+        (tmp_path / "manifest.json").write_text(json.dumps(changed | stated_there))
+        for ask in (redraw, tables.export):
+            with pytest.raises(
+                InvalidInput, match=rf"manifest\.json: was written by {age} version of this program"
+            ):
+                ask(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("label", "age"),
+    [(b"", "an earlier"), (netcdf.LABEL.replace(b"2", b"1234"), "a later")],
+    ids=["none", "later"],
+)
+def test_results_of_another_version_say_so_in_one_line(tmp_path, label, age):
+    sealed(tmp_path / "results.nc", lambda file: file.create_group("a"), label)
+    for ask in (netcdf.load, lambda folder: tables.export(folder / "results.nc")):
+        with pytest.raises(InvalidInput, match=rf"results\.nc: was written by {age} version of this program"):
+            ask(tmp_path)
 
 
 KEYS = ["plots", "command", "inputs", "tables", "solved", "name"]
@@ -420,15 +466,15 @@ def test_a_map_is_no_larger_than_the_grids_that_are_solved():
         with pytest.raises(ValueError, match="in pixels of"):
             touching.gridded(spread, "pressure", pixel)
     with pytest.raises(ValueError, match="not known at every"):
-        touching.rectangle(spread, "x", "y", "pressure")
+        touching.unstacked(spread, "x", "y", "pressure")
 
 
-def sealed(path, fill):
+def sealed(path, fill, label=netcdf.LABEL):
     """A file of results with a seal that fits, as anyone can make one."""
     image = BytesIO()
     with h5py.File(image, "w") as file:
         fill(file)
-    content = image.getvalue()
+    content = image.getvalue() + label
     path.write_bytes(content + netcdf.SEAL + hashlib.sha256(content).hexdigest().encode())
 
 
@@ -518,9 +564,9 @@ def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp
         "solver",
         "speed [m/s]",
         "load [N]",
-        "friction",
-        "friction_low",
-        "friction_high",
+        "friction_coefficient_mean",
+        "friction_coefficient_low",
+        "friction_coefficient_high",
     ]
     solved = written["sphere/MDR.csv"]
     assert solved["friction_force [N]"].tolist() == [0.1]  # what was not asked for is no row
@@ -570,7 +616,7 @@ def test_an_ending_says_what_it_adds():
 def test_every_column_of_findings_is_defined_on_the_page(folder):
     assert all(vocabulary.entry(name) for name in COLUMNS)
     ids = Links((folder / "report.html").read_text()).ids
-    for name in ("verdict", "value", "tolerance", "friction", "speed", "pressure"):
+    for name in ("verdict", "value", "tolerance", "friction-coefficient", "speed", "pressure"):
         assert (f"def-{name}" in ids) == (name != "pressure")
 
 

@@ -174,7 +174,7 @@ def test_the_law_of_fig_4_has_its_exponent_back():
 
 def law_of(shape, profiles, change=None):
     """Law of a shape from answers of its tasks; change : further answers by task."""
-    rectangle, planes = law.rectangle(shape, profiles), law.planes(shape)
+    rectangle, planes = law.parameter_grid(shape, profiles), law.planes(shape)
     outcomes = change if change is not None else solved([*rectangle.tasks(), planes])
     return law.law(shape, rectangle.datasets(outcomes)["MDR"], law.planes_dataset(shape, outcomes))
 
@@ -190,7 +190,11 @@ def test_fig_4_follows_the_law_and_reaches_its_plateau():
 
 
 def test_a_point_of_the_law_that_broke_is_left_out():
-    rectangle, planes, scatter = law.rectangle("sphere", 3), law.planes("sphere"), 1 + 1e-3 * np.array([-1, 0, 1])
+    rectangle, planes, scatter = (
+        law.parameter_grid("sphere", 3),
+        law.planes("sphere"),
+        1 + 1e-3 * np.array([-1, 0, 1]),
+    )
     level = equations.plateau(law._slope()) * equations.interpolation(np.array(law.VARIABLES))
     tasks = rectangle.tasks()
     whole = {planes: Outcome((), {"friction": level})}
@@ -233,11 +237,11 @@ def lossy(monkeypatch):
     monkeypatch.setattr(parameters, "FORCES", parameters.FORCES[::2])
 
     def found(loss, change=None):
-        rectangles = losses.rectangles(loss, 4)
-        outcomes = solved(task for each in rectangles.values() for task in each.tasks()) if change is None else {}
+        grids = losses.grids(loss, 4)
+        outcomes = solved(task for each in grids.values() for task in each.tasks()) if change is None else {}
         if change is not None:
-            outcomes = {task: change(task) for each in rectangles.values() for task in each.tasks()}
-        return losses.lossy(loss, *(each.datasets(outcomes)["MDR"] for each in rectangles.values()))
+            outcomes = {task: change(task) for each in grids.values() for task in each.tasks()}
+        return losses.lossy(loss, *(each.datasets(outcomes)["MDR"] for each in grids.values()))
 
     return found
 

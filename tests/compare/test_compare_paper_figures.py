@@ -13,7 +13,7 @@ from compare.report.plots import style
 from compare.studies.paper import parameters
 from compare.studies.paper.claims import lines
 from compare.studies.paper.conditions import with_conditions
-from compare.studies.paper.contacts import contact_rectangle, contact_tables, with_nodes
+from compare.studies.paper.contacts import contact_grid, contact_tables, with_nodes
 from compare.studies.paper.figures import (
     contacts as paper_contacts,
 )
@@ -78,7 +78,7 @@ def ordered(x, y):
 def touching():
     found = {}
     for shape in parameters.SHAPES:
-        rectangle = contact_rectangle(shape)
+        rectangle = contact_grid(shape)
         outcomes = {task: task.solve() for task in rectangle.tasks()}
         found[shape] = with_nodes(rectangle.datasets(outcomes)["MDR"], rectangle.fields(outcomes))
     return found
@@ -285,7 +285,7 @@ def test_forms_of_eq_22_are_shown_by_their_deviation_from_the_simulation():
     curved = [line for line in axes.lines if len(line.get_xdata()) == len(parameters.FORCES)]
     for line, off in zip(curved, (-70, -70, -70, -10, -10, -10, 10, 10, 10), strict=True):
         np.testing.assert_allclose(line.get_ydata(), off, rtol=1e-9)
-    # Of three speeds the two faster ones break a condition.
+    # The two faster ones of three speeds break a condition.
     assert (len(points(axes, False)), len(points(axes, True))) == (3 * 10, 3 * 2 * 10)
 
 

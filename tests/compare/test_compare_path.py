@@ -8,15 +8,15 @@ import pytest
 
 from bem3d import BEM
 from compare.solving import continuation
-from compare.solving.continuation import Path, by_contact
-from compare.solving.parameter_grid import Rectangle, contacts_of, on_two_grids, tasks_of
+from compare.solving.continuation import Continuation, by_contact
+from compare.solving.parameter_grid import ParameterGrid, contacts_of, on_two_grids, tasks_of
 from compare.solving.store import Store, key
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 
 ROUGHNESS = SelfAffine(hurst=0.5, rms_height=1e-5, longest=2e-3, shortest=5e-4, seed=3)
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.5), ROUGHNESS)
-RECTANGLE = Rectangle(
+RECTANGLE = ParameterGrid(
     scene=SCENE,
     speeds=(0.1, 0.0, 0.2),
     values=(0.5, 1.0),
@@ -27,7 +27,7 @@ RECTANGLE = Rectangle(
 
 def test_a_path_is_all_speeds_of_one_surface_and_load_from_rest_on_and_from_coarse_to_fine():
     tasks = RECTANGLE.tasks()
-    paths = [each for each in tasks if isinstance(each, Path)]
+    paths = [each for each in tasks if isinstance(each, Continuation)]
     assert len(paths) == 2 * 2  # loads, surfaces
     for each in paths:
         assert len({(scene.motion.load, scene.roughness.seed) for scene in each.scenes}) == 1
@@ -59,7 +59,7 @@ def test_a_path_is_cut_where_it_would_take_longer_than_a_minute(monkeypatch):
 def test_programs_and_contacts_that_keep_fields_stay_alone():
     program = replace(SCENE, motion=Program(stages=(Stage(duration=1.0, depth=1e-5),)))
     pressed = replace(RECTANGLE, scene=program, speeds=(1e-5, 1e-4), values=(1e-5,))
-    assert not [each for each in pressed.tasks() if isinstance(each, Path)]
+    assert not [each for each in pressed.tasks() if isinstance(each, Continuation)]
     kept = [each for each in replace(RECTANGLE, keeps_fields=True).tasks() if each.keeps_fields]
     assert {type(each.solver) for each in kept} == {MDR, BEM}
 
@@ -86,13 +86,13 @@ def test_a_path_answers_as_solves_alone_do_to_the_tolerance_in_fewer_transforms(
 
 def test_equal_paths_have_equal_digits_and_are_kept_whole(solved, tmp_path):
     store = Store(tmp_path)
-    for task in (each for each in solved if isinstance(each, Path)):
+    for task in (each for each in solved if isinstance(each, Continuation)):
         again = task.solve()
         for one, other in zip(solved[task].rows, again.rows, strict=True):
             assert replace(one, seconds=0.0) == replace(other, seconds=0.0)
         store.put(task, again)
         assert store.get(task) == again
-        shorter = Path(task.contacts[:-1])
+        shorter = Continuation(task.contacts[:-1])
         assert store.get(shorter) is None
         assert not shorter.fits(again)
 

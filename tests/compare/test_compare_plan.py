@@ -84,7 +84,7 @@ def test_a_plan_is_six_lines(written):
 def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
     path = written(SCENE + TINY)
     report = run(path, tmp_path / "out", workers=1, report=False)
-    solved = sum(len(getattr(task, "scenes", (task,))) for task in contacts_of(report.study.rectangles()))
+    solved = sum(len(getattr(task, "scenes", (task,))) for task in contacts_of(report.study.grids()))
     assert plans(path).cost == report.study.cost()
     assert solved <= plans(path).cost.contacts < 1.5 * solved
     assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output

@@ -10,9 +10,9 @@ import xarray
 from bem3d import BEM
 from compare.solving import netcdf
 from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import Rectangle, contacts_of, on_two_grids, tasks_of, tree
+from compare.solving.parameter_grid import ParameterGrid, contacts_of, on_two_grids, tasks_of, tree
 from compare.statistics.finding import Claim
-from compare.statistics.jackknife import Sample, friction, judge, mean
+from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
 from scene import Indent, Kelvin, Layer, Refused, Scene, SelfAffine, Slide, Sphere
 from scene.reading import InvalidInput
@@ -23,7 +23,7 @@ SCENE = Scene(
     motion=Slide(speed=0.1, load=1.0),
     roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
 )
-ROUGH = Rectangle(
+ROUGH = ParameterGrid(
     scene=SCENE,
     speeds=(0.0, 0.1),
     values=(0.5, 1.0, 2.0),
@@ -53,17 +53,17 @@ def answers():
 
 
 def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
-    assert dict(answers["rough/MDR"].sizes) == {"grid": 2, "speed": 2, "load": 3, "draw": 4}
-    assert dict(answers["rough/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3, "draw": 2}
+    assert dict(answers["rough/MDR"].sizes) == {"grid": 2, "speed": 2, "load": 3, "seed": 4}
+    assert dict(answers["rough/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3, "seed": 2}
     assert dict(answers["smooth/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3}
     assert answers["rough/BEM"].points.values.tolist() == [32, 16]
-    assert answers["rough/BEM"].draw.values.tolist() == [5, 6]
+    assert answers["rough/BEM"].seed.values.tolist() == [5, 6]
 
 
 def test_every_number_stands_where_it_was_asked_for(answers):
     rough = answers["rough/MDR"].to_dataset()
     assert (rough.normal_force == rough["load"]).all()
-    assert (rough.seed_seen == rough.draw).all()
+    assert (rough.seed_seen == rough.seed).all()
     assert rough.friction_force.sel(speed=0.1, load=2.0).values == pytest.approx(0.02)
 
 
@@ -78,11 +78,11 @@ def test_every_variable_says_its_unit_and_what_it_is(answers):
 def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
     both = {"rough": ROUGH}
     found = tree(both, {task: outcome_of(task, bad=(6,)) for task in tasks_of(both)})["rough/BEM"].to_dataset()
-    assert set(found.status.sel(draw=6).values.ravel()) == {"failed"}
-    assert set(found.reason.sel(draw=6).values.ravel()) == {"too rough"}
-    assert set(found.status.sel(draw=5).values.ravel()) == {"solved"}
+    assert set(found.status.sel(seed=6).values.ravel()) == {"failed"}
+    assert set(found.reason.sel(seed=6).values.ravel()) == {"too rough"}
+    assert set(found.status.sel(seed=5).values.ravel()) == {"solved"}
     assert friction(found.sel(grid="fine"))[1] == pytest.approx([0.01] * 3)
-    assert np.isnan(mean(found.sel(grid="fine", draw=[6]), "normal_force")).all()
+    assert np.isnan(mean(found.sel(grid="fine", seed=[6]), "normal_force")).all()
 
 
 def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
@@ -161,11 +161,11 @@ def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
 
 
 def test_draws_of_solvers_are_left_out_in_equal_shares(answers):
-    sample = Sample.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
+    sample = DrawSet.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
     assert set(sample) == {"rough/MDR", "rough/BEM", "smooth/MDR"}
     assert (sample.draws, len(sample.groups)) == (2, 2)
     less = sample.without(sample.groups[1])
-    assert (less["rough/MDR"].sizes["draw"], less["rough/BEM"].draw.values.tolist()) == (2, [5])
+    assert (less["rough/MDR"].sizes["seed"], less["rough/BEM"].seed.values.tolist()) == (2, [5])
     assert less["smooth/MDR"] is sample["smooth/MDR"]
 
 

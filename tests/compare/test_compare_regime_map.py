@@ -26,7 +26,7 @@ PRESSURES, MEMORIES = (0.06, 0.3, 1.0, 30.0, 300.0), (0.01, 3.0, 1000.0)
 # What the map may miss of the smooth body on roughness pressed flat, of one: its own errors beside the data.
 FLAT = 0.03
 ROUNDING = 1e-9
-# Of lines through cells of a hundredth of a decade in which the law is no straight line.
+# Lines through cells of a hundredth of a decade, in which the law is no straight line.
 CELL = 1e-3
 
 

@@ -6,7 +6,6 @@ from math import inf, nan
 from pathlib import Path
 
 import pytest
-from xarray import DataTree
 
 from compare import commands
 from compare.models.exact import Exact
@@ -56,7 +55,7 @@ def asked(stored, *quantities, path=Path("mine.toml"), updating=False):
     """The study, and its findings."""
     study = Regress(quantities, path, stored, updating)
     (batch,) = study.batches()
-    return study, study.findings(study.answers({task: task.solve() for task in batch.tasks}))
+    return study, study.measured(study.answers({task: task.solve() for task in batch.tasks}))
 
 
 def found(stored, *quantities):
@@ -103,14 +102,13 @@ def test_the_farthest_is_said_first_and_what_is_missing_is_undecided():
     assert "the young: not in the baseline: 2." in told
     assert study.failed(findings)
     assert not study.failed([each for each in findings if each.verdict == HOLDS])
-    page = study.page(DataTree(), findings)
-    assert "0.001: a test" in str(page.blocks[-1])
+    assert "0.001: a test" in str(study.setting[-1])
 
 
 @pytest.mark.parametrize(("value", "stored"), [(nan, {"force": 2.0}), (inf, {})])
 def test_what_is_no_number_never_passes(value, stored):
     study = Regress((quantity(),), Path("mine.toml"), stored)
-    (finding,) = study.findings(study.answers({pressed(2.0): Outcome((Row(normal_force=value),))}))
+    (finding,) = study.measured(study.answers({pressed(2.0): Outcome((Row(normal_force=value),))}))
     assert (finding.verdict, "no finite number" in finding.reason) == (UNDECIDED, True)
 
 

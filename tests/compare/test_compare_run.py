@@ -10,14 +10,14 @@ from pandas import DataFrame
 
 import compare
 from bem3d import BEM
-from compare.library.case import Case, Study
+from compare.library.case import Case, Variations
 from compare.library.describe import described, slug
 from compare.report import csvfiles
 from compare.report.export import TABLES
 from compare.report.page import Findings, Plot, Table
 from compare.report.plots import style
 from compare.report.redraw import FIGURES
-from compare.solving.continuation import Path
+from compare.solving.continuation import Continuation
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FINE, tasks_of
 from compare.statistics import finding
@@ -31,6 +31,7 @@ from compare.studies.run.curves import (
     SPEED,
     curves,
     friction_law,
+    models_of,
     predicted_exponent,
     slow_friction,
 )
@@ -47,7 +48,7 @@ CASE = Case(
     elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
     motion=Slide(speed=0.1, load=1.0),
     roughness=SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, shortest=2e-3, seed=5),
-    study=Study(
+    study=Variations(
         speeds=(0.1, 1.0),
         pressing=(0.3, 1.0, 3.0, 10.0),
         load_speeds=(0.03, 0.1, 0.3),
@@ -62,7 +63,7 @@ DEEP = replace(CASE, motion=Slide(speed=0.1, depth=1e-4))
 
 
 def contacts(case):
-    return {name: (each.speeds, each.values) for name, each in curves(case).items()}
+    return {name: (each.speeds, each.values) for name, each in curves(case, models_of(case)).items()}
 
 
 def test_every_curve_has_its_contacts():
@@ -93,12 +94,15 @@ def test_only_curves_that_mean_something_are_solved(change, left):
 
 
 def test_depth_stays_prescribed_where_the_scene_prescribes_it():
-    assert all(each.prescribed == "depth" for each in curves(DEEP).values())
+    assert all(each.prescribed == "depth" for each in curves(DEEP, models_of(DEEP)).values())
     assert contacts(DEEP)[LOAD][1] == pytest.approx((0.3e-4, 1e-4, 3e-4, 1e-3))
 
 
 def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone():
-    found, every = tasks_of(curves(CASE)), [task for each in curves(CASE).values() for task in each.tasks()]
+    found, every = (
+        tasks_of(curves(CASE, models_of(CASE))),
+        [task for each in curves(CASE, models_of(CASE)).values() for task in each.tasks()],
+    )
     asked, everywhere = ([each for task in tasks for each in contacts_on(task)] for tasks in (found, every))
     solved = [(each.solver, scene) for each in asked for scene in each.scenes]
     assert len(solved) == len(set(solved))
@@ -117,7 +121,7 @@ def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone()
     ids=["resolved", "cut off by the grid", "too few points to halve"],
 )
 def test_a_grid_of_half_the_points_is_solved_where_it_has_the_same_surface(case, rough, smooth):
-    found = curves(case)
+    found = curves(case, models_of(case))
     assert {name: set(grids) for name, grids in found[OWN].grids.items()}["BEM"] == rough
     assert set(found[SMOOTH_DEPTH].grids["BEM"]) == smooth
 
@@ -127,7 +131,7 @@ FRICTION, FORCE = 2.0, 1.1
 
 
 def contacts_on(task):
-    return task.contacts if isinstance(task, Path) else (task,)
+    return task.contacts if isinstance(task, Continuation) else (task,)
 
 
 def invented_of(run, **how):
@@ -160,20 +164,20 @@ def invented(task, halved=0.0, scatter=0.0, broken=(), law=power_law):
 def judged(case=CASE, **how):
     run = Run({"a case": case})
     answers = run.answers(invented_of(run, **how))
-    return run, answers, finding.table(run.findings(answers)).set_index(["claim", "where"])
+    return run, answers, finding.table(run.judge(answers).findings).set_index(["claim", "where"])
 
 
 def test_known_answers_are_found():
     _, answers, found = judged()
-    own = found.loc["run.friction.own", "a case"]
+    own = found.loc["friction.ratio.own", "a case"]
     assert own[["value", "low", "high", "draws", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
-    assert found.loc["run.friction.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
-    for claim in ("run.force-depth.rough", "run.force-depth.smooth"):
+    assert found.loc["friction.ratio.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
+    for claim in ("force.ratio.rough", "force.ratio.smooth"):
         rows = found.loc[claim]
         assert len(rows) == 2  # every depth, none chosen
         np.testing.assert_allclose(rows["value"], FORCE - 1, rtol=1e-12)
         assert set(rows["verdict"]) == {"fails"}
-    np.testing.assert_allclose(found.loc["run.friction.spread"]["value"], 0.02, rtol=1e-12)
+    np.testing.assert_allclose(found.loc["friction.spread"]["value"], 0.02, rtol=1e-12)
     in_3d = [task for task in Run({"a case": CASE}).batches()[0].tasks if task.solver.name == "BEM"]
     assert answers["a-case/times"]["seconds"].sel(solver="BEM") == 2.0 * sum(len(task.scenes) for task in in_3d)
     # a power law collapses by any shift
@@ -193,25 +197,25 @@ def test_a_shift_of_friction_itself_leads_the_answer_and_the_figure_shows_both()
     assert shifted["value"].tolist() == pytest.approx([0.1, 0.1], abs=1e-3)
     assert ((shifted["low"] <= 0.1 + 1e-6) & (shifted["high"] >= 0.1 - 1e-6)).all()
     assert found.loc["eq23.exponent", "a case"]["value"].tolist() == pytest.approx([-1.5, -1.5], abs=1e-2)
-    first, second, *others = run.answer(run.findings(answers))
+    first, second, *others = run.judge(answers).answer
     assert first.startswith("a case, 1D: friction is shifted as v^0.1")
     assert second.startswith("a case, 3D: friction is shifted as v^0.1")
     assert not any("no shift along friction" in each for each in others)
-    (plot,) = (each for each in run.page(answers, run.findings(answers)).every(Plot) if "collapse" in each.name)
+    (plot,) = (each for each in run.judge(answers).plots if "collapse" in each.name)
     assert plot.alternative == "1D: both shifts; 3D: both shifts"
     straight, *_ = judged()
-    assert not any("is shifted as" in each for each in straight.answer(straight.findings(_[0])))
+    assert not any("is shifted as" in each for each in straight.judge(_[0]).answer)
 
 
 def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
     _, _, found = judged(halved=0.02)
-    own = found.loc["run.friction.own", "a case"]
+    own = found.loc["friction.ratio.own", "a case"]
     assert own["grid_error"] == pytest.approx(2 * (1 - 1 / 1.02))
     assert own["high"] - own["value"] == pytest.approx(own["grid_error"])
     assert own["grid_method"] == "change on halving"
-    assert found.loc["run.grid", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
+    assert found.loc["grid.change", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
     _, _, wide = judged(scatter=0.1)
-    low, high = wide.loc["run.friction.own", "a case"][["scatter_low", "scatter_high"]]
+    low, high = wide.loc["friction.ratio.own", "a case"][["scatter_low", "scatter_high"]]
     # Two surfaces, 10 % each way: 12.7 standard errors of 10 % of the ratio.
     assert high - low == pytest.approx(2 * 12.706 * 2 * 0.1, rel=0.02)
 
@@ -225,17 +229,17 @@ def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_s
 )
 def test_without_an_error_nothing_is_decided(case, reason):
     _, _, found = judged(case)
-    own = found.loc["run.friction.own", "a case"]
+    own = found.loc["friction.ratio.own", "a case"]
     assert own["verdict"] == "undecided"
     assert reason in own["reason"]
 
 
 def test_a_surface_that_failed_is_left_out_and_listed():
     run, answers, found = judged(broken={1}, case=replace(CASE, study=replace(CASE.study, surfaces=3)))
-    assert found.loc["run.friction.own", "a case"]["value"] == pytest.approx(2)
-    (case,) = run.judged(answers)
+    assert found.loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
+    (case,) = (run._judged(name, answers) for name in run.cases)
     assert set(case.failures["reason"]) == {"no answer"}
-    assert set(case.failures["draw"]) == {CASE.roughness.seed + 1}
+    assert set(case.failures["seed"]) == {CASE.roughness.seed + 1}
     points = case.points.query("solver == 'BEM' and body == 'rough'")
     assert set(points["failures"]) == {1}
     assert set(points["surfaces"]) == {2}
@@ -243,19 +247,20 @@ def test_a_surface_that_failed_is_left_out_and_listed():
 
 def test_points_have_means_deviations_and_intervals():
     run, answers, _ = judged(scatter=0.1)
-    points = run.judged(answers)[0].points
+    (name,) = run.cases
+    points = run._judged(name, answers).points
     one = points.query("curve == 'own' and solver == 'BEM'").iloc[0]
-    mu = one["friction_coefficient"]
+    mu = one["friction_coefficient_mean"]
     assert mu == pytest.approx(0.1 * 0.1**-0.1)
     assert one["friction_coefficient_deviation"] == pytest.approx(np.sqrt(2) * 0.1 * mu)
     assert one["friction_coefficient_high"] - mu == pytest.approx(12.706 * 0.1 * mu, rel=1e-3)
-    assert points.query("solver == 'exact'")["normal_force"].notna().all()
+    assert points.query("solver == 'exact'")["normal_force_mean"].notna().all()
 
 
 def test_cases_stand_side_by_side_in_the_summary():
     run = Run({"one": CASE, "at rest": replace(CASE, motion=Indent(load=1.0))})
     answers = run.answers(invented_of(run))
-    table = summary(run.judged(answers)).set_index("sentence")
+    table = summary([run._judged(name, answers) for name in run.cases]).set_index("sentence")
     own = "Friction of the scene as it stands is the same in 1D and 3D"
     assert table.loc[own, "at rest"] == ""
     assert table.loc[own, "one"].endswith("fails")
@@ -269,7 +274,7 @@ def report(tmp_path_factory):
     run = Run.of({"Small sphere": small})
     outcomes = {task: task.solve() for task in run.batches()[0].tasks}
     answers = run.answers(outcomes)
-    return run, answers, run.page(answers, run.findings(answers))
+    return run, answers, run.judge(answers).page(run.title, answers)
 
 
 def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
@@ -281,12 +286,13 @@ def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
     assert set(tables) == {"small-sphere/trust", "small-sphere/points", "small-sphere/times"}
     shown = [each for block in page.every(Findings) for each in block.findings]
     places = [
-        [(each.claim.id, each.dimension, each.where) for each in told] for told in (shown, run.findings(answers))
+        [(each.claim.id, each.dimension, each.where) for each in told]
+        for told in (shown, run.judge(answers).findings)
     ]
     assert sorted(places[0]) == sorted(places[1])
     assert len(set(places[0])) == len(shown)
     assert {each.plot for each in shown} - {""} <= plots
-    slow = next(each for each in shown if each.claim.id == "run.friction.smooth-slow")
+    slow = next(each for each in shown if each.claim.id == "friction.ratio.smooth-slow")
     assert slow.value == pytest.approx(2, abs=0.1)
     assert all("±" not in line for line in page.answer)
     assert [line[:9] for line in page.answer][-3:] == ["Trust map", "Trust map", "The grid "]
@@ -318,7 +324,9 @@ def _drawn(figure):
 
 def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(report):
     plot = next(each for each in report[2].every(Plot) if each.name.endswith("force-depth"))
-    deviations = DataFrame({"body": "rough", "depth": [1e-4, 2e-4, 4e-4], "deviation": [-0.1, -0.05, -0.02]})
+    deviations = DataFrame(
+        {"body": "rough", "solver": "MDR", "depth": [1e-4, 2e-4, 4e-4], "deviation": [-0.1, -0.05, -0.02]}
+    )
     reach = np.array([9.0, 0.05, 0.04])
     deviations["deviation_low"], deviations["deviation_high"] = -reach, reach
     with style.applied():
@@ -336,18 +344,18 @@ def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(re
 
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
 def test_one_value_of_everything_is_drawn_without_a_warning(motion):
-    one = Study(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
+    one = Variations(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
     run = Run({"one": replace(CASE, motion=motion, study=one)})
     answers = run.answers(invented_of(run))
     with style.applied():
-        for plot in run.page(answers, run.findings(answers)).every(Plot):
+        for plot in run.judge(answers).plots:
             plot.figure().draw_without_rendering()
 
 
 @pytest.mark.parametrize(("body", "exponent"), [(Sphere(radius=1e-2), -1.5), (Cone(angle=0.2), -2.0)])
 def test_laws_of_the_smooth_and_of_the_rough_body(body, exponent):
     case = replace(CASE, indenter=body)
-    slow = slow_friction(case)
+    slow = slow_friction(case, models_of(case))
     assert slow["MDR"] == pytest.approx(2 * slow["BEM"], rel=1e-12)
     assert predicted_exponent(case) == pytest.approx(exponent, rel=1e-12)
     assert friction_law(case, 1.0, 1e6, 0.01) == pytest.approx(np.sqrt(2) * 0.01, rel=1e-3)  # its plateau

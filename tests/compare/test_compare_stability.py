@@ -23,7 +23,7 @@ from scene.reading import InvalidInput
 
 QUICK = SIZES["quick"]
 STUDY = Stability.of("quick")
-# Of each: found, allowed, message; a case that raises has a reason.
+# Found, allowed and message of each; a case that raises has a reason.
 MADE_UP = {
     "speed-zero": Outcome((Row(seconds=1.0, measures={"found": 0.5, "allowed": 1.0}, settings={"what": "a"}),)),
     "no-shapes": Outcome((Row(measures={"found": 0.0, "allowed": 0.0}, settings={"what": "b", "message": "no"}),)),
@@ -151,7 +151,7 @@ def test_findings_state_the_law_and_the_page_counts_them():
     needle = found["needle"]
     assert (needle.value, needle.claim.tolerance, needle.claim.expected) == (2.0, 1.0, 0.0)
     assert np.isnan(needle.interval).all()
-    page = STUDY.page(answers, list(found.values()))
+    page = STUDY.judge(answers).page(STUDY.title, answers)
     assert page.answer[0].startswith("2 of 4 hard cases keep their law")
     assert "needle is broken: found 2, allowed 1" in page.answer[1]
     assert "no such file: 'scene.toml'" in page.answer[2]  # without the folder of the day

@@ -46,7 +46,7 @@ STEPS = [
     ("command('--help')", "typer", HEAVY),
     ("command('--version')", "typer", HEAVY),
     ("command('run', '--help')", "typer", HEAVY - {"pydantic"}),
-    ("command('list')", "compare.library.ready", LISTED),
+    ("command('scenes')", "compare.library.ready", LISTED),
     ("command('new', 'quick-start', 'mine.toml')", "compare.library.ready", LISTED),
     (
         "command('plan', 'scene.toml')",

@@ -42,7 +42,7 @@ SERIES = Series(
 FEW = replace(SERIES, speeds=SERIES.speeds[::3], values=SERIES.values[::3])
 SLOPE = 0.2
 # Friction that grows as a length is none that is the same over every part of an area.
-DRAG = "why17.drag-exponent"
+DRAG = "eq17.friction-per-contact"
 HALF = "fewer than half of the surfaces"
 
 
@@ -79,12 +79,12 @@ def obeying(law, series=SERIES, scatter=0.02, grid=0.0, seed=1, level=1.0, slope
                 "residual": 0.0,
                 "seconds": 1.0,
             }
-            dims = ["grid", "speed", series.prescribed, "draw"]
+            dims = ["grid", "speed", series.prescribed, "seed"]
             columns |= {"status": np.array(SOLVED, object), "reason": np.array("", object)}
             variables = {name: (dims, np.broadcast_to(each, mu.shape).copy()) for name, each in columns.items()}
             places = {"grid": [FINE, COARSE], "speed": [0.0, *series.speeds], "points": ("grid", [64, 32])}
             dataset = xarray.Dataset(variables, places | {series.prescribed: list(series.values)})
-            dataset = dataset if body == ROUGH else dataset.isel(draw=0, drop=True)
+            dataset = dataset if body == ROUGH else dataset.isel(seed=0, drop=True)
             parts[f"/{series.name}/{body}/{solver}"] = dataset
     return Contacts(series, xarray.DataTree.from_dict(parts))
 
@@ -112,7 +112,7 @@ def cut(contacts, speeds=None, values=None, surfaces=None):
     series, parts = contacts.series, {}
     kept = {"speed": slice(None if speeds is None else speeds + 1), series.prescribed: slice(values)}
     for (solver, body), dataset in contacts.datasets.items():
-        draws = {"draw": slice(surfaces)} if body == ROUGH else {}
+        draws = {"seed": slice(surfaces)} if body == ROUGH else {}
         parts[f"/{series.name}/{body}/{solver}"] = dataset.isel(kept | draws)
     count = surfaces or series.surfaces
     few = {"speeds": series.speeds[:speeds], "values": series.values[:values]}
@@ -196,7 +196,7 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
     three = verdicts(found, "3D")
     assert three | expected == three
     if expected.get("eq17.level") == "fails":
-        assert {each.verdict for each in of(found, "pair.friction")} == {"fails"}
+        assert {each.verdict for each in of(found, "friction.ratio.")} == {"fails"}
         assert {name for name, verdict in three.items() if verdict == "fails"} == {*LEVELS, DRAG}
     straight = [each.reason for each in of(found, "eq23", "3D") if each.verdict == "undecided"]
     assert all("straight" in reason for reason in straight if reason) or "eq17.level" in expected
@@ -274,19 +274,18 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     rough = [each for each in of(found, "") if each.draws]
     assert {each.verdict for each in rough} == {"undecided"}
     assert all("scatter" in each.reason and "straight" not in each.reason for each in rough)
-    (smooth,) = of(found, "pair.smooth")
+    (smooth,) = of(found, "friction.ratio.smooth")
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("holds", 0, (smooth.value, smooth.value))
-    (smooth,) = of(judge_series(spoiled(whole, np.s_[0, 1], body=SMOOTH)), "pair.smooth")
+    (smooth,) = of(judge_series(spoiled(whole, np.s_[0, 1], body=SMOOTH)), "friction.ratio.smooth")
     assert smooth.verdict == "undecided"
 
 
 def test_a_series_of_which_nothing_was_solved_has_no_finding():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
     outcomes = {
-        task: Outcome((Row(reason="no"),) * len(task.scenes))
-        for task in parameter_grid.tasks_of(series.rectangles)
+        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in parameter_grid.tasks_of(series.grids)
     }
-    contacts = Contacts(series, parameter_grid.tree(series.rectangles, outcomes))
+    contacts = Contacts(series, parameter_grid.tree(series.grids, outcomes))
     assert judge_series(contacts).findings == ()
     assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
 
@@ -298,7 +297,9 @@ def test_speeds_are_named_by_where_they_lie_and_none_is_asked_twice(whole, judge
         (judge_series(cut(whole, speeds=3)), ["slow"]),
         (judge_series(cut(whole, speeds=1, values=1)), ["slow"]),
     ):
-        assert [each.claim.id for each in of(found, "pair.")][:-1] == [f"pair.friction-{name}" for name in names]
+        assert [each.claim.id for each in of(found, "friction.ratio.")][:-1] == [
+            f"friction.ratio.{name}" for name in names
+        ]
     assert not of(found, "eq17.load-exponent")  # through a single point
 
 
@@ -366,9 +367,9 @@ def test_a_series_pressed_by_depth_stays_so_and_is_solved_at_rest_too():
     pressed = replace(sunk, scene=replace(sunk.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),))))
     assert pressed.at(2e-4, 0.1).motion == Program(stages=(Stage(duration=2e-3, depth=2e-4),))
     assert not pressed.slides
-    assert {each.speeds for each in sunk.rectangles.values()} == {(0.0, *SERIES.speeds)}
+    assert {each.speeds for each in sunk.grids.values()} == {(0.0, *SERIES.speeds)}
     with pytest.raises(InvalidInput, match="has none"):
-        _ = replace(SERIES, scene=replace(SERIES.scene, roughness=None)).rectangles
+        _ = replace(SERIES, scene=replace(SERIES.scene, roughness=None)).grids
 
 
 def test_pressing_in_is_compared_at_the_depth_that_was_reached():
@@ -389,15 +390,15 @@ def solved():
     rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
     scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
     series = Series("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
-    tasks = parameter_grid.tasks_of(series.rectangles)
-    return Contacts(series, parameter_grid.tree(series.rectangles, {task: task.solve() for task in tasks}))
+    tasks = parameter_grid.tasks_of(series.grids)
+    return Contacts(series, parameter_grid.tree(series.grids, {task: task.solve() for task in tasks}))
 
 
 def test_solved_contacts_tell_the_known_truths(solved):
     # at low speed the exact limits hold, and the smooth bodies differ by 2
     found = judge_series(solved)
     assert [each.verdict for each in of(found, "limit.slow")] == ["holds", "holds"]
-    (smooth,) = of(found, "pair.smooth")
+    (smooth,) = of(found, "friction.ratio.smooth")
     assert smooth.verdict == "fails"
     assert smooth.value == pytest.approx(2, abs=smooth.grid + 0.02)
     rest = judge_series(cut(solved, speeds=0))
@@ -408,7 +409,7 @@ def test_solved_contacts_tell_the_known_truths(solved):
     ("kinds", "ids", "dimensions"),
     [
         (("collapse", "families"), {"eq23"}, {"1D", "3D"}),
-        (("friction",), {"eq14", "eq17", "why17", "eq19", "limit"}, {"1D", "3D"}),
+        (("friction",), {"eq14", "eq17", "eq19", "limit"}, {"1D", "3D"}),
         (("dimensions",), {"pair", "rest"}, {"1D/3D"}),
     ],
 )
@@ -427,10 +428,10 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = ClaimStudy.of(name, "quick")
-    tasks = parameter_grid.tasks_of(study.rectangles())
+    tasks = parameter_grid.tasks_of(study.grids())
     assert len({(task.solver, task.scenes) for task in tasks}) == len(tasks)
     assert {task.solver.name for task in tasks} == {"MDR", "BEM"}
-    grids = [grids for each in study.rectangles().values() for grids in each.grids.values()]
+    grids = [grids for each in study.grids().values() for grids in each.grids.values()]
     assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)
 
 

@@ -52,12 +52,12 @@ def study():
 @pytest.fixture(scope="module")
 def page(study):
     asked, answers = study
-    return asked.page(answers, asked.findings(answers))
+    return asked.judge(answers).page(asked.title, answers)
 
 
 def test_the_answer_has_a_statement_for_each_claim_and_every_verdict_of_it(study, page):
     asked, answers = study
-    findings = [each for each in asked.findings(answers) if each.verdict != REPORTED]
+    findings = [each for each in asked.judge(answers).findings if each.verdict != REPORTED]
     statements = dict.fromkeys(each.claim.sentence for each in findings)
     for text, sentence in zip(page.answer, statements, strict=True):
         assert text.startswith(sentence)
@@ -68,14 +68,18 @@ def test_the_answer_has_a_statement_for_each_claim_and_every_verdict_of_it(study
 
 def test_every_finding_stands_on_the_page_once_and_leads_to_a_plot_that_is_there(study, page):
     asked, answers = study
-    findings = asked.findings(answers)
+    findings = asked.judge(answers).findings
     shown = [found for block in page.every(Findings) for found in block.findings]
-    assert sorted(map(id, shown)) == sorted(map(id, findings))
+    assert sorted(map(_place, shown)) == sorted(map(_place, findings))
     assert {each.plot for each in findings} <= {plot.name for plot in page.every(Plot)}
     (overview,) = (table for table in page.every(Table) if table.name == "overview")
     verdicts = Counter(each.verdict for each in findings)
     for name in ("holds", "fails", "undecided"):
         assert overview.frame[name].sum() == verdicts[name]
+
+
+def _place(found):
+    return found.claim.id, found.row["dimension"], found.where, found.plot
 
 
 def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
@@ -103,10 +107,10 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
     points, contacts = tables["sphere/points"], Contacts(asked.series[0], answers)
     assert len(points) == 2 * 2 * (1 + 6) * 5
     rough = points[(points["dimension"] == "3D") & (points["body"] == "rough")]
-    forces = (contacts("BEM")[name].mean("draw").values for name in ("friction_force", "normal_force"))
+    forces = (contacts("BEM")[name].mean("seed").values for name in ("friction_force", "normal_force"))
     ratio = np.divide(*forces)
-    np.testing.assert_allclose(rough["friction_coefficient"].to_numpy().reshape(7, 5), ratio, rtol=1e-12)
-    assert (rough["normal_force_low"] <= rough["normal_force"]).all()
+    np.testing.assert_allclose(rough["friction_coefficient_mean"].to_numpy().reshape(7, 5), ratio, rtol=1e-12)
+    assert (rough["normal_force_low"] <= rough["normal_force_mean"]).all()
     assert rough["memory_over_shortest"].iloc[-1] > 1
     assert rough["surfaces"].min() == SERIES.surfaces - 1
     (reason,) = tables["sphere/failed"]["reason"]
@@ -117,9 +121,9 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
 def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
     study = ClaimStudy("empty", ReadyStudy("Empty", "About.", lambda size: [series]), "quick")
-    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.rectangles())}
+    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.grids())}
     answers = study.answers(outcomes)
-    page = study.page(answers, study.findings(answers))
+    page = study.judge(answers).page(study.title, answers)
     assert list(page.answer) == []
     (section,) = (block for block in page.blocks if isinstance(block, Section) and block.title.startswith("1."))
     assert any("No claim can be judged" in getattr(block, "markdown", "") for block in section.blocks)
@@ -131,11 +135,11 @@ def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(monkeyp
     asked, answers = of([first, other(first, "smoother", rms_height=2.5e-5)])
     both = AllStudies((asked, replace(asked, name="second")))
     tree = xarray.DataTree.from_dict({"/mine": answers, "/second": answers.copy()})
-    findings = both.findings(tree)
+    findings = both.judge(tree).findings
     places = Counter(each.where.partition(",")[0] for each in findings)
     assert places["mine"] == places["second"] == len(findings) / 2
-    page = both.page(tree, findings)
+    page = both.judge(tree).page(both.title, tree)
     assert len(page.answer) == len({each.claim.sentence for each in findings if each.verdict != REPORTED})
     assert {"mine/verdicts", "second/family"} <= {plot.name for plot in page.every(Plot)}
-    monkeypatch.setattr(AllStudies, "rectangles", lambda self: {})  # thousands of scenes
+    monkeypatch.setattr(AllStudies, "grids", lambda self: {})  # thousands of scenes
     assert [each.name for each in ClaimStudy.of("all").studies] == list(STUDIES)

@@ -54,7 +54,7 @@ def measured(
 
 def shifts(*columns):
     points = pooled(*columns, TOLERANCE)
-    return found(isotherms(points), points.loads, points.freedom)
+    return found(isotherms(points), points.loads, points.dof)
 
 
 @given(
@@ -107,7 +107,7 @@ def test_at_a_tolerance_of_nil_points_are_equal_loads_and_speeds():
         [each.friction for each in points.points], [np.mean(own) for _, own in plain], rtol=1e-15
     )
     left = sum(float(np.sum(np.square(np.array(own) / np.mean(own) - 1))) for _, own in plain)
-    assert points.scatter == pytest.approx(np.sqrt(left / points.freedom), rel=1e-13)
+    assert points.scatter == pytest.approx(np.sqrt(left / points.dof), rel=1e-13)
 
 
 @pytest.mark.parametrize("law", [knee, bent])
@@ -130,10 +130,10 @@ def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():
 def test_levers_are_what_a_point_moves_the_shifts_by():
     points = pooled(*measured(bent, noise=0.005), TOLERANCE)
     each = isotherms(points)
-    told = found(each, points.loads, points.freedom)
+    told = found(each, points.loads, points.dof)
     moved = each[1].log_friction.copy()
     moved[7] += 1e-5
-    other = found((each[0], replace(each[1], log_friction=moved), *each[2:]), points.loads, points.freedom)
+    other = found((each[0], replace(each[1], log_friction=moved), *each[2:]), points.loads, points.dof)
     place = each[0].log_speed.size + 7
     # Gauss-Newton leaves out the curvature of what is missed.
     np.testing.assert_allclose(
@@ -144,7 +144,7 @@ def test_levers_are_what_a_point_moves_the_shifts_by():
 def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():
     points = pooled(*measured(kelvins=KELVINS[1:4]), TOLERANCE)
     each = isotherms(points)
-    data = curves_of(points, found(each, points.loads, points.freedom))
+    data = curves_of(points, found(each, points.loads, points.dof))
     assert isinstance(data, MeasuredCurves)
     assert list(data.speeds) == sorted(data.speeds)
 
@@ -197,8 +197,8 @@ def test_of_powers_of_speed_and_load_no_shift_is_told():
 def test_stated_shifts_are_judged_and_wrong_ones_fail():
     points = pooled(*measured(), TOLERANCE)
     each = isotherms(points)
-    right = stated(each, wlf([one.temperature for one in each]), points.loads, points.freedom)
+    right = stated(each, wlf([one.temperature for one in each]), points.loads, points.dof)
     assert right.misfit.interval()[1] < 0.05
-    wrong = stated(each, wlf([one.temperature for one in each]) * 1.5, points.loads, points.freedom)
+    wrong = stated(each, wlf([one.temperature for one in each]) * 1.5, points.loads, points.dof)
     assert wrong.misfit.interval()[0] > 0.05
     assert not np.any(right.covariance)

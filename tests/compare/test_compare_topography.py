@@ -98,7 +98,7 @@ def test_one_wave_is_all_in_one_ring():
     assert "isotropic" in found.warnings[1]
 
 
-# Of 40 intervals of 95 % as many or fewer hold with a chance of 1e-3.
+# As many of 40 intervals of 95 % or fewer hold with a chance of 1e-3.
 HOLD = int(binom.ppf(1e-3, 40, 0.95))
 
 
@@ -210,7 +210,7 @@ def test_a_number_is_finite_or_has_its_reason(tmp_path, kind, length, pixel):
     heights = EDGES[kind].astype(float)
     heights *= length / np.abs(heights).max()
     study = Map.of(saved(tmp_path, heights), pixel=pixel, unit="m")
-    findings = study.findings(study.answers({}))
+    findings = study.judge(study.answers({})).findings
     assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
     assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
     assert all(np.isfinite(each.density).all() for each in (study.description.rings, study.description.rows))
@@ -272,11 +272,11 @@ def test_the_command_describes_a_map(tmp_path):
     stated = {"unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
     report = compare.topography(path, output=tmp_path / "out", **stated)
     expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
-    told = {each.claim.id.removeprefix("topography."): each for each in report.claims}
+    told = {each.claim.id.removeprefix("topography."): each for each in report.findings}
     assert told["rms-height"].value == expected.rms_height
     assert told["hurst"].interval == (expected.law.low, expected.law.high)
     assert (told["hurst"].value, told["hurst"].regime) == (expected.law.hurst, expected.band)
-    assert {each.verdict for each in report.claims} == {"reported"}
+    assert {each.verdict for each in report.findings} == {"reported"}
     table = pandas.read_csv(tmp_path / "out" / "topography.csv")
     np.testing.assert_allclose(table["density_2d"], expected.rings.density, rtol=1e-12)
     np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)

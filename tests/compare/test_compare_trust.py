@@ -15,12 +15,12 @@ from compare.solving.outcome import Outcome, Row
 from compare.studies.trust import design, scoring, statements, study
 from compare.studies.trust.contact import Contact
 from compare.trustmap import model, shipped, table, verdict
-from compare.trustmap.groups import FullContact, Smooth
-from compare.trustmap.model import NAMES, NORMAL, Foretold, Measurements, lost
+from compare.trustmap.groups import FullContact, SmoothReference
+from compare.trustmap.model import NAMES, NORMAL, Measurements, Predicted, lost
 from compare.trustmap.ratio import QUANTITIES, asked_of, ratio_of
 from compare.trustmap.regions import COVERED
 from compare.trustmap.regression import Process, Scales, _unlikeliness
-from compare.trustmap.verdict import Trust, trust
+from compare.trustmap.verdict import Advice, trust
 from mdr1d import MDR
 from mdr1d.surface import amplitudes
 from scene import (
@@ -71,7 +71,7 @@ def test_a_smooth_body_that_slides_slowly_has_twice_the_friction_in_1d(shape):
 def test_a_smooth_body_at_rest_is_answered_rightly_in_1d():
     for motion, name in ((Indent(load=1.0), "depth"), (Indent(depth=1e-4), "force")):
         found = trust(replace(SMOOTH, motion=motion))
-        assert list(found.worths) == [name]
+        assert list(found.corrections) == [name]
         assert getattr(found, name).ratio == pytest.approx(1, rel=GRID)
         assert getattr(found, name).advice == "use"
 
@@ -85,7 +85,7 @@ def test_a_fast_smooth_body_has_the_ratios_of_both_solvers():
             "depth": line.depth / space.depth,
             "force": line.normal_force / space.normal_force,
         }
-        for name, worth in found.worths.items():
+        for name, worth in found.corrections.items():
             assert worth.ratio == pytest.approx(ratios[name], rel=GRID)
             assert abs(worth.ratio - 1) > 0.1
 
@@ -98,7 +98,7 @@ def test_a_depth_that_is_lost_in_the_roughness_asks_for_3d_however_many_scenes_w
     groups = table.groups(table.read(table.LEARNED))
     hidden = groups[lost(groups)]
     assert len(hidden) > 100
-    assert (shipped.model("depth").foretold(hidden).error * NORMAL > verdict.WIDE).all()
+    assert (shipped.model("depth").predicted(hidden).error * NORMAL > verdict.WIDE).all()
 
 
 def test_the_paper_s_rough_sphere_agrees_with_what_the_default_run_measured():
@@ -123,7 +123,7 @@ def test_heights_that_grow_together_and_units_change_nothing():
     )
     expected = trust(plain)
     for scene in (stretched, larger):
-        for name, worth in trust(scene).worths.items():
+        for name, worth in trust(scene).corrections.items():
             assert astuple(worth)[:5] == pytest.approx(astuple(getattr(expected, name))[:5], rel=1e-4)
 
 
@@ -189,10 +189,10 @@ def test_what_is_elastic_has_no_friction():
 )
 def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing(changed, said):
     found = trust(replace(PAPER, **changed))
-    assert found.worths
-    assert {worth.advice for worth in found.worths.values()} == {"solve"}
-    assert all(np.isnan(worth.ratio) and "Off the map" in worth.reason for worth in found.worths.values())
-    assert all(said in worth.reason for worth in found.worths.values())
+    assert found.corrections
+    assert {worth.advice for worth in found.corrections.values()} == {"solve"}
+    assert all(np.isnan(worth.ratio) and "Off the map" in worth.reason for worth in found.corrections.values())
+    assert all(said in worth.reason for worth in found.corrections.values())
     assert found.nearest == ()
 
 
@@ -209,9 +209,9 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
 )
 def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, steep):
     found = trust(replace(PAPER, **changed))
-    assert {worth.advice for worth in found.worths.values()} == {"none"}
+    assert {worth.advice for worth in found.corrections.values()} == {"none"}
     assert all(
-        steep in worth.reason and "3D is as linear as 1D" in worth.reason for worth in found.worths.values()
+        steep in worth.reason and "3D is as linear as 1D" in worth.reason for worth in found.corrections.values()
     )
     told = str(found)
     assert told.startswith("doubtful: ")
@@ -258,7 +258,7 @@ def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_
     silent = 0
     for scene in drawn_scenes(60, seed=8):
         found = trust(scene)
-        for worth in found.worths.values():
+        for worth in found.corrections.values():
             nothing = verdict.NOTHING in worth.reason
             assert nothing == (verdict.NOTHING in str(worth))
             assert nothing == (np.isnan(worth.surface_low) and np.isfinite(worth.ratio))
@@ -267,7 +267,7 @@ def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_
                 assert worth.surface_high / worth.surface_low < 1e3
             silent += nothing
         assert found.table()["reason"].str.contains(verdict.NOTHING, regex=False).sum() == sum(
-            verdict.NOTHING in worth.reason for worth in found.worths.values()
+            verdict.NOTHING in worth.reason for worth in found.corrections.values()
         )
     assert 0 < silent < 30
 
@@ -295,7 +295,7 @@ def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
     told = str(found)
     assert "friction: multiply 1D by" in told
     assert told.count("measured: friction 1D/3D") == 3
-    assert isinstance(found, Trust)
+    assert isinstance(found, Advice)
     assert compare.trust("quick-start").friction.advice in ("use", "multiply", "solve")
 
 
@@ -303,7 +303,7 @@ def test_waves_in_full_contact_have_the_friction_and_pressure_of_a_drawn_surface
     """A surface with these waves, each summed over a lattice where the group integrates: cells are 2 % of them."""
     rough = SelfAffine(hurst=0.6, rms_height=1e-6, longest=8e-3, rolloff=2e-3, shortest=2.5e-4, seed=3)
     scene = replace(PAPER, roughness=rough)
-    smooth, contact = Smooth.of(scene), elastic_contact(scene)
+    smooth, contact = SmoothReference.of(scene), elastic_contact(scene)
     x = np.arange(256) * rough.longest / 256
     heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(x, x)
     drawn = heights, (rough.longest, rough.longest), scene.elastomer, scene.motion.speed
@@ -317,7 +317,7 @@ def test_waves_in_full_contact_of_the_line_are_those_that_a_line_is_drawn_from()
     """F_x = sum q A^2 / 2 Im E* and mean square force sum A^2 / 2 |E*|^2 a length; of 32 waves, cells are 5 %."""
     rough = SelfAffine(hurst=0.6, rms_height=1e-6, longest=8e-3, rolloff=2e-3, shortest=2.5e-4, seed=3)
     scene = replace(PAPER, roughness=rough)
-    smooth, contact = Smooth.of(scene), elastic_contact(scene)
+    smooth, contact = SmoothReference.of(scene), elastic_contact(scene)
     squares = amplitudes(rough, rough.longest / rough.shortest) ** 2 / 2
     q = rough.q_min * (1 + np.arange(squares.size))
     stiffness = full_contact.complex_stiffness(scene.elastomer, q * scene.motion.speed)
@@ -353,7 +353,7 @@ def test_the_gradient_of_the_likelihood_is_that_of_differences():
 def test_a_process_foretells_what_it_never_saw_within_its_own_error():
     process = Process.fitted(*sampled(80))
     inputs, values, _ = sampled(400, seed=1)
-    mean, variance = process.foretold(inputs)
+    mean, variance = process.predicted(inputs)
     apart = np.abs(values - mean) / np.sqrt(variance + 1e-4)
     assert np.mean(apart < 1.96) == pytest.approx(0.95, abs=0.04)
     assert process.scales.lengths[2] > 2 * process.scales.lengths[0]
@@ -377,8 +377,8 @@ def test_values_left_out_are_those_foretold_from_all_others():
 
 def test_far_from_every_point_a_process_knows_nothing():
     process = Process.fitted(*sampled(80))
-    _, near = process.foretold(np.zeros((1, 3)))
-    _, far = process.foretold(np.full((1, 3), 30.0))
+    _, near = process.predicted(np.zeros((1, 3)))
+    _, far = process.predicted(np.full((1, 3), 30.0))
     assert far[0] > 100 * near[0]
 
 
@@ -479,7 +479,7 @@ def test_a_blunt_scene_is_solved_until_its_depth_is_known_too():
 
 
 def test_the_models_are_fitted_to_the_tables_they_come_with():
-    """Half of what was learned is foretold from all else within 3 %; scales of other data would not do that."""
+    """Half of what was learned is predicted from all else within 3 %; scales of other data would not do that."""
     for name in QUANTITIES:
         error, variance = shipped.model(name).process.left_out()
         assert np.median(np.abs(error)) < 0.03
@@ -498,7 +498,7 @@ def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, name):
     """The claims of docs/results/trust.md, on scenes that were neither fitted nor chosen by."""
     score, used = scores[name], scores[name].used
     half, most = study.WANTED[name]
-    # Of a third of the scenes the depth is lost in the roughness, and a sixth has none above zero.
+    # The depth of a third of the scenes is lost in the roughness, and a sixth has none above zero.
     assert score.usable.mean() > {"friction": 0.8, "depth": 0.6, "force": 0.8}[name]
     assert not np.any(score.usable & np.isnan(score.measured.logarithm))
     assert np.quantile(np.abs(used.errors), 0.5) < half
@@ -534,7 +534,7 @@ def test_a_region_fails_where_its_share_is_significantly_below_the_promise(insid
     apart = np.where(np.arange(scenes) < inside, 0.0, 1.0)
     measured = Measurements(np.zeros((scenes, len(NAMES))), apart, nothing, nothing, every, nothing)
     groups = dict.fromkeys(NAMES, nothing) | {"slides": every > 0, "shape": every}
-    score = scoring.Score(measured, Foretold(nothing, 0.03 * every, nothing))
+    score = scoring.Score(measured, Predicted(nothing, 0.03 * every, nothing))
     (row,) = statements.coverage_rows({"depth": (score, groups)})
     assert (row["body"], row["scenes"], row["fails"]) == ("cone", scenes, fails)
     assert row["least"] < row["in 95 %"] == inside / scenes < row["most"]
@@ -577,7 +577,7 @@ def test_errors_without_the_scatter_of_the_truth_are_those_that_were_made():
     error, noise = 0.03 * rng.standard_normal(count), 0.05 * rng.standard_normal(count)
     nothing, every = np.zeros(count), np.ones(count)
     measured = Measurements(np.zeros((count, len(NAMES))), error + noise, 0.05 * every, nothing, every, nothing)
-    score = scoring.Score(measured, Foretold(nothing, 0.03 * every, nothing))
+    score = scoring.Score(measured, Predicted(nothing, 0.03 * every, nothing))
     assert np.quantile(np.abs(score.own), 0.9) == pytest.approx(np.quantile(np.abs(error), 0.9), rel=0.05)
     assert np.quantile(np.abs(score.errors), 0.9) > 1.7 * np.quantile(np.abs(score.own), 0.9)
     assert score.covered == pytest.approx(0.95, abs=0.01)
@@ -598,7 +598,7 @@ def test_the_campaign_solves_judges_and_resumes(tmp_path, monkeypatch):
     monkeypatch.setattr(study, "_size", lambda name: study.Size((0, 3), (0, 1, 2, 3), 0.5))
     monkeypatch.setattr(study.TrustStudy, "models", lambda *_: {name: shipped.model(name) for name in QUANTITIES})
     found = compare.study("trust", output=tmp_path, workers=2)
-    assert {each.claim.id for each in found.claims} >= {"trust.friction.median", "trust.force.coverage"}
+    assert {each.claim.id for each in found.findings} >= {"trust.friction.median", "trust.force.coverage"}
     assert (tmp_path / "trust-quick" / "report.html").exists()
     again = compare.study("trust", output=tmp_path, workers=2)
     assert again.swept.solved == 0

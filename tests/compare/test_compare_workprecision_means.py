@@ -74,7 +74,7 @@ def outcomes_of(asked, seed=1, fails=lambda solver, index: False, timed_fails=la
 
 
 def row_of(friction, **others):
-    return Row(1.0, 1e-4, friction, residual=0.0, applications=10.0, seconds=0.1, **others)
+    return Row(1.0, 1e-4, friction, residual=0.0, operator_applications=10.0, seconds=0.1, **others)
 
 
 def node(*parts):
@@ -122,7 +122,7 @@ def test_the_expected_error_is_that_of_means_of_normal_deviates():
 def test_a_scatter_has_a_degree_of_freedom_less_than_values():
     scatter = Scatter.of([1.0, nan, 3.0, 5.0])
     assert scatter == Scatter(2.0, 2)
-    assert Scatter.of([1.0]).freedom == Scatter.of([]).freedom == 0
+    assert Scatter.of([1.0]).dof == Scatter.of([]).dof == 0
 
 
 def test_the_interval_of_a_scatter_covers_as_often_as_it_says():
@@ -257,7 +257,7 @@ def test_corrected_by_the_true_ratio_one_dimension_keeps_no_error_and_pays_for_t
     assert found.floor("CorrectedMDR").least == 0.0 < found.floor().least
     assert own.setup == pytest.approx(SETUP)
     assert own.levels[0].seconds == line.levels[0].seconds == SECONDS[1000]
-    # Of one profile relative to the true mean, scattered as much more as its mean is less.
+    # Scatter of one profile relative to the true mean: as much more as its mean is less.
     assert own.levels[0].scatter.value == pytest.approx(line.levels[0].scatter.value / (1 - FLOOR))
     assert own.least_seconds == pytest.approx(SETUP + SECONDS[1000])
     assert own.error(SETUP + 25 * SECONDS[1000]) == pytest.approx(own.error_of(25))

@@ -218,11 +218,14 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
     monkeypatch.chdir(tmp_path)
     Path("mine.mplstyle").write_text("lines.linewidth: 3.5", encoding="utf-8")
     rows = [
-        {"solver": solver, "speed": speed, "load": 1.0, "friction": speed, "friction_low": 0.9 * speed}
+        {"solver": solver, "speed": speed, "load": 1.0}
+        | {"friction_coefficient_mean": speed, "friction_coefficient_low": 0.9 * speed}
         for solver in ("MDR", "BEM")
         for speed in (0.1, 1.0)
     ]
-    means = pandas.DataFrame(rows).assign(friction_high=lambda frame: 1.1 * frame["friction"])
+    means = pandas.DataFrame(rows).assign(
+        friction_coefficient_high=lambda frame: 1.1 * frame["friction_coefficient_mean"]
+    )
     Path("crosscheck-sweep").mkdir()
     means.to_csv("crosscheck-sweep/friction.csv", index=False)
     figure = run(DOCS / "howto" / "figures.md", PYTHON)["figure"]
@@ -246,7 +249,8 @@ def test_no_caption_of_the_pages_has_more_than_sixty_words():
 def test_no_example_of_the_pages_is_left_out():
     """Pages whose examples no test above or elsewhere runs have none."""
     run_here = {"command.md", "figures.md", "index.md", "promises.md", "python.md", "scenes.md"}
-    elsewhere = {"extending.md", "regression.md"}  # test_effects_example.py, test_compare_regression.py
+    # test_effects_example.py, test_compare_regression.py, test_compare_models.py
+    elsewhere = {"extending.md", "regression.md", "models.md"}
     assert {page.name for page in DOCS.rglob("*.md") if PYTHON.search(page.read_text(encoding="utf-8"))} <= (
         run_here | elsewhere
     )

@@ -58,7 +58,7 @@ def test_an_answer_counts_where_it_has_friction_and_its_truth_is_known():
     assert rows(row(1.02, 0.05))[0]["error"] == pytest.approx(0.02, rel=1e-3)
     assert not rows(row(0.0, 0.05))
     assert not rows(Row(reason="friction is not told"))
-    # Of a truth that is not known to a third of the error nothing is said.
+    # Nothing is said of a truth that is not known to a third of the error.
     assert not rows(row(1.02, 0.05), [row(1 + each, 1.0) for each in (0.4, 0.3, 0.2)])
 
 
@@ -148,7 +148,9 @@ def test_a_promise_is_checked_where_the_truth_is_twice_as_fine_and_known():
 
 def test_costs_are_medians_of_what_solves_took_by_body_speed_and_points():
     tasks = list(costs.asked(range(6)))
-    spent = {task: Outcome((Row(1.0, seconds=float(k), applications=2.0 * k),)) for k, task in enumerate(tasks)}
+    spent = {
+        task: Outcome((Row(1.0, seconds=float(k), operator_applications=2.0 * k),)) for k, task in enumerate(tasks)
+    }
     found = costs.rows(tasks, spent)
     assert {each["cost"] for each in found} == set(COSTS)
     rest = [

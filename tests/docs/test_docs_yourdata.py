@@ -13,7 +13,7 @@ from compare.studies.mastercurve import measurements as measuredfriction
 from scene import heighttext, modulinames, scanheader, stylus
 
 PAGES = sorted(yourdata.FOLDER.glob("*.md"))
-# Of a machine: seconds and bytes.
+# Seconds and bytes, which the machine decides.
 MEASURED = re.compile(r"^(?:time|memory) .*$", re.MULTILINE)
 
 

@@ -24,11 +24,11 @@ CODE = re.compile(r"^```.*?^```|`[^`\n]*`|^\$\$.*?\$\$|^#.*?$|^\|.*?$", re.DOTAL
 
 
 def pages() -> Iterator[tuple[str, str]]:
-    """Prose of README and pages: without code, formulas, headings and tables, reports of commands and history."""
+    """Prose of README, CONTRIBUTING and pages: without code, formulas, headings, tables, reports and history."""
     written = (
         path for path in sorted((ROOT / "docs").rglob("*.md")) if path.name not in ("report.md", "changelog.md")
     )
-    for path in (ROOT / "README.md", *written):
+    for path in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *written):
         yield str(path.relative_to(ROOT)), CODE.sub("", path.read_text(encoding="utf-8"))
 
 

@@ -40,7 +40,7 @@ def test_the_page_prints_what_it_says(page):
 
 
 def test_the_study_of_the_page_finds_what_it_claims(page):
-    (found,) = page["report"].claims
+    (found,) = page["report"].findings
     assert found.verdict == "holds"
     assert 1.98 < found.interval[0] < found.value < found.interval[1] < 2.0
     assert found.grid_method == "change on halving"
@@ -73,9 +73,9 @@ def test_a_coating_on_a_plane_in_full_contact_adds_its_compliance_to_every_wave(
 
 
 def test_a_coating_does_not_cost_iterations(page):
-    rigid = page["CoatedBEM"](points=64).solve(page["bare"]).applications
+    rigid = page["CoatedBEM"](points=64).solve(page["bare"]).operator_applications
     for compliance in (1e-12, 1e-10, 1e-8):
-        assert page["force"](compliance).applications < 2 * rigid
+        assert page["force"](compliance).operator_applications < 2 * rigid
 
 
 def test_a_scene_without_the_part_is_answered_to_the_last_digit(page):

@@ -83,7 +83,7 @@ def test_a_scene_twice_as_large_in_every_length_has_four_times_the_forces(name):
         larger = replace(larger, heating=replace(scene.heating, conductivity=4 * 0.5))
     small, large = solver.solve(scene), solver.solve(larger)
     assert numbers(large) == pytest.approx(numbers(small) * [4, 2, 4], rel=ROUNDING)
-    assert large.applications == small.applications
+    assert large.operator_applications == small.operator_applications
 
 
 @pytest.mark.parametrize("name", SOLVED)

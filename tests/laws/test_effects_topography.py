@@ -56,7 +56,6 @@ def test_the_chapter_is_computed_from_the_answers():
     assert one["high"] - one["mean"] == pytest.approx(2.3646 * values.std(ddof=1) / sqrt(study.PLACES), rel=1e-4)
     table = chapter.tables["Force at a depth, friction under a load"]
     assert len(table) == len(study.DEPTHS) + len(study.SPEEDS)
-    assert "synthetic" in chapter.text
     other = study.chapter(outcomes(force=2.0)).tables["Force at a depth, friction under a load"]
     assert other[0][study.SURFACES] != table[0][study.SURFACES]
     assert len(chapter.figures[drawing.NAME].axes) == 2

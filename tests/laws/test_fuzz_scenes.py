@@ -140,7 +140,7 @@ def broken(result) -> list[str]:
     # A depth is counted from the mean of the roughness.
     scale = motion.greatest + (measures.get("rms_height", 0.0) if motion.pressed_by == "depth" else 0.0)
     pressure = result.fields.get("pressure", result.fields.get("line_force"))
-    # Of mu, as estimates of one pressure differ; none where friction is a sum of losses.
+    # Uncertainty of mu, as estimates of one pressure differ; none where friction is a sum of losses.
     unsure = 2 * measures.get("friction_disagreement", 0.0) + ROUNDING * measures.get("rms_slope", 1.0)
     rubbed = measures.get("friction_in_interface", 0.0)
     lossless = motion.speed == 0 or len(scene.solid.retardation()[2]) == 0 if not history else False
@@ -156,7 +156,7 @@ def broken(result) -> list[str]:
     return [law for law, holds in laws.items() if not holds]
 
 
-# Of answers that differ in rounding alone: pressures follow gaps to the tolerance, and edges by the pixel.
+# Answers that differ in rounding alone: pressures follow gaps to the tolerance, and edges by the pixel.
 SAME = 1e-4
 
 

@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
+import changing_motion as motions
 import numpy as np
 import pytest
-from effects_page import closed_forms as motions
-from effects_page.track import Track, harmonic
+from changing_motion import harmonic
+from effects_page.track import Track
 from pydantic import ValidationError
 
 from bem3d import BEM
@@ -23,7 +24,7 @@ def solved(solver, solid, *stages):
     return solver.solve(Scene(Sphere(R), solid, Program(stages=tuple(Stage(**stage) for stage in stages)))).fields
 
 
-# Of the greatest force, in the mean and at most: pixels of which 16 span the radius; a dashpot that touches again
+# Misfits over the greatest force, in the mean and at most: 16 pixels span the radius; a dashpot that touches again
 # jumps within a step of 1/40 period.
 @pytest.mark.parametrize(
     ("solid", "mean", "most"),

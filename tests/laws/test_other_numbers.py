@@ -19,7 +19,7 @@ import compare
 import mdr1d
 import scene
 from bem3d import BEM
-from compare.library.case import Study
+from compare.library.case import Variations
 from compare.studies.animate.animation import animate
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
@@ -87,7 +87,7 @@ SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 ROUGH = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-3, shortest=1e-4, rolloff=5e-4, seed=2)
 WARM = (300.0, 300.0, 300.0, 300.0)
 TABLE = Table(FREQUENCY, STORAGE, LOSS, temperature=WARM)
-RECTANGLE = compare.Rectangle(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
+RECTANGLE = compare.ParameterGrid(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
 # Valid objects, in which each field that takes a number has one.
 OBJECTS = [
     WLF(temperature=310.0, reference=300.0, c1=8.0, c2=100.0),
@@ -124,7 +124,9 @@ OBJECTS = [
     Measured(heights=HEIGHTS, pixel=1e-3, shortest_kept=3e-3),
     MDR(points=100, extent=1e-2, steps=5, frames=2),
     BEM(points=32, extent=1e-2, tolerance=1e-4, threads=1, steps=5, frames=2),
-    Study(speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0, 2.0), surfaces=2, profiles=3),
+    Variations(
+        speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0, 2.0), surfaces=2, profiles=3
+    ),
     compare.CorrectedMDR(profiles=3),
     RECTANGLE,
     compare.Claim("a", "A", expected=1.0, tolerance=0.1),
@@ -135,8 +137,8 @@ OBJECTS = [
 UNITS = {
     (PowerLaw, "coefficient"): None,
     (Table, "frequency"): None,
-    (compare.Rectangle, "speeds"): "m/s",
-    (compare.Rectangle, "values"): "N",
+    (compare.ParameterGrid, "speeds"): "m/s",
+    (compare.ParameterGrid, "values"): "N",
 }
 # What solvers make and hand over, and what holds no numbers itself.
 MADE = {
@@ -155,7 +157,7 @@ MADE = {
 }
 WITHOUT = {"Scene", "Case", "Program", "Plane"}
 # Tested below, with what they need beside them.
-APART = {"Shear.force", "Stage.amplitude", "Stage.frequency", "Rectangle.draws"}
+APART = {"Shear.force", "Stage.amplitude", "Stage.frequency", "ParameterGrid.draws"}
 
 
 @dataclass(frozen=True)
@@ -232,9 +234,12 @@ METHODS = {
     "lower": (1e4, "rad/m"),
 }
 NOT_NUMBERS = {
+    "models",
+    "reference",
     *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures", "figure"),
     *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
     *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
+    *("scheduler", "format", "figure_format", "report", "yes"),
     *("level", "repeat", "peaks", "kind", "journal", "style", "to", "interactive", "progress", "dataset", "study"),
 }
 

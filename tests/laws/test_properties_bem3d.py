@@ -31,7 +31,7 @@ from bem3d.sliding import Flow
 from scene import CrossedWaves, Plane, Program, Scene, Slide, SolveError, Stage, StandardLinearSolid
 
 POINTS = 32
-# Of the depth of the lowest point: to what the conditions of contact are solved here.
+# Conditions of contact are solved to this, over the depth of the lowest point.
 TOLERANCE = 1e-9
 ROUNDING = 1e-12
 SOLVER = BEM(points=POINTS, tolerance=1e-7)
@@ -272,7 +272,7 @@ def checked(result):
         assert result.friction_force == measures["friction_by_work"] == 0
 
 
-# Of answers of one tolerance that differ in rounding alone: fields follow pressures as above, friction may cancel.
+# Answers of one tolerance that differ in rounding alone: fields follow pressures as above, friction may cancel.
 SAME = 1e-4
 
 
@@ -327,6 +327,6 @@ def test_a_march_at_constant_speed_ends_in_the_steady_contact(speed, ratio, load
     assert marched.depth == pytest.approx(flowing.depth, abs=MARCHED * high)
 
 
-# Of rms slope and rms height: a march on 16 points keeps a pressure for a pixel. Measured over 8 starts: 1.0e-2 in
+# In rms slopes and heights: a march on 16 points keeps a pressure for a pixel. Measured over 8 starts: 1.0e-2 in
 # friction, which is a tenth of the rms slope there, and 1.8e-2 in depth.
 MARCHED = 2.5e-2

@@ -203,8 +203,8 @@ def test_modes_may_stand_in_any_order_and_be_split(line, speed, branches, share)
         )
 
 
-# Of a relaxation length in pixels. Measured over 600 lines: 4.1 in the force, 65 in friction over what it is or,
-# where that is next to nothing, over a billionth of the steepest slope times the force.
+# Relative to a relaxation length in pixels. Measured over 600 lines: 4.1 in the force, 65 in friction over what it
+# is or, where that is next to nothing, over a billionth of the steepest slope times the force.
 KELVIN_FORCE, KELVIN_FRICTION = 10, 200
 
 
@@ -273,7 +273,7 @@ def test_forces_scale_with_modulus_and_length_squared(scene, unit, nu):
     assert there.friction_coefficient == pytest.approx(here.friction_coefficient, rel=1e-8, abs=ROUNDING * slope)
 
 
-# Of a grid around a sphere of radius 10, and the slope at its ends.
+# A grid around a sphere of radius 10, and the slope at its ends.
 PIXELS, EXTENT = 60, 4.0
 STEEPEST = EXTENT / 2 / 10 * 2
 

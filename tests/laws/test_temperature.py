@@ -112,7 +112,7 @@ def test_at_the_reference_and_at_rest_the_answer_is_the_same_bit_by_bit(solver):
     for scene in (PLAIN, replace(PLAIN, roughness=ROUGH)):
         plain, found = solver.solve(scene), solver.solve(replace(scene, temperature=there))
         np.testing.assert_array_equal(numbers(found), numbers(plain))
-        assert found.applications == plain.applications
+        assert found.operator_applications == plain.operator_applications
         assert found.measures == pytest.approx(plain.measures, rel=0, abs=0, nan_ok=True)
     warm, rest = (solver.solve(replace(scene, motion=Indent(load=10.0))) for scene in (WARM, PLAIN))
     np.testing.assert_array_equal(numbers(warm), numbers(rest))
@@ -123,7 +123,7 @@ def test_estimates_are_read_off_one_solve_that_is_the_same(solver):
     rough = replace(WARM, roughness=ROUGH)
     plain, found = (solver.solve(each) for each in (rough, replace(rough, heating=Heating(conductivity=50.0))))
     np.testing.assert_array_equal(numbers(found), numbers(plain))
-    assert (found.applications, found.settings) == (plain.applications, plain.settings)
+    assert (found.operator_applications, found.settings) == (plain.operator_applications, plain.settings)
     # Methods of the paper: 2 mu G0 d v/lambda, and G_inf and h0 in the place of G0 and d
     heat = 2 * plain.friction_coefficient * 0.1 / 50.0
     extra = {
@@ -147,7 +147,7 @@ def test_a_contact_with_feedback_is_the_contact_at_its_own_temperature(solver, f
     assert found["temperature"] - 310.0 == pytest.approx(rise, rel=2 * AGREE, abs=1e-9)
     assert rise > 1.0
     assert answer.scene.temperature == LAW
-    assert answer.applications >= found["heating_solves"] > 1
+    assert answer.operator_applications >= found["heating_solves"] > 1
 
 
 @names
@@ -161,7 +161,7 @@ def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
         plain = solver.solve(scene)
         np.testing.assert_array_equal(numbers(found), numbers(plain))
         assert found.measures["heating_solves"] == 1
-        assert found.applications == plain.applications
+        assert found.operator_applications == plain.operator_applications
 
 
 @names

@@ -239,7 +239,7 @@ def test_the_spectral_force_is_the_integral_and_its_waves_add_up_to_it():
 
 
 def test_the_one_frequency_form_overestimates_long_waves():
-    # Of waves with amplitudes ~ q^-(H + 1/2) and G'' ~ w^b the long ones win where 2H > 1 + b.
+    # With amplitudes ~ q^-(H + 1/2) and G'' ~ w^b the long waves win where 2H > 1 + b.
     solid = partial(eq.power_law_loss, loss=1e5, reference_frequency=1.0, beta=0.3)
     misfits = []
     for hurst in (0.1, 0.9):

@@ -10,7 +10,7 @@ from compare.models.exact.indentation import force_of_depth
 from mdr1d import MDR, equations, estimates
 from scene import Cone, Elastic, Indent, Kelvin, PowerLaw, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
-# Of the paper's experiment.
+# The paper's experiment: moduli [Pa], friction, speed [m/s], conductivity [W/(m K)].
 STATIC, GLASSY, FRICTION, SPEED, CONDUCTIVITY = 3e6, 1.5e9, 0.5, 1e-2, 20.0
 ROUNDING = 1e-13
 # The numbers are stated with two digits.

@@ -3,10 +3,10 @@
 from dataclasses import replace
 from decimal import Decimal
 
+import changing_motion as motions
 import numpy as np
 import pytest
-from effects_page import closed_forms as motions
-from effects_page.track import harmonic
+from changing_motion import harmonic
 from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline

@@ -76,11 +76,11 @@ def test_a_plan_is_of_the_grid_the_steps_and_nearly_the_sweeps_of_the_solve(name
     assert plan.steps == answer.measures.get("time_steps", 0)
     assert plan.kernels == ()
     # exact at a prescribed depth and in time; under a load the search takes 2 to 7 sweeps, and 5 are expected
-    expected = plan.applications.value
+    expected = plan.operator_applications.value
     if scene.motion.pressed_by == "depth" or isinstance(scene.motion, Program):
-        assert expected == answer.applications
+        assert expected == answer.operator_applications
     else:
-        assert answer.applications / 3 < expected < answer.applications * 3
+        assert answer.operator_applications / 3 < expected < answer.operator_applications * 3
 
 
 @pytest.mark.parametrize(
@@ -140,11 +140,15 @@ def test_parts_that_are_not_counted_multiply_the_costs_by_what_they_were_measure
 def test_feedback_is_said_to_take_several_solves():
     fed = replace(SCENES["temperature"], heating=Heating(conductivity=0.2, feedback="average"))
     once, often = MDR().plan(SCENES["temperature"]), MDR().plan(fed)
-    assert often.applications.value > 2 * once.applications.value
+    assert often.operator_applications.value > 2 * once.operator_applications.value
     assert "until it is as warm as its friction makes it" in often.method
     taken = MDR().solve(fed)
-    assert taken.measures["heating_solves"] / 3 < often.applications.value / once.applications.value
-    assert often.applications.value / once.applications.value < 3 * taken.measures["heating_solves"]
+    assert (
+        taken.measures["heating_solves"] / 3 < often.operator_applications.value / once.operator_applications.value
+    )
+    assert (
+        often.operator_applications.value / once.operator_applications.value < 3 * taken.measures["heating_solves"]
+    )
 
 
 def test_what_is_refused_has_no_plan():

@@ -39,7 +39,7 @@ def test_a_result_says_what_it_was_solved_with():
     assert result.settings == grid | {"shape": "mapped", "spectrum": "mapped"}
     assert result.residual <= 1e-10
     assert result.normal_force == pytest.approx(1.0, rel=1e-10)
-    assert 1 <= result.applications <= 20
+    assert 1 <= result.operator_applications <= 20
     assert result.seconds >= 0
     measures = result.measures
     assert measures["pixel"] == 8e-6

@@ -121,7 +121,7 @@ def test_heights_over_many_draws_have_the_kurtosis_of_their_waves(kind, shortest
         fourth += (3 / 8 - 2 / 4) * waves[-1] ** 4 / 5e-5**4
     expected = 3 + (fourth if kind == "fixed" else 0.0)
     assert np.mean(heights**2) == pytest.approx(5e-5**2, rel=SIGMAS * sqrt(2 / 8000))
-    # Of the ten nodes some two are independent.
+    # Some two of the ten nodes are independent.
     kurtosis = np.mean(heights**4) / np.mean(heights**2) ** 2
     assert kurtosis == pytest.approx(expected, abs=SIGMAS * sqrt(24 / 8000))
     assert abs(-3 / 8 * np.sum(waves**4) / 5e-5**4) > 2 * SIGMAS * sqrt(24 / 8000)
@@ -153,7 +153,7 @@ def test_a_line_scan_lacks_the_height_of_what_is_longer_than_two_periods(hurst, 
     surface = draw(rough, 2000, "line-scan")
     kept = rough.share_line_scan(rough.q_min / 2, top, top)
     assert surface.rms_height == pytest.approx(5e-5 * sqrt(kept), rel=ROUNDING)
-    # Of a wave as long as the period a third: arcsin(1/2) of a quarter turn. Shorter ones lose less.
+    # A wave as long as the period loses a third: arcsin(1/2) of a quarter turn. Shorter ones lose less.
     assert 2 / 3 < kept < 1
     # Half the square of the full gradient; below 3/2 of the first wave the cell stands for it.
     assert surface.rms_slope_spectral == pytest.approx(rough.rms_slope(top) / sqrt(2), rel=0.03)

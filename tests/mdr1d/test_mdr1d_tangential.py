@@ -117,7 +117,7 @@ def test_a_pull_of_nothing_is_the_contact_at_rest(drawn):
     assert other.friction_force == 0
     assert not other.fields["tangential_line_force"].any()
     assert other.measures["stick_length"] == pytest.approx(one.measures["contact_length"], rel=ROUNDING)
-    assert (one.depth, one.applications) == (other.depth, other.applications)
+    assert (one.depth, one.operator_applications) == (other.depth, other.operator_applications)
 
 
 @pytest.mark.parametrize("motion", [Indent(load=LOAD), Slide(speed=0.1, load=LOAD)])

@@ -26,7 +26,7 @@ SIGNS = {ast.Add: ast.Sub, ast.Sub: ast.Add}
 FACTORS = {ast.Mult: ast.Div, ast.Div: ast.Mult}
 BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 
-# Of the sixty, those that no test can see, and why.
+# Those of the sixty that no test can see, and why.
 EQUIVALENT = {
     16: "an overlap below rounding of the heights, 1e-12 or 2e-12 of them, is none",
     18: "rounds the bracket of a root outwards or inwards by the last digit; Newton's steps end inside either",

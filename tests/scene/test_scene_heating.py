@@ -159,7 +159,7 @@ def test_with_feedback_temperature_and_heat_agree(peak, feedback):
     assert answer.scene == replace(SCENE, heating=Heating(conductivity=0.1, feedback=feedback))
     assert answer.settings == {"points": 3}
     count = found["heating_solves"]
-    assert (answer.applications, answer.seconds) == (5.0 * count, 0.25 * count)
+    assert (answer.operator_applications, answer.seconds) == (5.0 * count, 0.25 * count)
     # it matters
     cold = heated(SCENE, fake, conductivity=0.1)
     assert abs(answer.friction_coefficient / cold.friction_coefficient - 1) > 1e-3

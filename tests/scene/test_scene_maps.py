@@ -67,7 +67,7 @@ def scan_lines(heights, pixel):
 
 ROWS = {"unit": "um", "pixel": "stated"}
 UM = {"unit": "um"}
-# Of heights and a pixel in um: a text, and what it does not state.
+# A text of heights and a pixel in um, and what it does not state.
 LAYOUTS = {
     "rows": (lambda h, p: text(h), ROWS),
     "rows parted by commas, a separator at each end": (lambda h, p: text(h, ",").replace("\n", ",\n"), ROWS),

@@ -2,7 +2,7 @@ import pytest
 
 from scene.printable import LONGEST, brief, printable
 
-# Of a terminal: escape, bell, return, the C1 form of an escape, direction of reading, width none, half a letter.
+# Escape, bell, return, the C1 form of an escape, direction of reading, no width, half a letter.
 CONTROLS = ["\x1b[31m", "\a", "\r", "\b", "\x9b31m", "\u202e", "\u2066", "\u200b", "\ufeff", "\ud800", "\0"]
 
 

@@ -228,9 +228,9 @@ def test_trust_judges_the_fitted_surface_and_says_so():
     scene = replace(SLIDING, motion=Slide(speed=0.01, load=2.0))
     found, fitted = trust(scene), trust(replace(scene, roughness=PROFILE.fitted))
     assert found.groups == fitted.groups
-    assert all(FITTED in worth.reason for worth in found.worths.values())
-    assert [each.ratio for each in found.worths.values()] == pytest.approx(
-        [each.ratio for each in fitted.worths.values()], nan_ok=True
+    assert all(FITTED in worth.reason for worth in found.corrections.values())
+    assert [each.ratio for each in found.corrections.values()] == pytest.approx(
+        [each.ratio for each in fitted.corrections.values()], nan_ok=True
     )
 
 

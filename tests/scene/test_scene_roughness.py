@@ -12,7 +12,7 @@ from scene import CrossedWaves, SelfAffine, Wave
 from scene.selfaffine import power_integral
 
 ROUNDING = 1e-12
-# Of the directions of a line scan: measured 5e-14 on two decades.
+# Integral over the directions of a line scan: measured 5e-14 on two decades.
 QUADRATURE = 1e-11
 ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed=3)
 # The ends, the exponents at which an integral turns into a logarithm, and as near to those as numbers go.

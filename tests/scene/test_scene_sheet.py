@@ -54,7 +54,7 @@ def outcomes(path, draw, read, seeds):
     return sound, damaged
 
 
-# Of tables and maps in random dialects so many can be read: others have decimal commas between commas, cells that
+# So many tables and maps in random dialects can be read: others have decimal commas between commas, cells that
 # are empty between blanks, or names of several words parted by one blank.
 @pytest.mark.parametrize(("draw", "read", "share"), [(draw_table, read_table, 0.7), (draw_map, read_map, 0.75)])
 def test_a_file_in_any_dialect_is_read_as_it_was_written_or_refused(tmp_path, draw, read, share):

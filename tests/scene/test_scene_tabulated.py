@@ -190,7 +190,7 @@ def test_a_refusal_says_what_was_seen_at_rest():
 
 @pytest.mark.parametrize("noise", [0.01, 0.03])
 def test_the_error_of_the_modulus_at_rest_is_that_of_many_draws(noise):
-    # Of a plateau that the table shows; misfits over what was measured, itself with noise, hide a fifth of it.
+    # The table shows the plateau; misfits over what was measured, itself with noise, hide a fifth of it.
     law, omega = StandardLinearSolid(1e6, 1e7, 1e-3).complex_modulus, np.geomspace(1.0, 1e5, 30)
     found = [fitted(drawn(law, omega, noise, seed)) for seed in range(DRAWS)]
     apart = [(each.static_modulus - 1e6) / each.equilibrium_error for each in found]

@@ -49,7 +49,7 @@ SCENES = {
         Program(stages=(Stage(duration=0.01, load=1.0), Stage(duration=0.01, load=1.0, speed=0.05))),
     ),
 }
-# Of length, modulus of elasticity and time.
+# Powers of length, modulus of elasticity and time.
 UNITS = {
     "1": (0, 0, 0),
     "m": (1, 0, 0),
@@ -67,7 +67,7 @@ UNITS = {
 LENGTH, MODULUS, TIME = 2.0**3, 2.0**-4, 2.0**5
 # What is left of rounding where a solver takes powers or logarithms, and iterates on them.
 TOLERANCE = 1e-6
-OF_THE_MACHINE = {"seconds", "residual", "applications"}
+OF_THE_MACHINE = {"seconds", "residual", "operator_applications"}
 
 
 @cache

@@ -66,7 +66,7 @@ class Exact:
             depth=contact.depth,
             friction_force=0.0,
             residual=0.0,
-            applications=0.0,
+            operator_applications=0.0,
             seconds=time.process_time() - start,
             measures={"contact_area": pi * contact.radius**2, "contact_length": 2 * contact.radius},
             fields={"r": r, "pressure": pressure},

@@ -129,7 +129,7 @@ def _maps(
     scale, unit = prefixed([*span, aside], "m")
     panels = drawing.subplots(1, 3, sharex=True, sharey=True)
     x, y, pressure = touching.gridded(tables[PRESSURE], "pressure", pixel)
-    gap, lowered = (touching.rectangle(tables[SURFACE], "y", "x", name) for name in ("gap", "displacement"))
+    gap, lowered = (touching.unstacked(tables[SURFACE], "y", "x", name) for name in ("gap", "displacement"))
     x, y, at = scale * x, scale * y, (scale * gap.columns.to_numpy(), scale * gap.index.to_numpy())
     highest = touching.highest_pressure(pressure)
     (up, pascal), (high, of_gap), (deep, of_depth) = (

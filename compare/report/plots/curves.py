@@ -12,12 +12,13 @@ from . import style
 def intervals(
     axes: Axes, x: Any, points: DataFrame, name: str, times: float = 1.0, less: Any = 0.0, **look: Any
 ) -> None:
-    """Points with intervals of 95 %, of the columns `name`, `name`_low and `name`_high.
+    """Points with intervals of 95 %, of the columns `name` or `name`_mean, `name`_low and `name`_high.
 
     times, less : factor on all three, after `less` is taken from them; look : of `errorbar`
     """
+    middle = "" if name in points else "_mean"
     value, low, high = (
-        times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in ("", "_low", "_high")
+        times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in (middle, "_low", "_high")
     )
     axes.errorbar(x, value, yerr=style.bars(value, low, high), **look)
 
@@ -51,7 +52,6 @@ def averaged(points: DataFrame) -> str:
     if rough.empty:
         return "The body is smooth: bars are the change on halving the grid."
     count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
-    return (
-        f"Means over {count.get('MDR', 0)} profiles (1D) and {count.get('BEM', 0)} surfaces (3D); bars are "
-        "intervals of 95 %."
-    )
+    means = [f"{count.get('MDR', 0)} profiles (1D)", f"{count.get('BEM', 0)} surfaces (3D)"]
+    means += [f"{number} draws ({name})" for name, number in count.items() if name not in ("MDR", "BEM")]
+    return f"Means over {', '.join(means[:-1])} and {means[-1]}; bars are intervals of 95 %."

@@ -23,7 +23,7 @@ NAME = "shifted-curves"
 SHIFTS, POWERS, FITS = f"{NAME}-shifts", f"{NAME}-powers", f"{NAME}-fits"
 LOG10 = np.log(10)
 SLID = "speed times $a_T$ [m/s]"
-# Of more speeds, so many are drawn.
+# Most speeds that are drawn.
 SPEEDS = 8
 FITTED, EXPECTED, BOTH, ACROSS = "fitted", "expected", "both", "along friction"
 # Lines of other powers of the speed, in the order in which they come.

@@ -15,6 +15,7 @@ from itertools import cycle
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
+from zlib import crc32
 
 import matplotlib
 import numpy as np
@@ -40,12 +41,13 @@ COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00"}
 MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "exact": ""}
 LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "exact": "-"}
 LABEL = {"MDR": "1D (MDR)", "CorrectedMDR": "1D, corrected", "BEM": "3D (BEM)", "exact": "closed form"}
+OTHERS = ("#009E73", "#CC79A7", "#8A6D00", "#7E57C2")  # colours of models that did not come with the package
 SERIES_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 
-# Of the text, for all but labels and titles, and for what is written at points; heights are made for TEXT [point].
+# Font sizes relative to the base size: of all but labels and titles, of texts at points; the base size [point].
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
-# Of the page, what numbers and label of a vertical axis take.
+# Share of the page that numbers and label of a vertical axis take.
 BESIDE = 0.06
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
@@ -188,10 +190,10 @@ def chosen(look: Look) -> Iterator[None]:
 
 
 class _Palette(Mapping):
-    """Colours of solvers, and of closed forms, in the current look."""
+    """Colours of solvers, and of closed forms, in the current look; another model has one of its own for good."""
 
     def __getitem__(self, solver: str) -> str:
-        return ink() if solver == "exact" else current().palette[solver]
+        return ink() if solver == "exact" else current().palette.get(solver) or _own(solver, OTHERS)
 
     def __iter__(self) -> Iterator[str]:
         return iter((*COLOURS, "exact"))
@@ -246,8 +248,23 @@ def mark(times: float = 1.0) -> float:
 
 def look(solver: str, **other: Any) -> dict[str, Any]:
     """Colour, marker, line and label of a solver, with other settings of a curve."""
-    known = {"color": COLOUR[solver], "marker": MARKER[solver], "linestyle": LINE[solver], "label": LABEL[solver]}
+    known = {
+        "color": COLOUR[solver],
+        "marker": MARKER.get(solver) or ("" if solver == "exact" else _own(solver, SERIES_MARKERS[3:])),
+        "linestyle": LINE.get(solver) or _own(solver, SERIES_LINES[3:]),
+        "label": label(solver),
+    }
     return known | other
+
+
+def label(solver: str) -> str:
+    """Label of a solver: its name, of a model that did not come with the package."""
+    return LABEL.get(solver, solver)
+
+
+def _own(solver: str, choice: Sequence[Any]) -> Any:
+    """One of a choice for a model of a name, the same in every figure."""
+    return choice[crc32(solver.encode()) % len(choice)]
 
 
 def line(level: float, times: float = 1.0, **other: Any) -> dict[str, Any]:
@@ -308,7 +325,7 @@ def head(axes: Axes, text: str, count: int) -> None:
 
 def columns(labels: Iterable[str], inches: float, most: int) -> int:
     """Number of columns of a legend of these labels, so that it is no wider; at most so many."""
-    # Of matplotlib: the handle, its gap to the label, and that between columns, in multiples of the text.
+    # Widths of matplotlib: the handle, its gap to the label, and that between columns, in multiples of the text.
     around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
     points = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
     widest = max(text_width(label, points) for label in labels) + around * points / 72

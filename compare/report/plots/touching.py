@@ -74,7 +74,7 @@ def gridded(table: DataFrame, name: str, pixel: float) -> tuple[np.ndarray, np.n
     return x, y, found
 
 
-def rectangle(table: DataFrame, index: str, columns: str, values: str) -> DataFrame:
+def unstacked(table: DataFrame, index: str, columns: str, values: str) -> DataFrame:
     """A column of a table by two others. Raises ValueError of a table that lacks more of it than it has."""
     if table[index].nunique() * table[columns].nunique() > 2 * len(table):
         raise ValueError(f"{values} is not known at every {index} and {columns}")

@@ -1,7 +1,8 @@
 """A page as Markdown, with its figures and tables in files beside it: for documentation."""
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 
 from ...solving.vocabulary import entry, stem
 from ..manifest import FINDINGS, made
@@ -10,19 +11,44 @@ from ..plots.rendering import Picture
 from . import mathematics
 from .columns import claims, columns
 
-MOST_ROWS = 100
+MOST_ROWS = 40  # of all tables of a page: a table is shown whole while there is room, else by its file
+SAID = "Caption as above."
 SPECIAL = re.compile(r"([\\`*\[\]<>|$]|(?<![^\W_])_|_(?![^\W_]))")
+
+
+@dataclass
+class _Shown:
+    """What a page has shown so far: names to be defined at its end, captions, and how many rows are left."""
+
+    names: dict[str, None] = field(default_factory=dict)
+    captions: set[str] = field(default_factory=set)
+    room: int = MOST_ROWS
+
+    def takes(self, rows: int) -> bool:
+        """Whether a table of so many rows still fits; if so, they are taken."""
+        fits = rows <= self.room
+        self.room -= rows if fits else 0
+        return fits
+
+    def define(self, names: Iterable[str]):
+        self.names.update(dict.fromkeys(names))
+
+    def caption(self, words: str) -> str:
+        """A caption; where the page has said it already, that it is the one above."""
+        told = SAID if words in self.captions else typeset(words)
+        self.captions.add(words)
+        return told
 
 
 def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
     """The page; what stands in tables is defined at its end."""
-    used: dict[str, None] = {}
+    shown = _Shown()
     parts = [f"# {escaped(page.title)}", "\n".join(f"- **{typeset(each)}**" for each in page.first)]
     parts += ["\n".join(f"- {typeset(sentence)}" for sentence in page.answer)]
-    parts += _blocks(page.blocks, 2, used)
+    parts += _blocks(page.blocks, 2, shown)
     parts.append(f"All findings, every digit: [{FINDINGS}.csv]({FINDINGS}.csv).")
-    if used:
-        parts += ["## Definitions", "\n".join(f"- {_definition(name)}" for name in used)]
+    if shown.names:
+        parts += ["## Definitions", "\n".join(f"- {_definition(name)}" for name in shown.names)]
     about = {**page.about, **made()}
     parts += ["## How this page was made", "\n".join(f"- {name}: {escaped(fact)}" for name, fact in about.items())]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -46,41 +72,44 @@ def table(heads: list[str], rows: list[list[str]], numeric: list[bool]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in cells)
 
 
-def _blocks(blocks, level, used) -> Iterator[str]:
+def _blocks(blocks, level, shown) -> Iterator[str]:
     for block in blocks:
         match block:
             case Text(markdown):
                 yield markdown.strip()
             case Table():
-                yield from _table(block, used)
+                yield from _table(block, shown)
             case Findings():
-                yield from _findings(block, used)
+                yield from _findings(block, shown)
             case Plot():
                 yield f"![{escaped(block.alternative or block.caption)}]({block.name}.png)"
                 data = ", ".join(f"[{name}.csv]({block.folder}{name}.csv)" for name in block.tables)
-                yield f"{typeset(block.caption)}{f' Data: {data}.' if data else ''}"
+                yield f"{shown.caption(block.caption)}{f' Data: {data}.' if data else ''}"
             case Section(title, inside):
                 yield f"{'#' * level} {escaped(title)}"
-                yield from _blocks(inside, level + 1, used)
+                yield from _blocks(inside, level + 1, shown)
 
 
-def _table(block, used):
+def _table(block, shown):
     if block.caption:
         yield typeset(block.caption)
-    if not block.long and len(block.frame) <= MOST_ROWS:
-        shown = columns(block.frame)
-        used.update(dict.fromkeys(stem(column.name) for column in shown if entry(column.name)))
-        rows = [list(row) for row in zip(*(column.texts for column in shown), strict=True)]
-        yield table([column.title for column in shown], rows, [column.numeric for column in shown])
+    if not block.long and shown.takes(len(block.frame)):
+        cells = columns(block.frame)
+        shown.define(stem(column.name) for column in cells if entry(column.name))
+        rows = [list(row) for row in zip(*(column.texts for column in cells), strict=True)]
+        yield table([column.title for column in cells], rows, [column.numeric for column in cells])
     yield f"Every digit of {len(block.frame)} rows: [{block.name}.csv]({block.name}.csv)."
 
 
-def _findings(block, used):
-    used.update(dict.fromkeys(("verdict", "dimension", "value", "tolerance", "grid_method")))
+def _findings(block, shown):
     if block.caption:
         yield typeset(block.caption)
-    shown = claims(block.findings)
-    yield table(list(shown), [list(row) for row in zip(*shown.values(), strict=True)], [False] * len(shown))
+    if not shown.takes(len(block.findings)):
+        yield f"{len(block.findings)} findings stand in [{FINDINGS}.csv]({FINDINGS}.csv)."
+        return
+    shown.define(("verdict", "dimension", "value", "tolerance", "grid_method"))
+    cells = claims(block.findings)
+    yield table(list(cells), [list(row) for row in zip(*cells.values(), strict=True)], [False] * len(cells))
 
 
 def _definition(name):

@@ -10,7 +10,7 @@ from . import prose
 from .columns import columns
 
 WIDTH = 100
-# Of tables that a terminal can show.
+# Largest table that a terminal can show.
 MOST_ROWS, WIDEST = 40, 200
 
 

@@ -16,7 +16,7 @@ from scene import Refused, Scene, SolveError, Solver
 from scene.protocol import refuse
 from scene.quantities import SECOND, WHOLE, takes
 
-from ...library.lookup import Asked, case_of
+from ...library.lookup import SceneLike, case_of
 from ...report.plots import style
 from ...solving.runner import SweepProgress, sweep
 from ...solving.store import Store, make, write
@@ -34,7 +34,7 @@ MP4 = ["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p", "-movfl
 
 @takes(frames=WHOLE, seconds=SECOND)
 def animate(
-    scene: Asked,
+    scene: SceneLike,
     output: str | Path | None = None,
     frames: int = 60,
     seconds: float = 6.0,

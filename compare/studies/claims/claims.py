@@ -37,20 +37,20 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
     (nan, 2 * TOLERANCE): {
-        "why17.contact-exponent": (
+        "eq17.contact": (
             "Behind Eq. 17: real contact grows with the load as the nominal contact does",
             "d ln of the length of real contact (1D), or of its area (3D), over d ln F_N, at the slowest speed, "
             "least squares over the loads or depths. The paper takes contact for full, and its length for 2a.",
         ),
     },
     (0.0, 2 * TOLERANCE): {
-        "why17.drag-exponent": (
+        "eq17.friction-per-contact": (
             "Behind Eq. 17: friction over the real contact is the same at every load",
             "d ln of the friction force over the length (1D) or area (3D) of real contact, over d ln F_N, at the "
             "slowest speed, least squares over the loads or depths. With the exponent of the contact it makes up "
             "that of friction.",
         ),
-        "why17.slope-exponent": (
+        "eq17.slope-in-contact": (
             "Behind Eq. 17: what touches is as steep at every load",
             "d ln of the rms slope over the real contact, over d ln F_N, at the slowest speed, least squares over "
             "the loads or depths.",
@@ -94,10 +94,10 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
             "at which all are at that limit, but for what Eq. 19 still lacks of it.",
         ),
-        "pair.friction-slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
-        "pair.friction-knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
-        "pair.friction-fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
-        "pair.smooth": (
+        "friction.ratio.slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
+        "friction.ratio.knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
+        "friction.ratio.fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
+        "friction.ratio.smooth": (
             "Smooth, at the slowest speed: friction in 1D is that in 3D",
             f"{_RATIO} It tends to 2 as the speed tends to zero.",
         ),

@@ -13,8 +13,8 @@ from ...models.exact.indentation import loading_force
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from .claims import claim
-from .claims_friction import finding
-from .series import ROUGH, SMOOTH, SOLVERS, Contacts, Series
+from .claims_friction import finding, pair_findings
+from .series import ROUGH, SMOOTH, Contacts, Series
 
 
 def depth_findings(contacts: Contacts) -> list[Finding]:
@@ -22,20 +22,17 @@ def depth_findings(contacts: Contacts) -> list[Finding]:
     series, words = contacts.series, where(contacts.series)
     found = [
         finding(claim(name, partial(measure, solver), dimension), contacts, SMOOTH, words, solver, plot=plot)
-        for solver, dimension in SOLVERS.items()
+        for solver, dimension in contacts.labels.items()
         for name, measure, plot in _smooth(series)
     ]
     found += rest_findings(contacts, words)
     if not series.speeds and not series.pressed_in and len(series.values) > 2:
-        stiffness = claim(
-            "rest.stiffness", lambda sample: np.log(_secants(sample["MDR"]) / _secants(sample["BEM"]))
-        )
-        found.append(finding(stiffness, contacts, ROUGH, words, plot="depth"))
+        found += pair_findings("rest.stiffness", _stiffer, contacts, ROUGH, words, "depth")
     if series.pressed_in and len(series.speeds) > 1:
         for place, name in ((0, "slow"), (-1, "fast")):
-            apart = claim(f"pressed-in.{name}", partial(_pressed_apart, series, place))
             regime = f"{series.speeds[place]:.2g} m/s; {words}"
-            found.append(finding(apart, contacts, ROUGH, regime, plot="pressed-in"))
+            apart = partial(_pressed_apart, series, place)
+            found += pair_findings(f"pressed-in.{name}", apart, contacts, ROUGH, regime, "pressed-in")
     return found
 
 
@@ -44,19 +41,20 @@ def rest_findings(contacts: Contacts, words: str) -> list[Finding]:
     series = contacts.series
     depths, at_load = closed_forms(series)[1], series.prescribed == "load"
 
-    def apart(places, sample):
+    def apart(places, one, three):
         if at_load:
-            one, three = (mean(sample[solver], "depth_reached")[0] for solver in SOLVERS)
-            return ((one - three) / depths)[places]
-        one, three = (np.log(mean(sample[solver], "normal_force")[0]) for solver in SOLVERS)
-        return (one - three)[places]
+            return ((mean(one, "depth_reached")[0] - mean(three, "depth_reached")[0]) / depths)[places]
+        return (np.log(mean(one, "normal_force")[0]) - np.log(mean(three, "normal_force")[0]))[places]
 
     deep = depths * MUCH_LESS_HEIGHT >= series.scene.roughness.rms_height
     what = "depth" if at_load else "force"
     return [
-        finding(claim(f"rest.{what}-{side}", partial(apart, places)), contacts, ROUGH, words, plot="depth")
+        found
         for side, places in (("deep", deep), ("shallow", ~deep))
         if places.any()
+        for found in pair_findings(
+            f"rest.{what}-{side}", partial(apart, places), contacts, ROUGH, words, plot="depth"
+        )
     ]
 
 
@@ -102,9 +100,13 @@ def _smooth(series) -> Iterator[tuple[str, Callable, str]]:
         yield "smooth.pressed-in", lambda solver, it: _over_smooth(series, it[solver]) - 1, "pressed-in"
 
 
-def _pressed_apart(series, place, sample):
-    one, three = (_over_smooth(series, sample[solver])[place, -1] for solver in SOLVERS)
+def _pressed_apart(series, place, *both):
+    one, three = (_over_smooth(series, each)[place, -1] for each in both)
     return float(np.log(one / three))
+
+
+def _stiffer(one, three):
+    return np.log(_secants(one) / _secants(three))
 
 
 def _over_smooth(series, answers):

@@ -7,48 +7,65 @@ from math import nan
 
 import numpy as np
 
+from ...models.table import PROFILES
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import UNDECIDED, Claim, Finding
+from ...statistics.finding import UNDECIDED, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import friction, mean, mean_ratio, measured
 from .claims import at_xi, claim, geometric, power
 from .laws import Laws, slow_drag
-from .series import CONTACT, ROUGH, SMOOTH, SOLVERS, Contacts, sliding
+from .series import CONTACT, ROUGH, SMOOTH, Contacts, sliding
 
 # Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is
 # off its limit by less than the tolerance. Above FAST Eq. 19 is within 12 % of its plateau.
 SLOW, FAST = 0.1, 3.0
 # Ratio of xi to 1, or of 1 to xi, up to which the closest speed is at the knee.
 AT_THE_KNEE = 3.0
+# Claims on what is behind Eq. 17, by the column of its figure.
+WHY = {"contact": "eq17.contact", "drag": "eq17.friction-per-contact", "slope": "eq17.slope-in-contact"}
 
 
 def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
     """Findings on a series that slides, except those on the shifts of its curves."""
     found = []
-    for solver, dimension in SOLVERS.items():
-        words = laws[solver].words
-        for name, measure, xi, expected in _one_sided(contacts.series, solver, laws[solver]):
+    for solver, law in laws.items():
+        dimension, words = contacts.labels[solver], law.words
+        for name, measure, xi, expected in _one_sided(contacts.series, solver, law):
             each = claim(name, partial(_of_one, measure, solver), dimension, expected)
             regime = words if xi is None else at_xi(xi, words)
-            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name[:3] == "why" else "levels"
+            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name in WHY.values() else "levels"
             found.append(finding(each, contacts, ROUGH, regime, solver, plot=plot))
-    words = laws["BEM"].words
-    for name, place in _places(laws["BEM"]):
-        regime = at_xi(laws["BEM"].xi[place], words)
-        found.append(finding(claim(name, partial(_ratio, place)), contacts, ROUGH, regime))
-    return [*found, finding(claim("pair.smooth", partial(_ratio, 0)), contacts, SMOOTH, words)]
+    known = laws[contacts.series.models.reference]
+    for name, place in _places(known):
+        regime = at_xi(known.xi[place], known.words)
+        found += pair_findings(name, partial(_ratio, place), contacts, ROUGH, regime)
+    return [*found, *pair_findings("friction.ratio.smooth", partial(_ratio, 0), contacts, SMOOTH, known.words)]
+
+
+def pair_findings(
+    name: str, measure: Callable, contacts: Contacts, body: str, regime: str, plot: str = "levels"
+) -> list[Finding]:
+    """Findings of a claim on each model against the reference. measure : of answers of both, in this order"""
+    found = []
+    for model, reference, beside in contacts.pairs():
+
+        def of_both(sample, both=(model, reference)):
+            return measure(*(sample[each] for each in both))
+
+        each = replace(said_of(claim(name, of_both), beside), dimension=beside)
+        found.append(finding(each, contacts, body, regime, model, reference, plot=plot))
+    return found
 
 
 def _of_one(measure, solver, sample):
     return measure(sample[solver])
 
 
-def _ratio(place, sample):
+def _ratio(place, one, three):
     """Friction in 1D over 3D at a speed, geometric mean over the loads or depths."""
-    one, three = (friction(sample[solver])[1:][place] for solver in SOLVERS)
-    return geometric(one / three)
+    return geometric(friction(one)[1:][place] / friction(three)[1:][place])
 
 
 def finding(
@@ -59,7 +76,7 @@ def finding(
     solvers : those whose surfaces are left out; both if absent
     plot : name of the plot that shows it, in the folder of the series
     """
-    fine, coarse = (contacts.sample(grid, body, *(solvers or SOLVERS)) for grid in (FINE, COARSE))
+    fine, coarse = (contacts.sample(grid, body, *(solvers or contacts.labels)) for grid in (FINE, COARSE))
     return measured(each, fine, coarse, contacts.series.name, regime, f"{contacts.series.folder}/{plot}")
 
 
@@ -91,8 +108,9 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
 
     def over_limit(answers):
         rest = answers.isel(speed=0)
-        force = rest["normal_force"].transpose(..., "draw").values
-        limit = series.speeds[0] * mean_ratio(slow_drag(series.scene.solid, solver, rest), force).value
+        force = rest["normal_force"].transpose(..., "seed").values
+        drag = slow_drag(series.scene.solid, series.models[solver].draws, rest)
+        limit = series.speeds[0] * mean_ratio(drag, force).value
         return geometric(mu(answers)[0] / limit)
 
     slowest, fast = laws.xi[0], laws.xi[-1] >= FAST
@@ -102,10 +120,11 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
         if len(series.values) > 1:
             exponent = laws.exponent_of_load
             yield "eq17.load-exponent", with_load(lambda it: mu(it)[0]), slowest, exponent
-            for name, (variable, below) in behind(solver).items():
-                law = nominal_exponent(solver, exponent) if name == "contact" else None
+            draws = series.models[solver].draws
+            for name, (variable, below) in behind(draws).items():
+                law = nominal_exponent(draws, exponent) if name == "contact" else None
                 measure = with_load(partial(_slowest, variable, below))
-                yield f"why17.{name}-exponent", measure, slowest, law
+                yield WHY[name], measure, slowest, law
         yield "eq17.level", lambda it: geometric(mu(it)[0] / (laws.plateau * xi(it)[0])), slowest, None
         # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
         if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
@@ -126,9 +145,9 @@ def _slowest(variable, below, answers):
     return mean(answers, variable, below)[1]
 
 
-def behind(solver: str) -> dict[str, tuple[str, str | None]]:
+def behind(draws: str) -> dict[str, tuple[str, str | None]]:
     """Causes of the load in slow friction: a variable, or its ratio to another; by the names of claims."""
-    contact = CONTACT[solver]
+    contact = CONTACT[draws]
     return {
         "contact": (contact, None),
         "drag": ("friction_force", contact),
@@ -136,9 +155,9 @@ def behind(solver: str) -> dict[str, tuple[str, str | None]]:
     }
 
 
-def nominal_exponent(solver: str, of_friction: float) -> float:
+def nominal_exponent(draws: str, of_friction: float) -> float:
     """d ln of the nominal contact, a length (1D) or an area (3D), over d ln F_N; of_friction : of Eq. 17."""
-    return (1 + of_friction) * (1 if solver == "MDR" else 2)
+    return (1 + of_friction) * (1 if draws == PROFILES else 2)
 
 
 def _places(laws) -> Iterator[tuple[str, int]]:
@@ -146,11 +165,11 @@ def _places(laws) -> Iterator[tuple[str, int]]:
     middle, knee = _closest_to_one(laws)
     last = len(middle) - 1
     if middle[0] < 1 and knee != 0:
-        yield "pair.friction-slow", 0
+        yield "friction.ratio.slow", 0
     if knee is not None:
-        yield "pair.friction-knee", knee
+        yield "friction.ratio.knee", knee
     if middle[last] > 1 and knee != last:
-        yield "pair.friction-fast", last
+        yield "friction.ratio.fast", last
 
 
 def _closest_to_one(laws) -> tuple[np.ndarray, int | None]:
@@ -180,7 +199,7 @@ def shift_findings(
     contacts: Contacts, solver: str, both: tuple[Collapse, Collapse] | None, laws: Laws
 ) -> Iterator[Finding]:
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
-    series, dimension = contacts.series, SOLVERS[solver]
+    series, dimension = contacts.series, contacts.labels[solver]
     words, draws = laws.words, series.draws[solver]
     plots = f"{series.folder}/collapse", f"{series.folder}/shifts"
     if both is not None:

@@ -11,11 +11,11 @@ from ...statistics.collapse import collapse
 from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
-from ...statistics.jackknife import Sample, friction, mean_ratio, measured
+from ...statistics.jackknife import DrawSet, friction, mean_ratio, measured
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
 from .judgement import JudgedSeries
-from .series import FAMILIES, ROUGH, SOLVERS, sliding
+from .series import FAMILIES, ROUGH, sliding
 
 PLOT = "family"
 
@@ -40,7 +40,7 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
     loads, frictions = [], []
     for judged in members:
         answers, laws = sliding(judged.contacts(solver, ROUGH, grid)), judged.laws[solver]
-        force, drag = (answers[name].transpose(..., "draw").values for name in ("normal_force", "friction_force"))
+        force, drag = (answers[name].transpose(..., "seed").values for name in ("normal_force", "friction_force"))
         mean = mean_ratio(force).value[..., None]
         unit = 1 / laws.xi_under(mean[..., 0])[..., None] / mean
         loads.append((force * unit).reshape(-1, force.shape[2]))
@@ -53,7 +53,7 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
 def family_findings(series: Sequence[JudgedSeries]) -> Iterator[Finding]:
     """Findings for each shape and dimensionality."""
     for shape, members in families(series).items():
-        for solver in SOLVERS:
+        for solver in members[0].laws:
             yield _one_curve(members, solver, shape)
             yield from _slope_exponents(members, solver, shape)
 
@@ -64,7 +64,7 @@ def _one_curve(members, solver, shape):
     found = eq23.finding(CLAIMS["eq18.one-curve"], fine, coarse, unknown)
     return replace(
         found,
-        dimension=SOLVERS[solver],
+        dimension=members[0].contacts.labels[solver],
         where=f"every {shape}",
         draws=members[0].series.draws[solver],
         regime=_words(members, solver),
@@ -89,7 +89,7 @@ def _slope_exponents(members, solver, shape):
     plateaus = np.array([each.plateau for each in laws])
     # The same surfaces are left out of all series.
     fine, coarse = (
-        Sample({each.series.name: each.contacts.sample(grid, ROUGH, solver)[solver] for each in alike})
+        DrawSet({each.series.name: each.contacts.sample(grid, ROUGH, solver)[solver] for each in alike})
         for grid in (FINE, COARSE)
     )
     slow = np.all([(each.xi[0] <= SLOW) & (each.slowest_loss <= SLOW) for each in laws], axis=0)
@@ -109,7 +109,9 @@ def _slope_exponents(members, solver, shape):
             return power(plateaus, np.array(levels))
 
         words = at_xi(np.array([each.xi[place][values] for each in laws]), _words(alike, solver))
-        yield measured(claim(name, exponent, SOLVERS[solver]), fine, coarse, f"every {shape}", words, PLOT)
+        yield measured(
+            claim(name, exponent, members[0].contacts.labels[solver]), fine, coarse, f"every {shape}", words, PLOT
+        )
 
 
 def _apart_by_height(members):

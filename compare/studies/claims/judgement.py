@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ...statistics.collapse import Collapse
-from ...statistics.finding import BOTH, Finding
+from ...statistics.finding import Finding
 from .claims_depth import depth_findings, rest_findings
 from .claims_friction import collapses, friction_findings, shift_findings
 from .laws import Laws, laws
@@ -38,9 +38,10 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
     series = contacts.series
     if not series.slides:
         return JudgedSeries(contacts, {}, {}, _asked(series, depth_findings(contacts), DEPTH))
-    found = {solver: laws(contacts, solver) for solver in SOLVERS}
+    found = {solver: laws(contacts, solver) for solver in contacts.labels}
     ruled = {solver: each for solver, each in found.items() if each is not None}
-    if len(ruled) < len(found):
+    reference = series.models.reference
+    if reference not in ruled or not set(found) & set(SOLVERS) <= set(ruled):
         return JudgedSeries(contacts, {}, {}, ())
     shifted: dict[str, Collapse] = {}
     shifts: list[Finding] = []
@@ -49,12 +50,12 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
         if both is not None:
             shifted[solver] = both[0]
         shifts += shift_findings(contacts, solver, both, each)
-    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled["BEM"].words)]
+    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled[reference].words)]
     findings = _asked(series, shifts, COLLAPSE) + _asked(series, friction, FRICTION)
     return JudgedSeries(contacts, ruled, shifted, findings)
 
 
 def _asked(series: Series, found: Iterable[Finding], kind: str) -> tuple[Finding, ...]:
     """Findings of a kind that is asked; what compares the dimensionalities is a kind of its own."""
-    kinds = ((PAIRS if each.dimension == BOTH else kind, each) for each in found)
+    kinds = ((PAIRS if "/" in each.dimension else kind, each) for each in found)
     return tuple(each for kind, each in kinds if kind in series.claims)

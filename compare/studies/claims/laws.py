@@ -10,6 +10,7 @@ import xarray
 from mdr1d import equations
 
 from ...models import exact
+from ...models.table import PROFILES
 from ...statistics.jackknife import mean_ratio
 from .regime import SYMBOLS, ratios, words
 from .series import Contacts, Series, sliding
@@ -69,12 +70,14 @@ class Laws:
 
 
 def laws(contacts: Contacts, solver: str) -> Laws | None:
-    """Laws for the rough body that slides; None where no solve has an answer.
+    """Laws for the rough body that slides; None where no solve has an answer, or none measures the slope.
 
     The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
     solver's own measure.
     """
     series, answers = contacts.series, sliding(contacts(solver))
+    if not {"rms_slope", "pixel"} <= set(answers.variables):
+        return None
     groups = regimes(series, answers)
     if not np.isfinite(groups["depth_over_height"]).any():
         return None
@@ -132,10 +135,10 @@ def regimes(series: Series, answers: xarray.Dataset) -> dict[str, np.ndarray]:
     return found
 
 
-def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:
+def slow_drag(elastomer, draws: str, rest: xarray.Dataset) -> np.ndarray:
     """Friction force over speed as that tends to zero [N s/m], (values, draws), from the contact at rest."""
     lag = exact.mean_lag(elastomer)
-    if solver == "BEM":
+    if draws != PROFILES:
         load, curvature = (_draws(rest, name) for name in ("normal_force", "curvature_by_pressure"))
         return exact.slow_friction_by_curvature(1.0, lag, load, curvature)
     slope, length = (_draws(rest, name) for name in ("rms_slope_contact", "contact_length"))
@@ -145,7 +148,7 @@ def slow_drag(elastomer, solver: str, rest: xarray.Dataset) -> np.ndarray:
 def _draws(answers, name):
     """Variable with the draws along the last axis; smooth bodies have one."""
     values = answers[name]
-    return values.transpose(..., "draw").values if "draw" in values.dims else values.values[..., None]
+    return values.transpose(..., "seed").values if "seed" in values.dims else values.values[..., None]
 
 
 def _power(rates):

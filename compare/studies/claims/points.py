@@ -32,7 +32,7 @@ def interval(statistic: Callable[[Mapping], np.ndarray], contacts: Contacts, bod
 
     solvers : of which surfaces are left out; both if absent
     """
-    fine, coarse = (contacts.sample(grid, body, *(solvers or SOLVERS)) for grid in (FINE, COARSE))
+    fine, coarse = (contacts.sample(grid, body, *(solvers or contacts.labels)) for grid in (FINE, COARSE))
     return compared(statistic, fine, coarse).interval
 
 
@@ -73,19 +73,22 @@ def place_columns(series, name="speed") -> dict[str, np.ndarray]:
 
 def points(contacts: Contacts) -> DataFrame:
     """A row for each solver, body, speed, and load or depth: means, intervals of 95 %, dimensionless groups."""
-    frames = {(SOLVERS[solver], body): _rows(contacts, solver, body) for solver, body in contacts.datasets}
+    frames = {(contacts.labels[solver], body): _rows(contacts, solver, body) for solver, body in contacts.datasets}
     return stacked(frames, "dimension", "body")
 
 
 def failures(contacts: Contacts) -> DataFrame:
     """Every solve that failed, with its reason."""
-    found = {(SOLVERS[solver], body): means.failures(each) for (solver, body), each in contacts.datasets.items()}
+    found = {
+        (contacts.labels[solver], body): means.failures(each) for (solver, body), each in contacts.datasets.items()
+    }
     return stacked(found, "dimension", "body")
 
 
 def _rows(contacts, solver, body):
     dataset = contacts.datasets[solver, body]
-    if CONTACT[solver] in dataset:
-        dataset = dataset.assign(contact=dataset[CONTACT[solver]])
-    groups = regimes(contacts.series, contacts(solver)) if body == ROUGH else {}
+    touching = CONTACT[contacts.series.models[solver].draws]
+    if touching in dataset:
+        dataset = dataset.assign(contact=dataset[touching])
+    groups = regimes(contacts.series, contacts(solver)) if body == ROUGH and "rms_slope" in dataset else {}
     return means.means(dataset).assign(**{name: groups[name].ravel() if groups else nan for name in GROUPS})

@@ -1,6 +1,6 @@
 """Series of a study: one scene at every speed and every load or depth, rough and smooth, on the same surfaces."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
@@ -13,16 +13,16 @@ from scene import Program, Scene
 from scene.reading import InvalidInput
 
 from ...library.describe import slug
-from ...solving.parameter_grid import FINE, Rectangle, on_two_grids
-from ...statistics.jackknife import Sample
+from ...models.table import ModelLike, Models
+from ...solving.parameter_grid import FINE, ParameterGrid, on_two_grids
+from ...statistics.jackknife import DrawSet
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
 # each, all that compares the dimensionalities, and what compares several series.
 COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = KINDS = "collapse", "friction", "depth", "dimensions", "families"
 SOLVERS = {"MDR": "1D", "BEM": "3D"}
-# What touches, a length [m] or an area [m²].
-CONTACT = {"MDR": "contact_length", "BEM": "contact_area"}
+CONTACT = {"profiles": "contact_length", "surfaces": "contact_area", "none": "contact_area"}  # [m], [m²]
 # Variables that claims are measured on; others are not copied for every draw that is left out.
 MEASURED = ("normal_force", "friction_force", "depth_reached")
 AT_REST = ("curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area")
@@ -41,6 +41,7 @@ class Series:
     bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
     note : what is to be said of it on the page
     claims : which kinds of claims are judged, out of KINDS
+    asked, reference : models and the reference among them, see `Models.of`; MDR and BEM if none is asked for
     """
 
     name: str
@@ -54,6 +55,8 @@ class Series:
     mdr: MDR
     note: str = ""
     claims: tuple[str, ...] = KINDS
+    asked: tuple[ModelLike, ...] = ()
+    reference: str = ""
 
     @property
     def folder(self) -> str:
@@ -67,8 +70,13 @@ class Series:
 
     @property
     def draws(self) -> dict[str, int]:
-        """Number of profiles or surfaces by the name of the solver."""
-        return {"MDR": self.profiles, "BEM": self.surfaces}
+        """Number of profiles or surfaces by the name of the model."""
+        return {each.name: each.count(self.profiles, self.surfaces) for each in self.models}
+
+    @cached_property
+    def models(self) -> Models:
+        """Models that are compared. Raises InvalidInput."""
+        return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
 
     @property
     def pressed_in(self) -> bool:
@@ -81,18 +89,18 @@ class Series:
         return bool(self.speeds) and not self.pressed_in
 
     @cached_property
-    def rectangles(self) -> Mapping[str, Rectangle]:
-        """Rectangles of the rough and of the smooth body, by "series/body"; the first speed is rest.
+    def grids(self) -> Mapping[str, ParameterGrid]:
+        """Parameter grids of the rough and of the smooth body, by "series/body"; the first speed is rest.
 
         Raises InvalidInput if the scene has no roughness.
         """
         if self.scene.roughness is None:
             raise InvalidInput(f"{self.title}: a series asks what roughness does, and this scene has none")
-        rough = Rectangle(
+        rough = ParameterGrid(
             scene=self.scene,
             speeds=(0.0, *self.speeds),
             values=self.values,
-            grids=on_two_grids(self.mdr, self.bem),
+            grids=on_two_grids(*(each.solver for each in self.models)),
             draws=self.draws,
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
@@ -100,7 +108,7 @@ class Series:
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The rough scene under one load or depth, at rest or at a speed."""
-        return self.rectangles[f"{self.name}/{ROUGH}"].at(value, speed)
+        return self.grids[f"{self.name}/{ROUGH}"].at(value, speed)
 
 
 @dataclass(frozen=True)
@@ -111,21 +119,34 @@ class Contacts:
     answers: xarray.DataTree
 
     def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> xarray.Dataset:
-        """Dataset on one grid, rest first."""
-        return self.datasets[solver, body].sel(grid=grid)
+        """Dataset on one grid, rest first; a model without another grid has no error of it."""
+        found = self.datasets[solver, body]
+        return found.sel(grid=grid if grid in found["grid"] else FINE)
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """Labels of the models by name: 1D, 3D."""
+        return self.series.models.labels
+
+    def pairs(self) -> Iterator[tuple[str, str, str]]:
+        """Each model and the reference, by name, and their dimension in findings: MDR, BEM, 1D/3D."""
+        models = self.series.models
+        return ((each.name, models.reference, models.beside(each.name)) for each in models.judged)
 
     @cached_property
     def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:
         """Datasets on both grids, by solver and body."""
-        places = {(solver, body): f"{self.series.name}/{body}/{solver}" for solver in SOLVERS for body in BODIES}
+        places = {
+            (solver, body): f"{self.series.name}/{body}/{solver}" for solver in self.labels for body in BODIES
+        }
         nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
 
-    def sample(self, grid: str, body: str, *solvers: str) -> Sample:
+    def sample(self, grid: str, body: str, *solvers: str) -> DrawSet:
         """Datasets by the name of the solver, of which draws can be left out; always the same object."""
         key = grid, body, solvers
         if key not in self._samples:
-            self._samples[key] = Sample({solver: _measured(self(solver, body, grid)) for solver in solvers})
+            self._samples[key] = DrawSet({solver: _measured(self(solver, body, grid)) for solver in solvers})
         return self._samples[key]
 
     @cached_property

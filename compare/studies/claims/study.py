@@ -1,7 +1,7 @@
 """Claims of the paper judged on series of contacts: `crosscheck study`."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os.path import lexists
 from pathlib import Path
@@ -16,20 +16,21 @@ from scene.reading import InvalidInput, text_of
 from ...library.describe import described, slug
 from ...library.lookup import located
 from ...library.ready import ready, studies
-from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...models.table import ModelLike, listed
+from ...report.page import Block, Findings, Section, Table, Text
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import Rectangle, refuse
+from ...solving.parameter_grid import ParameterGrid, refuse
 from ...solving.suggest import known
 from ...solving.task import Task
 from ...statistics import eq23
 from ...statistics.finding import REPORTED, VERDICTS, Finding, claimed, sentences
-from ..study import Study
+from ..study import Judgement, Study
 from .catalogue import SIZES, STUDIES, ReadyStudy
 from .families import family_findings
 from .figures import tables as study_plots
 from .judgement import JudgedSeries, judge_series
 from .points import failures, points
-from .series import SOLVERS, Contacts, Series
+from .series import Contacts, Series
 from .study_file import study_of
 
 ALL = "all"
@@ -61,33 +62,42 @@ class ClaimStudy(Study):
     study : the question
     size : a name of SIZES
     source : text of the file of a study that does not come with the package
+    models, reference : in place of those that its file names, see `Models.of`
     """
 
     name: str
     study: ReadyStudy
     size: str
     source: str | None = None
-    _judged: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+    models: tuple[ModelLike, ...] = ()
+    reference: str = ""
 
     command = "study"
 
     @classmethod
-    def of(cls, name: str | Path, size: str = "quick") -> "ClaimStudy | AllStudies":
+    def of(
+        cls,
+        name: str | Path,
+        size: str = "quick",
+        models: Sequence[ModelLike] | None = None,
+        reference: str | None = None,
+    ) -> "ClaimStudy | AllStudies":
         """The study of a name that comes with the package, all of them, or that of a file.
 
         Raises InvalidInput, Refused.
         """
         known("size", size, SIZES)
         found: ClaimStudy | AllStudies
+        chosen = listed(models), reference or ""
         if name == ALL:
-            found = AllStudies(tuple(cls(each, study, size) for each, study in STUDIES.items()))
+            found = AllStudies(tuple(cls(each, study, size, None, *chosen) for each, study in STUDIES.items()))
         elif name in STUDIES:
-            found = cls(str(name), STUDIES[str(name)], size)
+            found = cls(str(name), STUDIES[str(name)], size, None, *chosen)
         else:
             path = _located(name)
             text = text_of(path)
-            found = cls(path.stem, study_of(text, str(path)), size, text)
-        refuse(found.rectangles().values())
+            found = cls(path.stem, study_of(text, str(path)), size, text, *chosen)
+        refuse(found.grids().values())
         return found
 
     @property
@@ -110,11 +120,17 @@ class ClaimStudy(Study):
     @cached_property
     def series(self) -> tuple[Series, ...]:
         """Series that are solved at this size."""
-        return tuple(self.study.series(SIZES[self.size]))
+        found = tuple(self.study.series(SIZES[self.size]))
+        if not (self.models or self.reference):
+            return found
+        return tuple(
+            replace(each, asked=self.models or each.asked, reference=self.reference or each.reference)
+            for each in found
+        )
 
-    def rectangles(self) -> Mapping[str, Rectangle]:
-        """Rectangles of the rough and of the smooth body of every series, by "series/body"."""
-        return {name: each for series in self.series for name, each in series.rectangles.items()}
+    def grids(self) -> Mapping[str, ParameterGrid]:
+        """Parameter grids of the rough and of the smooth body of every series, by "series/body"."""
+        return {name: each for series in self.series for name, each in series.grids.items()}
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved, at /series/body/solver; a series has title and note as attributes."""
@@ -124,28 +140,18 @@ class ClaimStudy(Study):
         return tree
 
     def judged(self, answers: xarray.DataTree) -> JudgedStudy:
-        """Every series and all together, judged once for the same answers."""
-        if self._judged.get("answers") is not answers:
-            series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
-            self._judged.update(answers=answers, found=JudgedStudy(series, tuple(family_findings(series))))
-        return self._judged["found"]
+        """Every series, and all together."""
+        series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
+        return JudgedStudy(series, tuple(family_findings(series)))
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        return self.judged(answers).findings
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """Verdicts, an overview of them, and findings on several series; then each series.
 
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """A statement for each claim, from all findings on it; numbers without a claim stand in tables alone.
-
-        First come the places where friction itself is shifted.
+        The answer is a statement for each claim; numbers without a claim stand in tables alone.
         """
-        return [*eq23.answers(findings), *sentences(claimed(findings))]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        """Verdicts, an overview of them, and findings on several series; then each series."""
         judged = self.judged(answers)
-        whole = [plot for plot in plots if not plot.folder]
+        findings = judged.findings
+        whole = list(study_plots.plots_of_study(judged.series, findings, bool(judged.together)))
         blocks: list[Block] = [*whole[:1]]
         if overview := list(_overview(findings)):
             blocks.append(
@@ -153,25 +159,18 @@ class ClaimStudy(Study):
             )
         if judged.together:
             blocks.append(Section("Several series together", [*whole[1:], Findings(judged.together)]))
-        return blocks + [
-            Section(_numbered(number, each), list(_section(each, plots)))
-            for number, each in enumerate(judged.series, 1)
+        blocks += [
+            Section(_numbered(number, each), list(_section(each))) for number, each in enumerate(judged.series, 1)
         ]
-
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
-        """The question, what differs between the dimensionalities, and the contacts of each series."""
-        return [Text(self.about), Text(UNMATCHED)] + [
+        contacts = [
             Section(
                 f"Contacts of {_numbered(number, each)}", [Text("\n".join(f"- {line}" for line in _asked(each)))]
             )
-            for number, each in enumerate(self.judged(answers).series, 1)
+            for number, each in enumerate(judged.series, 1)
         ]
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
-        """Figures of the study, then of each series in its folder."""
-        judged = self.judged(answers)
-        found = list(study_plots.plots_of_study(judged.series, findings, bool(judged.together)))
-        return found + [plot for each in judged.series for plot in study_plots.plots_of_series(each)]
+        # First come the places where friction itself is shifted.
+        answer = [*eq23.answers(findings), *sentences(claimed(findings))]
+        return Judgement(findings, answer, blocks, [Text(self.about), Text(UNMATCHED), *contacts])
 
 
 @dataclass(frozen=True)
@@ -198,36 +197,25 @@ class AllStudies(Study):
     def inputs(self) -> Mapping[str, Any]:
         return {"name": ALL, "size": self.studies[0].size}
 
-    def rectangles(self) -> Mapping[str, Rectangle]:
-        """Rectangles of every study, by "study/series/body"."""
-        return {f"{each.name}/{name}": found for each in self.studies for name, found in each.rectangles().items()}
+    def grids(self) -> Mapping[str, ParameterGrid]:
+        """Parameter grids of every study, by "study/series/body"."""
+        return {f"{each.name}/{name}": found for each in self.studies for name, found in each.grids().items()}
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        return [found for each in self.studies for found in self._own(each, answers)]
-
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return sentences(claimed(findings))
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
-        """Verdicts of each study, and its series against one variable."""
-        found = []
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """A section for each study: its figures and findings."""
+        findings: list[Finding] = []
+        sections = []
         for each in self.studies:
             judged = each.judged(answers.children[each.name])
             plots = study_plots.plots_of_study(judged.series, judged.findings, bool(judged.together))
-            found += [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
-        return found
+            shown = [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
+            own = [_named(one, each.name) for one in judged.findings]
+            findings += own
+            sections.append(Section(each.title, [*shown, Findings(claimed(own))]))
+        return Judgement(findings, sentences(claimed(findings)), sections, self.setting)
 
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        """A section for each study: its figures and findings."""
-        found = []
-        for each in self.studies:
-            own = [plot for plot in plots if plot.folder == f"{each.name}/"]
-            found.append(Section(each.title, [*own, Findings(claimed(self._own(each, answers)))]))
-        return found
-
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @property
+    def setting(self) -> Sequence[Block]:
         """Rule of the verdict, what differs between the dimensionalities, and each question with its command."""
         questions = (
             f"- {each.title} {each.about} `crosscheck study {each.name} --size {each.size}`"
@@ -235,10 +223,10 @@ class AllStudies(Study):
         )
         return [Text(self.about), Text(UNMATCHED), Text("\n".join(questions))]
 
-    def _own(self, each, answers):
-        """Findings of one study, each with the study in front of its place and its plot."""
-        found = each.findings(answers.children[each.name])
-        return [replace(one, where=f"{each.name}, {one.where}", plot=f"{each.name}/{one.plot}") for one in found]
+
+def _named(one: Finding, study: str) -> Finding:
+    """A finding with the study in front of its place and its plot."""
+    return replace(one, where=f"{study}, {one.where}", plot=f"{study}/{one.plot}")
 
 
 def _located(name: str | Path) -> Path:
@@ -265,10 +253,10 @@ def _numbered(number: int, judged: JudgedSeries) -> str:
     return f"{number}. {judged.series.title}"
 
 
-def _section(judged: JudgedSeries, plots: Sequence[Plot]) -> Iterator[Block]:
+def _section(judged: JudgedSeries) -> Iterator[Block]:
     """Figures of a series, its findings, points, and solves that failed."""
     series = judged.series
-    yield from (plot for plot in plots if plot.folder == f"{series.folder}/")
+    yield from study_plots.plots_of_series(judged)
     if judged.findings:
         yield Findings(judged.findings)
     else:
@@ -301,9 +289,9 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
         f"{series.profiles} profiles of {series.mdr.points} points in 1D, {series.surfaces} surfaces of "
         f"{series.bem.points}² in 3D, each also on half the points a side"
     )
-    for solver, dimension in SOLVERS.items():
+    for solver, dimension in judged.contacts.labels.items():
         answers = judged.contacts(solver)
         known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)
         if np.isfinite(known).any():
-            words = f"; {judged.laws[solver].words}" if judged.laws else ""
+            words = f"; {judged.laws[solver].words}" if solver in judged.laws else ""
             yield f"{dimension}: rms slope {np.nanmean(known):.3g}{words}"

@@ -30,7 +30,7 @@ from scene.reading import InvalidInput, invalid, parsed, validator
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
-from ...library.case import Draws
+from ...library.case import MOST_MODELS, Draws
 from ...library.describe import folders
 from ...library.ready import NotReady, find
 from ...solving.cost import MOST_VALUES
@@ -159,11 +159,15 @@ class StudyFile(_Shared):
     """A study of one's own: what all series share, and the series.
 
     title, about : for people
+    models, reference : names of the models that are compared, and of the one against which the others are judged;
+        mdr and bem, and bem, if absent
     series : 1 to 100
     """
 
     title: str
     about: str = ""
+    models: Annotated[tuple[str, ...], Field(max_length=MOST_MODELS)] = ()
+    reference: str = ""
     series: Annotated[tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES)]
 
 
@@ -230,6 +234,8 @@ class _Stated:
             mdr=MDR(**self.contact.get("mdr", {})),
             note=self.own.note,
             claims=self["claims"] or KINDS,
+            asked=self.shared.models,
+            reference=self.shared.reference,
         )
 
     def misfits(self) -> Iterator[str]:
@@ -343,8 +349,8 @@ def _in_file(mistake, own, number):
 def _refused(stated: _Stated, number: int) -> Iterator[str]:
     """Refusals of the solvers at the least size."""
     try:
-        for rectangle in stated.series(SIZES["quick"]).rectangles.values():
-            rectangle.refuse()
+        for grid in stated.series(SIZES["quick"]).grids.values():
+            grid.refuse()
     except ValidationError as error:
         yield from (f"series.{number}: {each['msg']}" for each in error.errors())
     except (Refused, SolveError, ArithmeticError) as error:

@@ -91,7 +91,7 @@ def surface(
     drawing, axes: Axes, table: DataFrame, enlarged: float, highest: float, sliding: int, title: str
 ) -> None:
     """Panel of the deformed surface, coloured by pressure, with scales along its edges."""
-    lowered, pressure = (touching.rectangle(table, "y", "x", name) for name in ("displacement", "pressure"))
+    lowered, pressure = (touching.unstacked(table, "y", "x", name) for name in ("displacement", "pressure"))
     x, y, height = lowered.columns.to_numpy(), lowered.index.to_numpy(), -lowered.to_numpy()
     camera, (up, pascal) = relief.Camera(exaggeration=enlarged), prefixed(highest, "Pa")
     image = relief.block(axes, x, y, height, up * pressure.to_numpy(), up * highest, camera)

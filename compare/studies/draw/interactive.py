@@ -38,7 +38,7 @@ def write(plot: Plot, folder: Path) -> Path:
 def _page(table, options: Mapping[str, Any]) -> str:
     from plotly import graph_objects
 
-    fields = {name: touching.rectangle(table, "y", "x", name) for name in ("displacement", "pressure", "gap")}
+    fields = {name: touching.unstacked(table, "y", "x", name) for name in ("displacement", "pressure", "gap")}
     x, y = (getattr(fields["gap"], name).to_numpy() for name in ("columns", "index"))
     (along, x_unit), (high, z_unit), (up, pascal) = (
         prefixed([*x, *y], "m"),

@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from ...report.plots import style, touching
 from ...report.plots.prefixes import prefixed
 
-# Of the deeper side of the surface, the height that the relief takes as drawn, at most; and the block below it.
+# Height of the relief as drawn, at most, and of the block below it, as shares of the deeper side of the surface.
 TALL, BLOCK = 0.22, 0.08
 EXAGGERATIONS = np.outer(10.0 ** np.arange(-3, 10), (1, 2, 3, 5)).ravel()
 LIGHT = np.array([-0.45, 0.35, 0.82])  # towards the light, from the left and behind

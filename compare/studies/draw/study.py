@@ -11,8 +11,8 @@ from scene import Refused, SolveError, Solver, notes
 from scene.protocol import foresee
 
 from ...library.case import Case, doubted
-from ...library.lookup import Asked, case_of
-from ...report.page import Block, Plot, Text
+from ...library.lookup import SceneLike, case_of
+from ...report.page import Text
 from ...report.views import View, view
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import work_of
@@ -20,7 +20,7 @@ from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import griderror
 from ...statistics.finding import Claim, Finding
-from ..study import Study
+from ..study import Judgement, Study
 from . import figure as plots
 from . import interactive as turning
 
@@ -51,7 +51,7 @@ class Drawing(Study):
     command, title = "draw", "One contact"
 
     @classmethod
-    def of(cls, scene: Asked, interactive: bool = False) -> "Drawing":
+    def of(cls, scene: SceneLike, interactive: bool = False) -> "Drawing":
         """Drawing of a scene. Raises InvalidInput, and Refused of what no picture shows."""
         case = case_of(scene)
         if case.heating is not None and case.heating.feedback is not None:
@@ -105,7 +105,7 @@ class Drawing(Study):
                 dataset[griderror.MEASURE] = (), error, attributes(griderror.MEASURE, self.case.scene)
         return xarray.DataTree.from_dict(parts)
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+    def _findings(self, answers):
         """What 1D gives over what 3D gives, and how far apart the forces of both stand; nothing is claimed."""
         surface, row = _parts(answers)
         if row is None:
@@ -128,19 +128,13 @@ class Drawing(Study):
             values.append(float((lines / lines.sum()).diff(axis=1).iloc[:, 1].abs().sum() / 2))
         return [Finding(claim, value, plot=plots.NAME) for claim, value in zip(claims, values, strict=True)]
 
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        return [plots.plot(self.case.scene, *_parts(answers))]
-
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return [f"{each.claim.sentence}: {each.found()}." for each in findings]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        findings = self._findings(answers)
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
         if self.interactive:
             said.append(Text(f"The surface, to be turned in a browser: [{turning.NAME}]({turning.NAME})."))
-        return [*plots, *said]
+        answer = [f"{each.claim.sentence}: {each.found()}." for each in findings]
+        return Judgement(findings, answer, [plots.plot(self.case.scene, *_parts(answers)), *said], self.setting)
 
 
 def _task(solver: Solver, case: Case) -> SceneTask:

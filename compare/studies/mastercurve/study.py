@@ -13,18 +13,18 @@ from scene.printable import brief
 from scene.quantities import BARE, argument
 from scene.reading import InvalidInput
 
-from ...report.page import Block, Findings, Plot, Table, Text
+from ...report.page import Block, Findings, Table, Text
 from ...report.plots import shifted_curves
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
-from ...statistics.finding import Finding, claimed, sentences
+from ...statistics.finding import claimed, sentences
 from ...statistics.measuredcurves import check, curves_of, in_order
 from ...statistics.pooling import WARMTH, Pooled, pooled
 from ...statistics.shiftlaws import ShiftLaw, law_of
 from ...statistics.temperatureshifts import TemperatureShifts
-from ..study import Study
+from ..study import Judgement, Study
 from . import temperature_figure as temperature_shifts
 from . import temperatures
 from .measurements import MeasuredFriction, Measurements
@@ -145,7 +145,18 @@ class Mastercurve(Study):
         """Alignment that is the answer: by both shifts where friction itself is shifted, else along the load."""
         return self.collapse.both if eq23.raised(self.collapse) else self.collapse.horizontal
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        findings = self._findings()
+        tables: list[Block] = [Findings(findings)]
+        told = "Natural logarithms of the shifts, with intervals of 95 %."
+        shifts = self.collapse.shifts(self.lead)
+        if self.shifts is not None and (warm := self._curves()) is not None:
+            shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
+            tables.append(Table("time-shifts", temperature_shifts.shifts_table(self.shifts), told))
+        tables.append(Table("shifts", shifts, told))
+        return Judgement(findings, self._answer(findings), [*self._plots(findings), *tables], self.setting)
+
+    def _findings(self):
         """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
         found, plots = self.collapse, (shifted_curves.NAME,) * 2
         warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
@@ -167,7 +178,7 @@ class Mastercurve(Study):
             findings.append(replace(each, claim=replace(each.claim, id=name, sentence=sentence)))
         return [*findings, *warm]
 
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+    def _answer(self, findings):
         named = {each.claim.id: each for each in findings}
         across, along, alone, collapsed = (
             named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
@@ -185,7 +196,7 @@ class Mastercurve(Study):
             return self.friction.notes
         return (*self.friction.notes, temperatures.ONE.format(self.pooled.points[0].temperature))
 
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
+    def _plots(self, findings):
         shown = shifted_curves.ShiftedCurves(
             self.friction.name, self.collapse, findings[0], lead=self.lead, warmth=self._curves()
         )
@@ -203,18 +214,8 @@ class Mastercurve(Study):
             {"temperature": [each.temperature for each in first], "speed": [each.speed for each in first]}
         )
 
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        told = "Natural logarithms of the shifts, with intervals of 95 %."
-        shifts = self.collapse.shifts(self.lead)
-        if self.shifts is not None and (warm := self._curves()) is not None:
-            shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
-            warmth = temperature_shifts.shifts_table(self.shifts)
-            return [*plots, Findings(findings), Table("time-shifts", warmth, told), Table("shifts", shifts, told)]
-        return [*plots, Findings(findings), Table("shifts", shifts, told)]
-
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @property
+    def setting(self) -> Sequence[Block]:
         """Number and range of the measurements, and what counts as one point."""
         loads, speeds = self.data["normal_force"].values, self.data["speed"].values
         reach = [f"{each.min():.3g} to {each.max():.3g}" for each in (speeds, loads)]

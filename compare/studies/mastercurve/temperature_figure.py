@@ -20,7 +20,7 @@ from ...statistics.temperatureshifts import TemperatureShifts
 NAME = "temperature-shifts"
 SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"
 LOG10 = np.log(10)
-# Of more, so many are drawn, from the lowest to the highest.
+# Most that are drawn, from the lowest to the highest.
 TEMPERATURES, LOADS = len(style.SERIES_MARKERS), 3
 LINES = {"WLF": "-", "Arrhenius": "--"}
 
@@ -109,7 +109,7 @@ def _points(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
     by = dict(zip(shifts.temperatures.tolist(), shifts.shifts.value.tolist(), strict=True))
     frame.insert(2, "reduced_speed", frame["speed"] * np.exp(frame["temperature"].map(by)))
     errors = np.array([pooled.error(each) for each in pooled.points])
-    width = errors * student(0.95, pooled.freedom)
+    width = errors * student(0.95, pooled.dof)
     frame["friction_coefficient_low"] = frame["friction_coefficient"] * np.exp(-width)
     frame["friction_coefficient_high"] = frame["friction_coefficient"] * np.exp(width)
     groups = frame.groupby("press")

@@ -84,8 +84,8 @@ def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
         return None
     if constants.given:
         shifts = constants.shifts(np.array([one.temperature for one in each]))
-        return stated(each, shifts, pooled.loads, pooled.freedom)
-    return found(each, pooled.loads, pooled.freedom)
+        return stated(each, shifts, pooled.loads, pooled.dof)
+    return found(each, pooled.loads, pooled.dof)
 
 
 def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Iterator[Finding]:

@@ -72,7 +72,7 @@ _PLATEAU = Claim(
     dimension=DIMENSION,
 )
 _MEANINGLESS = "the curves do not collapse, and their shifts have no meaning"
-# Of the claims on shifts, those of the paper.
+# The paper's claims on shifts.
 _SHIFTS = (eq23.COLLAPSE.id, eq23.PREDICTED.id, eq23.EXPONENT.id)
 
 

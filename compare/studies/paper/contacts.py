@@ -11,17 +11,17 @@ from mdr1d import MDR
 from scene import Cone, Regime
 from scene.scales import elastic_contact
 
-from ...solving.parameter_grid import FINE, SOLVED, Rectangle
+from ...solving.parameter_grid import FINE, SOLVED, ParameterGrid
 from ...solving.vocabulary import attributes
 from . import parameters
 
 AT_NODES = ("x", "profile", "displacement", "contact")
 
 
-def contact_rectangle(shape: str) -> Rectangle:
+def contact_grid(shape: str) -> ParameterGrid:
     """The one contact of one shape, with its fields."""
     motion = parameters.CONTACT
-    return Rectangle(
+    return ParameterGrid(
         scene=parameters.contact(shape),
         speeds=(motion.speed,),
         values=(float(motion.load or 0.0),),
@@ -58,7 +58,7 @@ def contact_tables(contacts: Mapping[str, xarray.Dataset]) -> tuple[DataFrame, d
                 "radius": np.nan if isinstance(body, Cone) else body.radius,
                 "hurst": rough.hurst,
                 "rms_height": rough.rms_height,
-                "draw": rough.seed,
+                "seed": rough.seed,
                 "load": scene.motion.load,
                 "speed": scene.motion.speed,
                 "modulus": scene.elastomer.modulus,

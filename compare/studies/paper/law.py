@@ -13,7 +13,7 @@ from mdr1d import MDR, draw, equations
 from scene import SolveError
 
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import FINE, Rectangle
+from ...solving.parameter_grid import FINE, ParameterGrid
 from ...solving.task import Task
 from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated
@@ -41,9 +41,9 @@ def speeds() -> dict[str, tuple[float, ...]]:
     return found
 
 
-def rectangle(shape: str, profiles: int = parameters.PROFILES) -> Rectangle:
+def parameter_grid(shape: str, profiles: int = parameters.PROFILES) -> ParameterGrid:
     """Contacts of one shape at every speed."""
-    return Rectangle(
+    return ParameterGrid(
         scene=parameters.base(shape),
         speeds=speeds()[shape],
         values=(parameters.LOAD,),
@@ -110,7 +110,7 @@ class Law:
 def law(shape: str, solved: xarray.Dataset, of_planes: xarray.Dataset) -> Law:
     """One shape from what was solved, except speeds without an answer. Raises SolveError where none has one."""
     slope, fine = _slope(), solved.sel(grid=FINE).isel(load=0)
-    friction = (fine["friction_force"] / fine["normal_force"]).transpose("speed", "draw").values
+    friction = (fine["friction_force"] / fine["normal_force"]).transpose("speed", "seed").values
     known = np.isfinite(friction).any(axis=1)
     if not known.any():
         raise SolveError(f"Fig. 4, {shape}: nothing was solved: {fine['reason'].values.flat[0]}")

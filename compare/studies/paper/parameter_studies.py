@@ -39,7 +39,7 @@ NAMES = {
     "rms_slope": "rms_slope",
     "sweeps": "sweeps",
 }
-DIMS = ("hurst", "study", "step", "draw")
+DIMS = ("hurst", "study", "step", "seed")
 
 
 @dataclass(frozen=True)
@@ -67,14 +67,14 @@ class ParameterStudies:
         reasons = np.array([row[0].reason if row else "" for row in rows], object)
         status = np.where(np.isfinite(arrays["friction_coefficient"]), SOLVED, FAILED)
         numbers: dict[str, Any] = {name: (DIMS, values) for name, values in arrays.items()}
-        numbers |= {"status": (DIMS, status), "reason": ("draw", reasons)}
+        numbers |= {"status": (DIMS, status), "reason": ("seed", reasons)}
         made = {name: (*found, attributes(name)) for name, found in numbers.items()}
         coordinates = {
             "hurst": list(self.hurst),
             "study": [study.name for study in parameters.STUDIES],
             "parameter": (DIMS[1:3], np.array([place.value for place in places]).reshape(shape)[0]),
             "points": (DIMS[1:3], np.array([place.points for place in places]).reshape(shape)[0]),
-            "draw": list(range(self.profiles)),
+            "seed": list(range(self.profiles)),
         }
         dataset = xarray.Dataset(made, coordinates, {"solver": "MDR"})
         for name in (*arrays, "status"):

@@ -16,7 +16,7 @@ from .parameters import Loss
 
 # |G(v/a)| / G_0, at the frequency of the contact as a whole, and up to where that counts as constant.
 CONSTANT = 1.1
-# Of each wave on either side: those beyond would add 2e-3 to the friction at most.
+# Images of each wave on either side: those beyond would add 2e-3 to the friction at most.
 IMAGES = 10
 # Frequencies between which the loss of every wave is interpolated.
 KNOTS = 4000
@@ -61,7 +61,7 @@ def predict(loss: Loss) -> Predicted:
 
     one = equations.general_friction(loads, solid.modulus, loss_modulus, highest, speeds, slope, c, n)
     q, waves = _linear_between_nodes(rough, surface.pixel)
-    # Of so many waves at so many speeds: interpolated, which costs 1e-12 of it and saves nearly all of the time.
+    # Losses of that many waves and speeds are interpolated: an error of 1e-12, and nearly all of the time saved.
     omega = np.geomspace(q.min() * speeds.min(), q.max() * speeds.max(), KNOTS)
     spline = CubicSpline(np.log(omega), np.log(loss_modulus(omega)))
 

@@ -16,14 +16,14 @@ from ...report.plots import shifted_curves
 from ...solving import parameter_grid
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import FAILED, Rectangle
+from ...solving.parameter_grid import FAILED, ParameterGrid
 from ...solving.task import Batch, Task
 from ...statistics import eq23
 from ...statistics.finding import FAILS, Finding
-from ..study import Study
+from ..study import Hooked
 from . import law, losses, parameter_studies, parameters
 from .claims import findings, lines
-from .contacts import contact_rectangle, contact_tables, with_nodes
+from .contacts import contact_grid, contact_tables, with_nodes
 from .figures import (
     contacts as paper_contacts,
 )
@@ -60,7 +60,7 @@ class Reproduction:
 
 
 @dataclass(frozen=True)
-class Paper(Study):
+class Paper(Hooked):
     """The paper simulated again in one dimension.
 
     profiles : averaged at most, 3 or more
@@ -91,26 +91,26 @@ class Paper(Study):
     def _studies(self) -> ParameterStudies:
         return ParameterStudies(values=self.values, profiles=self.profiles)
 
-    def rectangles(self) -> Mapping[str, Rectangle]:
+    def grids(self) -> Mapping[str, ParameterGrid]:
         """Contacts of Fig. 1, of Fig. 4, and of Figs. 5 to 7."""
-        return self._rectangles
+        return self._grids
 
     @cached_property
-    def _rectangles(self):
+    def _grids(self):
         # kept, as they keep their scenes
-        found = {f"contact-{shape}": contact_rectangle(shape) for shape in parameters.SHAPES}
-        found |= {f"law-{shape}": law.rectangle(shape, self.profiles) for shape in parameters.SHAPES}
+        found = {f"contact-{shape}": contact_grid(shape) for shape in parameters.SHAPES}
+        found |= {f"law-{shape}": law.parameter_grid(shape, self.profiles) for shape in parameters.SHAPES}
         for loss in parameters.LOSSES:
-            found |= losses.rectangles(loss, min(self.profiles, parameters.LOSS_PROFILES))
+            found |= losses.grids(loss, min(self.profiles, parameters.LOSS_PROFILES))
         return found
 
     def cost(self) -> Cost:
-        """Rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
+        """Parameter grids, the parameter studies of Fig. 3, and Fig. 4 of planes."""
         return super().cost() + Cost.of(self._own)
 
     def batches(self) -> Sequence[Batch]:
-        """Everything that is solved: rectangles, the parameter studies of Fig. 3, and Fig. 4 of planes."""
-        return (Batch([*self._own, *parameter_grid.tasks_of(self.rectangles())]),)
+        """Everything that is solved: grids, the parameter studies of Fig. 3, and Fig. 4 of planes."""
+        return (Batch([*self._own, *parameter_grid.tasks_of(self.grids())]),)
 
     @cached_property
     def _own(self):
@@ -118,13 +118,13 @@ class Paper(Study):
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved: a Dataset for each figure, shape and rubber."""
-        rectangles = self.rectangles()
-        tree = parameter_grid.tree(rectangles, outcomes)
+        grids = self.grids()
+        tree = parameter_grid.tree(grids, outcomes)
         parts = {parameter_studies.NODE: self._studies.dataset(outcomes)}
         for shape in parameters.SHAPES:
             parts[f"law-{shape}/planes"] = law.planes_dataset(shape, outcomes)
             name = f"contact-{shape}"
-            parts[f"{name}/MDR"] = with_nodes(_dataset(tree, f"{name}/MDR"), rectangles[name].fields(outcomes))
+            parts[f"{name}/MDR"] = with_nodes(_dataset(tree, f"{name}/MDR"), grids[name].fields(outcomes))
         for path, dataset in parts.items():
             tree[path] = xarray.DataTree(dataset)
         return tree
@@ -138,7 +138,7 @@ class Paper(Study):
                 for shape in parameters.SHAPES
             )
             rubbers = (
-                losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.rectangles(loss)))
+                losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.grids(loss)))
                 for loss in parameters.LOSSES
             )
             self._last[:] = answers, Reproduction(slow, lines(slow), tuple(laws), tuple(rubbers))
@@ -174,7 +174,7 @@ class Paper(Study):
             Section("The shift of Eq. 23", [Text(SHIFTS), Table("shifts", shifts, "Exponents of the shift.")]),
         ]
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    def settings(self, answers: xarray.DataTree) -> Sequence[Block]:
         """The model, the contacts that were solved, and choices where the paper leaves a parameter open."""
         return [
             Text(ABOUT),

@@ -52,7 +52,7 @@ class Profiles:
         if isnan(friction):
             return Row(reason="no depth carries the load")
         load = self.scene.motion.load
-        return Row(load, depth, load * friction, applications=sweeps)
+        return Row(load, depth, load * friction, operator_applications=sweeps)
 
     def failed(self, reason: str) -> Outcome:
         """Outcome with a row for each profile, each with the reason."""

@@ -9,7 +9,7 @@ from scene.quantities import BARE, argument
 from ...solving.outcome import Outcome
 from ...solving.task import Task
 
-# Of a tolerance: stored values have ten digits.
+# Least tolerance: stored values have ten digits.
 LEAST = 1e-9
 
 

@@ -21,19 +21,19 @@ from scene.printable import brief
 from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
-from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...report.page import Block, Findings, Section, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.runner import sweep
 from ...solving.store import Store, write
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
-from ..study import Study
+from ..study import Judgement, Study
 from .quantities import shipped
 from .quantity import Quantity, Unmeasured
 
 SHIPPED = Path(__file__).with_name("baseline.toml")
-# Of a stored value: no tolerance is less than what they leave.
+# Digits of a stored value: no tolerance is less than these leave.
 DIGITS = 10
 HEADING = "# Written by `crosscheck regress --update`, see docs/howto/regression.md: quantities as found.\n"
 NEW, GONE = "not in the baseline", "no longer measured"
@@ -98,7 +98,7 @@ class Regress(Study):
                 line[: len(numbers)] = numbers
         dataset = xarray.Dataset(
             {
-                "measured": (("quantity", "side", "draw"), measured),
+                "measured": (("quantity", "side", "seed"), measured),
                 "value": ("quantity", [value for *_, value, _ in found]),
                 "stored": ("quantity", [self.stored.get(id, nan) for id in ids]),
                 "reason": ("quantity", [reason for *_, reason in found]),
@@ -113,7 +113,8 @@ class Regress(Study):
     def _named(self):
         return {quantity.id: quantity for quantity in self.quantities}
 
-    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
+    def measured(self, answers: xarray.DataTree) -> Sequence[Finding]:
+        """Finding of each quantity."""
         named, dataset = self._named, answers["quantities"]
         columns = (dataset[name].values.tolist() for name in ("quantity", "value", "stored", "reason"))
         return [_finding(id, named.get(id), *row) for id, *row in zip(*columns, strict=True)]
@@ -140,21 +141,9 @@ class Regress(Study):
         if any(isfinite(each.value) or each.reason == GONE for each in wrong):
             write_baseline(self.path, values)
 
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """Number of quantities within their tolerances, and a sentence for each that does not."""
-        held = [each for each in findings if each.stated == HOLDS]
-        told = f"{len(held)} of {len(findings)} quantities lie within their tolerances"
-        if held:
-            farthest = max(held, key=tolerances_moved)
-            told += f", at most {tolerances_moved(farthest):.2g} of it ({farthest.claim.sentence})"
-        moved = sorted((each for each in findings if each.stated == FAILS), key=tolerances_moved, reverse=True)
-        others = (each for each in findings if each.stated == UNDECIDED)
-        return [f"{told}."] + [f"{each.claim.sentence}: {each.reason}." for each in (*moved, *others)]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
+    def judge(self, answers: xarray.DataTree) -> Judgement:
         """Quantities that ask for attention, then a table of all."""
+        findings = self.measured(answers)
         wrong = [each for each in findings if each.stated != HOLDS]
         rows = [
             {
@@ -170,9 +159,22 @@ class Regress(Study):
         attention = (
             [Findings(wrong, "Quantities that moved, are new, are gone or have no value.")] if wrong else []
         )
-        return [*attention, table]
+        return Judgement(findings, self.answer(findings), [*attention, table], self.setting)
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @staticmethod
+    def answer(findings: Sequence[Finding]) -> Sequence[str]:
+        """Number of quantities within their tolerances, and a sentence for each that does not."""
+        held = [each for each in findings if each.stated == HOLDS]
+        told = f"{len(held)} of {len(findings)} quantities lie within their tolerances"
+        if held:
+            farthest = max(held, key=tolerances_moved)
+            told += f", at most {tolerances_moved(farthest):.2g} of it ({farthest.claim.sentence})"
+        moved = sorted((each for each in findings if each.stated == FAILS), key=tolerances_moved, reverse=True)
+        others = (each for each in findings if each.stated == UNDECIDED)
+        return [f"{told}."] + [f"{each.claim.sentence}: {each.reason}." for each in (*moved, *others)]
+
+    @property
+    def setting(self) -> Sequence[Block]:
         """Quantities in a sentence, and the reason for each tolerance, once."""
         reasons = dict.fromkeys(f"{each.tolerance:g}: {each.reason}." for each in self.quantities)
         return [Text(self.about), Section("Tolerances", [Text(reason) for reason in reasons])]
@@ -215,7 +217,7 @@ def write_baseline(path: Path, values: Mapping[str, float]) -> None:
 def check(
     baseline: str | Path = SHIPPED,
     quantities: Sequence[Quantity] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     workers: int | None = None,
 ) -> None:
     """Assert in a test that nothing has moved. Raises AssertionError that lists what has, InvalidInput.
@@ -232,7 +234,7 @@ def check(
 def update(
     baseline: str | Path,
     quantities: Sequence[Quantity] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     workers: int | None = None,
 ) -> str:
     """Rewrite a baseline, or begin one; arguments as for check. Returns what was stored, in words."""
@@ -245,8 +247,8 @@ def update(
 def _solved(study, folder, workers):
     (batch,) = study.batches()
     with tempfile.TemporaryDirectory() as passing:
-        outcomes = sweep(batch.tasks, Store(folder or Path(passing)), workers).outcomes
-    return study.findings(study.answers(outcomes))
+        outcomes = sweep(batch.tasks, Store(Path(folder or passing)), workers).outcomes
+    return study.measured(study.answers(outcomes))
 
 
 def _measured(quantity, outcomes):

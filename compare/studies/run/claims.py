@@ -11,17 +11,17 @@ import xarray
 from pandas import DataFrame
 
 from ...library.case import Case
+from ...models.table import Model, Models
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23, means
 from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
+from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
-from ...statistics.jackknife import Sample, mean
+from ...statistics.jackknife import DrawSet, mean
 from ...statistics.means import FRICTION, Compared, compared
 from ..claims.points import stacked
 from .curves import (
     CURVES,
-    DIMENSIONS,
     LOAD,
     OWN,
     ROUGH_DEPTH,
@@ -36,52 +36,67 @@ TOLERANCE = 0.05
 AS_HALVED = "The change on halving understates the error by 1 / (1 - 2^-p) at order p: twice at first order."
 
 SLOW = Claim(
-    "run.friction.smooth-slow",
+    "friction.ratio.smooth-slow",
     "Slow friction of the smooth body is twice as high in 1D as in 3D",
     2.0,
     2 * TOLERANCE,
     "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
 )
 OWN_FRICTION = Claim(
-    "run.friction.own",
+    "friction.ratio.own",
     "Friction of the scene as it stands is the same in 1D and 3D",
     1.0,
     TOLERANCE,
     "Friction in 1D over 3D, ratio of the means over surfaces.",
 )
 ROUGH_FORCE = Claim(
-    "run.force-depth.rough",
+    "force.ratio.rough",
     "The force on the rough body at the same depth is the same in 1D and 3D",
     0.0,
     TOLERANCE,
     "Force in 1D over 3D less one, at rest; ratio of the means over surfaces, at every depth.",
 )
 SMOOTH_FORCE = Claim(
-    "run.force-depth.smooth",
+    "force.ratio.smooth",
     "The force on the smooth body at the same depth is the same in 1D and 3D",
     0.0,
     TOLERANCE,
     "Force in 1D over 3D less one, at rest, at every depth.",
 )
 # Numbers that tell how far those above can be trusted.
-AT_SPEEDS = Claim("run.friction.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
+AT_SPEEDS = Claim("friction.ratio.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
 CLOSED_FORM = Claim(
-    "run.force-depth.exact",
+    "force.closed-form",
     "Force on the smooth body over the closed form, less one",
     meaning="At rest, where the closed form is the truth.",
 )
 GRID = Claim(
-    "run.grid",
+    "grid.change",
     "Change of the scene's own answer from half the points to all",
     meaning=f"Relative, of friction, else of the depth under a load or the force at a depth. {AS_HALVED}",
 )
 SPREAD = Claim(
-    "run.friction.spread",
+    "friction.spread",
     "Spread of both estimates of 3D friction",
     meaning="Friction by traction less friction by energy lost, over friction: an indicator of the error of "
     "discretisation, no bound.",
     dimension="3D",
 )
+
+
+def _slow(model: Model, reference: Model) -> Claim:
+    """What slow friction of the smooth body is over that of the reference: 2 of one dimension over three."""
+    factor = model.slow_factor / reference.slow_factor
+    if factor == SLOW.expected:
+        return said_of(SLOW, f"{model.label}/{reference.label}")
+    words = "the same in" if factor == 1.0 else "half as high in"
+    return replace(
+        SLOW,
+        sentence=f"Slow friction of the smooth body is {words} {model.label} as in {reference.label}",
+        expected=factor,
+        tolerance=factor * TOLERANCE,
+        meaning=f"Friction in {model.label} over {reference.label} at the lowest speed; it tends to {factor:g}.",
+    )
 
 
 @dataclass(frozen=True)
@@ -101,25 +116,26 @@ class CaseFindings:
     """Findings, curves and points of one case.
 
     name : of the case; folder : of its figures
-    datasets : by "curve/solver"
+    datasets : by "curve/model"
     """
 
     name: str
     folder: str
     case: Case
+    models: Models
     datasets: Mapping[str, xarray.Dataset]
 
     @cached_property
-    def claims(self) -> list[Finding]:
+    def findings(self) -> list[Finding]:
         """Findings on claims, then numbers that tell how far these can be trusted."""
         return [
             *self._slow(),
             *self._own(),
-            *self.forces(ROUGH_FORCE).values(),
-            *self.forces(SMOOTH_FORCE).values(),
+            *(found for _, _, found in self.forces(ROUGH_FORCE)),
+            *(found for _, _, found in self.forces(SMOOTH_FORCE)),
             *(each for shifted in self.shifted for each in shifted.findings),
             *self._unshifted(),
-            *self.at_speeds.values(),
+            *(found for _, _, found in self.at_speeds),
             *self._closed_form(),
             *self._grid(),
             *self._spread(),
@@ -130,37 +146,59 @@ class CaseFindings:
         if speeds := self._speeds(SMOOTH_SPEED):
             lowest = int(np.argmin(speeds))
             regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
-            found = self._friction(SMOOTH_SPEED)
-            yield self._finding(SLOW, found, (lowest, 0), plot="smooth-limit", regime=regime)
+            for model in self.models.judged:
+                told = {"plot": "smooth-limit", "regime": regime, "dimension": self.models.beside(model.name)}
+                found = self._friction(SMOOTH_SPEED, model.name)
+                yield self._finding(_slow(model, self.models[self.models.reference]), found, (lowest, 0), **told)
 
     def _own(self):
         """Friction of the scene as it stands."""
         if self.case.slides and self.case.motion.speed > 0:
-            yield self._finding(OWN_FRICTION, self._friction(OWN), (0, 0), plot="friction-speed")
+            for model in self.models.judged:
+                beside = self.models.beside(model.name)
+                found = self._friction(OWN, model.name)
+                yield self._finding(
+                    said_of(OWN_FRICTION, beside), found, (0, 0), plot="friction-speed", dimension=beside
+                )
 
     @cached_property
-    def at_speeds(self) -> dict[float, Finding]:
-        """Friction at every speed."""
-        speeds = self._speeds(SPEED)
-        found = self._friction(SPEED) if speeds else None
-        return {speed: self._at_speed(AT_SPEEDS, found, k, speed) for k, speed in enumerate(speeds)}
+    def at_speeds(self) -> list[tuple[str, float, Finding]]:
+        """Friction of each model over that of the reference at every speed."""
+        rows = []
+        for model in self.models.judged if (speeds := self._speeds(SPEED)) else ():
+            beside, found = self.models.beside(model.name), self._friction(SPEED, model.name)
+            claim = said_of(AT_SPEEDS, beside)
+            rows += [
+                (model.name, speed, self._at_speed(claim, found, k, speed, beside))
+                for k, speed in enumerate(speeds)
+            ]
+        return rows
 
-    def forces(self, claim: Claim) -> dict[float, Finding]:
-        """Force at every depth at which anything touches in three dimensions, 1D over 3D less one."""
-        curve = ROUGH_DEPTH if claim is ROUGH_FORCE else SMOOTH_DEPTH
-        return self._deviations(claim, curve, "MDR", "BEM") if f"{curve}/BEM" in self.datasets else {}
+    def forces(self, claim: Claim) -> list[tuple[str, float, Finding]]:
+        """Force of each model over that of the reference less one, at every depth at which that one touches."""
+        curve, reference = ROUGH_DEPTH if claim is ROUGH_FORCE else SMOOTH_DEPTH, self.models.reference
+        if f"{curve}/{reference}" not in self.datasets:
+            return []
+        rows = []
+        for model in self.models.judged:
+            beside = self.models.beside(model.name)
+            found = self._deviations(said_of(claim, beside), curve, model.name, reference, beside)
+            rows += [(model.name, depth, each) for depth, each in found.items()]
+        return rows
 
     def _closed_form(self):
         """Force on the smooth body over the closed form, less one."""
         if f"{SMOOTH_DEPTH}/exact" in self.datasets:
-            for solver, dimension in DIMENSIONS.items():
+            for solver, dimension in self._labels.items():
                 yield from self._deviations(CLOSED_FORM, SMOOTH_DEPTH, solver, "exact", dimension).values()
 
     def _grid(self):
         """Change of the scene's own answer from half the points to all."""
         names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
         names = FRICTION if self.case.slides and self.case.motion.speed > 0 else names
-        for solver, dimension in DIMENSIONS.items():
+        for solver, dimension in self._labels.items():
+            if not self._has_grid(solver):
+                continue
             number = self._ratio(OWN, (solver,), *names)
             value = float((number.grid / np.abs(number.value))[0, 0])
             yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension)
@@ -168,16 +206,20 @@ class CaseFindings:
     def _spread(self):
         """Spread of both estimates of friction in three dimensions, at every speed."""
         speeds = self._speeds(SPEED)
-        if speeds and "friction_spread" in self.datasets[f"{SPEED}/BEM"]:
-            found = self._ratio(SPEED, ("BEM",), "friction_spread", size=True)
+        for solver, dimension in self._labels.items() if speeds else ():
+            if "friction_spread" not in self.datasets[f"{SPEED}/{solver}"]:
+                continue
+            found = self._ratio(SPEED, (solver,), "friction_spread", size=True)
             known = [(k, speed) for k, speed in enumerate(speeds) if isfinite(found.value[k, 0])]
-            yield from (replace(self._at_speed(SPREAD, found, k, speed), size=True) for k, speed in known)
+            yield from (
+                replace(self._at_speed(SPREAD, found, k, speed, dimension), size=True) for k, speed in known
+            )
 
     @cached_property
     def shifted(self) -> list[Shifted]:
         """Curves of friction against load shifted onto one, of each solver where there are points enough."""
         found = []
-        for solver, dimension in DIMENSIONS.items():
+        for solver, dimension in self._labels.items():
             fine, coarse = (self._collapse(solver, grid) for grid in (FINE, COARSE))
             if fine is None:
                 continue
@@ -201,18 +243,20 @@ class CaseFindings:
 
     def _unshifted(self):
         """Curves that cannot be shifted for want of answers."""
-        asked = self.datasets.get(f"{LOAD}/BEM")
+        asked = self.datasets.get(f"{LOAD}/{self.models.reference}")
         if asked is not None and eq23.shiftable(asked.sizes["speed"], asked.sizes[means.pressed(asked)]):
             known = {each.solver for each in self.shifted}
-            yield from (eq23.too_few(DIMENSIONS[each], self.name) for each in DIMENSIONS if each not in known)
+            yield from (
+                eq23.too_few(label, self.name) for each, label in self._labels.items() if each not in known
+            )
 
     @cached_property
     def points(self) -> DataFrame:
         """Every point of every curve on the fine grid, a row each."""
         frames = {}
-        for curve, solver in product(CURVES, (*DIMENSIONS, "exact")):
+        for curve, solver in product(CURVES, dict.fromkeys((*self._labels, "exact"))):
             if (dataset := self.datasets.get(f"{curve}/{solver}")) is not None:
-                rough = "draw" in dataset.dims or (self.case.roughness and "smooth" not in curve)
+                rough = "seed" in dataset.dims or (self.case.roughness and "smooth" not in curve)
                 frames[curve, solver, "rough" if rough else "smooth"] = means.means(dataset)
         every = stacked(frames, "curve", "solver", "body")
         first = [name for name in ("curve", "solver", "body", "points", "speed", "load", "depth") if name in every]
@@ -226,11 +270,18 @@ class CaseFindings:
 
     def _speeds(self, curve):
         """Speeds of a curve; none if it was not asked for."""
-        asked = self.datasets.get(f"{curve}/BEM")
+        asked = self.datasets.get(f"{curve}/{self.models.reference}")
         return [] if asked is None else asked["speed"].values.tolist()
 
-    def _friction(self, curve) -> Compared:
-        return self._ratio(curve, ("MDR", "BEM"), *FRICTION)
+    @property
+    def _labels(self):
+        return self.models.labels
+
+    def _has_grid(self, name):
+        return name not in self._labels or self.models[name].has_grid
+
+    def _friction(self, curve, model) -> Compared:
+        return self._ratio(curve, (model, self.models.reference), *FRICTION)
 
     def _ratio(self, curve, solvers, over, under=None, size=False) -> Compared:
         """A mean, or a ratio of two means, of one solver, or of one over another, at every point of a curve."""
@@ -241,9 +292,11 @@ class CaseFindings:
             values = [mean(sample[solver], over, under) for solver in solvers]
             return values[0] / values[1] if len(values) > 1 else values[0]
 
-        on_both = all(COARSE in each["grid"].values for each in datasets.values())
-        fine = Sample({name: each.sel(grid=FINE) for name, each in datasets.items()})
-        coarse = {name: each.sel(grid=COARSE) for name, each in datasets.items()} if on_both else None
+        # Of a model without points there is no other grid, and its answers have no error of it.
+        coarser = {name: COARSE if self._has_grid(name) else FINE for name in datasets}
+        on_both = all(grid in datasets[name]["grid"].values for name, grid in coarser.items())
+        fine = DrawSet({name: each.sel(grid=FINE) for name, each in datasets.items()})
+        coarse = {name: each.sel(grid=coarser[name]) for name, each in datasets.items()} if on_both else None
         return compared(ratio, fine, coarse, size)
 
     def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
@@ -258,8 +311,9 @@ class CaseFindings:
             if touched[k]
         }
 
-    def _at_speed(self, claim, found, place, speed):
-        return self._finding(claim, found, (place, 0), f"v = {speed:.3g} m/s", "friction-speed")
+    def _at_speed(self, claim, found, place, speed, dimension):
+        where = f"v = {speed:.3g} m/s"
+        return self._finding(claim, found, (place, 0), where, "friction-speed", dimension=dimension)
 
     def _finding(self, claim, found, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
         value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))

@@ -1,20 +1,20 @@
 """Curves around one scene: its own contact, force against depth, friction against speed and against load."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from pydantic import ValidationError
 
 from mdr1d import equations
 from scene import Indent, Refused, Scene, SolveError, Solver
-from scene.protocol import trusted, why_not
+from scene.protocol import lacking, trusted, why_not
 from scene.scales import elastic_contact
 
 from ...library.case import Case
 from ...models import exact
-from ...solving.parameter_grid import COARSE, FINE, Rectangle, on_two_grids, refuse
+from ...models.table import PROFILES, ModelLike, Models
+from ...solving.parameter_grid import COARSE, FINE, ParameterGrid, on_two_grids, refuse
 
-DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
 CURVES = {
@@ -27,13 +27,19 @@ CURVES = {
 }
 
 
-def curves(case: Case) -> dict[str, Rectangle]:
-    """Rectangles of a case by name, all of which both solvers can solve, as far as that is known beforehand.
+def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: str | None = None) -> Models:
+    """Models that are asked for, else those that a case names, with the case's settings. Raises InvalidInput."""
+    own: dict[str, Solver] = {"mdr": case.mdr, "bem": case.bem}
+    return Models.of(asked or case.models or None, reference or case.reference or None, own)
+
+
+def curves(case: Case, models: Models) -> dict[str, ParameterGrid]:
+    """Parameter grids of a case by name, all of which every model can solve, as far as that is known beforehand.
 
     Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
     """
     try:
-        found = _curves(case)
+        found = _curves(case, models)
         refuse(found.values())
     except (ArithmeticError, SolveError, ValidationError) as error:
         # The case is valid; what follows from it is not.
@@ -41,26 +47,26 @@ def curves(case: Case) -> dict[str, Rectangle]:
     return found
 
 
-def _curves(case):
+def _curves(case, models):
     plan, scene, motion = case.plan(), case.scene, case.motion
     smooth = replace(scene, roughness=None)
-    found = {OWN: _rectangle(case, scene, (motion.speed,), (motion.greatest,), keeps_fields=True)}
+    found = {OWN: _grid(case, models, scene, (motion.speed,), (motion.greatest,), keeps_fields=True)}
     depths = tuple(factor * elastic_contact(scene).depth for factor in plan.depths)
     indented = Indent(depth=depths[0])
     if case.roughness:
-        found[ROUGH_DEPTH] = _rectangle(case, replace(scene, motion=indented), (0.0,), depths)
-    pressed = _rectangle(case, replace(smooth, motion=indented), (0.0,), depths)
+        found[ROUGH_DEPTH] = _grid(case, models, replace(scene, motion=indented), (0.0,), depths)
+    pressed = _grid(case, models, replace(smooth, motion=indented), (0.0,), depths)
     closed_form = exact.Exact()
-    if not closed_form.refusals(pressed.scene):
+    if closed_form.name not in pressed.grids and not closed_form.refusals(pressed.scene):
         known: dict[str, dict[str, Solver]] = {closed_form.name: {FINE: closed_form, COARSE: closed_form}}
         pressed = replace(pressed, grids={**pressed.grids, **known})
     found[SMOOTH_DEPTH] = pressed
     if plan.speeds:
-        found[SPEED] = _rectangle(case, scene, plan.speeds, (motion.greatest,))
+        found[SPEED] = _grid(case, models, scene, plan.speeds, (motion.greatest,))
         loads = tuple(motion.greatest * factor for factor in plan.pressing)
-        found[LOAD] = _rectangle(case, scene, plan.load_speeds, loads)
+        found[LOAD] = _grid(case, models, scene, plan.load_speeds, loads)
     if plan.smooth_speeds:
-        found[SMOOTH_SPEED] = _rectangle(case, smooth, plan.smooth_speeds, (motion.greatest,))
+        found[SMOOTH_SPEED] = _grid(case, models, smooth, plan.smooth_speeds, (motion.greatest,))
     return found
 
 
@@ -89,17 +95,17 @@ def scaled_speed(case: Case, speed: float) -> float:
     return speed * float(case.scene.solid.retardation()[2][0]) / elastic_contact(case.scene).radius
 
 
-def slow_friction(case: Case) -> Mapping[str, float]:
-    """Friction of the smooth body over the slope at the contact's edge, per v tau / a at low speed, by solver."""
+def slow_friction(case: Case, models: Models) -> Mapping[str, float]:
+    """Friction of the smooth body over the slope at the contact's edge, per v tau / a at low speed, by model."""
     contact = elastic_contact(case.scene)
     shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
     speed = contact.radius / float(case.scene.solid.retardation()[2][0])
     lag, modulus = exact.mean_lag(case.scene.solid), case.scene.solid.indentation_modulus
-    laws = {"MDR": exact.slow_friction_1d, "BEM": exact.slow_friction_3d}
-    return {
-        solver: law(speed, contact.radius, lag, modulus, *shape) / contact.load / edge_slope(case)
-        for solver, law in laws.items()
-    }
+    in_one, in_three = (
+        law(speed, contact.radius, lag, modulus, *shape) / contact.load / edge_slope(case)
+        for law in (exact.slow_friction_1d, exact.slow_friction_3d)
+    )
+    return {each.name: in_one if each.draws == PROFILES else in_three for each in models}
 
 
 def edge_slope(case: Case) -> float:
@@ -107,21 +113,21 @@ def edge_slope(case: Case) -> float:
     return exact.edge_slope(case.indenter, elastic_contact(case.scene).radius)
 
 
-def _rectangle(case: Case, scene: Scene, speeds, values, keeps_fields=False) -> Rectangle:
+def _grid(case: Case, models: Models, scene: Scene, speeds, values, keeps_fields=False) -> ParameterGrid:
     """Contacts on the grid of each solver, and on half its points where that is a grid of the same surface."""
     plan = case.plan()
-    found = Rectangle(
+    found = ParameterGrid(
         scene=scene,
         speeds=tuple(speeds),
         values=tuple(values),
-        grids={each.name: {FINE: each} for each in (case.mdr, case.bem)},
-        draws={case.mdr.name: plan.profiles, case.bem.name: plan.surfaces},
+        grids={each.name: {FINE: each.solver} for each in models},
+        draws={each.name: each.count(plan.profiles, plan.surfaces) for each in models},
         keeps_fields=keeps_fields,
     )
     # A grid that cuts the roughness off has another surface on half the points.
     if scene.roughness is not None and scene.roughness.shortest is None:
         return found
-    return replace(found, grids={each.name: _halved(each, found.corners) for each in (case.mdr, case.bem)})
+    return replace(found, grids={each.name: _halved(each.solver, found.corners) for each in models})
 
 
 def _halved(solver, scenes) -> dict[str, Solver]:
@@ -130,7 +136,8 @@ def _halved(solver, scenes) -> dict[str, Solver]:
         grids = on_two_grids(solver)[solver.name]
     except ValidationError:
         return {FINE: solver}
-    coarse = grids[COARSE]
+    if (coarse := grids.get(COARSE)) is None:
+        return grids
     with trusted():
-        refused = any(map(coarse.refusals, scenes)) or why_not(coarse, scenes[0])
+        refused = any(lacking(coarse, each) for each in scenes) or why_not(coarse, scenes[0])
     return {FINE: solver} if refused else grids

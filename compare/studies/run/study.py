@@ -1,7 +1,7 @@
 """Scenes in one and in three dimensions: `crosscheck run`."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -11,33 +11,34 @@ import xarray
 from pandas import DataFrame
 
 from scene import Refused, Scene, notes
-from scene.vocabulary import FIELDS as DEFINED
+from scene.result import labelled
 
 from ...library.case import Case, NotCompared, doubted
 from ...library.describe import described, folders
-from ...library.lookup import Asked, named_cases
+from ...library.lookup import SceneLike, named_cases
+from ...models.table import ModelLike, Models, listed
 from ...report.page import Block, Findings, Plot, Section, Table, Text
 from ...report.plots import contact_maps, shifted_curves
 from ...report.views import view
 from ...solving import parameter_grid
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import Rectangle
+from ...solving.parameter_grid import ParameterGrid
 from ...solving.task import SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import eq23, finding
 from ...statistics.finding import Finding
 from ...statistics.means import with_spread
-from ...trustmap.verdict import Trust, trust
-from ..study import Study
+from ...trustmap.verdict import Advice, trust
+from ..study import Judgement, Study
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
 from .curves import (
     CURVES,
-    DIMENSIONS,
     OWN,
     curves,
     edge_slope,
     friction_law,
+    models_of,
     predicted_exponent,
     scaled_speed,
     slow_friction,
@@ -52,20 +53,27 @@ class Run(Study):
     """Scenes, each with the curves around it.
 
     cases : by name
+    asked, reference : models and the reference among them, in place of those that the cases name, see `Models.of`
     """
 
     cases: Mapping[str, Case]
-    _found: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+    asked: tuple[ModelLike, ...] = ()
+    reference: str | None = None
 
     command, title = "run", "One dimension against three"
 
     @classmethod
-    def of(cls, scene: Asked | Mapping[str, Asked] | None = None) -> "Run":
+    def of(
+        cls,
+        scene: SceneLike | Mapping[str, SceneLike] | None = None,
+        models: Sequence[ModelLike] | None = None,
+        reference: str | None = None,
+    ) -> "Run":
         """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
         asked = scene if isinstance(scene, str | Path) else "scene"
         try:
-            run = cls(named_cases(scene))
-            run.rectangles()
+            run = cls(named_cases(scene), listed(models), reference)
+            run.grids()
         except NotCompared as error:
             if not isinstance(scene, str | Path):
                 raise
@@ -79,7 +87,14 @@ class Run(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        return {"cases": {name: case.inputs for name, case in self.cases.items()}}
+        told = {"cases": {name: case.inputs for name, case in self.cases.items()}}
+        names = sorted({each.name for models in self.models.values() for each in models})
+        return told if names == ["BEM", "MDR"] else told | {"models": names}
+
+    @cached_property
+    def models(self) -> Mapping[str, Models]:
+        """Models of each case. Raises InvalidInput."""
+        return {name: models_of(case, self.asked, self.reference) for name, case in self.cases.items()}
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
@@ -105,10 +120,10 @@ class Run(Study):
         return folders(self.cases, "case")
 
     @cached_property
-    def _curves(self) -> Mapping[str, Mapping[str, Rectangle]]:
-        return {name: curves(case) for name, case in self.cases.items()}
+    def _curves(self) -> Mapping[str, Mapping[str, ParameterGrid]]:
+        return {name: curves(case, self.models[name]) for name, case in self.cases.items()}
 
-    def rectangles(self) -> Mapping[str, Rectangle]:
+    def grids(self) -> Mapping[str, ParameterGrid]:
         """Every curve of every case, by "case/curve"."""
         return {
             f"{self.folders[name]}/{curve}": each
@@ -123,20 +138,11 @@ class Run(Study):
         for name, found in self._curves.items():
             folder = self.folders[name]
             for solver, kept in found[OWN].fields(outcomes).items():
-                parts[f"/{folder}/{FIELDS}/{solver}"] = _fields(kept, self.cases[name].indenter.type)
+                parts[f"/{folder}/{FIELDS}/{solver}"] = labelled(kept, self.cases[name].indenter.type)
             parts[f"/{folder}/{TIMES}"] = _times(parameter_grid.contacts_of(found), outcomes)
         return xarray.DataTree.from_dict(
             {node.path: node.to_dataset(inherit=False) for node in super().answers(outcomes).subtree} | parts
         )
-
-    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        return [each for case in self.judged(answers) for each in case.claims]
-
-    def judged(self, answers: xarray.DataTree) -> Sequence[CaseFindings]:
-        """Findings, curves and points of each case."""
-        if self._found.get("answers") is not answers:
-            self._found.update(answers=answers, cases=[self._judged(name, answers) for name in self.cases])
-        return self._found["cases"]
 
     def _judged(self, name, answers) -> CaseFindings:
         below = answers[self.folders[name]]
@@ -145,50 +151,52 @@ class Run(Study):
             for node in below.subtree
             if node.parent is not None and node.parent.name in CURVES
         }
-        return CaseFindings(name, self.folders[name], self.cases[name], datasets)
+        return CaseFindings(name, self.folders[name], self.cases[name], self.models[name], datasets)
 
     @cached_property
-    def trusts(self) -> Mapping[str, Trust]:
-        """Advice of the trust map on 1D, by case: foretold, and not from what is solved here."""
+    def trusts(self) -> Mapping[str, Advice]:
+        """Advice of the trust map on 1D, by case: predicted, and not from what is solved here."""
         return {name: trust(case.scene) for name, case in self.cases.items()}
 
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        cases = [self._judged(name, answers) for name in self.cases]
+        findings = [each for case in cases for each in case.findings]
         worth = [
             f"Trust map, {quantity} of {name}: {each}"
             for name, found in self.trusts.items()
-            for quantity, each in found.worths.items()
+            for quantity, each in found.corrections.items()
         ]
-        return [*eq23.answers(findings), *finding.sentences(finding.claimed(findings)), *worth]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot] = ()
-    ) -> Sequence[Block]:
-        cases = self.judged(answers)
-        sections = [
+        answer = [*eq23.answers(findings), *finding.sentences(finding.claimed(findings)), *worth]
+        blocks: list[Block] = [
             Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
             for case in cases
         ]
-        if len(cases) == 1:
-            return sections
-        every = Table("summary", summary(cases), "Number and verdict, or counts of verdicts, of each case.")
-        return [*sections, Section("Every claim in every case", [every])]
+        if len(cases) > 1:
+            every = Table("summary", summary(cases), "Number and verdict, or counts of verdicts, of each case.")
+            blocks.append(Section("Every claim in every case", [every]))
+        return Judgement(findings, answer, blocks, self.setting)
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @property
+    def setting(self) -> Sequence[Block]:
         """Scene and settings of each case, and how a case of the paper departs from it."""
-        return [block for name, case in self.cases.items() for block in _setting(case.title or name, case)]
+        return [
+            block
+            for name, case in self.cases.items()
+            for block in _setting(case.title or name, case, self.models[name])
+        ]
 
 
-def _blocks(found: CaseFindings, answers, trusted: Trust) -> list[Block]:
+def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
     folder = f"{found.folder}/"
-    others = [each for each in found.claims if each.verdict == finding.REPORTED]
+    others = [each for each in found.findings if each.verdict == finding.REPORTED]
     blocks: list[Block] = [
         *_plots(found, answers),
         Findings(
-            finding.claimed(found.claims),
+            finding.claimed(found.findings),
             "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid.",
         ),
         Findings(others, "Numbers that tell how far these can be trusted."),
-        Table(f"{folder}trust", trusted.table(), "Advice of the trust map on 1D, foretold without solving."),
+        Table(f"{folder}trust", trusted.table(), "Advice of the trust map on 1D, predicted without solving."),
         Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
     ]
     if len(found.failures):
@@ -204,7 +212,7 @@ def summary(cases: Sequence[CaseFindings]) -> DataFrame:
     """A row for each claim and dimension, a column for each case: number and verdict, or counts of verdicts."""
     rows: dict[tuple[str, str], dict[str, list[Finding]]] = {}
     for case in cases:
-        for each in finding.claimed(case.claims):
+        for each in finding.claimed(case.findings):
             place = each.claim.sentence, each.dimension or each.claim.dimension
             rows.setdefault(place, {}).setdefault(case.name, []).append(each)
     return DataFrame(
@@ -225,7 +233,7 @@ def _cell(found: Sequence[Finding]) -> str:
     return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
 
 
-def _setting(title: str, case: Case) -> Iterator[Block]:
+def _setting(title: str, case: Case, models: Models) -> Iterator[Block]:
     """Scene in words, averages, grids and notes of a case; departures only of a case of the paper."""
     plan = case.plan()
     parts = [(each.name, getattr(case, each.name)) for each in fields(Scene)]
@@ -234,10 +242,21 @@ def _setting(title: str, case: Case) -> Iterator[Block]:
         f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
     )
     lines.append(f"averaged: {counts}")
-    lines.append(f"grids: {case.mdr.points} points in 1D, {case.bem.points} a side in 3D, and half as many")
+    lines.append(f"grids: {_grids_of(models)}")
     yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
     if case.departures:
         yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
+
+
+def _grids_of(models: Models) -> str:
+    """Points of each model in words."""
+    own = {"MDR": "points in 1D", "BEM": "a side in 3D"}
+    told = [
+        f"{each.solver.points} {own.get(each.name, f'points of {each.label}')}"
+        for each in models
+        if hasattr(each.solver, "points")
+    ]
+    return f"{', '.join(told)}, and half as many" if told else "none"
 
 
 def _list(lines: Sequence[str]) -> Text:
@@ -255,14 +274,14 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     load, depth = f"load of {motion.greatest:g} N", f"depth of {motion.greatest * 1e6:g} µm"
     pressed = load if motion.load is not None else depth
     forces = [
-        (body, depth, each)
+        (body, *row)
         for claim, body in ((ROUGH_FORCE, "rough"), (SMOOTH_FORCE, "smooth"))
-        for depth, each in found.forces(claim).items()
+        for row in found.forces(claim)
     ]
     plots = [
         contact_maps.plot(view(case.scene, case.bem, fields), folder),
         force_depth.plot(points, forces, folder),
-        friction_curves.against_speed(points, list(found.at_speeds.items()), law, pressed, folder),
+        friction_curves.against_speed(points, found.at_speeds, law, pressed, folder),
         friction_curves.against_load(points, law, folder),
         _shifted_curves(found),
         _smooth_limit(found),
@@ -275,7 +294,7 @@ def _shifted_curves(found: CaseFindings) -> Plot | None:
     expected = predicted_exponent(found.case)
     rows = [
         shifted_curves.ShiftedCurves(
-            DIMENSIONS[each.solver],
+            found.models[each.solver].label,
             each.collapse,
             each.findings[0],
             expected,
@@ -297,33 +316,13 @@ def _smooth_limit(found: CaseFindings) -> Plot | None:
             "solver": points["solver"],
             "v_tau_over_a": [scaled_speed(found.case, speed) for speed in points["speed"]],
             "speed": points["speed"],
-            "friction_coefficient": points["friction_coefficient"],
-            "friction_over_slope": points["friction_coefficient"] / edge_slope(found.case),
+            "friction_coefficient": points["friction_coefficient_mean"],
+            "friction_over_slope": points["friction_coefficient_mean"] / edge_slope(found.case),
         }
     )
-    return smooth_limit.plot(table, slow_friction(found.case), f"{found.folder}/")
-
-
-def _fields(kept: Mapping[str, np.ndarray], indenter: str) -> xarray.Dataset:
-    """Fields of one contact along the axes of the vocabulary, where all of them agree on how long those are."""
-    # A field that is called like an axis is that axis, or there is none.
-    axes = {name: np.asarray(values) for name, values in kept.items() if DEFINED[name].axes == (name,)}
-    lengths = {name: values.size if values.ndim == 1 else -1 for name, values in axes.items()}
-    variables = {}
-    for name, values in kept.items():
-        entry, values = DEFINED[name], np.asarray(values)
-        dims = entry.axes
-        if len(dims) > values.ndim:
-            dims = tuple(axis for axis in dims if axis != "y")
-        agree = len(dims) == values.ndim and all(
-            lengths.setdefault(axis, size) == size for axis, size in zip(dims, values.shape, strict=True)
-        )
-        if not agree:
-            dims = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-        plain = name.replace("_", " ")
-        said = {"units": entry.unit_under(indenter), "long_name": plain, "comment": entry.text}
-        variables[name] = dims, values, said if agree else {"long_name": plain}
-    return xarray.Dataset(variables)
+    return smooth_limit.plot(
+        table, slow_friction(found.case, found.models), found.models.reference, f"{found.folder}/"
+    )
 
 
 def _times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:

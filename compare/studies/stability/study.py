@@ -14,7 +14,7 @@ from ...solving.suggest import known
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import FAILS, HOLDS, Claim, Finding
-from ..study import Study
+from ..study import Hooked
 from .cases.collection import CASES
 from .cases.examination import Examination
 from .cases.hardcase import SIZES, Check
@@ -36,7 +36,7 @@ whose squares are no numbers, memories beyond 1e150 pixels, contacts of less tha
 
 
 @dataclass(frozen=True)
-class Stability(Study):
+class Stability(Hooked):
     """Every hard case at a size: "quick", "standard" or "full"."""
 
     size: str = "quick"
@@ -125,7 +125,7 @@ class Stability(Study):
         sections = [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
         return [Table("groups", DataFrame(counts), f"Hard cases, size {self.size}."), *sections]
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    def settings(self, answers: xarray.DataTree) -> Sequence[Block]:
         return [Text(ABOUT)]
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:

@@ -33,12 +33,12 @@ def figure(tables: Tables) -> Figure:
     axes = drawing.subplots()
     for solver, of_solver in means[means["speed"] > 0].groupby("solver", sort=False):
         for index, (value, curve) in enumerate(of_solver.groupby(other)):
-            label = style.LABEL[solver]
+            label = style.label(str(solver))
             if of_solver[other].nunique() > 1:
                 label += f", {value:.3g} {UNITS[other]}"
             line = style.SERIES_LINES[index % len(style.SERIES_LINES)]
             look = style.look(solver, label=label, linestyle=line, capsize=2)
-            intervals(axes, curve[across], curve, "friction", **look)
+            intervals(axes, curve[across], curve, "friction_coefficient", **look)
     axes.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     axes.set_xlabel(f"{WORDS[across]} [{UNITS[across]}]")
     axes.legend()

@@ -1,8 +1,8 @@
-"""A rectangle of a scene of one's own in both dimensionalities: `compare.sweep`."""
+"""A parameter grid of a scene of one's own in both dimensionalities: `compare.sweep`."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import islice, product
 from math import isfinite
 from typing import Any
 
@@ -18,24 +18,27 @@ from scene.quantities import SPEED
 from scene.reading import InvalidInput, whole
 
 from ...library.case import Case, doubted
-from ...library.lookup import Asked, case_of
-from ...report.page import Block, Plot, Table
+from ...library.lookup import SceneLike, case_of
+from ...models.table import ModelLike, Models
+from ...report.page import Findings, Table
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
-from ...solving.parameter_grid import Rectangle, on_two_grids
+from ...solving.parameter_grid import COARSE, FINE, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.finding import Claim, Finding
-from ...statistics.jackknife import judge, mean
+from ...statistics.finding import Claim, said_of
+from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.means import interval
-from ..study import Study
+from ..run.curves import models_of
+from ..study import Judgement, Study
 from . import figure as plots
 
-SOLVERS = ("MDR", "BEM")
-# Means over draws, by the names of a sweep: of a variable, or of one over another.
+# Means over draws: of a variable, or of one over another.
 MEANS = {
-    "friction": ("friction_force", "normal_force"),
-    "force": ("normal_force", None),
-    "reached": ("depth_reached", None),
+    "friction_coefficient": ("friction_force", "normal_force"),
+    "normal_force": ("normal_force", None),
+    "depth_reached": ("depth_reached", None),
 }
+
+WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 
 
 @dataclass(frozen=True)
@@ -45,23 +48,27 @@ class Sweep(Study):
     case : the scene with the settings of both solvers; its motion says whether a load or a depth is prescribed
     speeds, values : [m/s]; [N] or [m]
     draws : rough surfaces, and as many profiles
+    models : of which each but the reference is compared with that
     """
 
     case: Case
     speeds: tuple[float, ...]
     values: tuple[float, ...]
     draws: int
+    models: Models
 
     command, title = "sweep", "A sweep in one and in three dimensions"
 
     @classmethod
     def of(
         cls,
-        scene: Asked,
+        scene: SceneLike,
         speed: Sequence[float],
         load: Sequence[float] | None = None,
         depth: Sequence[float] | None = None,
         draws: int = 8,
+        models: Sequence[ModelLike] | None = None,
+        reference: str | None = None,
     ) -> "Sweep":
         """The sweep of a scene, a case, a file or a ready scene. Raises InvalidInput, Refused."""
         case = case_of(scene)
@@ -76,8 +83,9 @@ class Sweep(Study):
         pressed: dict[str, Any] = {name: prescribed[0]}
         moving = max(speeds)
         motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)
-        asked = cls(replace(case, motion=motion), speeds, prescribed, draws)
-        asked.rectangles()["contacts"].refuse()
+        compared = models_of(case, models, reference)
+        asked = cls(replace(case, motion=motion), speeds, prescribed, draws, compared)
+        asked.grids()["contacts"].refuse()
         return asked
 
     @property
@@ -91,51 +99,80 @@ class Sweep(Study):
     @property
     def doubts(self) -> tuple[str, ...]:
         """Doubts about the contacts at the corners of the sweep, each number and limit once."""
-        scenes = [each for rectangle in self.rectangles().values() for each in rectangle.corners]
+        scenes = [each for grid in self.grids().values() for each in grid.corners]
         return doubted(*(replace(self.case, motion=each.motion) for each in scenes))
 
-    def rectangles(self) -> Mapping[str, Rectangle]:
+    def grids(self) -> Mapping[str, ParameterGrid]:
         scene: Scene = self.case.scene
         return {
-            "contacts": Rectangle(
+            "contacts": ParameterGrid(
                 scene=scene,
                 speeds=self.speeds,
                 values=self.values,
-                grids=on_two_grids(self.case.mdr, self.case.bem),
-                draws={self.case.mdr.name: self.draws, self.case.bem.name: self.draws},
+                grids=on_two_grids(*(each.solver for each in self.models)),
+                draws={each.name: each.count(self.draws, self.draws) for each in self.models},
             )
         }
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """Friction, or force, of 1D over 3D at every contact, reported without a claim."""
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
+        findings, table = list(self._findings(answers)), means(self.dataset(answers))
+        plot = [plots.plot(table)] if max(self.speeds) > 0 else []
+        shown = Table("means", table, "Means over draws with intervals of 95 %.")
+        return Judgement(findings, blocks=[*plot, Findings(findings), shown], setting=self.setting)
+
+    def _findings(self, answers):
         prescribed = self.case.motion.pressed_by
-        name = "friction" if max(self.speeds) > 0 else "force" if prescribed == "depth" else "reached"
+        name = (
+            "friction_coefficient"
+            if max(self.speeds) > 0
+            else "normal_force"
+            if prescribed == "depth"
+            else "depth_reached"
+        )
+        word = WORDS[name]
         above, below = MEANS[name]
-        found = []
-        for i, speed in enumerate(self.speeds):
-            for j, value in enumerate(self.values):
+        for (i, speed), (j, value), model in product(
+            enumerate(self.speeds), enumerate(self.values), self.models.judged
+        ):
+            solvers = model.name, self.models.reference
 
-                def ratio(sample, i=i, j=j):
-                    one, three = (mean(sample[f"contacts/{solver}"], above, below) for solver in SOLVERS)
-                    return float(one[i, j] / three[i, j])
+            def ratio(sample, i=i, j=j, solvers=solvers):
+                one, three = (mean(sample[solver], above, below) for solver in solvers)
+                return float(one[i, j] / three[i, j])
 
-                claim = Claim(
-                    f"sweep.{name}",
-                    f"The {name.replace('reached', 'depth')} in 1D over that in 3D",
+            beside = self.models.beside(model.name)
+            claim = said_of(
+                Claim(
+                    f"sweep.{word}",
+                    f"The {word} in 1D over that in 3D",
                     meaning="Ratio of the means over draws.",
-                    curves=("contacts",),
                     measure=ratio,
-                )
-                found.append(judge(claim, answers, f"{speed:g} m/s, {value:g} {UNITS[prescribed]}"))
-        return found
+                ),
+                beside,
+            )
+            fine, coarse = (self._draws(answers, grid, solvers) for grid in (FINE, COARSE))
+            where = f"{speed:g} m/s, {value:g} {UNITS[prescribed]}"
+            yield replace(measured(claim, fine, coarse, where), dimension=beside)
+
+    @staticmethod
+    def _draws(answers, grid, solvers):
+        nodes = {each: answers["contacts"].children[each].to_dataset(inherit=False) for each in solvers}
+        return DrawSet(
+            {name: each.sel(grid=grid if grid in each["grid"] else FINE) for name, each in nodes.items()}
+        )
 
     def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
         """Everything solved as one Dataset with the dimension solver, and means with intervals of 95 %."""
         parts = [
-            self._with_means(answers.children["contacts"].children[solver].to_dataset()) for solver in SOLVERS
+            self._with_means(answers.children["contacts"].children[solver].to_dataset())
+            for solver in self.models.labels
         ]
         joined = xarray.concat(
-            parts, xarray.Variable("solver", list(SOLVERS), attributes("solver")), data_vars="all", join="outer"
+            parts,
+            xarray.Variable("solver", list(self.models.labels), attributes("solver")),
+            data_vars="all",
+            join="outer",
         )
         return joined.assign_attrs(prescribed=self.case.motion.pressed_by)
 
@@ -143,25 +180,14 @@ class Sweep(Study):
         """One solver with its means; the points of a grid, which differ between solvers, as a variable."""
         for name, (above, below) in MEANS.items():
             for end, values in interval(dataset, above, below)._asdict().items():
-                label = name if end == "value" else f"{name}_{end}"
+                label = f"{name}_{'mean' if end == 'value' else end}"
                 dataset[label] = ("speed", self.case.motion.pressed_by), values, attributes(label)
         return dataset.reset_coords("points").drop_attrs(deep=False)
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        return [plots.plot(means(self.dataset(answers)))] if max(self.speeds) > 0 else []
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        return [
-            *super().blocks(answers, findings, plots),
-            Table("means", means(self.dataset(answers)), "Means over draws with intervals of 95 %."),
-        ]
 
 
 def means(dataset: xarray.Dataset) -> DataFrame:
     """Means of a sweep with their intervals of 95 %: a row for each solver, speed, and load or depth."""
-    names = [f"{name}{end}" for name in MEANS for end in ("", "_low", "_high")]
+    names = [f"{name}{end}" for name in MEANS for end in ("_mean", "_low", "_high")]
     return dataset[names].to_dataframe().reset_index()
 
 

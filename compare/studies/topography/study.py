@@ -16,13 +16,13 @@ from scene.files import reading_once
 from scene.quantities import METRE, argument
 from scene.reading import InvalidInput, mistakes
 
-from ...report.page import Block, Findings, Plot, Text
+from ...report.page import Block, Findings, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import EXACT, Claim, Finding, sentences
 from ...statistics.spectra import Description, describe
-from ..study import Study
+from ..study import Judgement, Study
 from . import figure as plots
 
 Side: TypeAlias = str | float
@@ -65,6 +65,9 @@ NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] =
     ("longest", "Longest wavelength of the self-affine band", "", "m", _law("longest")),
     ("shortest", "Shortest wavelength of the self-affine band", "", "m", _law("shortest")),
 )
+
+
+SAID = ("topography.rms-height", "topography.rms-slope", "topography.hurst")  # claims of the answer
 
 
 @dataclass(frozen=True)
@@ -146,7 +149,7 @@ class Map(Study):
             }
         )
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
+    def judge(self, answers: xarray.DataTree) -> Judgement:
         """Height, slopes, and the self-affine law with its interval; nothing is claimed of them."""
         found, law, findings = self.description, self.description.law, []
         for name, sentence, meaning, unit, number in NUMBERS:
@@ -162,26 +165,16 @@ class Map(Study):
                 if law is not None:
                     told |= {"scatter": (law.low, law.high), "grid": 0.0, "grid_method": EXACT}
             findings.append(Finding(claim, **told))
-        return findings
+        shown = [each for each in findings if each.claim.id in SAID]
+        answer = [*(f"Warning: {each}." for each in self.description.warnings), *sentences(shown)]
+        return Judgement(findings, answer, [plots.plot(self.description), Findings(findings)], self.setting)
 
     @property
     def notes(self) -> tuple[str, ...]:
         return self.description.topography.notes
 
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        told = ("topography.rms-height", "topography.rms-slope", "topography.hurst")
-        warnings = [f"Warning: {each}." for each in self.description.warnings]
-        return [*warnings, *sentences([each for each in findings if each.claim.id in told])]
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        return [plots.plot(self.description)]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        return [*plots, Findings(findings)]
-
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @property
+    def setting(self) -> Sequence[Block]:
         return [Text("\n\n".join(self.lines()))]
 
     def lines(self) -> list[str]:

@@ -35,7 +35,7 @@ PERIODS = 1.0, 10.0
 SPEEDS = 1e-3, 1e3
 # Points to learn from from which on the longest wave is far longer than the contact, as in the paper.
 LONG, LONG_PERIODS = 4096, (8.0, 25.0)
-# Points from which on bodies are blunt and slide under a load, where the depth is hardest to foretell: of those to
+# Points from which on bodies are blunt and slide under a load, where the depth is hardest to predict: of those to
 # learn from, of those that were held out once and then learned from, and of those held out. Their exponents and
 # heights, and the longest waves of all of them.
 BLUNT, BLUNT_CHECKED, BLUNT_HELD_OUT = 6144, 12_000, 4000

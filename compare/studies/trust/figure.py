@@ -45,7 +45,7 @@ def plot(table: DataFrame, about: str, wide: float, folder: str = "") -> Plot:
 
 def figure(tables: Tables, wide: float) -> Figure:
     """One map with lines of equal ratios, and the smooth body beside it."""
-    everything, low, high = (_rectangle(tables[NAME], name) for name in ("ratio", "ratio_low", "ratio_high"))
+    everything, low, high = (_unstacked(tables[NAME], name) for name in ("ratio", "ratio_low", "ratio_high"))
     logarithm, smooth = everything.drop(columns=np.inf), everything[FLAT]
     least, most = (float(end) for end in (np.nanmin(everything), np.nanmax(everything)))
     drawing = style.canvas("single", 3.7)
@@ -108,6 +108,6 @@ def _lines(axes, x, logarithm, levels):
         axes.clabel(lines, manual=whole, **written)
 
 
-def _rectangle(table, name):
+def _unstacked(table, name):
     """Logarithms of a column: a row a speed, a column a pressure."""
-    return np.log(touching.rectangle(table, "memory_over_shortest", "pressure_over_slope", name))
+    return np.log(touching.unstacked(table, "memory_over_shortest", "pressure_over_slope", name))

@@ -1,4 +1,4 @@
-"""Regime map: friction of 1D over 3D against pressure and speed, foretold for a family of scenes."""
+"""Regime map: friction of 1D over 3D against pressure and speed, predicted for a family of scenes."""
 
 from collections.abc import Sequence
 from dataclasses import astuple, replace
@@ -11,7 +11,7 @@ from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 
 from ...models.exact import mean_lag
 from ...trustmap import shipped, verdict
-from ...trustmap.groups import Groups, Smooth
+from ...trustmap.groups import DimensionlessGroups, SmoothReference
 from ...trustmap.model import NORMAL, Model
 
 COLUMNS = "pressure_over_slope", "memory_over_shortest", "ratio", "ratio_low", "ratio_high"
@@ -52,23 +52,23 @@ def regime_table(
         speed = memory / (mean_lag(family.solid) * family.roughness.q_max(0.0))
         slides = replace(family, motion=replace(family.motion, speed=speed))
         flat = verdict.trust(replace(slides, roughness=None)).friction
-        found = _foretold(slides, pressures, model or shipped.model("friction"))
+        found = _predicted(slides, pressures, model or shipped.model("friction"))
         rows += [(pressure, memory, *each) for pressure, each in zip(pressures, found, strict=True)]
         rows.append((inf, memory, flat.ratio, flat.low, flat.high))
     return DataFrame(rows, columns=COLUMNS)
 
 
-def _foretold(scene, pressures, model):
+def _predicted(scene, pressures, model):
     """Ratio, low and high (N, 3) of a scene at the heights of pressures."""
-    smooth, rough = Smooth.of(scene), scene.roughness
-    own = np.exp(Groups.of(scene, smooth).pressure)
+    smooth, rough = SmoothReference.of(scene), scene.roughness
+    own = np.exp(DimensionlessGroups.of(scene, smooth).pressure)
     places = np.array(
         [
-            astuple(Groups.of(replace(scene, roughness=replace(rough, rms_height=height)), smooth))
+            astuple(DimensionlessGroups.of(replace(scene, roughness=replace(rough, rms_height=height)), smooth))
             for height in rough.rms_height * own / np.array(pressures)
         ]
     )
     known = [not verdict.beyond_measured(place) for place in places]
-    logarithm, error, _ = model.foretold(np.clip(places, *verdict.limits()))
+    logarithm, error, _ = model.predicted(np.clip(places, *verdict.limits()))
     ratios = np.exp(logarithm + NORMAL * np.outer((0, -1, 1), error))
     return np.where(known, ratios, nan).T

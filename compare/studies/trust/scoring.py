@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from scipy.special import betaincinv, ndtr, ndtri
 
-from ...trustmap.model import NORMAL, Foretold, Measurements
+from ...trustmap.model import NORMAL, Measurements, Predicted
 from ...trustmap.verdict import SOLVE, advice_on
 
 # Quantiles of a normal distribution that stand for it.
@@ -15,27 +15,27 @@ _QUANTILES = ndtri((np.arange(99) + 0.5) / 99)
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Ratios foretold beside measured ones, of scenes with one quantity (N,).
+    """Ratios predicted beside measured ones, of scenes with one quantity (N,).
 
-    measured, foretold : of the same scenes; where a mean is not above zero there is no ratio, and no error
+    measured, predicted : of the same scenes; where a mean is not above zero there is no ratio, and no error
     """
 
     measured: Measurements
-    foretold: Foretold
+    predicted: Predicted
 
     def taken(self, chosen: np.ndarray) -> "Score":
         """Score of some scenes: a mask or numbers of scenes."""
-        return Score(self.measured.taken(chosen), Foretold(*(each[chosen] for each in self.foretold)))
+        return Score(self.measured.taken(chosen), Predicted(*(each[chosen] for each in self.predicted)))
 
     @cached_property
     def variance(self) -> np.ndarray:
         """Variance of the measured logarithms (N,)."""
-        return self.measured.variance(self.foretold.scatter)
+        return self.measured.variance(self.predicted.scatter)
 
     @cached_property
     def advice(self) -> np.ndarray:
         """Advice on each scene (N,)."""
-        ratio, error = np.exp(self.foretold.logarithm), self.foretold.error
+        ratio, error = np.exp(self.predicted.logarithm), self.predicted.error
         return np.array([advice_on(*each) for each in zip(ratio, error, strict=True)])
 
     @property
@@ -51,21 +51,21 @@ class Score:
     @cached_property
     def errors(self) -> np.ndarray:
         """Relative errors of corrected 1D (N,), the scatter of the truth in them."""
-        return np.expm1(self.measured.logarithm - self.foretold.logarithm)
+        return np.expm1(self.measured.logarithm - self.predicted.logarithm)
 
     @cached_property
     def own(self) -> np.ndarray:
         """Errors of the map alone (N, 99), as quantiles: each measured error is split as variances stand."""
-        apart = self.measured.logarithm - self.foretold.logarithm
-        model = self.foretold.error**2
+        apart = self.measured.logarithm - self.predicted.logarithm
+        model = self.predicted.error**2
         share = model / (model + self.variance)
         return np.expm1((apart * share)[:, None] + np.sqrt(self.variance * share)[:, None] * _QUANTILES)
 
     @cached_property
     def held(self) -> np.ndarray:
         """Mask of the measured ratios within the interval of 95 % (N,), widened by the noise of the truth."""
-        apart = self.measured.logarithm - self.foretold.logarithm
-        return np.abs(apart) < NORMAL * np.sqrt(self.foretold.error**2 + self.variance)
+        apart = self.measured.logarithm - self.predicted.logarithm
+        return np.abs(apart) < NORMAL * np.sqrt(self.predicted.error**2 + self.variance)
 
     @property
     def covered(self) -> float:
@@ -75,10 +75,10 @@ class Score:
     @property
     def surfaces_covered(self) -> float:
         """Share of single surfaces within the interval of one surface, where it has one, as they were measured."""
-        if not self.foretold.surface_told.all():
-            return self.taken(self.foretold.surface_told).surfaces_covered
-        apart = self.measured.logarithm - self.foretold.logarithm
-        width = NORMAL * np.hypot(self.foretold.error, self.foretold.scatter)
+        if not self.predicted.surface_told.all():
+            return self.taken(self.predicted.surface_told).surfaces_covered
+        apart = self.measured.logarithm - self.predicted.logarithm
+        width = NORMAL * np.hypot(self.predicted.error, self.predicted.scatter)
         scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)
         return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
 

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ...trustmap.model import NORMAL
-from ...trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, parts
+from ...trustmap.regions import BODIES, COVERED, ROUGHNESS, SPEEDS, parts
 from ...trustmap.verdict import MULTIPLY, SOLVE, USE
 from .scoring import Score, of_count
 
@@ -17,28 +17,6 @@ FEWEST = 5
 ENOUGH, PROMISED = 40, 0.95
 # A score, and the groups of its scenes by name.
 Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
-
-
-def error_rows(score: Score, groups: Mapping[str, np.ndarray]) -> Iterator[dict[str, Any]]:
-    """Errors in each region of one kind."""
-    for kind, regions in REGIONS.items():
-        for region, condition in regions.items():
-            here = condition(groups)
-            if not here.any():
-                continue
-            part = score.taken(here)
-            used = part.used
-            row = {"kind": kind, "region": region, "scenes": int(here.sum()), "usable": part.usable.mean()}
-            if used.usable.any():
-                own, errors = np.abs(used.own), np.abs(used.errors)
-                row |= {
-                    "median error": np.median(errors),
-                    "nine in ten": np.quantile(errors, 0.9),
-                    "median without scatter of the truth": np.median(own),
-                    "nine in ten without it": np.quantile(own, 0.9),
-                    "in 95 %": used.covered,
-                }
-            yield row
 
 
 def evenly(scores: Mapping[str, Scored]) -> dict[str, Scored]:
@@ -84,7 +62,7 @@ def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
         row |= {"quantity": name, "scenes": part.usable.size}
         row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
         if part.usable.any():
-            known = part.taken(part.usable).foretold
+            known = part.taken(part.usable).predicted
             low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
             half = np.median(np.expm1(NORMAL * known.error))
             row |= {"factor": middle, "from": low, "to": high, "interval": half}

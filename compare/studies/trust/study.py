@@ -1,7 +1,7 @@
 """The trust map, made again: scenes solved in both dimensionalities, and errors on scenes held out."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from math import log
 from typing import Any
@@ -13,25 +13,25 @@ from pandas import DataFrame
 from scene import Scene
 
 from ...library.ready import CATALOGUE
-from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...report.page import Block, Findings, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.suggest import known
 from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import Claim, Finding, claimed, sentences
 from ...trustmap import shipped, table
-from ...trustmap.groups import LINE, SPACE, Groups, Smooth
+from ...trustmap.groups import LINE, SPACE, DimensionlessGroups, SmoothReference
 from ...trustmap.model import NAMES, Model
 from ...trustmap.ratio import QUANTITIES, Ratio, asked_of, ratio_of
 from ...trustmap.verdict import WIDE
-from ..study import Study
+from ..study import Judgement, Study
 from . import design
 from . import figure as regime_map
 from .contact import Contact
 from .map import ABOUT as ABOUT_FAMILY
 from .map import regime_table
 from .scoring import Score
-from .statements import PROMISED, Scored, advice_rows, coverage_rows, error_rows, evenly
+from .statements import PROMISED, Scored, advice_rows, coverage_rows, evenly
 
 LEARNED, HELD_OUT = "learned", "held-out"
 ABOUT = """Each scene is a point of a design over dimensionless groups, solved in 1D on profiles and in 3D on
@@ -67,7 +67,7 @@ def _size(name: str) -> Size:
     learned, held_out = (
         tuple(int(each) for each in table.read(path)["point"]) for path in (table.LEARNED, table.HELD_OUT)
     )
-    # Of those drawn evenly the smooth ones are in no table; the blunt ones after them are all rough.
+    # Among those drawn evenly the smooth ones are in no table; the blunt ones after them are all rough.
     evenly = [point for point in held_out if point < design.BLUNT_HELD_OUT]
     held_out = *range(evenly[-1] + 1), *held_out[len(evenly) :]
     sizes = {"quick": Size((), held_out[:24]), "standard": Size(learned, held_out)}
@@ -82,7 +82,6 @@ class TrustStudy(Study):
     """The campaign behind the trust map, at a size."""
 
     size: str = "quick"
-    _judged: dict = field(default_factory=dict, init=False, repr=False, compare=False)
 
     command, name = "study", "trust"
     title, about = CATALOGUE["trust"].title, CATALOGUE["trust"].about
@@ -129,21 +128,10 @@ class TrustStudy(Study):
 
     def models(self, answers: xarray.DataTree) -> dict[str, Model]:
         """Models of all quantities: fitted to what was learned, or those that come with the package."""
-        if self._judged.get("answers") is not answers:
-            models = {name: shipped.model(name) for name in QUANTITIES}
-            if LEARNED in answers:
-                learned = table.columns(answers[LEARNED].to_dataset())
-                models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
-            self._judged.clear()
-            self._judged.update(answers=answers, models=models)
-        return self._judged["models"]
-
-    def scores(self, answers: xarray.DataTree) -> dict[str, Scored]:
-        """Score of each quantity on the scenes held out, and the groups of these by name; scored once."""
-        models = self.models(answers)
-        if "scores" not in self._judged:
-            self._judged["scores"] = self.scored(table.columns(answers[HELD_OUT].to_dataset()), models)
-        return self._judged["scores"]
+        if LEARNED not in answers:
+            return {name: shipped.model(name) for name in QUANTITIES}
+        learned = table.columns(answers[LEARNED].to_dataset())
+        return {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
 
     @staticmethod
     def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Scored]:
@@ -154,52 +142,30 @@ class TrustStudy(Study):
             groups = {each: held_out[each][rows] for each in NAMES}
             groups["slides"] = held_out[table.column("friction", "surfaces")][rows] > 0
             groups["blunt"] = held_out["point"][rows] >= design.BLUNT_HELD_OUT
-            found[name] = Score(measured, model.foretold(measured.groups)), groups
+            found[name] = Score(measured, model.predicted(measured.groups)), groups
         return found
 
-    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        scores = self.scores(answers)
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        models = self.models(answers)
+        scores = self.scored(table.columns(answers[HELD_OUT].to_dataset()), models)
         rough = [each for name, (score, _) in evenly(scores).items() for each in _findings(name, score)]
         blunt = [
             _held(name, score.taken(groups["blunt"]))
             for name, (score, groups) in scores.items()
             if groups["blunt"].any()
         ]
-        return [*rough, *blunt, *_smooth_findings(answers[HELD_OUT].to_dataset())]
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> Sequence[Plot]:
-        """The regime map."""
-        friction = self.models(answers)["friction"]
-        return [regime_map.plot(regime_table(model=friction), ABOUT_FAMILY, WIDE)]
-
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        return sentences(claimed(findings))
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        scores = self.scores(answers)
-        return [
-            *plots,
-            Table(
-                "advice",
-                DataFrame(list(advice_rows(evenly(scores)))),
-                "Advice on the scenes held out, by regime and body.",
-            ),
+        findings = [*rough, *blunt, *_smooth_findings(answers[HELD_OUT].to_dataset())]
+        advice, coverage = (DataFrame(list(rows)) for rows in (advice_rows(evenly(scores)), coverage_rows(scores)))
+        blocks: list[Block] = [
+            regime_map.plot(regime_table(model=models["friction"]), ABOUT_FAMILY, WIDE),
+            Table("advice", advice, "Advice on the scenes held out, by regime and body."),
             Findings(findings, "Errors on scenes held out, with intervals of 95 % over these scenes."),
-            Table(
-                "coverage", DataFrame(list(coverage_rows(scores))), "Share within the interval of 95 %, by region."
-            ),
-            Section(
-                "Errors by region",
-                [
-                    Table(f"regions-{name}", DataFrame(list(error_rows(*scores[name]))), f"{name.capitalize()}.")
-                    for name in scores
-                ],
-            ),
+            Table("coverage", coverage, "Share within the interval of 95 %, by region."),
         ]
+        return Judgement(findings, sentences(claimed(findings)), blocks, self.setting)
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @property
+    def setting(self) -> Sequence[Block]:
         """The campaign, and the meaning of its errors."""
         return [Text(ABOUT)]
 
@@ -222,9 +188,9 @@ def _row(point: int, contact: Contact, outcomes: Mapping[Task, Outcome]) -> dict
     line, space = (outcomes[each].rows[0] for each in _smooth(scene))
     groups, smooth = {}, dict.fromkeys(QUANTITIES, np.nan)
     if not (line.reason or space.reason):
-        body = Smooth.of(scene, line, space)
+        body = SmoothReference.of(scene, line, space)
         smooth = {name: log(getattr(body, name)) for name in QUANTITIES}
-        groups = {} if scene.roughness is None else asdict(Groups.of(scene, body))
+        groups = {} if scene.roughness is None else asdict(DimensionlessGroups.of(scene, body))
     none = Ratio(np.nan, np.nan, np.nan, 0, np.nan)
     ratios = {name: ratio_of(outcomes[contact], name) for name in asked_of(scene)}
     return {

@@ -25,7 +25,7 @@ SETTINGS = {"points": nan, "tolerance": nan, "steps": nan, "precision": "", "ext
 STEPS = (
     *("contact", "quantity", "solver", "ladder", "title", "label", "estimate", "setting", "value", *SETTINGS),
     *("relative_error", "reference", "reference_error"),
-    *("processor", "wall", "memory", "applications", "status", "reason"),
+    *("processor", "wall", "memory", "operator_applications", "status", "reason"),
 )
 DIMENSIONS = {"MDR": "1D", "CorrectedMDR": "1D corrected", "BEM": "3D"}
 
@@ -149,7 +149,7 @@ def costs_of(solves: Sequence[TimedSolve], outcomes: Outcomes, *more: str) -> di
     found: dict[str, list] = {
         "status": [SOLVED if row.reason is None else FAILED for row in rows],
         "reason": [row.reason or "" for row in rows],
-        "applications": [row.applications for row in rows],
+        "operator_applications": [row.operator_applications for row in rows],
     }
     found |= {name: [row.measures.get(name, nan) for row in rows] for name in (*COSTS, "repeats", *more)}
     return {name: ("step", values) for name, values in found.items()}

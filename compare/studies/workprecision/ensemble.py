@@ -104,7 +104,7 @@ class Ensemble:
 
         def filled(of, empty, kind=float):
             rows = [[of(row) for row in grid] + [empty] * (draws - len(grid)) for grid in grids]
-            return ("points", "draw"), np.array(rows, kind)
+            return ("points", "seed"), np.array(rows, kind)
 
         found = {
             VARIABLES[each.name]: filled(lambda row, each=each: each.measured(row, {}), nan)
@@ -113,10 +113,10 @@ class Ensemble:
         found["status"] = filled(lambda row: SOLVED if row.reason is None else FAILED, NOT_ASKED, object)
         found["reason"] = filled(lambda row: row.reason or "", "", object)
         costs = [costs_of(self._timed_of(each), outcomes) for each in solvers]
-        for cost in (*COSTS, "applications"):
+        for cost in (*COSTS, "operator_applications"):
             found[cost] = "points", [np.mean(each[cost][1]) for each in costs]
         first = self.scene.roughness.seed
-        coordinates = {"points": [each.points for each in solvers], "draw": list(range(first, first + draws))}
+        coordinates = {"points": [each.points for each in solvers], "seed": list(range(first, first + draws))}
         about = {"contact": self.name, "title": self.title, "solver": name}
         dataset = described(xarray.Dataset(found, coordinates, about), self.scene)
         for each in self.quantities:
@@ -136,8 +136,8 @@ class Sample:
     """Answers of one solver on one grid.
 
     values : by the quantity's name, (surfaces,), NaN where a solve failed or nothing touched
-    costs : of one surface, the mean of those measured: processor, wall [s], memory [bytes], applications; NaN
-        where one failed; and setup [s], the processor time before the first surface, if there is any
+    costs : of one surface, the mean of those measured: processor, wall [s], memory [bytes] and
+        operator_applications, NaN where one failed; and setup [s], the processor time before the first surface
     reasons : why solves failed, one each
     """
 
@@ -156,9 +156,9 @@ class Sample:
     def of(cls, dataset: xarray.Dataset, points: int) -> "Sample":
         """Sample of one grid of a solver."""
         grid = dataset.sel(points=points)
-        grid = grid.isel(draw=np.flatnonzero(grid["status"].values != NOT_ASKED))
+        grid = grid.isel(seed=np.flatnonzero(grid["status"].values != NOT_ASKED))
         values = {each.attrs["quantity"]: each.values for each in grid.values() if "quantity" in each.attrs}
-        costs = {name: grid[name].item() for name in (*COSTS, "applications")}
+        costs = {name: grid[name].item() for name in (*COSTS, "operator_applications")}
         reasons = tuple(str(reason) for reason in grid["reason"].values if reason)
         return cls(dataset.attrs["solver"], points, values, costs, reasons)
 
@@ -176,13 +176,13 @@ class MeasuredMean(Mean):
 
     truth : mean with its whole error: half of the interval of 95 % and that of the grid; NaN where more than
         MOST_FAILED of the surfaces have no answer
-    standard_error : statistical part of that error, relative; freedom : its degrees of freedom
+    standard_error : statistical part of that error, relative; dof : its degrees of freedom
     samples : of all grids of all solvers
     """
 
     truth: Known
     standard_error: float
-    freedom: float
+    dof: float
     samples: tuple[Sample, ...]
 
 
@@ -205,7 +205,7 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
                 "truth": mean.truth.value,
                 "scale": mean.truth.scale,
                 "truth_standard_error": mean.standard_error,
-                "truth_freedom": mean.freedom,
+                "truth_dof": mean.dof,
                 "truth_grid_error": mean.grid_error,
                 "solver": plan.solver,
                 "plan": plan.label,
@@ -218,13 +218,13 @@ def plans_table(found: Sequence[MeasuredMean]) -> list[dict[str, Any]]:
                 "scatter": level.scatter.value,
                 "scatter_low": low,
                 "scatter_high": high,
-                "scatter_freedom": level.scatter.freedom,
+                "scatter_dof": level.scatter.dof,
                 "surfaces": own.count,
                 "failed": len(own.reasons),
                 "reason": own.reasons[0] if own.reasons else "",
                 "processor": level.seconds,
             }
-            rows.append(row | {name: own.costs[name] for name in ("wall", "memory", "applications")})
+            rows.append(row | {name: own.costs[name] for name in ("wall", "memory", "operator_applications")})
     return rows
 
 
@@ -236,7 +236,7 @@ def _mean_of(variable, about, grids, lines):
     many, corrections = Scatter.of(first), best - first[: best.size]
     found = _corrected_mean(first, corrections)
     unit = variable.attrs.get("scale", abs(found.value) or nan)
-    known_mean = Estimated(found.value / unit, found.error / unit, found.freedom, found.skewness)
+    known_mean = Estimated(found.value / unit, found.error / unit, found.dof, found.skewness)
     known = np.isfinite(first)
     known[: corrections.size] &= np.isfinite(corrections)
     # Error of the finest grid at first order, from what it changes on the same surfaces.
@@ -256,12 +256,12 @@ def _mean_of(variable, about, grids, lines):
         values = sample.values[name]
         both = np.isfinite(values) & np.isfinite(first[: values.size])
         here, there = (Scatter.of(each[: values.size][both]) for each in (values, first))
-        scatter = Scatter(many.value * here.value / there.value / unit if there.value else nan, many.freedom)
+        scatter = Scatter(many.value * here.value / there.value / unit if there.value else nan, many.dof)
         return SamplingPlan("BEM", bias(sample), (Level((sample.points,), scatter, sample.costs["processor"]),))
 
     def corrected(sample):
         """A mean on the first grid, with what a finer one changes on surfaces of their own."""
-        scatter = Scatter(many.value / unit, many.freedom)
+        scatter = Scatter(many.value / unit, many.dof)
         coarse = Level((coarsest.points,), scatter, coarsest.costs["processor"])
         changes = sample.values[name] - first[: sample.values[name].size]
         spent = sample.costs["processor"] + coarsest.costs["processor"]
@@ -280,7 +280,7 @@ def _mean_of(variable, about, grids, lines):
     told = about["contact"], about["title"], name, variable.attrs["label"]
     samples = (*grids, *lines)
     failed = sum(len(sample.reasons) for sample in samples)
-    return MeasuredMean(*told, plans, left, failed, truth, known_mean.error, found.freedom, samples)
+    return MeasuredMean(*told, plans, left, failed, truth, known_mean.error, found.dof, samples)
 
 
 def _corrected_mean(first, corrections) -> Estimated:
@@ -291,11 +291,11 @@ def _corrected_mean(first, corrections) -> Estimated:
     value = float(many.value + few.value)
     if both.sum() < 2:
         return Estimated(value, nan, 0.0)
-    covariance = float(np.cov(shared[both], corrections[both])[0, 1]) / (many.freedom + 1)
+    covariance = float(np.cov(shared[both], corrections[both])[0, 1]) / (many.dof + 1)
     parts = float(many.error) ** 2, float(few.error) ** 2
     whole = sum(parts)
-    freedom = whole**2 / (parts[0] ** 2 / many.freedom + parts[1] ** 2 / few.freedom) if whole else inf
+    dof = whole**2 / (parts[0] ** 2 / many.dof + parts[1] ** 2 / few.dof) if whole else inf
     # What each surface adds to the sum of both.
-    added = np.nan_to_num(first - many.value) / (many.freedom + 1)
-    added[: corrections.size] += np.nan_to_num(corrections - few.value) / (few.freedom + 1)
-    return Estimated(value, sqrt(max(whole + 2 * covariance, 0.0)), freedom, float(skewness(added)))
+    added = np.nan_to_num(first - many.value) / (many.dof + 1)
+    added[: corrections.size] += np.nan_to_num(corrections - few.value) / (few.dof + 1)
+    return Estimated(value, sqrt(max(whole + 2 * covariance, 0.0)), dof, float(skewness(added)))

@@ -24,7 +24,7 @@ PATHS = {"quick": (2, 8, 16), "full": (1, 2, 4, 8, 16, 32)}  # over the radius o
 REFERENCE = {"quick": 256, "full": 1024}
 # Pressed in for two relaxation times and drawn back for less than one.
 SCENE, TIMES, DEPTHS = withdrawal(2 * TIME, 0.5 * TIME)
-# Of v tau / a; the solid creeps for ten times as long.
+# Speed as v tau / a; the solid creeps for ten times as long.
 FLOW = 0.1
 
 

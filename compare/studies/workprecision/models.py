@@ -78,7 +78,7 @@ def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
         scatter, bias = first.levels[0].scatter, first.bias
         yield reported(
             "surfaces.scatter", "Scatter of one surface", scatter.value, where,
-            scatter=scatter.interval(), grid=0.0, draws=scatter.freedom + 1, missing=why,
+            scatter=scatter.interval(), grid=0.0, draws=scatter.dof + 1, missing=why,
         )  # fmt: skip
         yield reported(
             "surfaces.coarsest-grid", f"Error that the coarsest grid leaves ({first.label} points)", bias.value,

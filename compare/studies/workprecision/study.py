@@ -9,12 +9,11 @@ import xarray
 from scene.reading import InvalidInput
 
 from ...library import ready
-from ...report.page import Block, Findings, Plot, Section, Text
+from ...report.page import Block, Findings, Section, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
-from ...statistics import finding
-from ...statistics.finding import Finding
-from ..study import Study
+from ...statistics.finding import Finding, sentences
+from ..study import Judgement, Study
 from . import elastic, extent, marching, mdr, models, precision, sliding
 from .diagram import Diagram, convergence
 from .scenes import QUICK, SIZES
@@ -96,41 +95,24 @@ class WorkPrecision(Study):
             }
         )
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """Findings of all diagrams."""
-        return [found for each in self.diagrams for found in each.findings(answers.children[each.name])]
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        """Figures of all diagrams."""
-        return [plot for each in self.diagrams for plot in each.plots(answers.children[each.name])]
-
-    def answer(self, findings: Sequence[Finding]) -> list[str]:
-        """A statement for each claim of each diagram."""
-        return [
-            f"{each.title}: {sentence}" if len(self.diagrams) > 1 else sentence
-            for each in self.diagrams
-            for sentence in finding.sentences(_of(each, findings))
-        ]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        """A section a diagram."""
-        found = []
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """Findings of all diagrams; a section and a statement for each claim of each."""
+        findings: list[Finding] = []
+        answer: list[str] = []
+        blocks: list[Block] = []
         for each in self.diagrams:
-            figures = [plot for plot in plots if plot.name.startswith(f"workprecision-{each.name}")]
-            tables = each.tables(answers.children[each.name])
-            found.append(Section(each.title, [*figures, *tables, Findings(_of(each, findings))]))
-        return found
+            node = answers.children[each.name]
+            own = list(each.findings(node))
+            heading = f"{each.title}: " if len(self.diagrams) > 1 else ""
+            answer += [f"{heading}{sentence}" for sentence in sentences(own)]
+            blocks.append(Section(each.title, [*each.plots(node), *each.tables(node), Findings(own)]))
+            findings += own
+        return Judgement(findings, answer, blocks, self.setting)
 
-    def setting(self, answers: xarray.DataTree) -> Sequence[Block]:
+    @property
+    def setting(self) -> Sequence[Block]:
         """Meaning of errors and times, and the contacts of each diagram."""
         return [Text(ABOUT.replace("\n", " "))] + [
             Section(f"Contacts of the diagram: {each.title}", [Text(ready.DIAGRAMS[each.name].about)])
             for each in self.diagrams
         ]
-
-
-def _of(diagram, findings):
-    """Findings of one diagram."""
-    return [each for each in findings if each.claim.id.startswith(f"workprecision.{diagram.name}.")]

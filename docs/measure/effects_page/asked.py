@@ -31,7 +31,7 @@ ROUGH: Mapping[str, Any] = {
 }
 WARM = {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}
 PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
-# Of the measured surface: pixels a side, as many as the shortest wave of ROUGH needs and more.
+# Pixels a side of the measured surface, as many as the shortest wave of ROUGH needs and more.
 PIXELS = 128
 
 

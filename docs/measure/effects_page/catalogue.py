@@ -1,8 +1,8 @@
-"""The chapters of the page on effects, in their order; what they cost is another, which wants a quiet machine."""
+"""The chapters of the page on effects, in their order; what they cost is another, which wants a quiet machine.
 
-from collections.abc import Sequence
+Each is a module with its NAME, `tasks()`, everything that is solved, and `chapter(outcomes)`, what came out.
+"""
 
 from . import layer, motions, shear, temperature, topography
-from .chapter import Study
 
-STUDIES: Sequence[Study] = (layer, topography, temperature, shear, motions)
+STUDIES = (layer, topography, temperature, shear, motions)

@@ -9,29 +9,19 @@ from dataclasses import dataclass
 from math import isfinite, nan
 
 from bem3d import BEM
-from compare.solving.amounts import seconds
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import Task
 from compare.studies.workprecision.timed_solve import TimedSolve
 from mdr1d import MDR
 from scene.costs import COSTS, two_digits
-from scene.plan import size
 
 from .asked import Effect, effects
 from .chapter import Chapter, Rows
-from .figures import costs as drawing
 
-NAME, TITLE = "costs", "What each effect costs"
+NAME, DATA = "costs", "effect-costs"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 # Relative: less than this is within what repeated measurements differ by.
 NOTHING = 0.1
-TEXT = """Processor seconds of one thread from the scene to the result, memory by which a solve raises the peak of
-its process, and operator applications, of a sphere in three dimensions ({bem} points a side, tolerance
-{tolerance:g}) and in one ({mdr} points): the least of several repeats, each solve alone in a process of its own.
-*Times* are those of the seconds of what the effect comes on top of. A program takes {steps} steps at least. A
-solve that fails is told with its reason in the numbers beside the figure.
-
-{found}"""
 # Parts that a plan counts by itself.
 COUNTED = {"3D": (), "1D": ("Program",)}
 
@@ -62,7 +52,7 @@ class Cost:
     def multiples(self) -> dict[str, float]:
         """By the names of `scene.costs.COSTS`: over those without the effect; of a program, a step of it."""
         steps = self.row.measures.get("time_steps", 1.0)
-        applications = self.row.applications / self.over.applications
+        applications = self.row.operator_applications / self.over.operator_applications
         return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
 
 
@@ -95,20 +85,15 @@ def tables(found: Mapping[str, Sequence[Cost]]) -> dict[str, Rows]:
 
 
 def chapter(outcomes: Mapping[Task, Outcome]) -> Chapter:
-    """The table, and what it comes to."""
-    found = costs(outcomes)
-    text = TEXT.format(
-        bem=SOLVERS["3D"].points,
-        tolerance=SOLVERS["3D"].tolerance,
-        mdr=SOLVERS["1D"].points,
-        steps=SOLVERS["3D"].steps,
-        found=" ".join(_said(name, billed) for name, billed in found.items()),
+    """What the measurements come to, as numbers."""
+    return Chapter(
+        data={DATA: [_sheet(name, each) for name, billed in costs(outcomes).items() for each in billed]}
     )
-    data = [_sheet(name, each) for name, billed in found.items() for each in billed]
-    figure = drawing.figure(data)
-    figures = {drawing.NAME: figure} if figure else {}
-    rows = [_line(*each) for each in zip(*found.values(), strict=True)]
-    return Chapter(text, {"Costs": rows}, figures, {drawing.NAME: data})
+
+
+def said(found: Mapping[str, Sequence[Cost]]) -> str:
+    """Which effects are free, and which is the dearest."""
+    return " ".join(_said(name, billed) for name, billed in found.items())
 
 
 def _of(solver, outcomes):
@@ -125,7 +110,6 @@ def _work(solver, effect):
 
 
 def _said(name, billed):
-    """Which are free, and which is the dearest."""
     added = [each for each in billed if each.effect.over and isfinite(each.times)]
     if not added:
         return f"In {name} nothing was solved."
@@ -140,25 +124,6 @@ def _listed(names):
     return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
-def _line(three: Cost, one: Cost):
-    effect = three.effect
-    return {"effect": effect.title, "on top of": effect.over or ""} | _cells("3D", three) | _cells("1D", one)
-
-
-def _cells(name, cost):
-    if cost.row.reason is not None:
-        word = "refused" if cost.row.reason.startswith("refused") else "failed"
-        return {name: word, f"times, {name}": "", f"memory, {name}": "", f"applications, {name}": ""}
-    times = two_digits(cost.times) if cost.effect.over else ""
-    memory = cost.row.measures["memory"]
-    return {
-        name: seconds(cost.seconds),
-        f"times, {name}": times,
-        f"memory, {name}": size(memory) if isfinite(memory) else "not known",
-        f"applications, {name}": f"{cost.row.applications:.0f}",
-    }
-
-
 def _sheet(name, cost):
     row = cost.row
     return {
@@ -170,7 +135,7 @@ def _sheet(name, cost):
         "wall": row.measures.get("wall", nan),
         "memory": row.measures.get("memory", nan),
         "repeats": row.measures.get("repeats", nan),
-        "applications": row.applications,
+        "operator_applications": row.operator_applications,
         "time_steps": row.measures.get("time_steps", nan),
         "reason": row.reason or "",
     }

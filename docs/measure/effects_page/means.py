@@ -10,13 +10,8 @@ from compare.statistics import digits
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio
 
-# Of the mean: bodies that differ by less do not scatter, and the mean stands alone.
+# Relative to the mean: bodies that differ by less do not scatter, and the mean stands alone.
 ALIKE = 1e-6
-# Said once on the page, where the first of them stands.
-MEANING = (
-    "Here and in every chapter brackets hold the interval of 95 % of a mean over surfaces, lines or places or of\n"
-    "a ratio of such means; a number without it is of one body, or of bodies alike to six digits."
-)
 
 
 @dataclass(frozen=True)
@@ -47,12 +42,12 @@ def ratio(above: Estimate, below: Estimate) -> Estimated:
         return Estimated(nan, nan, 0)
     value = above.mean / below.mean
     off = _relative(above).less(_relative(below))
-    return Estimated(value, abs(value) * off.error, off.freedom, np.sign(value) * off.skewness)
+    return Estimated(value, abs(value) * off.error, off.dof, np.sign(value) * off.skewness)
 
 
 def _relative(one):
     found = one.found
-    return Estimated(1.0, found.error / abs(one.mean), found.freedom, np.sign(one.mean) * found.skewness)
+    return Estimated(1.0, found.error / abs(one.mean), found.dof, np.sign(one.mean) * found.skewness)
 
 
 def between(found: Estimated, unit: str = "") -> str:

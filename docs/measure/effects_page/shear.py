@@ -23,13 +23,11 @@ from .chapter import Chapter, Rows
 from .figures import shear as drawing
 from .means import estimate, mean
 
-NAME, TITLE = "shear", "Tangential loading and partial slip"
+NAME = "shear"
 DEPTH, FRICTION, NU = 4e-4, 0.5, 0.5
 SHARES = tuple(round(0.05 * k, 2) for k in range(1, 33))  # displacements over 3/2 mu d
 LINES, SURFACES = 20, 3
 PRESSED = (0.2, 0.4, 0.6, 0.8)  # of them those at which the contact is compared with two pressures of its own
-POINTS = (64, 128, 256, 512)  # of the table of costs
-HALF_WAY = 0.5  # its displacement
 UNCOUPLED = "smooth, 3D, ν = 0"
 SOLVERS = {
     "smooth, 1D": MDR(points=5000),
@@ -38,24 +36,6 @@ SOLVERS = {
     "rough, 1D": MDR(points=5000),
     "rough, 3D": BEM(points=128),
 }
-TEXT = """A sphere of R = 50 mm on rubber of G₀ = 3 MPa, ν = 1/2, is pressed in by d = {depth:.0f} µm, smooth or
-with the roughness of the shipped scenes (rms height {height:.0f} µm, waves of 10 mm to 0.5 mm; {lines} lines in
-1D, {surfaces} surfaces in 3D), and then drawn along the surface. Coulomb friction holds it: every point sticks up
-to μ times its pressure. Everything is over μ F_N and over 3/2 μ d, so that μ does not matter.
-
-By Cattaneo and Mindlin a smooth sphere has F_x = μ F_N [1 − (1 − u/u_max)^(3/2)] and slips everywhere at
-u_max = 3/2 μ d. One dimension follows that to {smooth_1d:.1e} of μ F_N at most. Three dimensions follow it to
-{smooth_3d:.1e} at ν = 1/2, of which {uncoupled:.1e} is left at ν = 0, where the closed form is exact: the rest is
-what Cattaneo and Mindlin leave out, tractions aside of the pull.
-
-The rough sphere sticks longer. Its highest peaks are pressed in deeper than d, and are the last to slip: at
-u = {full_1d} times 3/2 μ d in 1D and {full_3d} in 3D; nine tenths of μ F_N are reached at {most_1d} and {most_3d}
-instead of {most:.2f}. The rule 3/2 μ d holds as far as roughness is small against the depth; here h₀/d =
-{ratio:.3f}. With each contact's own u_max, the curves of rough contacts are off those of the smooth by up to
-{shape_1d:.2f} of μ F_N in 1D and {shape_3d:.2f} in 3D: they do not fall onto one curve. This law holds:
-F_x = μ (F_a − F_c) at u = 3/2 μ (d_a − d_c), with the forces at both depths of the rough body itself: to
-{superposed_1d:.1e} of μ F_N in 1D and {superposed_3d:.1e} in 3D. The two dimensionalities differ by {apart:.3f} of
-μ F_N at most."""
 
 
 @dataclass(frozen=True)
@@ -101,11 +81,9 @@ class Curve:
 
 
 def tasks() -> list[Task]:
-    """Every displacement of every kind of body, all bodies of a kind together; and grids of all sizes."""
+    """Every displacement of every kind of body, all bodies of a kind together."""
     drawn = [_task(way, share) for way in SOLVERS for share in SHARES]
-    drawn += [_pressed(way, share) for way in SOLVERS for share in PRESSED]
-    sized = [_sized(points, rough) for points in POINTS for rough in (False, True)]
-    return list({(task.solver, task.scenes): task for task in (*drawn, *sized)}.values())
+    return drawn + [_pressed(way, share) for way in SOLVERS for share in PRESSED]
 
 
 @cache
@@ -139,10 +117,6 @@ def _pressed(way, share):
     return _asked(SOLVERS[way], tuple(replace(s, motion=motion, interface=None) for s in _task(way, share).scenes))
 
 
-def _sized(points, rough):
-    return _asked(BEM(points=points), (_scene(HALF_WAY, rough),))
-
-
 def _asked(solver, scenes):
     each = 200.0 * solver.points**2 if isinstance(solver, BEM) else 2.0 * solver.points
     return Task(solver, scenes, work=len(scenes) * each)
@@ -171,66 +145,37 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     found = curves(outcomes)
     drawn = [row for curve in found.values() for row in _sheet(curve)]
     return Chapter(
-        _text(found),
-        {
-            "Tangential force over μ F_N": _table(found),
-            "Operator applications at half of 3/2 μ d": _costs(outcomes),
-        },
+        {"Slip in numbers": _numbers(found), "Tangential force over μ F_N": _table(found)},
         {drawing.NAME: drawing.figure(drawn)},
         {drawing.NAME: drawn},
     )
 
 
-def _text(found):
-    rough = _roughness()
-    one, three = found["rough, 1D"], found["rough, 3D"]
-    return TEXT.format(
-        depth=DEPTH * 1e6,
-        height=rough.rms_height * 1e6,
-        lines=LINES,
-        surfaces=SURFACES,
-        smooth_1d=found["smooth, 1D"].off(1.0),
-        smooth_3d=found["smooth, 3D"].off(1.0),
-        uncoupled=found[UNCOUPLED].off(1.0),
-        full_1d=mean(one.full),
-        full_3d=mean(three.full),
-        most_1d=mean(one.most),
-        most_3d=mean(three.most),
-        most=float(tangential.displacement(0.9)),
-        ratio=rough.rms_height / DEPTH,
-        shape_1d=one.off(one.full),
-        shape_3d=three.off(three.full),
-        superposed_1d=one.off_superposed,
-        superposed_3d=three.off_superposed,
-        apart=float(np.max(np.abs(one.mean - three.mean))),
-    )
+def _numbers(found) -> Rows:
+    """How far curves are from closed forms, over mu F_N, and where rough bodies slip, over 3/2 mu d."""
+    rows = []
+    for dimension in ("1D", "3D"):
+        smooth, rough = found[f"smooth, {dimension}"], found[f"rough, {dimension}"]
+        row = {
+            "": dimension,
+            "smooth, off Cattaneo and Mindlin": f"{smooth.off(1.0):.1e}",
+            "rough, slips at": mean(rough.full),
+            "nine tenths at": mean(rough.most),
+            "off the smooth over its own u_max": f"{rough.off(rough.full):.2f}",
+            "off two normal contacts": f"{rough.off_superposed:.1e}",
+        }
+        rows.append(row)
+    return rows
 
 
 def _table(found) -> Rows:
     rows = []
-    for share in SHARES[3::4]:
+    for share in SHARES[7::8]:
         k = SHARES.index(share)
         closed = float(tangential.force(min(share, 1.0)))
         row = {"u / (3/2 μ d)": f"{share:.2f}", "Cattaneo and Mindlin": f"{closed:.4f}"}
         for way, curve in found.items():
             row[way] = mean(curve.force[k])
-        rows.append(row)
-    return rows
-
-
-def _costs(outcomes) -> Rows:
-    rows = []
-    for points in POINTS:
-        row = {"points a side": str(points)}
-        for rough in (False, True):
-            answer = outcomes[_sized(points, rough)].rows[0]
-            drawn = answer.measures.get("tangential_applications", np.nan)
-            body, pressed = "rough" if rough else "smooth", answer.applications - drawn
-            row |= {
-                f"{body}: pressure": f"{pressed:.0f}",
-                f"{body}: tractions": f"{drawn:.0f}",
-                f"{body}: ratio": f"{drawn / pressed:.1f}",
-            }
         rows.append(row)
     return rows
 

@@ -15,7 +15,6 @@ from bem3d.surface import RoughSurface
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask as Task
 from compare.solving.task import Task as AnyTask
-from compare.statistics.spectra import Description, describe
 from mdr1d import MDR
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere, Topography
 from scene.scales import elastic_contact
@@ -24,9 +23,9 @@ from .chapter import Chapter, Rows
 from .figures import topography as drawing
 from .means import Estimate, between, estimate, ratio, written
 
-NAME, TITLE = "topography", "Measured topography"
+NAME = "topography"
 BODY = Scene(Sphere(radius=10e-3), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(depth=1e-4))
-# Of the piece that is cut out: pixels a side, and of the surface that it is cut from; side of a pixel [m].
+# Pixels a side of the piece that is cut out, and of the surface that it is cut from; side of a pixel [m].
 PIXELS, SURFACE, PIXEL = 128, 320, 31.25e-6
 SHORTEST = 125e-6  # kept [m]: four pixels
 LOAD = 1.0  # [N]
@@ -40,19 +39,6 @@ SOLVERS = {
     MAPPED: MDR(points=2000),
     ROWS: MDR(points=2000, spectrum="line-scan"),
 }
-TEXT = """A map of {pixels} x {pixels} pixels of {pixel:.3g} µm is the roughness of a sphere of 10 mm, pressed to
-given depths and slid under {load:g} N on a Kelvin solid. It is synthetic: cut at random from a larger random
-surface with a Hurst exponent of 0.8 and a roll-off, and tilted; the same map always. Its plane is taken off, it is
-mirrored at its sides, and waves shorter than {shortest:.0f} µm are left out. Described as any measured map would
-be: rms height {height:.2f} µm, rms slope {slope:.3f}, Hurst exponent {hurst:.2f} ({low:.2f} to {high:.2f}) over
-{decades:.1f} decades.
-
-Three dimensions take {places} places of the map under the sphere. One dimension takes {lines} lines by the rule of
-the MDR, C1D = π q C2D, which have the rms height and slope of the map and random phases, and {lines} of its rows.
-{found}
-
-Intervals are over places, lines and rows of this one map, which overlap: they say nothing of other maps of
-the same surface."""
 
 
 @dataclass(frozen=True)
@@ -113,41 +99,13 @@ def answers(outcomes: Mapping[AnyTask, Outcome]) -> list[Answer]:
 
 def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     """What becomes of force and friction in each way."""
-    found, described = answers(outcomes), describe(patch())
+    found = answers(outcomes)
     drawn = [_sheet(each) for each in found]
     return Chapter(
-        _text(described, found),
         {"Force at a depth, friction under a load": _table(found)},
         {drawing.NAME: drawing.figure(drawn)},
         {drawing.NAME: drawn},
     )
-
-
-def _text(described: Description, found):
-    law = described.law
-    return TEXT.format(
-        pixels=PIXELS,
-        pixel=PIXEL * 1e6,
-        load=LOAD,
-        shortest=SHORTEST * 1e6,
-        height=described.rms_height * 1e6,
-        slope=described.rms_slope_spectral,
-        hurst=law.hurst,
-        low=law.low,
-        high=law.high,
-        decades=law.decades,
-        places=PLACES,
-        lines=LINES,
-        found=" ".join(_said(found, what, way) for what in ("force", "friction") for way in (MAPPED, ROWS)),
-    )
-
-
-def _said(found, quantity, way):
-    """Over which range one dimension is of three."""
-    ratios = [_ratio(found, each, way) for each in found if each.quantity == quantity and each.way == SURFACES]
-    low, high = (extreme(ratios, key=lambda each: each.value) for extreme in (min, max))
-    lines = "rows" if way == ROWS else "mapped lines"
-    return f"The {quantity} of {lines} is {between(low)} to {between(high)} times that of the map."
 
 
 def _ratio(found, three: Answer, way):

@@ -52,10 +52,3 @@ class Track:
         """Way on which friction comes to zero [m]; NaN where it does not."""
         past = np.flatnonzero(self.friction <= 0)
         return float(abs(self.path[past[0]] - self.path[0])) if len(past) else nan
-
-
-def harmonic(time: np.ndarray, values: np.ndarray, omega: float) -> complex:
-    """Of values = Im(harmonic * exp(i omega time)) about their mean, with a second harmonic aside."""
-    waves = np.exp(1j * omega * np.outer(time, [0, 1, 2]))
-    fit = np.linalg.lstsq(np.hstack([waves.real, waves.imag[:, 1:]]), values, rcond=None)[0]
-    return complex(fit[3], fit[1])

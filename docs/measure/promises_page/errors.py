@@ -5,7 +5,7 @@ import gzip
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import isnan, nan
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +39,6 @@ FOLDS = 5
 LEAST = 1e-6  # error that is told from none
 KINDS = tuple(f"{body}, {speed}" for body in ("smooth", "rough") for speed in ("slow", "fast"))
 FEWEST = 40  # answers of a region
-PIXELS = 0.0, 3.0, 5.0, 8.0, 16.0, np.inf  # a wave
 
 
 @dataclass(frozen=True)
@@ -123,15 +122,14 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
 
 
 def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
-    """Coverage by model and region: of all, by solid, speed, body and pixels a wave, and by pairs of these."""
+    """Coverage by model and region: of all, by solid, speed and body."""
     for model in dict.fromkeys(each["model"] for each in found):
         own = [each for each in found if each["model"] == model]
         yield _coverage(model, "all", own)
-        for names in (("solid",), ("speed",), ("body",), ("pixels",), ("solid", "speed"), ("speed", "pixels")):
+        for name in ("solid", "speed", "body"):
             groups: dict[str, list] = {}
             for each in own:
-                label = {**each, "pixels": _pixels(each["waves"])}
-                groups.setdefault(", ".join(label[name] for name in names), []).append(each)
+                groups.setdefault(each[name], []).append(each)
             for label, group in sorted(groups.items()):
                 if len(group) >= FEWEST:
                     yield _coverage(model, label, group)
@@ -291,14 +289,6 @@ def settled(values: Sequence[float], unit: float | None = None) -> tuple[float, 
     left = change / (2**order - 1)
     truth = values[-1] + left
     return truth, abs(left) / (abs(truth) if unit is None else unit)
-
-
-def _pixels(waves):
-    if isnan(waves):
-        return "smooth"
-    upper = int(np.searchsorted(PIXELS, waves, side="right"))
-    low, high = PIXELS[upper - 1 : upper + 1]
-    return f"{low:g} pixels a wave and more" if np.isinf(high) else f"{low:g} to {high:g} pixels a wave"
 
 
 def _coverage(model, region, group):

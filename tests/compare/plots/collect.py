@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from compare.report import csvfiles, manifest
+from compare.solving.folder_format import FORMAT
 
 HERE = Path(__file__).parent
 LARGE = "contact_maps"
@@ -35,7 +36,8 @@ def collect(folders):
         for file in files:
             csvfiles.read(file).to_csv(HERE / name / file.name, index=False, na_rep="nan", float_format="%.5g")
         entries[f"{name}/plot"] = plot.model_dump() | {"name": f"{name}/plot"}
-    content = {"command": "run", "inputs": {}, "solved": "", "tables": [], "plots": list(entries.values())}
+    content = {"format": FORMAT, "command": "run", "inputs": {}, "solved": "", "tables": []}
+    content["plots"] = list(entries.values())
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n")
 
 

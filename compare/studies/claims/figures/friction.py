@@ -24,7 +24,7 @@ UNITS = {"load": "N", "depth": "m"}
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
 # What makes slow friction depend on the load, each over its number under the least load.
 BEHIND = {"contact": "real contact [1]", "drag": "friction over contact [1]", "slope": "slope in contact [1]"}
-# Of a family so many panels side by side are as high as wide; more are lower.
+# Most panels side by side that are as high as wide; more are lower.
 FEW = 4
 MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
 

@@ -16,7 +16,7 @@ from ....statistics.jackknife import friction, mean, mean_ratio
 from ....statistics.means import Interval
 from ...mastercurve import figures as shift_plots
 from ..claims_depth import closed_forms, loading
-from ..claims_friction import behind, nominal_exponent
+from ..claims_friction import WHY, behind, nominal_exponent
 from ..families import families, reduced
 from ..judgement import JudgedSeries
 from ..points import each_dimension, force_at, friction_at, interval, interval_columns, place_columns, stacked
@@ -46,7 +46,7 @@ def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], 
             {"titles": titles},
         )
     found = families(series)
-    if found and together:
+    if found and together and all(set(SOLVERS) <= set(each.contacts.labels) for each in series):
         yield _family(found)
 
 
@@ -64,12 +64,15 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
             "interval.",
             _counted(claims),
         )
+    # The figures of a series show one dimension against three.
+    if not set(SOLVERS) <= set(judged.contacts.labels):
+        return
     if judged.laws:
         yield shift_plots.collapse(judged)
         if shifted := shift_plots.shifts(judged):
             yield shifted
         yield _levels(judged)
-        if any(each.claim.id.startswith("why17.") for each in judged.findings):
+        if any(each.claim.id in WHY.values() for each in judged.findings):
             yield _behind(judged)
     yield _depth(judged.contacts)
     if series.pressed_in and series.speeds:
@@ -105,7 +108,9 @@ def _levels(judged) -> Plot:
         return one / three
 
     ratios = _each_body(
-        lambda body: memories("BEM") | interval_columns("friction_1d_over_3d", interval(ratio, contacts, body))
+        lambda body: (
+            memories("BEM") | interval_columns("friction_1d_over_3d", interval(ratio, contacts, body, *SOLVERS))
+        )
     )
     return Plot(
         f"{series.folder}/levels",
@@ -126,9 +131,9 @@ def _behind(judged) -> Plot:
             return lambda sample: (values := mean(sample[solver], name, below)[1]) / values[0]
 
         load = force_at(contacts, solver).value[0]
-        law = nominal_exponent(solver, judged.laws[solver].exponent_of_load)
+        law = nominal_exponent(series.models[solver].draws, judged.laws[solver].exponent_of_load)
         columns = {"normal_force": load, "contact_law": (load / load[0]) ** law, "drag_law": 1.0, "slope_law": 1.0}
-        for name, (variable, below) in behind(solver).items():
+        for name, (variable, below) in behind(judged.series.models[solver].draws).items():
             columns |= interval_columns(name, interval(over_the_first(variable, below), contacts, ROUGH, solver))
         return DataFrame(columns)
 
@@ -164,7 +169,9 @@ def _depth(contacts: Contacts) -> Plot:
         one, three = (mean(sample[solver], name)[0] for solver in SOLVERS)
         return (one - three) / depth if at_load else one / three - 1
 
-    differences = _each_body(lambda body: places | interval_columns("difference", interval(apart, contacts, body)))
+    differences = _each_body(
+        lambda body: places | interval_columns("difference", interval(apart, contacts, body, *SOLVERS))
+    )
     stiffness = DataFrame(columns=["dimension", "normal_force", "stiffness", "stiffness_low", "stiffness_high"])
     if len(series.values) > 1:
         closed = {"normal_force": np.sqrt(load[1:] * load[:-1]), "stiffness": np.diff(load) / np.diff(depth)}
@@ -191,7 +198,7 @@ def _stiffness(contacts, solver) -> DataFrame:
     def secants(sample):
         rest = resting(sample[solver])
         names = "normal_force", "depth_reached"
-        force, depth = (np.diff(rest[name].transpose(..., "draw").values, axis=0) for name in names)
+        force, depth = (np.diff(rest[name].transpose(..., "seed").values, axis=0) for name in names)
         return mean_ratio(force, depth).value
 
     force = mean(contacts.sample(FINE, ROUGH, solver)[solver], "normal_force")[0]
@@ -213,7 +220,7 @@ def _pressed_in(contacts: Contacts) -> Plot:
 
     ratios = place_columns(series, "rate")
     for body in BODIES:
-        ratios |= interval_columns(f"{body}_difference", interval(apart, contacts, body))
+        ratios |= interval_columns(f"{body}_difference", interval(apart, contacts, body, *SOLVERS))
     return Plot(
         f"{series.folder}/pressed-in",
         study_depth.pressed_in,

@@ -20,7 +20,7 @@ from ....statistics import digits
 from ....statistics.finding import BOTH, FAILS, HOLDS, UNDECIDED
 
 SOLVER = {"1D": "MDR", "3D": "BEM", BOTH: "exact"}
-# Of the width, for the claims; for text of 8 points: heights of a row, of a line of a claim and between claims,
+# Share of the width for claims. For text of 8 points: heights of a row, of a line of a claim and between claims,
 # width of the column of dimensionalities, and lengths of headings that stand upright, of which the first that lets
 # all of them fit is taken [inch].
 CLAIMS, ROW, LINE, GAP, DIMENSION = 0.34, 0.27, 0.125, 0.07, 0.42

@@ -1,6 +1,7 @@
 """Normal force at rest at given depths: what roughness adds to it, and one dimension against three."""
 
 from collections.abc import Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -21,20 +22,23 @@ MICRONS = 1e6
 APART = 1.02
 
 
-def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], folder: str = "") -> Plot | None:
+def plot(
+    points: DataFrame, deviations: Sequence[tuple[str, str, float, Finding]], folder: str = ""
+) -> Plot | None:
     """Plot of force against depth; None without points.
 
-    deviations : body, depth [m], and the finding on 1D over 3D less one
+    deviations : body, model, depth [m], and the finding on it over the reference less one
     """
     own = of_curves(points, points["curve"].str.startswith(NAME))
     if own.empty:
         return None
     rows = [
-        {"body": body, "depth": depth, "deviation": found.value, "deviation_low": low, "deviation_high": high}
-        for body, depth, found in deviations
+        {"body": body, "solver": solver, "depth": depth}
+        | {"deviation": found.value, "deviation_low": low, "deviation_high": high}
+        for body, solver, depth, found in deviations
         for low, high in [found.interval]
     ]
-    names = ["body", "depth", "deviation", "deviation_low", "deviation_high"]
+    names = ["body", "solver", "depth", "deviation", "deviation_low", "deviation_high"]
     caption = (
         "Force at a depth at rest: (a) over that on the smooth body in closed form, or else in 3D, less one; (b) "
         f"in 1D over that in 3D, less one. An arrow marks a bar that goes on. {averaged(own)}"
@@ -47,16 +51,18 @@ def plot(points: DataFrame, deviations: Sequence[tuple[str, float, Finding]], fo
 def figure(tables: Tables) -> Figure:
     """Above: force less that on the smooth body. Below: 1D over 3D."""
     points = tables[NAME]
-    drawing = style.canvas("single", 3.9)
+    several = len(set(points["solver"]) - {"exact"}) > 2
+    drawing = style.canvas("double" if several else "single", 4.6 if several else 3.9)
     above, below = drawing.subplots(2, 1, sharex=True)
     above.set(ylabel="force / smooth - 1 [%]", xscale="log")
     above.axhline(0, **style.line(0.6, 0.55))
     style.span(above, MICRONS * points["depth"])
     _over_smooth(above, points)
     _deviations(below, tables[DEVIATIONS])
-    below.set(xlabel="depth [µm]", ylabel="force 1D / 3D - 1 [%]")
+    over = "1D / 3D" if set(points["solver"]) <= {"MDR", "BEM", "exact"} else "over reference"
+    below.set(xlabel="depth [µm]", ylabel=f"force {over} - 1 [%]")
     lettered((above, below))
-    style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 2)
+    style.legend(drawing, above.get_legend_handles_labels()[0], "outside upper left", 4 if several else 2)
     style.decades(above, below)
     return drawing
 
@@ -67,16 +73,17 @@ def _over_smooth(axes: Axes, points: DataFrame) -> None:
     known = next((own for solver in ("exact", "BEM") if len(own := smooth[smooth["solver"] == solver])), smooth)
     if known.empty:
         return
-    rows, names = [], ["normal_force", "normal_force_low", "normal_force_high"]
+    rows, names = [], ["normal_force_mean", "normal_force_low", "normal_force_high"]
     hollow = {"markerfacecolor": style.paper(), "linestyle": "none"}
-    for index, solver in enumerate(("MDR", "BEM")):
+    solvers = [each for each in points["solver"].unique() if each != "exact"]
+    for index, solver in enumerate(solvers):
         for body, look in (("smooth", hollow), ("rough", {})):
             curve = points[(points["solver"] == solver) & (points["body"] == body)]
-            force = np.interp(curve["depth"], known["depth"], known["normal_force"])
+            force = np.interp(curve["depth"], known["depth"], known["normal_force_mean"])
             if len(curve):
                 own = 100 * (curve[names].div(force, axis=0) - 1)
-                x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - 1)
-                label = f"{style.LABEL[solver]}, {body}"
+                x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - len(solvers) + 1)
+                label = f"{style.label(solver)}, {body}"
                 intervals(axes, x, own, "normal_force", **style.look(solver, label=label, **look))
                 rows += [own.set_axis(x)] if body == "rough" else []
     if rows:
@@ -89,13 +96,22 @@ def _deviations(axes: Axes, found: DataFrame) -> None:
         "rough": {"color": style.ink(), "marker": "o", "linestyle": "-"},
         "smooth": {"color": style.grey(0.45), "marker": "D", "linestyle": ":"},
     }
-    for body, look in looks.items():
-        curve = found[found["body"] == body]
+    rough: list[tuple[Any, DataFrame]] = []
+    several = found["solver"].nunique() > 1
+    solvers = list(found["solver"].unique())
+    for (body, look), (index, solver) in product(looks.items(), enumerate(solvers)):
+        curve = found[(found["body"] == body) & (found["solver"] == solver)]
+        if several:
+            look = look | {"color": style.COLOUR[solver]}
         if len(curve):
-            intervals(axes, MICRONS * curve["depth"], curve, "deviation", 100, label=body, **look)
-        if body == "rough" and len(curve):
-            names = ["depth", "deviation", "deviation_low", "deviation_high"]
-            _limit(axes, *(curve[names].to_numpy(float) * [MICRONS, 100, 100, 100]).T)
+            label = f"{style.label(solver)}, {body}" if several else body
+            x = MICRONS * curve["depth"] * APART ** (2 * index - len(solvers) + 1)
+            intervals(axes, x, curve, "deviation", 100, label=label, **look)
+            rough += [(x, curve)] if body == "rough" else []
+    if rough:
+        names = ["deviation", "deviation_low", "deviation_high"]
+        ends = concat(curve[names] for _, curve in rough).to_numpy(float).T
+        _limit(axes, concat(x for x, _ in rough).to_numpy(float), *(100 * ends))
     if len(found):
         axes.legend(ncols=2, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.1)
 

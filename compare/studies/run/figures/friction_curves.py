@@ -24,19 +24,19 @@ Law = Callable[[Any, Any, float], Any]
 
 
 def against_speed(
-    points: DataFrame, ratios: Sequence[tuple[float, Finding]], law: Law, held: str, folder: str = ""
+    points: DataFrame, ratios: Sequence[tuple[str, float, Finding]], law: Law, held: str, folder: str = ""
 ) -> Plot | None:
     """Plot of friction against speed; None unless something slides.
 
-    ratios : speed [m/s], and the finding on 1D over 3D
+    ratios : model, speed [m/s], and the finding on it over the reference
     law : Eq. 19; held : what is prescribed at all speeds, in words
     """
     own = of_curves(points, points["curve"] == SPEED)
     if own.empty:
         return None
     rows = [
-        {"speed": speed, "ratio": found.value, "ratio_low": low, "ratio_high": high}
-        for speed, found in ratios
+        {"solver": solver, "speed": speed, "ratio": found.value, "ratio_low": low, "ratio_high": high}
+        for solver, speed, found in ratios
         for low, high in [found.interval]
     ]
     tables = {SPEED: own, RATIO: DataFrame(rows), LAW: _law(own, law)}
@@ -49,13 +49,16 @@ def against_speed(
 def speed_figure(tables: Tables) -> Figure:
     """Above: friction. Below: 1D over 3D."""
     points, ratios, law = tables[SPEED], tables[RATIO], tables[LAW]
-    drawing = style.canvas("single", 3.9)
+    drawing = style.canvas("double" if points["solver"].nunique() > 2 else "single", 3.9)
     above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2.2, 1))
     above.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     style.span(above, points["speed"])
-    for index, (solver, curve) in enumerate(points.sort_values("speed").groupby("solver", sort=False)):
+    curves = list(points.sort_values("speed").groupby("solver", sort=False))
+    for index, (solver, curve) in enumerate(curves):
         look = style.look(str(solver), markersize=style.mark(0.7), capsize=style.mark(0.7))
-        intervals(above, curve["speed"] * APART ** (2 * index - 1), curve, "friction_coefficient", **look)
+        intervals(
+            above, curve["speed"] * APART ** (2 * index - len(curves) + 1), curve, "friction_coefficient", **look
+        )
     lowest = above.get_ylim()[0]
     if len(law):
         look = style.line(0.3, 0.9, label="Eq. 19, roughness alone")
@@ -65,8 +68,12 @@ def speed_figure(tables: Tables) -> Figure:
     above.legend()
     below.axhline(1, **style.line(0.6, 0.55))
     look = {"color": style.ink(), "marker": "o", "markersize": style.mark(0.7), "capsize": style.mark(0.7)}
-    intervals(below, ratios["speed"], ratios, "ratio", **look)
-    below.set(xlabel="speed [m/s]", ylabel="1D / 3D [1]", ylim=(0, None))
+    several = ratios["solver"].nunique() > 1
+    for solver, rows in ratios.groupby("solver", sort=False):
+        own = {"color": style.COLOUR[str(solver)]} if several else {}
+        intervals(below, rows["speed"], rows, "ratio", **(look | own))
+    over = "1D / 3D" if set(points["solver"]) <= {"MDR", "BEM"} else "over reference"
+    below.set(xlabel="speed [m/s]", ylabel=f"{over} [1]", ylim=(0, None))
     lettered((above, below))
     style.decades(above, below)
     clear(drawing, (above,))
@@ -82,7 +89,7 @@ def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
     known = (own["solver"] == "MDR") & np.isfinite(slope)
     own = own.assign(eq_19=nan)
     if known.any():
-        own.loc[known, "eq_19"] = law(own["normal_force"][known], own["speed"][known], slope)
+        own.loc[known, "eq_19"] = law(own["normal_force_mean"][known], own["speed"][known], slope)
     pressed = "" if "load" in own else " The depth is prescribed: loads are means."
     told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
     caption = (
@@ -93,21 +100,22 @@ def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
 
 
 def load_figure(tables: Tables) -> Figure:
-    """Left 1D, right 3D, the same axes."""
+    """A panel for each model, the same axes."""
     points = tables[LOAD]
     drawing = style.canvas("double", 2.9)
-    panels = drawing.subplots(1, 2, sharex=True, sharey=True)
+    solvers = list(points["solver"].unique())
+    panels = drawing.subplots(1, len(solvers), sharex=True, sharey=True, squeeze=False)[0]
     panels[0].set(xscale="log", yscale="log")
-    style.span(panels[0], points["normal_force"][points["normal_force"] > 0])
-    for axes, solver in zip(panels, ("MDR", "BEM"), strict=True):
-        axes.set(xlabel="normal force [N]", title=style.LABEL[solver])
+    style.span(panels[0], points["normal_force_mean"][points["normal_force_mean"] > 0])
+    for axes, solver in zip(panels, solvers, strict=True):
+        axes.set(xlabel="normal force [N]", title=style.label(solver))
         curves = list(points[points["solver"] == solver].groupby("speed"))
         for shade, form, (speed, curve) in zip(
             style.shades(solver, len(curves)), style.forms(), curves, strict=False
         ):
             look = style.look(solver, color=shade, **form, label=f"{speed:.3g} m/s", capsize=style.mark(0.6))
-            own = curve.sort_values("normal_force")
-            intervals(axes, own["normal_force"], own, "friction_coefficient", **look)
+            own = curve.sort_values("normal_force_mean")
+            intervals(axes, own["normal_force_mean"], own, "friction_coefficient", **look)
     _eq_19(panels[0], points[points["eq_19"].notna()])
     for axes in panels:
         axes.legend()
@@ -122,8 +130,8 @@ def _eq_19(axes, points):
     """Eq. 19 at each speed, without pressing the curves together where it lies far below them."""
     lowest, curves = axes.get_ylim()[0], list(points.groupby("speed"))
     for shade, (_, curve) in zip(style.shades("MDR", len(curves)), curves, strict=True):
-        curve = curve.sort_values("normal_force")
-        axes.plot(curve["normal_force"], curve["eq_19"], ":", color=shade, linewidth=style.width(1.1))
+        curve = curve.sort_values("normal_force_mean")
+        axes.plot(curve["normal_force_mean"], curve["eq_19"], ":", color=shade, linewidth=style.width(1.1))
     axes.set_ylim(bottom=max(axes.get_ylim()[0], lowest / 3))
     if curves:  # one entry for the lines of all speeds
         seen = "" if points["eq_19"].max() > axes.get_ylim()[0] else ": below"
@@ -131,9 +139,10 @@ def _eq_19(axes, points):
 
 
 def _slope(points) -> float:
-    """Rms slope of the 1D profiles; NaN of a smooth body."""
-    profiles = points[points["solver"] == "MDR"]
-    return float(profiles["rms_slope"].iloc[0]) if "rms_slope" in profiles and len(profiles) else nan
+    """Rms slope of the first model that measures it, of 1D profiles; NaN of a smooth body."""
+    known = points[points["rms_slope_mean"].notna()] if "rms_slope_mean" in points else points[:0]
+    profiles = known[known["solver"] == known["solver"].iloc[0]] if len(known) else known
+    return float(profiles["rms_slope_mean"].iloc[0]) if "rms_slope_mean" in profiles and len(profiles) else nan
 
 
 def _law(points, law) -> DataFrame:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
-from pandas import DataFrame
+from pandas import DataFrame, concat
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
@@ -16,17 +16,23 @@ RATIO = f"{NAME}-ratio"
 SLOW = 0.5
 
 
-def plot(points: DataFrame, limits: Mapping[str, float], folder: str = "") -> Plot | None:
+def plot(points: DataFrame, limits: Mapping[str, float], reference: str, folder: str = "") -> Plot | None:
     """Plot of friction over the slope of the body at the edge of the contact; None unless something slides.
 
     points : solver, v_tau_over_a, and friction_over_slope
-    limits : friction over slope for v tau / a = 1 by the closed form of low speed, by the name of the solver
+    limits : friction over slope for v tau / a = 1 by the closed form of low speed, by the name of the model
+    reference : the model that the others are over
     """
     if points.empty:
         return None
     low = points["v_tau_over_a"] * points["solver"].map(limits)
     curves = points.pivot(index="v_tau_over_a", columns="solver", values="friction_over_slope")
-    ratio = DataFrame({"v_tau_over_a": curves.index, "ratio": (curves["MDR"] / curves["BEM"]).to_numpy()})
+    ratio = concat(
+        DataFrame({"solver": name, "v_tau_over_a": curves.index, "ratio": (curves[name] / below).to_numpy()})
+        for below in [curves[reference]]
+        for name in dict.fromkeys(points["solver"])
+        if name != reference
+    )
     caption = (
         "The smooth body at the scene's load or depth: friction over the slope of the body at the edge of the "
         "smooth relaxed contact of radius a. Lines: closed forms of first order in the speed. At low speed 1D "
@@ -55,14 +61,18 @@ def figure(tables: Tables) -> Figure:
         # Straight through the slow half, where the first order in the speed is meant to hold.
         slow = np.array([slowest["v_tau_over_a"], SLOW])
         limit = slowest["friction_over_slope_low_speed"] / slowest["v_tau_over_a"]
-        label = f"{style.LABEL[solver][:2]} limit"
+        label = f"{style.label(solver).split(' ')[0]} limit"
         above.plot(slow, limit * slow, **style.look(solver, marker="", label=label, linewidth=style.width(0.7)))
     below.axhline(2, **style.line(0.45, 0.8))
     place = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": style.small()}
     below.annotate("2, derived", (points["v_tau_over_a"].max(), 2), **place)
-    below.plot(ratios["v_tau_over_a"], ratios["ratio"], color=style.ink(), marker="o")
+    several = ratios["solver"].nunique() > 1
+    for solver, rows in ratios.groupby("solver", sort=False):
+        colour = style.COLOUR[str(solver)] if several else style.ink()
+        below.plot(rows["v_tau_over_a"], rows["ratio"], color=colour, marker="o")
+    over = "1D / 3D" if set(points["solver"]) <= {"MDR", "BEM"} else "over reference"
     ends = min(0.9, ratios["ratio"].min()) - 0.1, max(2.2, ratios["ratio"].max()) + 0.1
-    below.set(xlabel=r"$v\tau / a$ [1]", ylabel="1D / 3D [1]", ylim=ends)
+    below.set(xlabel=r"$v\tau / a$ [1]", ylabel=f"{over} [1]", ylim=ends)
     above.legend()
     lettered((above, below))
     style.decades(above, below)

@@ -91,7 +91,7 @@ def barely_relaxing(size):
     static, lag = elastic_contact(resting(elastomer=solid)), mean_lag(solid)
     shape = SPHERE.mdr_coefficient, SPHERE.exponent
     known = slow_friction_1d(1e-4 * PACE, static.radius, lag, solid.indentation_modulus, *shape)
-    # Of the difference of two moduli six digits are left.
+    # The difference of two moduli keeps six digits.
     yield deviation("1D: friction at low speed", found.friction_force, known, 1e-3)
     yield from equal((sliding(1.0, solid), resting()), 3 * TOLERANCE, dense)(size)
     moving = dense(size).solve(sliding(1.0, solid))

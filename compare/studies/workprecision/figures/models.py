@@ -76,7 +76,7 @@ def _plan(rows: DataFrame) -> SamplingPlan:
     levels = tuple(
         Level(
             (int(row.points), *([int(row.coarser_points)] if row.coarser_points else [])),
-            Scatter(float(row.scatter), int(row.scatter_freedom)),
+            Scatter(float(row.scatter), int(row.scatter_dof)),
             float(row.processor),
         )
         for row in rows.itertuples()
@@ -119,7 +119,7 @@ def _mean_curve(axes, plan: SamplingPlan, colour):
     (level,) = plan.levels
     if not (isfinite(level.seconds) and isfinite(plan.bias.size) and isfinite(level.scatter.value)):
         return
-    solved = level.scatter.freedom + 1
+    solved = level.scatter.dof + 1
     for first, last, line in ((1, solved, "-"), (solved, LONGEST, FORECAST)):
         counts = np.geomspace(first, last, 120)
         look = {"color": colour, "linestyle": line, "linewidth": style.width(0.8), "zorder": 3}

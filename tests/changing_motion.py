@@ -65,3 +65,10 @@ def stiffness(radius, elastomer, omega):
     [rad/s], any shape; the force leads the depth by the argument.
     """
     return 2 * radius * complex_stiffness(elastomer, omega)
+
+
+def harmonic(time: np.ndarray, values: np.ndarray, omega: float) -> complex:
+    """Of values = Im(harmonic * exp(i omega time)) about their mean, with a second harmonic aside."""
+    waves = np.exp(1j * omega * np.outer(time, [0, 1, 2]))
+    fit = np.linalg.lstsq(np.hstack([waves.real, waves.imag[:, 1:]]), values, rcond=None)[0]
+    return complex(fit[3], fit[1])

@@ -1,0 +1,189 @@
+"""Models as the judge sees them: by which name they are asked for, what they are called, what their draws are."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, is_dataclass
+from functools import cached_property
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import Literal, TypeAlias, cast, get_args
+
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Solver
+from scene.printable import brief
+from scene.reading import InvalidInput
+
+from ..solving.suggest import suggestion
+
+GROUP = "crosscheck.models"  # of entry points, by which installed packages add models
+Draws: TypeAlias = Literal["profiles", "surfaces", "none"]
+DRAWS: tuple[Draws, ...] = get_args(Draws)
+PROFILES, SURFACES, NONE = DRAWS
+# A model as it is asked for: an object of the protocol `scene.Solver`, or a name.
+ModelLike: TypeAlias = Solver | str
+# Label and draws of those that come with the package, by the name of the solver; others state their own.
+KNOWN: Mapping[str, tuple[str, Draws]] = {
+    "MDR": ("1D", PROFILES),
+    "BEM": ("3D", SURFACES),
+    "CorrectedMDR": ("1D corrected", NONE),
+    "exact": ("closed form", NONE),
+}
+OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these
+
+
+@dataclass(frozen=True)
+class Model:
+    """One model to the judge.
+
+    solver : answers scenes, see `scene.Solver`
+    label : what it is called in words: 1D, 3D, or as its attribute `label` says; its name, if it has none
+    draws : what its means are taken over, as its attribute `draws` says: profiles in one dimension, surfaces, or
+        none of what answers for all surfaces at once; surfaces, if it has none
+    """
+
+    solver: Solver
+    label: str
+    draws: Draws
+
+    @classmethod
+    def of(cls, solver: Solver) -> "Model":
+        """The row of a solver. Raises InvalidInput where it is none."""
+        told = f"models = {brief(repr(solver))}"
+        if not is_dataclass(solver) or isinstance(solver, type) or not callable(getattr(solver, "solve", None)):
+            raise InvalidInput(
+                f"{told}: an object of a frozen dataclass with `name` and `solve(scene)` is allowed"
+            )
+        name = getattr(solver, "name", None)
+        if not isinstance(name, str) or not name or set(name) & set("/\\"):
+            raise InvalidInput(f"{told}: its `name` is {brief(repr(name))}, a text without slashes is allowed")
+        try:
+            json.dumps(asdict(solver))
+        except (TypeError, ValueError) as error:
+            raise InvalidInput(
+                f"{told}: its settings are to be numbers, texts and rows of them: {error}"
+            ) from error
+        label, draws = KNOWN.get(name, (name, SURFACES))
+        label = str(getattr(solver, "label", label))
+        draws = cast(Draws, getattr(solver, "draws", draws))
+        if draws not in DRAWS:
+            raise InvalidInput(f"{told}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")
+        return cls(solver, label, draws)
+
+    @property
+    def name(self) -> str:
+        """Name of the solver, under which its answers stand."""
+        return self.solver.name
+
+    @property
+    def has_grid(self) -> bool:
+        """Whether half its points can be asked for, which tells the error of its grid."""
+        return hasattr(self.solver, "points")
+
+    @property
+    def slow_factor(self) -> float:
+        """Friction of a smooth, slow body over that in three dimensions: 2 in one dimension."""
+        return 2.0 if self.draws == PROFILES else 1.0
+
+    def count(self, profiles: int, surfaces: int) -> int:
+        """Number of its draws."""
+        return {PROFILES: profiles, SURFACES: surfaces, NONE: 1}[self.draws]
+
+
+@dataclass(frozen=True)
+class Models:
+    """Models that are judged together, one of them the reference against which the others are.
+
+    models : one after the other, the reference among them
+    reference : name of the reference
+    """
+
+    models: tuple[Model, ...]
+    reference: str
+
+    @classmethod
+    def of(
+        cls,
+        asked: Sequence[ModelLike] | None = None,
+        reference: str | None = None,
+        own: Mapping[str, Solver] | None = None,
+    ) -> "Models":
+        """Models that are asked for; MDR and BEM by default.
+
+        reference : name of one of them; BEM if it is among them, else the last
+        own : solvers with the settings of a scene, by the names mdr and bem
+
+        Raises InvalidInput for another name, two models of one name, fewer than two, and another reference.
+        """
+        settings: Mapping[str, Solver] = own if own is not None else {name: make() for name, make in OWN.items()}
+        found = [
+            Model.of(named(each, settings) if isinstance(each, str) else each)
+            for each in listed(asked) or settings
+        ]
+        names = [each.name for each in found]
+        if len(set(names)) < len(names):
+            raise InvalidInput(f"models = {', '.join(names)}: two have one name, each its own is allowed")
+        if len(found) < 2:
+            raise InvalidInput(f"models = {', '.join(names)}: at least two are compared")
+        by_name = {each.lower(): each for each in names}
+        chosen = reference.lower() if reference else "bem" if "bem" in by_name else names[-1].lower()
+        if chosen not in by_name:
+            raise InvalidInput(f"reference = {brief(repr(reference))}: one of {', '.join(names)} is allowed")
+        return cls(tuple(found), by_name[chosen])
+
+    def __getitem__(self, name: str) -> Model:
+        return self._by_name[name]
+
+    def __iter__(self) -> Iterator[Model]:
+        return iter(self.models)
+
+    @cached_property
+    def _by_name(self):
+        return {each.name: each for each in self.models}
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """Labels by name."""
+        return {each.name: each.label for each in self.models}
+
+    @property
+    def judged(self) -> list[Model]:
+        """All but the reference."""
+        return [each for each in self.models if each.name != self.reference]
+
+    def beside(self, name: str) -> str:
+        """Dimension of a number of one model over the reference, as findings have it: 1D/3D."""
+        return f"{self[name].label}/{self[self.reference].label}"
+
+
+def listed(asked: Sequence[ModelLike] | None) -> tuple[ModelLike, ...]:
+    """Models one by one, also of names separated by commas; none where none is asked for."""
+    given = [asked] if isinstance(asked, str) else asked or []
+    parts = [each.split(",") if isinstance(each, str) else [each] for each in given]
+    return tuple(each.strip() if isinstance(each, str) else each for part in parts for each in part)
+
+
+def named(name: str, own: Mapping[str, Solver]) -> Solver:
+    """Model of a name: one of the scene's, of an installed package, or MODULE:NAME. Raises InvalidInput."""
+    if name.lower() in own:
+        return own[name.lower()]
+    installed = {each.name: each for each in entry_points(group=GROUP)}
+    if name in installed:
+        found = installed[name].load()
+    elif ":" in name:
+        module, _, attribute = name.partition(":")
+        try:
+            found = getattr(import_module(module), attribute)
+        except (ImportError, AttributeError, ValueError) as error:
+            raise InvalidInput(f"models = {brief(repr(name))}: cannot be imported: {brief(str(error))}") from error
+    else:
+        known = [*own, *installed]
+        meant = suggestion(name, known) or "."
+        raise InvalidInput(
+            f"models = {brief(repr(name))}: no model of that name{meant} There are {', '.join(known)}, those of "
+            f"installed packages (entry points {GROUP}), and MODULE:NAME"
+        )
+    try:
+        return found() if isinstance(found, type) else found
+    except TypeError as error:
+        raise InvalidInput(f"models = {brief(repr(name))}: cannot be made without settings: {error}") from error

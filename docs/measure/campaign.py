@@ -1,0 +1,20 @@
+"""What the measured pages share beside their tables: solving what is not solved yet, with a bar."""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from rich.console import Console
+
+from compare.solving.outcome import Outcome
+from compare.solving.runner import sweep
+from compare.solving.store import Store
+from compare.solving.task import Task
+from compare.solving.terminal import SweepBar
+
+
+def solved(
+    page: Path, tasks: Iterable[Task], workers: int | None = None, fresh: bool = False
+) -> Mapping[Task, Outcome]:
+    """Answers of tasks; what has been solved once lies in the folder `solved` beside the numbers of the page."""
+    with SweepBar(Console(highlight=False, soft_wrap=True)) as progress:
+        return sweep(list(tasks), Store(page.with_suffix("") / "solved"), workers, progress, fresh=fresh).outcomes

@@ -1,0 +1,167 @@
+"""Any model is judged: one of a user's own, by its object or its name, against a reference of choice."""
+
+import re
+import subprocess
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import pytest
+
+import compare
+from bem3d import BEM
+from compare.cli.app import app
+from compare.models.table import Model, Models
+from compare.solving.store import key
+from compare.solving.task import SceneTask
+from compare.statistics.finding import FAILS, HOLDS
+from mdr1d import MDR
+from scene import Doubtful, Kelvin, Refused, Result, Scene, Slide, SolveError, Sphere
+from scene.reading import InvalidInput
+from scene.scales import elastic_contact
+
+PAGE = Path(__file__).parents[2] / "docs" / "howto" / "models.md"
+SCENE = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
+SMOOTH = compare.Case(
+    indenter=SCENE.indenter,
+    elastomer=SCENE.elastomer,
+    motion=SCENE.motion,
+    bem=BEM(points=32),
+    mdr=MDR(points=400),
+)
+
+
+@dataclass(frozen=True)
+class Stiff:
+    """The smooth body at rest, its force times a factor."""
+
+    factor: float = 1.0
+    name = "Stiff"
+
+    def solve(self, scene: Scene) -> Result:
+        contact = elastic_contact(scene)
+        return Result(scene, self.name, {}, self.factor * contact.load, contact.depth, 0.01 * contact.load)
+
+
+@dataclass(frozen=True)
+class Failing(Stiff):
+    error: str = "refused"
+    name = "Failing"
+
+    def solve(self, scene: Scene) -> Result:
+        raise Refused("too steep") if self.error == "refused" else SolveError("too steep")
+
+
+def found(report, claim, dimension):
+    rows = report.table[(report.table["claim"] == claim) & (report.table["dimension"] == dimension)]
+    return rows["value"].tolist(), rows["verdict"].tolist()
+
+
+@pytest.fixture(scope="module")
+def judged(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("models")
+    return compare.run(SMOOTH, folder, models=["mdr", "bem", Stiff(1.1)], report=False)
+
+
+def test_a_model_is_judged_against_the_reference_by_the_claims_of_the_others(judged):
+    values, verdicts = found(judged, "force.ratio.smooth", "Stiff/3D")
+    assert values == pytest.approx([0.1] * len(values), abs=0.01)
+    assert set(verdicts) == {FAILS}
+    assert set(found(judged, "force.ratio.smooth", "1D/3D")[1]) == {HOLDS}
+    told = {each.claim.sentence for each in judged.findings}
+    assert "The force on the smooth body at the same depth is the same in Stiff and 3D" in told
+
+
+def test_the_numbers_of_the_default_pair_do_not_move(judged, tmp_path):
+    alone = compare.run(SMOOTH, tmp_path, report=False)
+    assert {each.solver.name for each in alone.study.models["scene"]} == {"MDR", "BEM"}
+    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
+    pair = judged.table[~judged.table["dimension"].str.contains("Stiff")]
+    assert alone.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+
+
+def test_every_model_has_its_curve_in_every_figure_of_a_run(judged):
+    assert len(judged.figures) >= 4
+    for name in judged.figures:
+        assert judged.figures[name].axes
+
+
+def test_another_reference_turns_the_ratio_around(judged, tmp_path):
+    turned = compare.run(SMOOTH, tmp_path, models=[MDR(points=400), BEM(points=32)], reference="mdr", report=False)
+    (slow,), _ = found(turned, "friction.ratio.smooth-slow", "3D/1D")
+    (straight,), _ = found(judged, "friction.ratio.smooth-slow", "1D/3D")
+    assert slow == pytest.approx(1 / straight, rel=1e-12)
+    (claim,) = (each.claim for each in turned.findings if each.claim.id == "friction.ratio.smooth-slow")
+    assert claim.expected == 0.5
+
+
+@pytest.mark.parametrize("error", ["refused", "failed"])
+def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, tmp_path):
+    models = ["bem", Failing(error=error)]
+    with pytest.warns(Doubtful, match="too steep"):
+        report = compare.sweep(SMOOTH, [0.1], draws=1, output=tmp_path, models=models, report=False)
+    assert set(report["reason"].sel(solver="Failing").values.ravel()) >= {"too steep"}
+    assert report["friction_force"].sel(solver="BEM", grid="fine").notnull().all()
+
+
+@pytest.mark.parametrize(
+    ("models", "reference", "said"),
+    [
+        (["bem", "nothing"], None, "no model of that name"),
+        (["bem", "no.such:Thing"], None, "cannot be imported"),
+        (["bem", BEM()], None, "two have one name"),
+        (["bem"], None, "at least two"),
+        (["bem", "mdr"], "exact", "reference = 'exact': one of BEM, MDR"),
+        (["bem", Stiff], None, "frozen dataclass"),
+        (["bem", object()], None, "frozen dataclass"),
+        (["bem", replace(Stiff(), factor=object())], None, "numbers, texts"),
+    ],
+)
+def test_a_mistake_is_named_before_anything_is_solved(models, reference, said, tmp_path):
+    with pytest.raises(InvalidInput, match=re.escape(said)):
+        compare.run(SMOOTH, tmp_path / "none", models=models, reference=reference)
+    assert not (tmp_path / "none").exists()
+
+
+def test_what_a_model_leaves_out_has_its_default():
+    (left,) = Models.of([Stiff(), "bem"]).judged
+    assert left == Model(Stiff(), "Stiff", "surfaces")
+    assert not left.has_grid
+    assert Models.of([Stiff(), "mdr"]).reference == "MDR"
+
+
+def test_settings_and_source_are_in_the_key():
+    one, other = (key(SceneTask(each, (SCENE,))) for each in (Stiff(), Stiff(1.5)))
+    assert one != other
+
+    @dataclass(frozen=True)
+    class Local(Stiff):
+        def solve(self, scene):
+            return super().solve(scene)
+
+    task = SceneTask(Local(), (SCENE,))
+    assert not task.portable
+    assert "def solve(self, scene):" in task.question["source"]
+    assert SceneTask(Stiff(), (SCENE,)).portable
+
+
+def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
+    page = PAGE.read_text(encoding="utf-8")
+    model, asked = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    script = tmp_path / "script.py"
+    script.write_text(f"{model}\n{asked}    print(report)\n    print(friction)\n")
+    told = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "is the same in smooth limit and 3D" in told.stdout
+
+
+def test_the_command_takes_models_by_name(tmp_path, monkeypatch):
+    from typer.testing import CliRunner
+
+    model = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)[0]
+    (tmp_path / "mymodels.py").write_text(model)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    names = ["--models", "bem,mymodels:SmoothLimit", "--no-report", "--workers", "1"]
+    answer = CliRunner().invoke(app, ["run", "quick-start", *names])
+    assert answer.exit_code == 0, answer.output
+    assert "smooth limit/3D" in (tmp_path / "crosscheck-report" / "findings.csv").read_text(encoding="utf-8")

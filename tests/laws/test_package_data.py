@@ -1,0 +1,46 @@
+"""What is installed: every file that a package reads is one of those that go into the wheel."""
+
+import tomllib
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SETUP = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
+PACKAGES = ("scene", "mdr1d", "bem3d", "compare")
+CODE = {".py", ".pyc", ".nbi", ".nbc"}  # and what numba keeps
+READ = (
+    *(f"{package}/py.typed" for package in PACKAGES),
+    *("bem3d/costs.csv", "bem3d/effects.csv", "bem3d/friction_error.csv", "mdr1d/effects.csv"),
+    *("compare/__init__.pyi", "compare/library/scenes/hertz.toml", "compare/library/studies/two-shapes.toml"),
+    *("compare/studies/regress/baseline.toml", "compare/trustmap/fitted.json"),
+)
+
+
+def installed(path):
+    """Whether a file is data of the innermost package that it lies in, and that package is found."""
+    folder = next(each for each in path.parents if (each / "__init__.py").exists())
+    package = ".".join(folder.relative_to(ROOT).parts)
+    data = SETUP["package-data"]
+    patterns = [*data["*"], *data.get(package, ())]
+    found = any(fnmatch(package, pattern) for pattern in SETUP["packages"]["find"]["include"])
+    name = path.relative_to(folder)
+    return found and any(name.match(each) and len(name.parts) == len(Path(each).parts) for each in patterns)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_file_that_is_no_code_is_installed(package):
+    data = [each for each in (ROOT / package).rglob("*") if each.is_file() and each.suffix not in CODE]
+    assert [each for each in data if not installed(each)] == []
+
+
+@pytest.mark.parametrize("name", READ)
+def test_what_is_read_is_there(name):
+    assert (ROOT / name).is_file()
+    assert installed(ROOT / name)
+
+
+@pytest.mark.parametrize("name", ["compare/library/scenes/a.png", "scene/notes.md", "compare/library/a/b.toml"])
+def test_a_file_of_another_kind_or_folder_is_not(name):
+    assert not installed(ROOT / name)
