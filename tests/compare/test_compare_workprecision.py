@@ -179,15 +179,16 @@ def test_where_all_solves_fail_findings_say_why_and_nothing_is_recommended(diagr
     outcomes = {task: Outcome((fine,)) for task in untimed.tasks}
     outcomes |= {task: Outcome((Row(reason=why),)) for task in timed.tasks}
     found = study.answers(outcomes)[diagram.name]
-    findings = list(diagram.findings(found))
+    judged = diagram.judge(found)
+    findings = judged.findings
     assert all(isnan(each.value) for each in findings)
     assert any(why in each.reason for each in findings)
-    plot, *_ = diagram.plots(found)
+    plot, *_ = judged.plots
     assert set(plot.tables[plot.name]["reason"]) == {why}
     assert len(plot.caption.split()) <= 60
     with style.applied():
         assert plot.figure().axes
-    (table,) = diagram.tables(found)
+    (table,) = judged.tables
     assert table.frame.filter(like="within").map(lambda cell: why in cell).all(axis=None)
     assert " nan" not in " ".join(finding.sentences(findings))
 
@@ -353,7 +354,7 @@ def test_single_precision_reaches_what_its_tolerance_asks_for_and_no_more():
 
 
 def drawn(*arguments, **how):
-    *_, plot = convergence("made", lambda size: []).plots(made(*arguments, **how))
+    *_, plot = convergence("made", lambda size: []).judge(made(*arguments, **how)).plots
     return plot, plot.figure()
 
 

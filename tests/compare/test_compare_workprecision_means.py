@@ -207,7 +207,7 @@ def test_one_dimension_is_taken_where_its_floor_allows_and_only_there(parts, abo
     assert found.answer(above).solver == "MDR"
     assert found.answer(below).solver == "BEM"
     assert found.answer(below, "MDR") is None
-    within = [each for each in MODELS.findings(node(parts)) if "1d-within" in each.claim.id]
+    within = [each for each in MODELS.judge(node(parts)).findings if "1d-within" in each.claim.id]
     assert [each.verdict for each in within] == ["fails", "fails"]
     assert all(low <= each.value <= high for each in within for low, high in [each.interval])
 
@@ -247,7 +247,7 @@ def test_a_mean_that_lacks_surfaces_is_no_truth(surfaces, known):
     found = made(ensemble(surfaces), fails=lambda solver, k: solver.name == "BEM" and k == 20)
     assert np.isfinite(means(*found.values())[0].truth.error) == known
     assert (regime(found).answer(0.7) is not None) == known
-    verdicts = {each.verdict for each in MODELS.findings(node(found)) if "1d-within" in each.claim.id}
+    verdicts = {each.verdict for each in MODELS.judge(node(found)).findings if "1d-within" in each.claim.id}
     assert verdicts == ({"fails"} if known else {"undecided"})
 
 
@@ -310,23 +310,23 @@ def test_both_grids_have_the_same_surfaces():
 def test_figures_tables_and_findings_come_of_whatever_was_solved(fails):
     rough = made(fails=lambda *_: fails, timed_fails=lambda _: fails)
     both = node(smooth(), rough)
-    plots = list(MODELS.plots(both))
+    plots = MODELS.judge(both).plots
     assert len(plots) == 2
     with style.applied():
         assert sum(len(plot.figure().axes) for plot in plots) == 2
     assert all(len(plot.caption.split()) <= 60 for plot in plots)
     for diagram, found in ((MODELS, both), (SURFACES, node(rough))):
-        findings = list(diagram.findings(found))
+        findings = diagram.judge(found).findings
         assert all(each.reason for each in findings if not np.isfinite(each.value))
         assert any(np.isfinite(each.value) for each in findings) or fails
-    told, _ = SURFACES.tables(node(rough))
+    told, _ = SURFACES.judge(node(rough)).tables
     assert (told.frame["within 10 %"] == "not known").all() == fails
 
 
 def test_plans_are_drawn_from_their_table_alone():
-    _, plans = SURFACES.tables(node(made(ratio=1 - FLOOR)))
+    _, plans = SURFACES.judge(node(made(ratio=1 - FLOOR))).tables
     (drawn,), measured = drawn_means(plans.frame), mean(ratio=1 - FLOOR)
     for there, here in zip(drawn.plans, measured.plans, strict=True):
         assert (there.levels, there.setup) == (here.levels, here.setup)
         assert there.bias.most == pytest.approx(here.bias.most, rel=1e-12)  # rounding
-    assert [*SURFACES.tables(xarray.DataTree()), *MODELS.plots(xarray.DataTree())] == []
+    assert [*SURFACES.judge(xarray.DataTree()).tables, *MODELS.judge(xarray.DataTree()).plots] == []

@@ -24,19 +24,26 @@ ORDER_TOLERANCE = 0.35
 
 
 @dataclass(frozen=True)
+class Judged:
+    """What the Datasets of a diagram come to."""
+
+    findings: Sequence[Finding] = ()
+    tables: Sequence[Table] = ()
+    plots: Sequence[Plot] = ()
+
+
+@dataclass(frozen=True)
 class Diagram:
     """Diagram: measurements and findings of the command under one name.
 
     name : of library.ready.DIAGRAMS, and of files
     contacts : at a size
-    findings, tables, plots : of the Datasets of all contacts
+    judge : function of the Datasets of all contacts
     """
 
     name: str
     contacts: Callable[[str], Sequence[Convergence | Ensemble]]
-    findings: Callable[[xarray.DataTree], Iterable[Finding]]
-    tables: Callable[[xarray.DataTree], Iterable[Table]]
-    plots: Callable[[xarray.DataTree], Iterable[Plot]] = lambda node: ()
+    judge: Callable[[xarray.DataTree], Judged]
 
     @property
     def title(self) -> str:
@@ -53,26 +60,19 @@ def convergence(
 
     more : findings on all contacts besides orders and times, from their ladders by contact
     """
-    file = f"workprecision-{name}"
 
-    def findings(node):
+    def judge(node: xarray.DataTree) -> Judged:
         steps = steps_table(node)
-        found = ladders(steps)
+        if not len(steps):
+            return Judged()
+        found, file = ladders(steps), f"workprecision-{name}"
         own = answers(found)
-        shown = {each.quantity: errors.part_of(file, steps, each.quantity) for each in own}
-        for each in own:
-            if each.setting in ("points", "steps"):
-                expected = node[each.contact]["expected_order"].sel(quantity=each.quantity).item()
-                yield order_finding(name, each, expected, shown[each.quantity])
-        by_points = [each for each in own if each.setting == "points"]
-        yield from (time_finding(name, each, shown[each.quantity]) for each in by_points)
-        yield from (enough_finding(name, each, shown[each.quantity]) for each in own if each not in by_points)
+        tables = {file: steps, f"workprecision-orders-{name}": orders_table(found)}
+        plots = list(errors.plots(file, tables))
         whole: dict[str, list[MeasuredLadder]] = {}
         for each in found:
             whole.setdefault(each.contact, []).append(each)
-        yield from more(whole)
-
-    def tables(node):
+        findings = [*_findings(name, own, node, plots), *more(whole)]
         rows = [
             {
                 "contact": each.title,
@@ -81,19 +81,28 @@ def convergence(
                 "ladder": each.ladder,
                 **{f"within {share(level)}": each.cell(level) for level in LEVELS},
             }
-            for each in answers(ladders(steps_table(node)))
+            for each in own
         ]
         caption = "The cheapest setting for each wanted error, from which on all finer ones keep it too."
-        if rows:
-            yield Table(f"workprecision-settings-{name}", DataFrame(rows), caption)
+        return Judged(findings, [Table(f"workprecision-settings-{name}", DataFrame(rows), caption)], plots)
 
-    def plots(node):
-        steps = steps_table(node)
-        if len(steps):
-            orders = orders_table(ladders(steps))
-            yield from errors.plots(file, {file: steps, f"workprecision-orders-{name}": orders})
+    return Diagram(name, contacts, judge)
 
-    return Diagram(name, contacts, findings, tables, plots)
+
+def _findings(name, own, node, plots):
+    """Orders, then times by points, then what is enough of other settings."""
+
+    def shown(each):
+        return next(
+            plot.name for plot in plots if each.quantity in plot.options.get("quantities", [each.quantity])
+        )
+
+    for each in own:
+        if each.setting in ("points", "steps"):
+            expected = node[each.contact]["expected_order"].sel(quantity=each.quantity).item()
+            yield order_finding(name, each, expected, shown(each))
+    yield from (time_finding(name, each, shown(each)) for each in own if each.setting == "points")
+    yield from (enough_finding(name, each, shown(each)) for each in own if each.setting != "points")
 
 
 def _against(source, own):

@@ -1,19 +1,19 @@
 """The models against the true answer of three dimensions: which model, which settings, how many surfaces."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import nan
 
 import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ...report.page import Plot, Table
+from ...report.page import Table
 from ...solving.amounts import share
 from ...statistics.finding import HALVED, Claim, Finding
 from . import regimes
-from .answers import answers_table, cells, regimes_of
+from .answers import Regime, answers_table, cells, regimes_of
 from .convergence import DIMENSIONS, steps_table
-from .diagram import Diagram, reported
+from .diagram import Diagram, Judged, reported
 from .ensemble import plans_table
 from .figures import models as figures
 
@@ -23,9 +23,27 @@ WANTED = (0.1, 0.01)
 ASKED = {"friction": ("friction",), "depth or force": ("depth", "force")}
 
 
-def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
-    """Errors that 1D keeps, and times to wanted errors."""
-    found = regimes_of(node)
+def _judged_models(node: xarray.DataTree) -> Judged:
+    """Errors that 1D keeps and times to wanted errors; a table and figures for each thing asked for."""
+    found, smooth = regimes_of(node), steps_table(node)
+    tables, plots = [], []
+    for what, names in ASKED.items():
+        own = [each for each in found if each.quantity in names]
+        if own:
+            name = what.split()[0]
+            caption = f"To know {what}: model, settings, time."
+            tables.append(Table(f"workprecision-cells-{name}", DataFrame(cells(own)), caption))
+            rows = {
+                "steps": smooth[smooth["quantity"].isin(names)],
+                "plans": DataFrame(plans_table([each.mean for each in own if each.mean])),
+                "answers": DataFrame(answers_table(own)),
+            }
+            drawn = {f"workprecision-models-{kind}-{name}": each for kind, each in rows.items() if len(each)}
+            plots += figures.plots(f"workprecision-models-{name}", drawn)
+    return Judged([*_kept(found), *_times(found)], tables, plots)
+
+
+def _kept(found: Sequence[Regime]) -> Iterator[Finding]:
     for level in WANTED:
         claim = Claim(
             f"workprecision.models.1d-within-{100 * level:g}-percent",
@@ -35,6 +53,9 @@ def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
             "Answer of the 1D model on its finest grid less that of three dimensions, relative",
         )
         yield from (each.error_1d(claim) for each in found)
+
+
+def _times(found: Sequence[Regime]) -> Iterator[Finding]:
     for level in WANTED:
         id = f"models.time-{100 * level:g}-percent"
         sentence = f"Processor time to {share(level)} of the true answer"
@@ -44,35 +65,24 @@ def _model_findings(node: xarray.DataTree) -> Iterator[Finding]:
             yield reported(id, sentence, each.seconds(level), each.where, "s", dimension, each.missed())
 
 
-def _model_tables(node: xarray.DataTree) -> Iterator[Table]:
-    """Tables of the effort for wanted errors, in words."""
-    for what, names in ASKED.items():
-        rows = cells(each for each in regimes_of(node) if each.quantity in names)
-        caption = f"To know {what}: model, settings, time."
-        if rows:
-            yield Table(f"workprecision-cells-{what.split()[0]}", DataFrame(rows), caption)
+def _judged_surfaces(node: xarray.DataTree) -> Judged:
+    """The cheapest plan to each wanted error in words, and the numbers of all plans."""
+    found = regimes_of(node)
+    if not found:
+        return Judged()
+    caption = "Surfaces, points and time of the cheapest plan in 3D to each error expected of a mean."
+    plans = DataFrame(plans_table([each.mean for each in found if each.mean]))
+    tables = (
+        Table("workprecision-cells-surfaces", DataFrame(cells(found, "BEM")), caption),
+        Table("workprecision-surfaces", plans, "What grid and scatter leave by every plan.", long=True),
+    )
+    return Judged(list(_surface_findings(found)), tables)
 
 
-def _model_plots(node: xarray.DataTree) -> Iterator[Plot]:
-    """A figure for each thing asked for."""
-    smooth = steps_table(node)
-    for what, names in ASKED.items():
-        own = [each for each in regimes_of(node) if each.quantity in names]
-        rows = {
-            "steps": smooth[smooth["quantity"].isin(names)],
-            "plans": DataFrame(plans_table([each.mean for each in own if each.mean])),
-            "answers": DataFrame(answers_table(own)),
-        }
-        name = f"workprecision-models-{what.split()[0]}"
-        tables = {name.replace("models", f"models-{kind}"): each for kind, each in rows.items() if len(each)}
-        if own:
-            yield from figures.plots(name, tables)
-
-
-def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
+def _surface_findings(found: Sequence[Regime]) -> Iterator[Finding]:
     """Findings on the scatter of surfaces, the error of a grid, and times to wanted errors."""
     why = "too few surfaces were solved"
-    for each in regimes_of(node):
+    for each in found:
         mean, where = each.mean, each.where
         first, grid = mean.plain[0], mean.grid_error
         scatter, bias = first.levels[0].scatter, first.bias
@@ -94,25 +104,9 @@ def _surface_findings(node: xarray.DataTree) -> Iterator[Finding]:
             yield reported(id, sentence, each.seconds(level, "BEM"), where, "s", missing=each.missed("BEM"))
 
 
-def _surface_tables(node: xarray.DataTree) -> Iterator[Table]:
-    """The cheapest plan to each wanted error in words, and the numbers of all plans."""
-    if found := regimes_of(node):
-        caption = "Surfaces, points and time of the cheapest plan in 3D to each error expected of a mean."
-        yield Table("workprecision-cells-surfaces", DataFrame(cells(found, "BEM")), caption)
-        plans = DataFrame(plans_table([each.mean for each in found if each.mean]))
-        yield Table("workprecision-surfaces", plans, "What grid and scatter leave by every plan.", long=True)
-
-
-MODELS = Diagram(
-    "models",
-    lambda size: [*regimes.smooth(size), *regimes.rough(size)],
-    _model_findings,
-    _model_tables,
-    _model_plots,
-)
+MODELS = Diagram("models", lambda size: [*regimes.smooth(size), *regimes.rough(size)], _judged_models)
 SURFACES = Diagram(
     "surfaces",
     lambda size: [each for each in regimes.rough(size) if each.name.endswith(("rest", "middle"))],
-    _surface_findings,
-    _surface_tables,
+    _judged_surfaces,
 )

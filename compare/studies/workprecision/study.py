@@ -101,12 +101,11 @@ class WorkPrecision(Study):
         answer: list[str] = []
         blocks: list[Block] = []
         for each in self.diagrams:
-            node = answers.children[each.name]
-            own = list(each.findings(node))
+            own = each.judge(answers.children[each.name])
             heading = f"{each.title}: " if len(self.diagrams) > 1 else ""
-            answer += [f"{heading}{sentence}" for sentence in sentences(own)]
-            blocks.append(Section(each.title, [*each.plots(node), *each.tables(node), Findings(own)]))
-            findings += own
+            answer += [f"{heading}{sentence}" for sentence in sentences(own.findings)]
+            blocks.append(Section(each.title, [*own.plots, *own.tables, Findings(own.findings)]))
+            findings += own.findings
         return Judgement(findings, answer, blocks, self.setting)
 
     @property

@@ -34,8 +34,12 @@ BESIDE: tuple[dict[str, Any], ...] = (
 
 
 def plots(name: str, tables: Tables, shared: bool = False) -> Iterator[Plot]:
-    """Plots of tables, the first of steps: one for each question, see `parts`. shared : see `figure`"""
-    table = next(iter(tables))
+    """Plots of tables, of which the first is of steps. shared : see `figure`
+
+    One plot of the answers, or of many panels one for friction and one for what else is measured; then one of all
+    estimates where there are several.
+    """
+    table, *_ = tables
     common = {"steps": table} | ({"shared": True} if shared else {})
     told = (
         "Relative error against processor time of one solve, the least of its repeats; settings at the points "
@@ -43,28 +47,18 @@ def plots(name: str, tables: Tables, shared: bool = False) -> Iterator[Plot]:
         "of a ladder of points."
     )
     alternative = "Panels of falling curves: relative error over processor time."
-    for part, options in parts(name, tables[table]).items():
-        yield Plot(part, figure, tables, told, alternative, common | options)
+    drawn = panels(tables[table])
+    quantities = dict.fromkeys(first.quantity for first, *_ in drawn)
+    kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
+    if len(drawn) <= MOST:
+        yield Plot(name, figure, tables, told, alternative, common)
+    else:
+        for kind, own in kinds.items():
+            if quantities.keys() & own:
+                yield Plot(f"{name}-{kind}", figure, tables, told, alternative, common | {"quantities": own})
     if panels(tables[table], estimates=True):
         told += " Every estimate of the first ladder."
         yield Plot(f"{name}-estimates", figure, tables, told, alternative, common | {"estimates": True})
-
-
-def parts(name: str, steps: DataFrame) -> dict[str, dict[str, Any]]:
-    """Names of the plots of answers of a diagram, with their options: one, or of many panels one for friction and
-    one for what else is measured."""
-    drawn = panels(steps)
-    if len(drawn) <= MOST:
-        return {name: {}}
-    quantities = dict.fromkeys(first.quantity for first, *_ in drawn)
-    kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
-    return {f"{name}-{kind}": {"quantities": own} for kind, own in kinds.items() if quantities.keys() & own}
-
-
-def part_of(name: str, steps: DataFrame, quantity: str) -> str:
-    """Name of the plot that shows a quantity of a diagram."""
-    found = parts(name, steps).items()
-    return next(part for part, options in found if quantity in options.get("quantities", [quantity]))
 
 
 def panels(steps: DataFrame, estimates: bool = False) -> list[list[MeasuredLadder]]:
