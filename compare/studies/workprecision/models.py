@@ -7,7 +7,7 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ...report.page import Table
+from ...report.page import Plot, Table
 from ...solving.amounts import share
 from ...statistics.finding import HALVED, Claim, Finding
 from . import regimes
@@ -26,7 +26,8 @@ ASKED = {"friction": ("friction",), "depth or force": ("depth", "force")}
 def _judged_models(node: xarray.DataTree) -> Judged:
     """Errors that 1D keeps and times to wanted errors; a table and figures for each thing asked for."""
     found, smooth = regimes_of(node), steps_table(node)
-    tables, plots = [], []
+    tables: list[Table] = []
+    plots: list[Plot] = []
     for what, names in ASKED.items():
         own = [each for each in found if each.quantity in names]
         if own:
