@@ -74,8 +74,8 @@ class Reference:
 
     source : where it is from, for people
     method : how its error is known, see `finding.Finding.grid_method`
-    values : values by the quantity's name, from the quantities asked for and the outcomes of the tasks; quantities
-        that it does not know are absent, NaN where a solve failed
+    values : values by the quantity's name, from the quantities asked for and the outcomes of the tasks; absent of
+        quantities that it does not know, NaN where a solve failed
     tasks : that have to be solved for it
     """
 
@@ -87,9 +87,7 @@ class Reference:
 
 def closed_form(source: str, values: Mapping[str, Known]) -> Reference:
     """Values known without solving. values : by the quantity's name"""
-    return Reference(
-        source, EXACT, lambda asked, _: {each.name: values[each.name] for each in asked if each.name in values}
-    )
+    return Reference(source, EXACT, lambda asked, _: values)
 
 
 def finer(

@@ -56,9 +56,8 @@ def estimates_of(reference: Reference) -> Reference:
     def known(asked, outcomes):
         own = [each for each in asked if each not in (*BESIDE, INDICATOR)]
         found = dict(reference.values(own, outcomes))
-        if JOINED.name in found:
-            found |= {each.name: found[JOINED.name] for each in BESIDE}
-        return found | {INDICATOR.name: Known(0.0, scale=1.0)}
+        beside = {each.name: found[JOINED.name] for each in BESIDE}
+        return found | beside | {INDICATOR.name: Known(0.0, scale=1.0)}
 
     return replace(reference, values=known)
 
