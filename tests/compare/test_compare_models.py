@@ -16,7 +16,7 @@ from compare.solving.store import key
 from compare.solving.task import SceneTask
 from compare.statistics.finding import FAILS, HOLDS
 from mdr1d import MDR
-from scene import Doubtful, Kelvin, Refused, Result, Scene, Slide, SolveError, Sphere
+from scene import Doubtful, Kelvin, Refused, Result, Scene, SelfAffine, Slide, SolveError, Sphere
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
@@ -31,6 +31,13 @@ SMOOTH = compare.Case(
 )
 
 
+ROUGH = replace(
+    SMOOTH,
+    roughness=SelfAffine(hurst=0.8, rms_height=2e-6, longest=5e-3, shortest=1e-3, seed=3),
+    bem=BEM(points=48),
+)
+
+
 @dataclass(frozen=True)
 class Stiff:
     """The smooth body at rest, its force times a factor."""
@@ -41,6 +48,11 @@ class Stiff:
     def solve(self, scene: Scene) -> Result:
         contact = elastic_contact(scene)
         return Result(scene, self.name, {}, self.factor * contact.load, contact.depth, 0.01 * contact.load)
+
+
+@dataclass(frozen=True)
+class Averaging(Stiff):
+    name, draws = "Averaging", "none"
 
 
 @dataclass(frozen=True)
@@ -128,6 +140,15 @@ def test_what_a_model_leaves_out_has_its_default():
     assert left == Model(Stiff(), "Stiff", "surfaces")
     assert not left.has_grid
     assert Models.of([Stiff(), "mdr"]).reference == "MDR"
+
+
+def test_a_model_without_draws_has_no_scatter_of_its_own(tmp_path):
+    models = ["bem", Averaging(), "corrected"]
+    found = compare.sweep(ROUGH, [0.1], draws=3, output=tmp_path, models=models, report=False)
+    wide = found["friction_coefficient_high"] - found["friction_coefficient_low"]
+    assert wide.sel(solver="Averaging").item() == 0
+    assert wide.sel(solver="BEM").item() > 0
+    assert found["normal_force"].sel(solver="Averaging", grid="fine", seed=ROUGH.roughness.seed).notnull().all()
 
 
 def test_settings_and_source_are_in_the_key():
