@@ -166,6 +166,7 @@ def test_settings_and_source_are_in_the_key():
     assert SceneTask(Stiff(), (SCENE,)).portable
 
 
+@pytest.mark.slow
 def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     page = PAGE.read_text(encoding="utf-8")
     model, asked = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
@@ -175,6 +176,7 @@ def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     assert "is the same in smooth limit and 3D" in told.stdout
 
 
+@pytest.mark.slow
 def test_the_command_takes_models_by_name(tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
@@ -186,3 +188,33 @@ def test_the_command_takes_models_by_name(tmp_path, monkeypatch):
     answer = CliRunner().invoke(app, ["run", "quick-start", *names])
     assert answer.exit_code == 0, answer.output
     assert "smooth limit/3D" in (tmp_path / "crosscheck-report" / "findings.csv").read_text(encoding="utf-8")
+
+
+OWN = """
+title = "Three models"
+models = ["mdr", "bem"]
+speeds = [0.01, 0.1]
+loads = [0.5, 1.0, 2.0]
+surfaces = 2
+profiles = 4
+indenter = {type = "sphere", radius = "10 mm"}
+elastomer = {type = "kelvin", modulus = "1 MPa", relaxation_time = "1 ms"}
+roughness = {type = "self-affine", hurst = 0.5, rms_height = "5 um", longest = "2 mm", shortest = "0.5 mm"}
+bem = {points = 48}
+mdr = {points = 500}
+[[series]]
+name = "sphere"
+"""
+
+
+@pytest.mark.slow
+def test_a_study_judges_every_model_against_the_reference(tmp_path):
+    (tmp_path / "own.toml").write_text(OWN)
+    asked = tmp_path / "own.toml", "quick", tmp_path
+    report = compare.study(*asked, models=["mdr", "bem", Stiff()])
+    told = set(report.table["dimension"])
+    assert {"1D", "3D", "1D/3D", "Stiff/3D"} <= told
+    alone = compare.study(*asked)
+    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
+    pair = report.table[~report.table["dimension"].str.contains("Stiff")]
+    assert alone.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
