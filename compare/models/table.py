@@ -23,12 +23,7 @@ PROFILES, SURFACES, NONE = DRAWS
 # A model as it is asked for: an object of the protocol `scene.Solver`, or a name.
 ModelLike: TypeAlias = Solver | str
 # Label and draws of those that come with the package, by the name of the solver; others state their own.
-KNOWN: Mapping[str, tuple[str, Draws]] = {
-    "MDR": ("1D", PROFILES),
-    "BEM": ("3D", SURFACES),
-    "CorrectedMDR": ("1D corrected", NONE),
-    "exact": ("closed form", NONE),
-}
+KNOWN: Mapping[str, tuple[str, Draws]] = {"MDR": ("1D", PROFILES), "BEM": ("3D", SURFACES)}
 OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these
 
 

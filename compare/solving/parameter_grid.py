@@ -177,8 +177,8 @@ class ParameterGrid:
         values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
         for measure in sorted({measure for row in rows for measure in row.measures}):
             values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
-        for name in ("friction_force", "friction_coefficient"):
-            values[name] = np.where(touched, values[name], nan)
+        for friction in ("friction_force", "friction_coefficient"):
+            values[friction] = np.where(touched, values[friction], nan)
         reasons = array(lambda row: row.reason or "", object)
         random = self.random and getattr(grids[FINE], "draws", "") != NO_DRAWS
         dims = ["grid", "speed", self.prescribed, "seed"]

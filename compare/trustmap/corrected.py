@@ -44,6 +44,8 @@ class CorrectedMDR:
     and seconds are of all of them, the seconds with the map. There are no fields.
     """
 
+    label: ClassVar[str] = "1D corrected"
+    draws: ClassVar[str] = "none"  # it answers with the mean
     # Whose code and data the answer depends on.
     packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.models.exact", "compare.trustmap")
 

@@ -16,7 +16,7 @@ from compare.solving.store import key
 from compare.solving.task import SceneTask
 from compare.statistics.finding import FAILS, HOLDS
 from mdr1d import MDR
-from scene import Doubtful, Kelvin, Refused, Result, Scene, Slide, SolveError, Sphere
+from scene import Doubtful, Kelvin, Refused, Result, Scene, SelfAffine, Slide, SolveError, Sphere
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
@@ -31,6 +31,13 @@ SMOOTH = compare.Case(
 )
 
 
+ROUGH = replace(
+    SMOOTH,
+    roughness=SelfAffine(hurst=0.8, rms_height=2e-6, longest=5e-3, shortest=1e-3, seed=3),
+    bem=BEM(points=48),
+)
+
+
 @dataclass(frozen=True)
 class Stiff:
     """The smooth body at rest, its force times a factor."""
@@ -41,6 +48,11 @@ class Stiff:
     def solve(self, scene: Scene) -> Result:
         contact = elastic_contact(scene)
         return Result(scene, self.name, {}, self.factor * contact.load, contact.depth, 0.01 * contact.load)
+
+
+@dataclass(frozen=True)
+class Averaging(Stiff):
+    name, draws = "Averaging", "none"
 
 
 @dataclass(frozen=True)
@@ -130,6 +142,15 @@ def test_what_a_model_leaves_out_has_its_default():
     assert Models.of([Stiff(), "mdr"]).reference == "MDR"
 
 
+def test_a_model_without_draws_has_no_scatter_of_its_own(tmp_path):
+    models = ["bem", Averaging(), "corrected"]
+    found = compare.sweep(ROUGH, [0.1], draws=3, output=tmp_path, models=models, report=False)
+    wide = found["friction_coefficient_high"] - found["friction_coefficient_low"]
+    assert wide.sel(solver="Averaging").item() == 0
+    assert wide.sel(solver="BEM").item() > 0
+    assert found["normal_force"].sel(solver="Averaging", grid="fine", seed=ROUGH.roughness.seed).notnull().all()
+
+
 def test_settings_and_source_are_in_the_key():
     one, other = (key(SceneTask(each, (SCENE,))) for each in (Stiff(), Stiff(1.5)))
     assert one != other
@@ -145,6 +166,7 @@ def test_settings_and_source_are_in_the_key():
     assert SceneTask(Stiff(), (SCENE,)).portable
 
 
+@pytest.mark.slow
 def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     page = PAGE.read_text(encoding="utf-8")
     model, asked = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
@@ -154,6 +176,7 @@ def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     assert "is the same in smooth limit and 3D" in told.stdout
 
 
+@pytest.mark.slow
 def test_the_command_takes_models_by_name(tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
@@ -165,3 +188,33 @@ def test_the_command_takes_models_by_name(tmp_path, monkeypatch):
     answer = CliRunner().invoke(app, ["run", "quick-start", *names])
     assert answer.exit_code == 0, answer.output
     assert "smooth limit/3D" in (tmp_path / "crosscheck-report" / "findings.csv").read_text(encoding="utf-8")
+
+
+OWN = """
+title = "Three models"
+models = ["mdr", "bem"]
+speeds = [0.01, 0.1]
+loads = [0.5, 1.0, 2.0]
+surfaces = 2
+profiles = 4
+indenter = {type = "sphere", radius = "10 mm"}
+elastomer = {type = "kelvin", modulus = "1 MPa", relaxation_time = "1 ms"}
+roughness = {type = "self-affine", hurst = 0.5, rms_height = "5 um", longest = "2 mm", shortest = "0.5 mm"}
+bem = {points = 48}
+mdr = {points = 500}
+[[series]]
+name = "sphere"
+"""
+
+
+@pytest.mark.slow
+def test_a_study_judges_every_model_against_the_reference(tmp_path):
+    (tmp_path / "own.toml").write_text(OWN)
+    asked = tmp_path / "own.toml", "quick", tmp_path
+    report = compare.study(*asked, models=["mdr", "bem", Stiff()])
+    told = set(report.table["dimension"])
+    assert {"1D", "3D", "1D/3D", "Stiff/3D"} <= told
+    alone = compare.study(*asked)
+    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
+    pair = report.table[~report.table["dimension"].str.contains("Stiff")]
+    assert alone.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()

@@ -2,6 +2,7 @@
 
 import time
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 from pydantic.dataclasses import dataclass
@@ -34,6 +35,9 @@ TERMS = dict.fromkeys((Axisymmetric, Linear, Indent, Slide, WLF, Arrhenius, Heat
 @dataclass(frozen=True, config=CLOSED)
 class Exact:
     """Galin-Sneddon: smooth bodies of revolution at rest, or sliding on an elastic solid, which is the same."""
+
+    label: ClassVar[str] = "closed form"
+    draws: ClassVar[str] = "none"
 
     @property
     def name(self) -> str:
