@@ -17,6 +17,8 @@ HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "
 # How the share of the grid in an interval is known.
 HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exact", "unknown"
 BOTH = "1D/3D"
+# Models of which a number is said alone.
+ALONE = ("1D", "1D corrected", "3D")
 # Findings on a claim in one dimension that a statement tells one by one.
 SHOWN = 4
 
@@ -231,7 +233,7 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
             verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
             said = [_said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts]
             told = ("; it " if any(";" in each for each in said) else ", ").join(said)
-            parts.append(f"In {dimension} it {told}" if dimension in ("1D", "3D") else f"It {told}")
+            parts.append(f"In {dimension} it {told}" if dimension in ALONE else f"It {told}")
         found.append(". ".join([f"{sentence}{claimed}", *parts]) + ".")
     return found
 
