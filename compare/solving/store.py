@@ -280,12 +280,6 @@ def _unpacked(packed):
     return arrays
 
 
-def stored_size(task: Task, outcome: Outcome) -> int:
-    """Bytes that an outcome takes in a store."""
-    fields = _packed(outcome.fields) if outcome.fields or task.keeps_fields else None
-    return len(_line(key(task), _text(task, outcome, fields))) + len(fields or b"")
-
-
 def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
     """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
 
