@@ -21,24 +21,9 @@ from ...solving.task import Batch, Task
 from ...statistics import eq23
 from ...statistics.finding import FAILS, Finding
 from ..study import Hooked
-from . import law, losses, parameter_studies, parameters
+from . import figures, law, losses, parameter_studies, parameters
 from .claims import findings, lines
 from .contacts import contact_grid, contact_tables, with_nodes
-from .figures import (
-    contacts as paper_contacts,
-)
-from .figures import (
-    law as paper_law,
-)
-from .figures import (
-    losses as paper_losses,
-)
-from .figures import (
-    sketch as paper_sketch,
-)
-from .figures import (
-    studies as paper_studies,
-)
 from .parameter_studies import ParameterStudies
 from .text import ABOUT, OPEN, SHIFTS
 
@@ -154,12 +139,11 @@ class Paper(Hooked):
         found = self.reproduction(answers)
         contacts = {shape: _dataset(answers, f"contact-{shape}/MDR") for shape in parameters.SHAPES}
         drawn = [
-            paper_contacts.plot(*contact_tables(contacts)),
-            paper_sketch.plot(),
-            paper_studies.plot(found.slow.points, _fits(found.fits)),
-            paper_law.plot([each.points for each in found.laws], DataFrame([each.row for each in found.laws])),
+            figures.contacts.plot(*contact_tables(contacts)),
+            figures.sketch.plot(),
+            figures.studies.plot(found.slow.points, _fits(found.fits)),
+            figures.law.plot([each.points for each in found.laws], DataFrame([each.row for each in found.laws])),
             *(self._shifted(each, findings) for each in found.rubbers),
-            paper_losses.plot([each.points for each in found.rubbers]),
         ]
         return [each for each in drawn if each is not None]
 
