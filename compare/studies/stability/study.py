@@ -8,7 +8,7 @@ from typing import Any
 import xarray
 from pandas import DataFrame
 
-from ...report.page import Section, Table, Text
+from ...report.page import Block, Section, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.suggest import known
 from ...solving.task import Batch, Task
