@@ -9,7 +9,7 @@ Options of all of them:
 output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor
 scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
-format : format of the page: html, markdown or latex
+format : format of the page: html or markdown
 figure_format : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
 report : write the page and its figures. Findings, tables and results are written in any case
 yes : agree to a study of more than a day or of more than 300,000 contacts
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 
 # Allowed values, which a shell completes. Others are refused where they are used.
 Size = Literal["quick", "standard", "full"]
-Format = Literal["html", "markdown", "latex"]
+Format = Literal["html", "markdown"]
 FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
 Diagram = Literal["models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "all"]
 Journal = Literal[

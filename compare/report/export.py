@@ -13,8 +13,7 @@ from scene.reading import InvalidInput
 from ..solving import netcdf, parameter_grid, store
 from ..solving.suggest import known
 from ..solving.vocabulary import entry
-from . import csvfiles, manifest, vtk
-from .render import latex
+from . import csvfiles, latex, manifest, vtk
 
 FORMS = {"csv": ".csv", "latex": ".tex", "vtk": vtk.ENDING}
 TABLES = "tables"

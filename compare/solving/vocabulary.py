@@ -235,11 +235,6 @@ farthest_from_best_fit : Deviation of the farthest point from Eq. 19 with the be
 plateau : μ̃ at the greatest ξ over Eq. 19 there. [1]
 loss_exponent : Power β of the frequency with which the loss modulus grows. [1]
 relaxation_time : Time τ of the elastomer. [s]
-simulated : Coefficient of friction, mean over profiles. [1]
-smooth : Coefficient of friction of the smooth body. [1]
-shortest_wave : Coefficient of friction of Eq. 22 with the loss of the shortest wave. [1]
-every_wave : Coefficient of friction of Eq. 22 with the loss of every wave at its own frequency. [1]
-every_wave_and_smooth_body : Friction of Eq. 22 with the loss of every wave and of the smooth body. [1]
 smooth_half_width : Half of the width of the smooth contact at rest. [m]
 smooth_depth : Depth of the smooth contact at rest. [m]
 conditions_broken : Conditions of the laws that break.

@@ -39,7 +39,7 @@ def run(
     output : folder of the page and of what has been solved
     workers : processes; as many as processors if absent
     scheduler : address of a scheduler of dask.distributed, whose workers solve then
-    format : of the page, "html", "markdown" or "latex"
+    format : of the page, "html" or "markdown"
     figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
     report : whether the page and its figures are written; findings and results always are
     yes : agree to what takes more than a day

@@ -83,7 +83,7 @@ class Report:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        return render.notebook.fragment(self.page, self.path)
+        return render.html.fragment(self.page, self.path)
 
 
 @dataclass(frozen=True, repr=False)

@@ -299,7 +299,7 @@ MISTAKES = {
     "run .": "is a folder, and no scene",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
     "run mine.tml": "no such file, and no ready scene; did you mean mine.toml?",
-    "run quick-start --format word": "format = word: allowed are html, markdown, latex",
+    "run quick-start --format word": "format = word: allowed are html, markdown",
     "run quick-start --figure-format png,jpg": "figure_format = jpg: allowed are ",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "plan quick-strat": "did you mean quick-start?",

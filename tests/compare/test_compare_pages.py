@@ -1,4 +1,4 @@
-"""Pages in five forms, their files, figures drawn again, tables for others, and the one vocabulary."""
+"""Pages in four forms, their files, figures drawn again, tables for others, and the one vocabulary."""
 
 import hashlib
 import json
@@ -24,12 +24,12 @@ from page_samples import FINDINGS, MEANS, ROWS, page
 from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 
-from compare.report import csvfiles, manifest, render
+from compare.report import csvfiles, latex, manifest, render
 from compare.report import export as tables
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
 from compare.report.plots import touching
 from compare.report.redraw import function, options, redraw
-from compare.report.render import latex, markdown, mathematics, notebook, prose, terminal
+from compare.report.render import html, markdown, mathematics, prose, terminal
 from compare.solving import netcdf, vocabulary
 from compare.statistics import digits
 from compare.statistics.finding import COLUMNS
@@ -142,7 +142,7 @@ def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
         if link.startswith("#"):
             assert link[1:] in found.ids
         else:  # no link to a file beside, so that the page may be moved alone
-            assert link.startswith(("data:text/csv", "https://example.org"))
+            assert link.startswith("https://example.org")
     for name in re.findall(r"<code>([^<]+\.(?:csv|png))</code>", (folder / "report.html").read_text()):
         assert (folder / name).is_file()
     assert [image["src"][:22] for image in found.images] == ["data:image/png;base64,"]
@@ -175,8 +175,7 @@ def test_a_formula_is_mathml_on_a_page_stays_in_markdown_and_is_in_plain_letters
     html = prose.html(f"With {FORMULA}.")
     assert "<math" in html
     assert "$" not in html
-    assert prose.converted(FORMULA, latex.MARKS, latex.escaped) == FORMULA
-    assert prose.converted(FORMULA, {}) == "μ̃ = (1 + ξ^(-α))^(-1/α)"
+    assert prose.plain(FORMULA) == "μ̃ = (1 + ξ^(-α))^(-1/α)"
     assert markdown.typeset("friction grows as xi^1, h_0 <i>") == r"friction grows as $\xi^1$, $h_0$ \<i\>"
     assert mathematics.typeset("exit, v tau/a & xi", str, "[{}]".format) == r"exit, [v\tau/a] & [\xi]"
 
@@ -199,7 +198,7 @@ def test_every_form_has_answer_findings_tables_and_figures_escaped(form, tmp_pat
     shown = "".join(Links(text).words) if form == "html" else text
     for said in ("Depths at rest agree", "1.010 (0.986 to 1.034)", "fails", "undecided", "12.3 (10.9 to 13.8) s"):
         assert said in shown
-    assert "the error of the grid is not known" in shown or form == "latex"
+    assert "the error of the grid is not known" in shown
     assert "sphere/friction.png" in text
     assert "<speed>" not in text
     assert "0.9009009" not in shown  # a long table is a file alone
@@ -240,7 +239,7 @@ def test_the_terminal_shows_a_claim_once_and_its_findings_below():
 
 
 def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowhere():
-    found = Links(notebook.fragment(page()))
+    found = Links(html.fragment(page()))
     assert not found.images
     assert found.links == ["https://example.org"]
     assert "Depths at rest agree" in "".join(found.words)
@@ -249,7 +248,7 @@ def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowh
 def test_prose_keeps_its_marks_in_every_form():
     text = "*a* **b** `c_1` [d](e)\n\n1. f"
     assert prose.html(text).startswith("<p><em>a</em> <strong>b</strong> <code>c_1</code>")
-    assert prose.converted(text, latex.MARKS, latex.escaped).startswith(r"\emph{a} \textbf{b} \texttt{c\_1} d")
+    assert prose.plain(text) == "a b c_1 d\n\n- f"
     assert "<script>" not in prose.html("<script>")
 
 

@@ -35,7 +35,7 @@ MADE_UP = {
 def judged(outcomes):
     """Answers and findings by the name of the case."""
     answers = STUDY.answers({Examination(name, "quick"): outcome for name, outcome in outcomes.items()})
-    findings = STUDY.findings(answers)
+    findings = STUDY.judge(answers).findings
     return answers, {each.claim.id.removeprefix("stability."): each for each in findings}
 
 

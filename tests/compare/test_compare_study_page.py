@@ -84,14 +84,12 @@ def _place(found):
 
 def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
     plots = {plot.name: plot for plot in page.every(Plot)}
-    assert {"verdicts", "family", "sphere/collapse", "sphere/shifts", "sphere/levels", "sphere/effects"} <= set(
-        plots
-    )
+    assert {"family", "sphere/collapse", "sphere/shifts", "sphere/levels", "sphere/effects"} <= set(plots)
     assert {"rest/depth", "pressed/pressed-in"} <= set(plots)
     assert "rest/levels" not in plots
     for name, plot in plots.items():
         assert 5 < len(plot.caption.split()) <= 60, name
-        if name not in ("verdicts", "family", "sphere/collapse", "pressed/pressed-in"):
+        if name not in ("family", "sphere/collapse", "pressed/pressed-in"):
             continue  # drawn with all figures, from stored tables
         tables = {}
         for table, frame in plot.tables.items():
@@ -140,6 +138,6 @@ def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(monkeyp
     assert places["mine"] == places["second"] == len(findings) / 2
     page = both.judge(tree).page(both.title, tree)
     assert len(page.answer) == len({each.claim.sentence for each in findings if each.verdict != REPORTED})
-    assert {"mine/verdicts", "second/family"} <= {plot.name for plot in page.every(Plot)}
+    assert {"mine/family", "second/family"} <= {plot.name for plot in page.every(Plot)}
     monkeypatch.setattr(AllStudies, "grids", lambda self: {})  # thousands of scenes
     assert [each.name for each in ClaimStudy.of("all").studies] == list(STUDIES)

@@ -24,9 +24,8 @@ MOST_PIXELS = 10_000  # of the maps of the surface: of a finer grid every second
 HEIGHT = 1.9  # of the panels below [inch]
 LETTERED, TALLEST = (0.5, 1.15), 1.2  # what is written beside and around a map [inch]; of a map, height over width
 CLOSED = 1e-6  # of the relief of the indenter: a gap of less is none
-OPEN = (
-    30.0  # depths of the lowest point, from which gaps have one colour: beside a blunt body they are without end
-)
+# Depths of the lowest point, from which gaps have one colour: beside a blunt body they are without end.
+OPEN = 30.0
 
 
 def plot(view: View | None, folder: str = "") -> Plot | None:

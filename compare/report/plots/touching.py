@@ -1,7 +1,7 @@
 """Panels of a contact: sections through both bodies, and maps of it seen from above."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,7 +21,6 @@ HIGHEST = 99  # percentile of the pressures in contact at which colours end
 # Sand, of which the elastomer is a tint.
 SAND = "#8A7A45"
 
-Fields: TypeAlias = Mapping[str, np.ndarray]
 MOST_PIXELS = 2**26  # of a map: a contact of half the side of the finest grid
 
 

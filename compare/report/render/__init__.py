@@ -1,4 +1,4 @@
-"""Pages: five renderers of `page.Page`, and what lies beside a page: figures and tables."""
+"""Pages: four renderers of `page.Page`, and what lies beside a page: figures and tables."""
 
 from collections.abc import Callable, Mapping, Sequence
 from operator import methodcaller
@@ -13,14 +13,13 @@ from .. import csvfiles
 from ..manifest import FINDINGS
 from ..page import Page, Plot
 from ..plots.rendering import FORMS, Picture, picture
-from . import html, latex, markdown, notebook, terminal
+from . import html, markdown, terminal
 
-__all__ = ["FILES", "FORMATS", "FORMS", "notebook", "terminal", "write", "write_picture", "write_tables"]
+__all__ = ["FILES", "FORMATS", "FORMS", "html", "terminal", "write", "write_picture", "write_tables"]
 
 _RENDERERS: Mapping[str, tuple[str, ModuleType]] = {
     "html": ("report.html", html),
     "markdown": ("report.md", markdown),
-    "latex": ("report.tex", latex),
 }
 FORMATS = tuple(_RENDERERS)
 FILES = tuple(name for name, _ in _RENDERERS.values())
@@ -42,14 +41,14 @@ def write(
 
     Raises OSError, InvalidInput where the look has text too large for a figure.
     """
-    tables = write_tables(page, findings, folder)
+    write_tables(page, findings, folder)
     pictures: dict[str, Picture] = {}
     for plot in page.every(Plot):
         pictures[plot.name] = picture(plot, forms)
         write_picture(pictures[plot.name], folder / plot.name)
         told(plot.name)
     name, renderer = _RENDERERS[format]
-    csvfiles.write_text(folder / name, renderer.text(page, pictures, tables))
+    csvfiles.write_text(folder / name, renderer.text(page, pictures))
     return folder / name
 
 
@@ -62,8 +61,8 @@ def write_picture(drawn: Picture, path: Path) -> list[Path]:
     return list(files)
 
 
-def write_tables(page: Page, findings: Sequence[Finding], folder: Path) -> dict[str, str]:
-    """Write every table of a page as CSV, and all findings; returns their texts by name. Raises OSError."""
+def write_tables(page: Page, findings: Sequence[Finding], folder: Path) -> None:
+    """Write every table of a page as CSV, and all findings. Raises OSError."""
     texts: dict[str, str] = {}
     for name, frame in ((FINDINGS, finding.table(findings)), *page.tables()):
         text = csvfiles.text(frame)
@@ -71,4 +70,3 @@ def write_tables(page: Page, findings: Sequence[Finding], folder: Path) -> dict[
             raise ValueError(f"two tables of the page have the name {name!r}")
     for name, text in texts.items():
         csvfiles.write_text(folder / f"{name}.csv", text)
-    return texts

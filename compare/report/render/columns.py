@@ -22,7 +22,7 @@ class Column:
 
     name : in the vocabulary
     title : of its head
-    values : what its cells are sorted by
+    values : what its cells stand for, numbers as floats
     texts : what its cells show
     """
 

@@ -1,10 +1,10 @@
-"""A page as one HTML file that needs nothing else: images and tables inside, offline and without scripts."""
+"""A page as one HTML file that needs nothing else, offline and without scripts; a part of it for a notebook."""
 
 import base64
 from collections.abc import Mapping
 from html import escape
+from pathlib import Path
 from typing import Any
-from urllib.parse import quote
 
 import jinja2
 from markupsafe import Markup
@@ -17,21 +17,15 @@ from ..plots.rendering import Picture
 from . import mathematics, prose
 from .columns import columns, regimes_once
 
-# A longer table is no reading, and a larger file is not put into the page.
-MOST_ROWS, MOST_BYTES = 400, 300_000
+MOST_ROWS = 400  # a longer table is no reading
 # Digits of numbers that are there to be looked up.
 DIGITS = 6
-# Need no escape within a data URI.
-SAFE = " ,;:/()[]{}=+*@!'~?|^$&"
 # A word that is longer may be broken into lines.
 LONG = 30
 
 
-def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
-    """The page.
-
-    pictures : of the plots, by name; tables : text of every CSV file beside the page, by name
-    """
+def text(page: Page, pictures: Mapping[str, Picture]) -> str:
+    """The page; pictures : of the plots, by name."""
     used: dict[str, Term] = {}
     shown = {table.name for table in page.every(Table)}
     behind = {name: frame for name, frame in page.tables() if name not in shown}
@@ -42,13 +36,13 @@ def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str])
         ],
         data={name: _rows(frame, used) for name, frame in behind.items()},
         about={**page.about, **made()},
-        **_content(used, pictures, tables, {plot.name for plot in page.every(Plot)}),
+        **_content(used, pictures, {plot.name for plot in page.every(Plot)}),
     )
 
 
-def fragment(page: Page) -> str:
-    """Answer, findings and tables of a page, without its figures, as a part of another page."""
-    return _template("fragment.html").render(page=page, **_content(None, {}, {}, set()))
+def fragment(page: Page, path: Path | None = None) -> str:
+    """Answer, findings and tables of a page for a notebook, without figures; path : of the page, named last."""
+    return _template("fragment.html").render(page=page, path=path and path.resolve(), **_content(None, {}, set()))
 
 
 def anchor(*parts: str) -> str:
@@ -56,7 +50,7 @@ def anchor(*parts: str) -> str:
     return "-".join("".join(c if c.isascii() and c.isalnum() else "-" for c in part) for part in parts if part)
 
 
-def _content(used, pictures, tables, figures) -> dict[str, Any]:
+def _content(used, pictures, figures) -> dict[str, Any]:
     """Functions and values for the templates. used : terms that the page defines; None without definitions"""
     return {
         "kind": lambda block: type(block).__name__,
@@ -71,7 +65,6 @@ def _content(used, pictures, tables, figures) -> dict[str, Any]:
         "rows": lambda table: _rows(table.frame, used, people=True),
         "head": lambda label, name: Markup(_head(label, name, used)),
         "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),
-        "download": lambda name: _download(name, tables),
         "FINDINGS": FINDINGS,
     }
 
@@ -93,28 +86,18 @@ def _head(title, name, used):
     if used is not None and (found := entry(whose)) is not None:
         used[whose] = found
         mark = f'<a class="mark" href="#{anchor("def", whose)}" aria-label="Definition: {escape(title)}">?</a>'
-    return f'<th scope="col"><span class="label">{escape(title)}</span>{mark}</th>'
+    return f'<th scope="col">{escape(title)}{mark}</th>'
 
 
 def _cell(column, value, shown):
     label = f' data-label="{escape(column.title)}"'
-    if isinstance(value, float):
-        return f'<td class="number"{label} data-value="{value!r}">{escape(shown)}</td>'
-    if len(shown) > LONG:
+    if len(shown) > LONG and not isinstance(value, float):
         return f'<td class="words"{label}>{_typeset(shown)}</td>'
     return f"<td{label}>{escape(shown)}</td>"
 
 
 def _typeset(words):
     return mathematics.typeset(words, escape, mathematics.mathml)
-
-
-def _download(name: str, tables: Mapping[str, str]) -> str:
-    """A table as a file within the page; empty of a large one, which lies beside it alone."""
-    content = tables[name]
-    if len(content) > MOST_BYTES:
-        return ""
-    return f"data:text/csv;charset=utf-8,{quote(content, safe=SAFE)}"
 
 
 def _template(name: str) -> jinja2.Template:

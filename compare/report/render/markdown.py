@@ -40,7 +40,7 @@ class _Shown:
         return told
 
 
-def text(page: Page, pictures: Mapping[str, Picture], tables: Mapping[str, str]) -> str:
+def text(page: Page, pictures: Mapping[str, Picture]) -> str:
     """The page; what stands in tables is defined at its end."""
     shown = _Shown()
     parts = [f"# {escaped(page.title)}", "\n".join(f"- **{typeset(each)}**" for each in page.first)]

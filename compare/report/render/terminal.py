@@ -31,9 +31,8 @@ def _blocks(blocks, rule) -> Iterator[str]:
     for block in blocks:
         match block:
             case Text(markdown):
-                yield "\n".join(
-                    _filled(line, 2 * line.startswith("- ")) for line in prose.converted(markdown, {}).split("\n")
-                )
+                lines = prose.plain(markdown).split("\n")
+                yield "\n".join(_filled(line, 2 * line.startswith("- ")) for line in lines)
             case Table() if not block.long and len(block.frame) <= MOST_ROWS:
                 shown = _table(block.frame)
                 if max(map(len, shown.splitlines()), default=0) <= WIDEST:

@@ -145,20 +145,20 @@ class ClaimStudy(Study):
         return JudgedStudy(series, tuple(family_findings(series)))
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        """Verdicts, an overview of them, and findings on several series; then each series.
+        """An overview of the verdicts, and findings on several series; then each series.
 
         The answer is a statement for each claim; numbers without a claim stand in tables alone.
         """
         judged = self.judged(answers)
         findings = judged.findings
-        whole = list(study_plots.plots_of_study(judged.series, findings, bool(judged.together)))
-        blocks: list[Block] = [*whole[:1]]
+        whole = list(study_plots.plots_of_study(judged.series, bool(judged.together)))
+        blocks: list[Block] = []
         if overview := list(_overview(findings)):
             blocks.append(
                 Table("overview", DataFrame(overview), "Findings of each verdict, by claim and dimensionality.")
             )
         if judged.together:
-            blocks.append(Section("Several series together", [*whole[1:], Findings(judged.together)]))
+            blocks.append(Section("Several series together", [*whole, Findings(judged.together)]))
         blocks += [
             Section(_numbered(number, each), list(_section(each))) for number, each in enumerate(judged.series, 1)
         ]
@@ -207,7 +207,7 @@ class AllStudies(Study):
         sections = []
         for each in self.studies:
             judged = each.judged(answers.children[each.name])
-            plots = study_plots.plots_of_study(judged.series, judged.findings, bool(judged.together))
+            plots = study_plots.plots_of_study(judged.series, bool(judged.together))
             shown = [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
             own = [_named(one, each.name) for one in judged.findings]
             findings += own

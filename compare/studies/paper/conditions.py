@@ -54,16 +54,6 @@ def with_conditions(
     return points.assign(**columns, holds=np.logical_and.reduce(scale_bound))
 
 
-def broken(points: DataFrame) -> str:
-    """Conditions that break and at how many points, in words."""
-    flags = {name.removeprefix(FLAG): points[name] for name in points if str(name).startswith(FLAG)}
-    counts = {name: int((~flag.astype(bool)).sum()) for name, flag in flags.items()}
-    said = [
-        f"{name} ({'everywhere' if count == len(points) else count})" for name, count in counts.items() if count
-    ]
-    return f"conditions that break, of {len(points)} points: {', '.join(said)}" if said else "all conditions hold"
-
-
 def between(values) -> str:
     """Least and greatest of some numbers, in words."""
     low, high = np.nanmin(values), np.nanmax(values)

@@ -1,7 +1,7 @@
 """The study of the command `paper`: what is solved for the figures of the paper, and its page."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -11,7 +11,7 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput
 
-from ...report.page import Block, Findings, Plot, Section, Table, Text
+from ...report.page import Block, Findings, Section, Table, Text
 from ...report.plots import shifted_curves
 from ...solving import parameter_grid
 from ...solving.cost import MOST_DRAWS, Cost
@@ -19,26 +19,11 @@ from ...solving.outcome import Outcome
 from ...solving.parameter_grid import FAILED, ParameterGrid
 from ...solving.task import Batch, Task
 from ...statistics import eq23
-from ...statistics.finding import FAILS, Finding
-from ..study import Hooked
-from . import law, losses, parameter_studies, parameters
+from ...statistics.finding import FAILS
+from ..study import Judgement, Study
+from . import figures, law, losses, parameter_studies, parameters
 from .claims import findings, lines
 from .contacts import contact_grid, contact_tables, with_nodes
-from .figures import (
-    contacts as paper_contacts,
-)
-from .figures import (
-    law as paper_law,
-)
-from .figures import (
-    losses as paper_losses,
-)
-from .figures import (
-    sketch as paper_sketch,
-)
-from .figures import (
-    studies as paper_studies,
-)
 from .parameter_studies import ParameterStudies
 from .text import ABOUT, OPEN, SHIFTS
 
@@ -60,7 +45,7 @@ class Reproduction:
 
 
 @dataclass(frozen=True)
-class Paper(Hooked):
+class Paper(Study):
     """The paper simulated again in one dimension.
 
     profiles : averaged at most, 3 or more
@@ -69,7 +54,6 @@ class Paper(Hooked):
 
     profiles: int = parameters.PROFILES
     values: int = 20
-    _last: list[Any] = field(default_factory=list, repr=False, compare=False)
 
     command, title, about = "paper", "The paper in one dimension", ABOUT
 
@@ -130,57 +114,46 @@ class Paper(Hooked):
         return tree
 
     def reproduction(self, answers: xarray.DataTree) -> Reproduction:
-        """Data of every figure; kept for the last answers. Raises SolveError where all of a figure is missing."""
-        if not self._last or self._last[0] is not answers:
-            slow = parameter_studies.slow_friction(self._studies, _dataset(answers, parameter_studies.NODE))
-            laws = (
-                law.law(shape, *(_dataset(answers, f"law-{shape}/{model}") for model in ("MDR", "planes")))
-                for shape in parameters.SHAPES
-            )
-            rubbers = (
-                losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.grids(loss)))
-                for loss in parameters.LOSSES
-            )
-            self._last[:] = answers, Reproduction(slow, lines(slow), tuple(laws), tuple(rubbers))
-        return self._last[1]
+        """Data of every figure. Raises SolveError where all of a figure is missing."""
+        slow = parameter_studies.slow_friction(self._studies, _dataset(answers, parameter_studies.NODE))
+        laws = (
+            law.law(shape, *(_dataset(answers, f"law-{shape}/{model}") for model in ("MDR", "planes")))
+            for shape in parameters.SHAPES
+        )
+        rubbers = (
+            losses.lossy(loss, *(_dataset(answers, f"{name}/MDR") for name in losses.grids(loss)))
+            for loss in parameters.LOSSES
+        )
+        return Reproduction(slow, lines(slow), tuple(laws), tuple(rubbers))
 
-    def findings(self, answers: xarray.DataTree) -> list[Finding]:
-        """Claims of the paper, in its order."""
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """Figures of the paper and its claims, in its order, and the shift of Eq. 23."""
         found = self.reproduction(answers)
-        return findings(found.slow, found.fits, found.laws, found.rubbers)
-
-    def plots(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> list[Plot]:
-        """Figures of the paper, in its order."""
-        found = self.reproduction(answers)
-        contacts = {shape: _dataset(answers, f"contact-{shape}/MDR") for shape in parameters.SHAPES}
-        drawn = [
-            paper_contacts.plot(*contact_tables(contacts)),
-            paper_sketch.plot(),
-            paper_studies.plot(found.slow.points, _fits(found.fits)),
-            paper_law.plot([each.points for each in found.laws], DataFrame([each.row for each in found.laws])),
-            *(self._shifted(each, findings) for each in found.rubbers),
-            paper_losses.plot([each.points for each in found.rubbers]),
-        ]
-        return [each for each in drawn if each is not None]
-
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        """Figures of the paper, its claims, and the shift of Eq. 23."""
-        shifts = _shifts(self.reproduction(answers).rubbers, findings)
-        return [
-            *plots,
-            Findings(findings, "Claims of the paper, with intervals of 95 % over rough profiles."),
+        judged = findings(found.slow, found.fits, found.laws, found.rubbers)
+        shifts = _shifts(found.rubbers, judged)
+        blocks: list[Block] = [
+            *self._plots(found, answers, judged),
+            Findings(judged, "Claims of the paper, with intervals of 95 % over rough profiles."),
             Section("The shift of Eq. 23", [Text(SHIFTS), Table("shifts", shifts, "Exponents of the shift.")]),
         ]
-
-    def settings(self, answers: xarray.DataTree) -> Sequence[Block]:
-        """The model, the contacts that were solved, and choices where the paper leaves a parameter open."""
-        return [
+        setting: list[Block] = [
             Text(ABOUT),
-            Text(_solved(answers, self.reproduction(answers).slow)),
+            Text(_solved(answers, found.slow)),
             Section("How this departs from the paper", [Text(OPEN)]),
         ]
+        return Judgement(judged, blocks=blocks, setting=setting)
+
+    def _plots(self, found, answers, judged):
+        """Figures of the paper, in its order."""
+        contacts = {shape: _dataset(answers, f"contact-{shape}/MDR") for shape in parameters.SHAPES}
+        drawn = [
+            figures.contacts.plot(*contact_tables(contacts)),
+            figures.sketch.plot(),
+            figures.studies.plot(found.slow.points, _fits(found.fits)),
+            figures.law.plot([each.points for each in found.laws], DataFrame([each.row for each in found.laws])),
+            *(self._shifted(each, judged) for each in found.rubbers),
+        ]
+        return [each for each in drawn if each is not None]
 
     def _shifted(self, lossy, findings):
         collapses = {each.where: each for each in findings if each.claim.id == eq23.COLLAPSE.id}

@@ -8,13 +8,13 @@ from typing import Any
 import xarray
 from pandas import DataFrame
 
-from ...report.page import Block, Plot, Section, Table, Text
+from ...report.page import Block, Section, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.suggest import known
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import FAILS, HOLDS, Claim, Finding
-from ..study import Hooked
+from ..study import Judgement, Study
 from .cases.collection import CASES
 from .cases.examination import Examination
 from .cases.hardcase import SIZES, Check
@@ -36,7 +36,7 @@ whose squares are no numbers, memories beyond 1e150 pixels, contacts of less tha
 
 
 @dataclass(frozen=True)
-class Stability(Hooked):
+class Stability(Study):
     """Every hard case at a size: "quick", "standard" or "full"."""
 
     size: str = "quick"
@@ -70,9 +70,20 @@ class Stability(Hooked):
             dataset[name].attrs = attributes(name)
         return xarray.DataTree.from_dict({"/checks": dataset})
 
-    def findings(self, answers: xarray.DataTree) -> Sequence[Finding]:
-        """One a case: the check that came nearest to its bound, or a broken one."""
-        return [finding for finding, _ in self._judged(answers)]
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """A finding a case: the check that came nearest to its bound, or a broken one; a table for each group."""
+        judged = list(self._judged(answers))
+        groups = list(dict.fromkeys(finding.where for finding, _ in judged))
+        frames = {group: DataFrame([row for found, row in judged if found.where == group]) for group in groups}
+        counts = [
+            {"group": group, "cases": len(frame), "checks": int(frame["checks"].sum())}
+            | {outcome: int((frame["outcome"] == outcome).sum()) for outcome in (SOLVED, REFUSED, BROKEN)}
+            for group, frame in frames.items()
+        ]
+        sections = [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
+        shown: list[Block] = [Table("groups", DataFrame(counts), f"Hard cases, size {self.size}."), *sections]
+        findings = [finding for finding, _ in judged]
+        return Judgement(findings, _answer(findings), shown, [Text(ABOUT)])
 
     def _judged(self, answers) -> Iterator[tuple[Finding, Mapping]]:
         """Finding of each case, and its row of the table."""
@@ -110,34 +121,17 @@ class Stability(Hooked):
                 },
             )
 
-    def blocks(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], plots: Sequence[Plot]
-    ) -> Sequence[Block]:
-        """Number of cases that keep their law, then a table for each group."""
-        judged = list(self._judged(answers))
-        groups = list(dict.fromkeys(finding.where for finding, _ in judged))
-        frames = {group: DataFrame([row for found, row in judged if found.where == group]) for group in groups}
-        counts = [
-            {"group": group, "cases": len(frame), "checks": int(frame["checks"].sum())}
-            | {outcome: int((frame["outcome"] == outcome).sum()) for outcome in (SOLVED, REFUSED, BROKEN)}
-            for group, frame in frames.items()
-        ]
-        sections = [Section(group.capitalize(), [Table(group, frame)]) for group, frame in frames.items()]
-        return [Table("groups", DataFrame(counts), f"Hard cases, size {self.size}."), *sections]
 
-    def settings(self, answers: xarray.DataTree) -> Sequence[Block]:
-        return [Text(ABOUT)]
-
-    def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """Number of cases that keep their law, and a sentence for each that does not."""
-        broken = [each for each in findings if each.stated == FAILS]
-        kept = f"{len(findings) - len(broken)} of" if broken else "All"
-        told = f"{kept} {len(findings)} hard cases keep their law, solved or refused as they should."
-        return [told] + [
-            f"{each.claim.id.partition('.')[2]} is broken: found {each.value:.2g}, allowed "
-            f"{each.claim.tolerance:.2g}. {each.claim.sentence}. {each.reason}".strip()
-            for each in broken
-        ]
+def _answer(findings: Sequence[Finding]) -> Sequence[str]:
+    """Number of cases that keep their law, and a sentence for each that does not."""
+    broken = [each for each in findings if each.stated == FAILS]
+    kept = f"{len(findings) - len(broken)} of" if broken else "All"
+    told = f"{kept} {len(findings)} hard cases keep their law, solved or refused as they should."
+    return [told] + [
+        f"{each.claim.id.partition('.')[2]} is broken: found {each.value:.2g}, allowed "
+        f"{each.claim.tolerance:.2g}. {each.claim.sentence}. {each.reason}".strip()
+        for each in broken
+    ]
 
 
 def _checks(name: str, outcome: Outcome) -> Iterator[tuple]:

@@ -1,11 +1,12 @@
 """Friction of one series: curves shifted onto one, shifts, level against speed; and several series at once."""
 
-from itertools import cycle
+from itertools import cycle, product
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import EngFormatter
 from pandas import DataFrame
 
@@ -24,8 +25,7 @@ UNITS = {"load": "N", "depth": "m"}
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
 # What makes slow friction depend on the load, each over its number under the least load.
 BEHIND = {"contact": "real contact [1]", "drag": "friction over contact [1]", "slope": "slope in contact [1]"}
-# Most panels side by side that are as high as wide; more are lower.
-FEW = 4
+MARKERS = ("o", "s", "^", "v", "D", "<", ">")  # of the series of a family
 MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
 
 
@@ -202,49 +202,46 @@ def _ratios(drawing, panels, ratios, prescribed):
 
 
 def family(tables: Tables) -> Figure:
-    """Friction over its plateau against xi: a panel for each series and dimensionality, a shade for each load."""
+    """Friction over its plateau against xi: a panel for each shape and dimensionality, with all of its series."""
     every, laws = tables["family"], tables["family-law"]
-    shapes = {str(shape): own for shape, own in every.groupby("shape", sort=False)}
-    most = max(own["series"].nunique() for own in shapes.values())
-    times = 1.0 if most <= FEW else 0.8
-    drawing = style.canvas("double", 0.6 + len(shapes) * (3.2 * times + 0.2))
-    bands = drawing.subfigures(len(shapes), 1, squeeze=False)[:, 0]
-    scale, panels = shades.between(every["normal_force"].dropna()), []
-    for band, (shape, points) in zip(bands, shapes.items(), strict=True):
-        names = list(dict.fromkeys(points["series"]))
-        start = _common(names)
-        own = band.subplots(len(SOLVER), len(names), sharex=True, sharey=True, squeeze=False)
-        for row, (dimension, solver) in zip(own, SOLVER.items(), strict=True):
-            here = (laws["shape"] == shape) & (laws["dimension"] == dimension)
-            for axes, name in zip(row, names, strict=True):
-                series = points[(points["dimension"] == dimension) & (points["series"] == name)]
-                axes.plot(laws[here]["xi"], laws[here]["friction_over_plateau"], **style.line(0.5, 0.8), zorder=1)
-                _by_load(axes, series, solver, scale)
-                axes.set(xscale="log", yscale="log")
-                first = row[0] is own[0, 0]
-                axes.set_title(f"{dimension}, {literal(name[len(start) :])}" if first else dimension)
-            row[0].set_ylabel(r"$\tilde{\mu}$ [1]")
-        for axes in own[-1]:
-            axes.set_xlabel(r"$\xi$ [1]")
-        positive = points["friction_over_plateau"][points["friction_over_plateau"] > 0]
-        own[0, 0].set_ylim(positive.min() / 2, positive.max() * 2)
-        band.suptitle(literal(start.rstrip(", ") or shape), x=0.01, ha="left", fontsize=style.size())
-        panels += list(own.flat)
-        style.decades(*own.flat)
-        shades.bar(band, own, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=30)
-    lettered(panels, most)
+    shapes = list(dict.fromkeys(every["shape"]))
+    drawing = style.canvas("double", 1.0 + 2.4 * len(shapes))
+    panels = drawing.subplots(len(shapes), len(SOLVER), sharex=True, sharey=True, squeeze=False)
+    scale = shades.between(every["normal_force"].dropna())
+    handles: dict[str, Line2D] = {}
+    for axes, (shape, (dimension, solver)) in zip(panels.flat, product(shapes, SOLVER.items()), strict=True):
+        points, law = (
+            table[(table["shape"] == shape) & (table["dimension"] == dimension)] for table in (every, laws)
+        )
+        names = dict.fromkeys(points["series"])
+        for name, marker in zip(names, cycle(MARKERS), strict=False):
+            short = _own_words(name) if len(names) > 1 else name
+            look: dict[str, Any] = {"marker": marker, "markersize": style.mark(0.75)}
+            look["linewidth"] = style.width(0.6)
+            handles.setdefault(short, Line2D([], [], linestyle="none", color=style.grey(0.3), label=short, **look))
+            _by_load(axes, points[points["series"] == name], scale, look)
+        axes.plot(law["xi"], law["friction_over_plateau"], **style.line(0.5, 0.8), zorder=1)
+        axes.set(xscale="log", yscale="log", title=f"{shape}, {dimension} ({solver})")
+    positive = every["friction_over_plateau"][every["friction_over_plateau"] > 0]
+    panels[0, 0].set_ylim(positive.min() / 2, positive.max() * 2)
+    for axes in panels[:, 0]:
+        axes.set_ylabel(r"$\tilde{\mu}$ [1]")
+    for axes in panels[-1]:
+        axes.set_xlabel(r"$\xi$ [1]")
+    lettered(panels.flat)
+    style.decades(*panels.flat)
+    shades.bar(drawing, panels, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=40)
+    style.legend(drawing, list(handles.values()), "outside lower center", 4)
     return drawing
 
 
-def _common(names: list[str]) -> str:
-    """Words up to the first comma, where all of several names begin with them."""
-    heads = {name[: name.find(", ") + 2] for name in names}
-    return heads.pop() if len(heads) == 1 and len(names) > 1 and ", " in names[0] else ""
+def _own_words(series: str) -> str:
+    """Title of a series behind its first comma, before which the body stands."""
+    return literal(series.partition(", ")[2] or series)
 
 
-def _by_load(axes, points, solver, scale):
+def _by_load(axes, points, scale, look):
     """Points of each load, or depth, joined; in the shade of their mean force."""
-    look = {"marker": style.MARKER[solver], "markersize": style.mark(0.55), "linewidth": style.width(0.6)}
     prescribed = [name for name in ("load", "depth") if name in points and points[name].notna().any()]
     for _, own in points.groupby(prescribed):
         colour = shades.PRESS(scale(own["normal_force"].mean()))

@@ -11,7 +11,7 @@ from mdr1d.equations import interpolation
 
 from ....report.page import Plot
 from ....solving.parameter_grid import COARSE, FINE
-from ....statistics.finding import Finding, claimed, table
+from ....statistics.finding import claimed, table
 from ....statistics.jackknife import friction, mean, mean_ratio
 from ....statistics.means import Interval
 from ...mastercurve import figures as shift_plots
@@ -22,29 +22,15 @@ from ..judgement import JudgedSeries
 from ..points import each_dimension, force_at, friction_at, interval, interval_columns, place_columns, stacked
 from ..series import BODIES, ROUGH, SMOOTH, SOLVERS, Contacts, resting
 from . import depth as study_depth
+from . import effects as study_effects
 from . import friction as study_friction
-from . import verdicts as study_verdicts
 
 
-def plots_of_study(series: Sequence[JudgedSeries], findings: Sequence[Finding], together: bool) -> Iterator[Plot]:
-    """Verdicts on every claim, and several series against one variable.
+def plots_of_study(series: Sequence[JudgedSeries], together: bool) -> Iterator[Plot]:
+    """Several series against one variable.
 
-    together : whether findings on several series are among them
+    together : whether there are findings on several series
     """
-    judged = claimed(findings)
-    if len({each.where for each in judged}) > 1:
-        known = {each.series.name: each.series.title for each in series}
-        titles = [(place, known.get(place, place)) for place in dict.fromkeys(each.where for each in judged)]
-        yield Plot(
-            "verdicts",
-            study_verdicts.verdicts,
-            {"verdicts": table(judged)},
-            "Claims (rows) in each series (columns): verdict, and the number measured, with its interval of 95 % "
-            "where there is room. The darker a field, the farther the number lies from the one claimed, in "
-            "tolerances. Claims that compare both dimensionalities stand last.",
-            _counted(judged),
-            {"titles": titles},
-        )
     found = families(series)
     if found and together and all(set(SOLVERS) <= set(each.contacts.labels) for each in series):
         yield _family(found)
@@ -56,7 +42,7 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
     if claims := claimed(judged.findings):
         yield Plot(
             f"{series.folder}/effects",
-            study_verdicts.effects,
+            study_effects.effects,
             {"effects": table(claims)},
             "Distance of what was measured from what is claimed, in tolerances; grey, within; logarithmic beyond "
             "one, arrows beyond 100. Lines, intervals of 95 %: thick from the scatter of surfaces, thin with the "
@@ -244,9 +230,9 @@ def _family(found) -> Plot:
         "family",
         study_friction.family,
         {"family": stacked(points, "shape", "dimension"), "family-law": stacked(laws, "shape", "dimension")},
-        "Friction over its plateau (Eq. 14) against ξ (Eq. 18), a panel for each roughness or solid; points of "
+        "Friction over its plateau (Eq. 14) against ξ (Eq. 18), a marker for each roughness or solid; points of "
         "one load are joined, in its colour. Grey: Eq. 19. If roughness, solid, speed and load count through ξ "
-        "alone, all panels show one curve. Bars: 95 %.",
+        "alone, a panel shows one curve. Bars: 95 %.",
         f"{len(points)} panels of friction against ξ",
     )
 

@@ -1,1 +1,5 @@
 """Figures of the paper."""
+
+from . import contacts, law, sketch, studies
+
+__all__ = ["contacts", "law", "sketch", "studies"]

@@ -93,16 +93,15 @@ def just_closed(size):
         yield from conditions(answer, 2 * TOLERANCE, what)
 
 
-@case(
+case.add(
+    "gap-to-nothing",
     "A mean gap of 1e-9 and 1e-300 of the amplitude: any pressure above closure would do.",
     "Refused: the error names motion.gap and its value, and says to prescribe the pressure.",
+    *(
+        refused(f"motion.gap | {gap:g} | prescribe the pressure", _plane(CROSSED, gap=gap), square)
+        for gap in (1e-9 * AMPLITUDE, 1e-300 * AMPLITUDE)
+    ),
 )
-def gap_to_nothing(size):
-    for gap in (1e-9 * AMPLITUDE, 1e-300 * AMPLITUDE):
-        words = f"motion.gap | {gap:g} | prescribe the pressure"
-        yield from refused(words, _plane(CROSSED, gap=gap), square)(size)
-
-
 FAINT = {f"p/p* = {part:g}": _plane(CROSSED, pressure=part * CLOSURE[CROSSED]) for part in (1e-9, 1e-300)}
 case.add(
     "load-to-nothing",

@@ -1,16 +1,13 @@
-"""Verdicts on each claim in every series, and the distance of a number from the one claimed."""
+"""Distance of each number from the one claimed, with its verdict."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import isfinite
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, Rectangle
 from pandas import DataFrame
 
 from ....report.page import Tables
@@ -20,15 +17,9 @@ from ....statistics import digits
 from ....statistics.finding import BOTH, FAILS, HOLDS, UNDECIDED
 
 SOLVER = {"1D": "MDR", "3D": "BEM", BOTH: "exact"}
-# Share of the width for claims. For text of 8 points: heights of a row, of a line of a claim and between claims,
-# width of the column of dimensionalities, and lengths of headings that stand upright, of which the first that lets
-# all of them fit is taken [inch].
-CLAIMS, ROW, LINE, GAP, DIMENSION = 0.34, 0.27, 0.125, 0.07, 0.42
-UPRIGHT = 0.8, 1.1, 1.4, 1.8, 2.3
-# A column as wide has room for a heading that lies [inch].
-WIDE = 0.75
-# Shades of the distance from the claimed number: up to so many tolerances, and grey between ink (0) and paper (1).
-SHADES = {1.0: 0.97, 3.0: 0.85, 10.0: 0.72, np.inf: 0.58}
+# Share of the width for the words of the claims, and, for text of 8 points, heights of a row, of a line of a claim
+# and between claims [inch].
+CLAIMS, ROW, LINE, GAP = 0.34, 0.27, 0.125, 0.07
 # Stands for the tolerance of a claim that has none: what is off is beyond the axis.
 EXACTLY = 1e-12
 # In tolerances, where the axis of effects ends; what lies beyond is an arrow there.
@@ -78,46 +69,6 @@ def _claimed(own: DataFrame) -> str:
     return f"claimed: {said[0]}" + (f" ± {said[1]}" if own["tolerance"].any() else "")
 
 
-def verdicts(tables: Tables, titles: Sequence[tuple[str, str]] = ()) -> Figure:
-    """Rows: claims by dimensionality, those that compare both last. Columns: series.
-
-    titles : name and title of each column
-    """
-    found = tables["verdicts"]
-    places = dict(titles) or {name: name for name in dict.fromkeys(found["where"])}
-    claims = _claims(found, CLAIMS * style.across("double"))
-    times = style.small() / (style.SMALL * style.TEXT)
-    cell = ((1 - CLAIMS) * style.across("double") - (DIMENSION + 0.15) * times) / len(places)
-    lying = cell >= WIDE * times
-    lengths = [0.84 * cell] if lying else [inches * times for inches in UPRIGHT]
-    for length in lengths:
-        heads = [style.fill(literal(title), length, style.small()) for title in places.values()]
-        lines = max(head.count("\n") + 1 for head in heads)
-        if lines * LINE * times <= cell:
-            break
-    bottom = claims[-1].top + claims[-1].height
-    above = LINE * lines if lying else length / times
-    drawing = style.canvas("double", bottom / times + above + 0.5)
-    axes = drawing.subplots()
-    axes.set(xlim=(-DIMENSION * times / cell - 0.5, len(places) - 0.5), ylim=(bottom, 0))
-    _numbers(axes, list(places), claims, cell)
-    _ruled(axes, claims)
-    axes.xaxis.tick_top()
-    for spine in axes.spines.values():
-        spine.set_visible(False)
-    upright: dict[str, Any] = {} if lying else {"rotation": 90, "va": "bottom", "ha": "center"}
-    axes.set_xticks(range(len(places)), heads, fontsize=style.small(), **upright)
-    looks = {name: {"color": style.grey(0.3), **look} for name, look in _marks().items()}
-    handles: list = [Line2D([], [], linestyle="none", label=name, **look) for name, look in looks.items()]
-    ends = ("within the tolerance", "to 3 tolerances off", "to 10", "farther")
-    handles += [
-        Patch(facecolor=style.grey(level), edgecolor=style.grey(0.5), linewidth=style.width(0.4), label=end)
-        for level, end in zip(SHADES.values(), ends, strict=True)
-    ]
-    style.legend(drawing, handles, "outside lower right", len(handles), handletextpad=0.4, handlelength=1.2)
-    return drawing
-
-
 def _ruled(axes: Axes, claims: Sequence[_Claim]) -> None:
     """Texts of the claims at left, and lines between them, a thick one before those that compare both."""
     axes.tick_params(length=0)
@@ -126,47 +77,6 @@ def _ruled(axes: Axes, claims: Sequence[_Claim]) -> None:
     for before, each in pairwise(claims):
         compared = BOTH in each.rows and BOTH not in before.rows
         axes.axhline(each.top, **(style.line(0, 0.55) if compared else style.line(0.8, 0.3)), zorder=0)
-
-
-def _numbers(axes, columns, claims, cell):
-    """A field for each finding: shade, mark of the verdict, and the number."""
-    small = {"ha": "center", "va": "center", "fontsize": style.tiny(), "color": style.ink()}
-    for claim in claims:
-        high = claim.height / len(claim.rows)
-        for dimension, rows in claim.rows.items():
-            y, colour = claim.place(dimension), style.COLOUR[SOLVER[dimension]]
-            axes.text(-0.55, y, dimension, ha="right", va="center", fontsize=style.small(), color=colour)
-            for each in rows.to_dict("records"):
-                x = columns.index(each["where"])
-                field = {"facecolor": style.grey(_shade(each)), "linewidth": 0, "zorder": 0.5}
-                axes.add_patch(Rectangle((x - 0.48, y - 0.47 * high), 0.96, 0.94 * high, **field))
-                (aside, up), text, (right, down) = _written(each, cell)
-                mark = _marks()[each["verdict"]]
-                axes.plot(x + aside, y - up * high, linestyle="none", color=colour, **mark)
-                axes.text(x + right, y + down * high, text, **small)
-
-
-def _written(each, cell: float) -> tuple[tuple[float, float], str, tuple[float, float]]:
-    """Place of the mark, text, and its place, all of the field: the number with its interval where it has room."""
-    value = each["value"]
-    if not isfinite(value):
-        return (0.0, 0.0), "", (0.0, 0.0)
-    whole = digits.interval(value, each["low"], each["high"], 2).replace(" (", "\n(", 1)
-    texts = {
-        whole: ((-0.39, 0.0), (0.08, 0.0), 0.76),
-        digits.number(value, 2): ((0.0, 0.22), (0.0, 0.2), 0.96),
-        digits.number(value, 1): ((0.0, 0.22), (0.0, 0.2), 0.96),
-    }
-    for text, (mark, place, share) in texts.items():
-        if max(style.text_width(line, style.tiny()) for line in text.split("\n")) <= share * cell:
-            return mark, text, place
-    return (0.0, 0.0), "", (0.0, 0.0)
-
-
-def _shade(each) -> float:
-    """Grey of a finding by its distance from the claimed number; paper where none is known."""
-    off = abs(_tolerances(each["value"], each))
-    return next((level for end, level in SHADES.items() if off <= end), 1.0)
 
 
 def _tolerances(value, found) -> float:
@@ -206,7 +116,7 @@ def effects(tables: Tables) -> Figure:
 
 
 def _effect(axes, y, found):
-    colour = style.COLOUR[SOLVER[found["dimension"]]]
+    colour = style.COLOUR[SOLVER.get(found["dimension"], str(found["dimension"]))]
 
     for names, width in ((("low", "high"), 0.65), (("scatter_low", "scatter_high"), 2.0)):
         ends = [_tolerances(found[name], found) for name in names]
