@@ -125,29 +125,3 @@ class Study:
     def failed(self, findings: Sequence[Finding]) -> bool:
         """Whether the command ends with status 1: a law or a stored value does not hold."""
         return any(each.stated == FAILS for each in findings)
-
-
-class Hooked(Study):
-    """Study by parts."""
-
-    def findings(self, answers):
-        return [judge(claim, answers) for claim in self.claims()]
-
-    def plots(self, answers, findings):
-        return ()
-
-    def answer(self, findings):
-        return finding.sentences(findings)
-
-    def blocks(self, answers, findings, plots):
-        return [*plots, Findings(findings)]
-
-    def settings(self, answers):
-        return self.setting
-
-    def judge(self, answers):
-        findings = self.findings(answers)
-        plots = self.plots(answers, findings)
-        return Judgement(
-            findings, self.answer(findings), self.blocks(answers, findings, plots), self.settings(answers)
-        )
