@@ -201,12 +201,15 @@ def workprecision(
     name: Diagram | None = None,
     size: Size = "quick",
     output: str | Path = "crosscheck-workprecision",
+    models: Sequence[ModelLike] | None = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Measure the error and the time of both solvers. Timed contacts are solved one by one on this machine.
 
     name : name of a diagram, or all; if absent, a table of the diagrams is printed
     size : how much is solved: quick (a minute a diagram), standard or full (hours)
+    models : names of other models that the diagram `models` measures on smooth bodies, separated by commas. From
+        Python also objects, see `scene.Solver`
     """
     if name is None:
         from .library.ready import diagrams
@@ -214,7 +217,7 @@ def workprecision(
         return diagrams()
     from .studies.workprecision.study import WorkPrecision
 
-    return solve(WorkPrecision.of([name], size), output, **options)
+    return solve(WorkPrecision.of([name], size, models), output, **options)
 
 
 def stability(

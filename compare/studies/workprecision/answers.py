@@ -11,7 +11,7 @@ from ...solving.amounts import seconds, share
 from ...statistics.convergence import MeasuredLadder, ladders
 from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
 from ...statistics.sampling import Bias, Effort, SamplingPlan, cheapest
-from .convergence import DIMENSIONS, steps_table
+from .convergence import dimension, steps_table
 from .ensemble import MeasuredMean, means
 
 # Wanted errors of which tables say what they take.
@@ -71,7 +71,7 @@ class Regime:
         """The shortest way to a level in words."""
         taken = self.answer(level, solver)
         if taken is not None:
-            return f"{DIMENSIONS[taken.solver]}, {taken.settings}: {seconds(taken.seconds)}"
+            return f"{dimension(taken.solver)}, {taken.settings}: {seconds(taken.seconds)}"
         return f"not reached; {self.missed(solver)}" if isfinite(self.best(solver)) else "not known"
 
     def error_1d(self, claim: Claim) -> Finding:
@@ -140,7 +140,7 @@ def answers_table(found: Iterable[Regime]) -> Iterator[dict[str, Any]]:
                 "regime": each.title,
                 "quantity": each.label,
                 "wanted": level,
-                "model": "" if taken is None else DIMENSIONS[taken.solver],
+                "model": "" if taken is None else dimension(taken.solver),
                 "settings": "" if taken is None else taken.settings,
                 "seconds": each.seconds(level),
                 "seconds_1d": each.seconds(level, "MDR"),

@@ -3,14 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import nan
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import numpy as np
 import xarray
 from pandas import DataFrame, concat, factorize
 
 from bem3d import BEM
-from scene import Scene
+from scene import Scene, Solver
 
 from ...solving.parameter_grid import FAILED, SOLVED
 from ...solving.task import Task
@@ -27,7 +27,12 @@ STEPS = (
     *("relative_error", "reference", "reference_error"),
     *("processor", "wall", "memory", "operator_applications", "status", "reason"),
 )
-DIMENSIONS = {"MDR": "1D", "CorrectedMDR": "1D corrected", "BEM": "3D"}
+_DIMENSIONS = {"MDR": "1D", "CorrectedMDR": "1D corrected", "BEM": "3D"}
+
+
+def dimension(solver: str) -> str:
+    """Dimension of a solver as findings have it; its name, of a model that did not come with the package."""
+    return _DIMENSIONS.get(solver, solver)
 
 
 @dataclass(frozen=True)
@@ -87,6 +92,20 @@ class Convergence:
     quantities: tuple[Quantity, ...]
     ladders: tuple[Ladder, ...]
     orders: Mapping[str, float] = field(default_factory=dict)
+
+    def beside(self, models: Sequence[Solver]) -> "Convergence":
+        """The contact with other models: on a quarter of their points, half and all, or once without points."""
+        if not models:
+            return self
+        scene, ladders = self.ladders[0].solves[0].scene, list(self.ladders)
+        for each in models:
+            points = getattr(each, "points", None)
+            if points is None:
+                ladders.append(Ladder(each.name, "settings", (1.0,), (TimedSolve.of(each, scene),)))
+            else:
+                few = [number for number in (points // 4, points // 2) if number]
+                ladders.append(Ladder.of(each.name, scene, cast(OnGrid, each), "points", (*few, points)))
+        return replace(self, ladders=tuple(ladders))
 
     @property
     def timed(self) -> list[Task]:

@@ -13,7 +13,7 @@ from ...report.page import Plot, Table
 from ...solving.amounts import share, short
 from ...statistics.convergence import MeasuredLadder, answers, ladders
 from ...statistics.finding import EXACT, Claim, Finding
-from .convergence import DIMENSIONS, Convergence, orders_table, steps_table
+from .convergence import Convergence, dimension, orders_table, steps_table
 from .ensemble import Ensemble
 from .figures import errors
 
@@ -120,7 +120,7 @@ def order_finding(diagram: str, each: MeasuredLadder, expected: float = nan, plo
         expected if judged else nan,
         ORDER_TOLERANCE if judged else nan,
         "Exponent fitted to the errors well above that of the reference",
-        dimension=DIMENSIONS[each.solver],
+        dimension=dimension(each.solver),
     )
     known = isfinite(order.order)
     why = "" if known else each.unsolved or "too few steps show an error of their own"
@@ -137,7 +137,7 @@ def time_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Finding:
         nan if k is None else float(each.processor[k]),
         each.where,
         unit="s",
-        dimension=DIMENSIONS[each.solver],
+        dimension=dimension(each.solver),
         missing=each.cell(WANTED),
         meaning="Least processor time of the cheapest step from which on all steps keep the error",
         plot=plot,
@@ -150,7 +150,7 @@ def enough_finding(diagram: str, each: MeasuredLadder, plot: str = "") -> Findin
         f"workprecision.{diagram}.enough-{each.setting.split()[0]}",
         f"The {each.setting} beyond which nothing is gained",
         meaning="Cheapest step from which on errors are within 1.5 times that of the last",
-        dimension=DIMENSIONS[each.solver],
+        dimension=dimension(each.solver),
     )
     k = each.enough
     why = each.unsolved or ("" if k is not None else "the last step failed")

@@ -12,7 +12,7 @@ from ...solving.amounts import share
 from ...statistics.finding import HALVED, Claim, Finding
 from . import regimes
 from .answers import Regime, answers_table, cells, regimes_of
-from .convergence import DIMENSIONS, steps_table
+from .convergence import dimension, steps_table
 from .diagram import Diagram, Judged, reported
 from .ensemble import plans_table
 from .figures import models as figures
@@ -62,8 +62,8 @@ def _times(found: Sequence[Regime]) -> Iterator[Finding]:
         sentence = f"Processor time to {share(level)} of the true answer"
         for each in found:
             taken = each.answer(level)
-            dimension = "1D/3D" if taken is None else DIMENSIONS[taken.solver]
-            yield reported(id, sentence, each.seconds(level), each.where, "s", dimension, each.missed())
+            of = "1D/3D" if taken is None else dimension(taken.solver)
+            yield reported(id, sentence, each.seconds(level), each.where, "s", of, each.missed())
 
 
 def _judged_surfaces(node: xarray.DataTree) -> Judged:

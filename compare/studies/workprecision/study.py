@@ -6,15 +6,18 @@ from typing import Any, ClassVar, Self
 
 import xarray
 
+from scene import Solver
 from scene.reading import InvalidInput
 
 from ...library import ready
+from ...models.table import Model, ModelLike, listed, named
 from ...report.page import Block, Findings, Section, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...statistics.finding import Finding, sentences
 from ..study import Judgement, Study
 from . import elastic, extent, marching, mdr, models, precision, sliding
+from .convergence import Convergence
 from .diagram import Diagram, convergence
 from .scenes import QUICK, SIZES
 
@@ -31,7 +34,7 @@ DIAGRAMS: Mapping[str, Diagram] = {
         convergence("extent", extent.contacts, extent.shape),
     )
 }
-ALL = "all"
+ALL, MODELS = "all", "models"
 ABOUT = """Errors are relative. The reference is a closed form where there is one, elsewhere a far finer solution,
 whose own error is the grey band; points within the band are hollow and are known to be no worse than that.
 Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
@@ -45,41 +48,56 @@ class WorkPrecision(Study):
     """Diagrams of error over time.
 
     names : of DIAGRAMS
+    models : others that are measured too, in the smooth contacts of the diagram of that name
     size : quick, a few contacts on short ladders, a minute or two a diagram; standard, all contacts on short
         ladders; full, all contacts on long ladders, hours
     """
 
     names: tuple[str, ...]
     size: str = QUICK
+    models: tuple[Solver, ...] = ()
 
     command: ClassVar[str] = "workprecision"
     title = "What accuracy costs in time"
     about = ABOUT
 
     @classmethod
-    def of(cls, names: str | Sequence[str], size: str = QUICK) -> Self:
-        """Diagrams by name, or "all". Raises InvalidInput with what is allowed."""
+    def of(cls, names: str | Sequence[str], size: str = QUICK, models: Sequence[ModelLike] | None = None) -> Self:
+        """Diagrams by name, or "all". Raises InvalidInput with what is allowed.
+
+        models : beside MDR, CorrectedMDR and BEM, in the smooth contacts of the diagram `models`
+        """
         asked = (names,) if isinstance(names, str) else tuple(names)
         for name in asked:
             if name not in (*DIAGRAMS, ALL):
                 raise InvalidInput(f"NAME = {name}: allowed are {', '.join(DIAGRAMS)} and {ALL}")
         if size not in SIZES:
             raise InvalidInput(f"size = {size}: allowed are {', '.join(SIZES)}")
-        return cls(tuple(DIAGRAMS) if ALL in asked else tuple(dict.fromkeys(asked)), size)
+        chosen = tuple(DIAGRAMS) if ALL in asked else tuple(dict.fromkeys(asked))
+        if models and MODELS not in chosen:
+            raise InvalidInput(f"models: of the diagram {MODELS} alone, and not of {', '.join(chosen)}")
+        others = (Model.of(named(each, {}) if isinstance(each, str) else each).solver for each in listed(models))
+        return cls(chosen, size, tuple(others))
 
     @property
     def inputs(self) -> Mapping[str, Any]:
         """Names and size."""
-        return {"names": list(self.names), "size": self.size}
+        others = {"models": [each.name for each in self.models]} if self.models else {}
+        return {"names": list(self.names), "size": self.size} | others
 
     @property
     def diagrams(self) -> list[Diagram]:
         """Diagrams in the order they were asked for."""
         return [DIAGRAMS[name] for name in self.names]
 
+    def _contacts(self, diagram):
+        found = diagram.contacts(self.size)
+        others = self.models if diagram.name == MODELS else ()
+        return [each.beside(others) if isinstance(each, Convergence) else each for each in found]
+
     def batches(self) -> Sequence[Batch]:
         """First everything that is not timed; each task once."""
-        contacts = [each for diagram in self.diagrams for each in diagram.contacts(self.size)]
+        contacts = [each for diagram in self.diagrams for each in self._contacts(diagram)]
         untimed = dict.fromkeys(task for each in contacts for task in each.untimed)
         timed = dict.fromkeys(task for each in contacts for task in each.timed)
         return Batch(tuple(untimed)), Batch(tuple(timed), timed=True)
@@ -90,7 +108,7 @@ class WorkPrecision(Study):
             {
                 f"/{diagram.name}/{name}": dataset
                 for diagram in self.diagrams
-                for contact in diagram.contacts(self.size)
+                for contact in self._contacts(diagram)
                 for name, dataset in contact.datasets(outcomes).items()
             }
         )

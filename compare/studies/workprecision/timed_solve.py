@@ -8,7 +8,8 @@ from dataclasses import asdict, dataclass, replace
 from math import nan
 from typing import Protocol, Self
 
-from scene import Plane, Result, Scene, SelfAffine, SolveError, Solver
+from scene import Plane, Refused, Result, Scene, SelfAffine, SolveError, Solver
+from scene.protocol import lacking
 
 from ...solving.outcome import Outcome, Row, row
 from ...solving.task import SCENES, SceneTask
@@ -45,7 +46,7 @@ class TimedSolve(SceneTask):
     keeps: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, solver: OnGrid, scene: Scene, keeps: tuple[str, ...] = ()) -> Self:
+    def of(cls, solver: Solver, scene: Scene, keeps: tuple[str, ...] = ()) -> Self:
         """The scene with the solver, its work as expected."""
         return cls(solver, (scene,), bool(keeps), work(solver), keeps)
 
@@ -65,6 +66,8 @@ class TimedSolve(SceneTask):
         """The scene, the solver by its name and settings, and the machine."""
         (scene,) = SCENES.dump_python(self.scenes, mode="json")
         asked = {"scene": scene, "solver": self.solver.name, "settings": asdict(self.solver)}
+        if not self.portable:
+            asked["source"] = super().question["source"]
         return {"timed": asked, "keeps": list(self.keeps), "machine": [platform.machine(), platform.node()]}
 
     @property
@@ -77,7 +80,7 @@ class TimedSolve(SceneTask):
         self._warm_up()
         try:
             result, costs = _measured(lambda: self.solver.solve(self.scene))
-        except SolveError as error:
+        except (Refused, SolveError) as error:
             return Outcome((Row(reason=str(error) or type(error).__name__),))
         found = row(result)
         fields = {name: result.fields[name] for name in self.keeps}
@@ -91,7 +94,7 @@ class TimedSolve(SceneTask):
         less = {name: min(most, held) for name, most in WARM.items() if (held := getattr(self.solver, name, 0))}
         few = replace(self.solver, **less)
         scene, rough = self.scene, self.scene.roughness
-        if few.refusals(scene) and isinstance(rough, SelfAffine):
+        if lacking(few, scene) and isinstance(rough, SelfAffine):
             cut_off = replace(rough, shortest=None) if isinstance(scene.indenter, Plane) else None
             scene = replace(scene, roughness=cut_off)
         try:
@@ -100,8 +103,10 @@ class TimedSolve(SceneTask):
             return
 
 
-def work(solver: OnGrid) -> float:
-    """Work of one solve, in passes over a point of a grid, roughly."""
+def work(solver: Solver) -> float:
+    """Work of one solve, in passes over a point of a grid, roughly; 1 of a model without points."""
+    if not hasattr(solver, "points"):
+        return 1.0
     return solver.points * 5.0 if solver.name == "MDR" else solver.points**2.2 * 50.0
 
 

@@ -124,7 +124,7 @@ def _mean_curve(axes, plan: SamplingPlan, colour):
         counts = np.geomspace(first, last, 120)
         look = {"color": colour, "linestyle": line, "linewidth": style.width(0.8), "zorder": 3}
         axes.plot(plan.setup + counts * level.seconds, plan.error_of(counts), **look)
-    marks = {"marker": style.MARKER[plan.solver], "markersize": style.mark(0.65), "color": colour}
+    marks = {"marker": style.look(plan.solver)["marker"], "markersize": style.mark(0.65), "color": colour}
     axes.plot(plan.setup + MARKED * level.seconds, plan.error_of(MARKED), linestyle="none", zorder=4, **marks)
 
 
