@@ -5,11 +5,12 @@ import logging
 from scene.signatures import make_readable
 
 from .accuracy import Unconfirmed
+from .heights import Heights, heights
 from .refinement import refined
 from .solver import BEM
 from .trail import Trail
 
-__all__ = ["BEM", "Trail", "Unconfirmed", "refined"]
+__all__ = ["BEM", "Heights", "Trail", "Unconfirmed", "heights", "refined"]
 
 make_readable(globals()[name] for name in __all__)
 logging.getLogger(__name__).addHandler(logging.NullHandler())

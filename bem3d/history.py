@@ -52,6 +52,7 @@ def marched(solver, scene, started) -> Result:
             "contact_area": history.contact_area,
             "x": seen.x,
             "y": seen.y,
+            "height": problem.heights(seen, problem.surface(seen)),
             "pressure": history.pressure,
             "gap": history.gap,
             "surface_displacement": history.displacement,

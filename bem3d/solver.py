@@ -80,8 +80,9 @@ class BEM:
     [m], rms_slope (spectral, of the full gradient), each over a period, rms_slope_contact (along x, of indenter
     and roughness over the real contact), and points_per_shortest_wave; of a
     Plane mean_pressure [Pa], mean_gap [m], contact_fraction.
-    Result.fields: x (N,), y (M,) [m] and pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing
-    varies along y. Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
+    Result.fields: x (N,), y (M,) [m]; height [m] of indenter and roughness at the pixels' centres, see
+    `bem3d.heights`; pressure [Pa], gap [m] (M, N), rows along y; M is N, or 1 where nothing varies along y.
+    Of a Program also time [s], path [m], speed [m/s], depth [m], normal_force, friction_force,
     friction_by_work [N] and contact_area [m^2] in the middle of each step (steps,); the result's own forces and
     depth are those of the last, by traction. x moves with the material, and is where the gap is measured at the
     end, as is surface_displacement [m], into the elastomer (M, N). Depth and gap are NaN where a load of zero
@@ -283,7 +284,13 @@ class BEM:
                 "rounds": float(answer.rounds),
                 "transform_pairs": problem.transforms / (grid.points * grid.rows),
             },
-            fields={"x": grid.x, "y": grid.y, "pressure": pressure, "gap": answer.gap * grid.pixel},
+            fields={
+                "x": grid.x,
+                "y": grid.y,
+                "height": problem.heights(grid, problem.surface(grid)),
+                "pressure": pressure,
+                "gap": answer.gap * grid.pixel,
+            },
         )
 
     def settings(self, problem: Problem, grid: Grid) -> dict:

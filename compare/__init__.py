@@ -7,6 +7,7 @@ study : ask the claims of the paper of many contacts
 paper : simulate the paper again in one dimension
 workprecision : what accuracy costs in time
 stability : the named hard cases, each with its law
+verify : a code of contact of your own against what it must hold
 regress : quantities against what is stored; `check` and `update` do so in a test of your own
 mastercurve, topography : friction that you measured, a surface that you measured
 plan : what would be simulated of a scene, and what that costs

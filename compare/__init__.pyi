@@ -18,6 +18,7 @@ from .commands import study as study
 from .commands import sweep as sweep
 from .commands import topography as topography
 from .commands import trust as trust
+from .commands import verify as verify
 from .commands import workprecision as workprecision
 from .library.case import Case as Case
 from .solving.errors import Doubtful as Doubtful

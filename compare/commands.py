@@ -232,6 +232,16 @@ def stability(
     return solve(Stability.of(size), output, **options)
 
 
+def verify(model: ModelLike, output: str | Path = "crosscheck-verify", **options: Unpack[Options]) -> Report:
+    """Check a code of contact against what it must hold. The status is 1 if any law fails.
+
+    model : name of a model, mdr or bem, or module:NAME of one of your own. From Python also the model itself
+    """
+    from .studies.verify.study import Verify
+
+    return solve(Verify.of(model), output, **options)
+
+
 def regress(
     baseline: str | Path | None = None,
     update: bool = False,

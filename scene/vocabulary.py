@@ -150,6 +150,9 @@ FIELDS: Mapping[str, Entry] = {
         "Friction at each step, by traction, above zero where it opposes motion forwards.", STEPS
     ),
     "gap": Entry("m", "Distance of indenter and deformed surface, zero in contact.", PLANE),
+    "height": Entry(
+        "m", "Height of indenter and roughness above the macroscopic tip, away from the elastomer.", PLANE
+    ),
     "line_force": Entry("N/m", "Normal force per length, mean from each node to the next.", LINE),
     "normal_force": _force("Normal force at each step, above zero into the elastomer.", STEPS),
     "path": Entry("m", "How far forwards the indenter is from where it began, at each step.", STEPS),

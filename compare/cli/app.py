@@ -197,6 +197,7 @@ COMMANDS = (
     Command(commands.paper),
     Command(commands.workprecision),
     Command(commands.stability),
+    Command(commands.verify),
     Command(commands.regress),
     Command(commands.mastercurve),
     Command(commands.topography),

@@ -1,12 +1,14 @@
 """Models as the judge sees them: by which name they are asked for, what they are called, what their draws are."""
 
 import json
+import os
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, is_dataclass
 from functools import cached_property
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Literal, TypeAlias, cast, get_args
+from typing import Any, Literal, TypeAlias, cast, get_args
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -69,6 +71,11 @@ class Model:
     def name(self) -> str:
         """Name of the solver, under which its answers stand."""
         return self.solver.name
+
+    @property
+    def dimension(self) -> str:
+        """1D of what draws profiles, else 3D: which laws it must hold."""
+        return "1D" if self.draws == PROFILES else "3D"
 
     @property
     def has_grid(self) -> bool:
@@ -151,6 +158,12 @@ class Models:
         return f"{self[name].label}/{self[self.reference].label}"
 
 
+def model_of(asked: ModelLike) -> Model:
+    """Row of a model, of its name, or of a class that needs no settings. Raises InvalidInput."""
+    solver: Any = named(asked, {name: make() for name, make in OWN.items()}) if isinstance(asked, str) else asked
+    return Model.of(_made(solver, repr(asked)))
+
+
 def listed(asked: Sequence[ModelLike] | None) -> tuple[ModelLike, ...]:
     """Models one by one, also of names separated by commas; none where none is asked for."""
     given = [asked] if isinstance(asked, str) else asked or []
@@ -167,6 +180,8 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         found = installed[name].load()
     elif ":" in name:
         module, _, attribute = name.partition(":")
+        if os.getcwd() not in sys.path:  # a console command does not look where it is called
+            sys.path.insert(0, os.getcwd())
         try:
             found = getattr(import_module(module), attribute)
         except (ImportError, AttributeError, ValueError) as error:
@@ -178,7 +193,12 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
             f"models = {brief(repr(name))}: no model of that name{meant} There are {', '.join(known)}, those of "
             f"installed packages (entry points {GROUP}), and MODULE:NAME"
         )
+    return _made(found, repr(name))
+
+
+def _made(found: Any, name: str) -> Any:
+    """What a class makes without settings, or the object itself."""
     try:
         return found() if isinstance(found, type) else found
-    except TypeError as error:
-        raise InvalidInput(f"models = {brief(repr(name))}: cannot be made without settings: {error}") from error
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"models = {brief(name)}: cannot be made without settings: name an object") from error

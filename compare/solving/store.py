@@ -7,6 +7,7 @@ import json
 import math
 import os
 import re
+import sys
 import tempfile
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -401,6 +402,9 @@ def _versions():
 @cache
 def _package_digest(package):
     """Read once a process: the code that runs is the code that was imported."""
+    script = sys.modules["__main__"]
+    if package == "__main__" and script.__spec__ is None:  # a script has no other name
+        return code_digest(Path(str(script.__file__)))
     spec = find_spec(package)
     return code_digest(
         Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)

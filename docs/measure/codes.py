@@ -8,17 +8,15 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from bem3d import BEM
-from bem3d.surface import RoughSurface
+from bem3d import BEM, heights
 from scene import Scene
 
 MOST = 1000  # iterations allowed to a peer
 
 
 def heights_of(scene: Scene, solver: BEM) -> np.ndarray:
-    """What a peer is given: z on the points of our grid, of a cell of the side 1."""
-    x = (np.arange(solver.points) - (solver.points - 1) / 2) / solver.points
-    return RoughSurface.of(scene.roughness, scene.roughness.q_max(1 / solver.points)).heights(x, x)
+    """What a peer is given: z on the points of our grid."""
+    return heights(scene, solver.points, solver.extent or 1.0).height
 
 
 def outcome(heights, tolerance, pressure, gap, **more) -> dict:

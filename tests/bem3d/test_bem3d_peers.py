@@ -17,7 +17,6 @@ from bem3d.halfspace import HalfSpace
 from bem3d.marching import march
 from bem3d.problem import Problem
 from bem3d.sliding import Flow
-from bem3d.surface import RoughSurface
 from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
 
 # A warning of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
@@ -61,12 +60,7 @@ def ours(indenter, motion, roughness, elastomer=ELASTIC, points=128, **settings)
     """Our result, and the heights that a peer is to be given."""
     solver = BEM(points=points, **{"tolerance": TOLERANCE} | settings)
     result = solver.solve(Scene(indenter, elastomer, motion, roughness))
-    x, y = result.fields["x"], result.fields["y"]
-    heights = indenter.height(x[None, :], y[:, None])
-    if roughness is not None:
-        q_max = roughness.q_max(result.measures["pixel"])
-        heights = heights + RoughSurface.of(roughness, q_max).heights(x, y)
-    return result, heights
+    return result, result.fields["height"]
 
 
 def model_of(tamaas, heights, modulus, ratio):

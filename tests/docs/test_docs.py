@@ -249,8 +249,8 @@ def test_no_caption_of_the_pages_has_more_than_sixty_words():
 def test_no_example_of_the_pages_is_left_out():
     """Pages whose examples no test above or elsewhere runs have none."""
     run_here = {"command.md", "figures.md", "index.md", "promises.md", "python.md", "scenes.md"}
-    # test_effects_example.py, test_compare_regression.py, test_compare_models.py
-    elsewhere = {"extending.md", "regression.md", "models.md"}
+    # test_effects_example.py, test_compare_regression.py, test_compare_models.py, test_verify_peers.py
+    elsewhere = {"extending.md", "regression.md", "models.md", "verify.md"}
     assert {page.name for page in DOCS.rglob("*.md") if PYTHON.search(page.read_text(encoding="utf-8"))} <= (
         run_here | elsewhere
     )

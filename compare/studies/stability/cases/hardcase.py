@@ -66,6 +66,7 @@ class HardCase:
     about : what is hard, one sentence
     law : what must hold, with the tolerance and where it comes from
     examine : size -> what was found, one check at least; raises what a solve raises
+    laws : the laws of which `examine` asks one after the other; none of a case with a function of its own
     """
 
     group: str
@@ -73,6 +74,7 @@ class HardCase:
     about: str
     law: str
     examine: Callable[[Size], Iterable[Check]]
+    laws: tuple[Callable[[Size], Iterable[Check]], ...] = ()
 
 
 class Group(list[HardCase]):
@@ -84,7 +86,11 @@ class Group(list[HardCase]):
 
     def add(self, name: str, about: str, law: str, *laws: Callable[[Size], Iterable[Check]]) -> None:
         """Add a case that keeps one or several laws."""
-        self.append(HardCase(self.name, name, about, law, lambda size: [c for each in laws for c in each(size)]))
+
+        def examine(size):
+            return [check for each in laws for check in each(size)]
+
+        self.append(HardCase(self.name, name, about, law, examine, laws))
 
     def __call__(self, about: str, law: str) -> Callable[[Callable], Callable]:
         """Decorator that makes a function of a size, with a law of its own, the case of its name."""

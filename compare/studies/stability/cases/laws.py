@@ -4,6 +4,7 @@ Solvers are functions of a size, see `solvers`; each of them is asked each scene
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import product
 
 from scene import Result, Scene, SolveError
@@ -28,20 +29,42 @@ def asked(size: Size, rows, solvers: Iterable[Callable]) -> Iterator[tuple]:
         yield f"{solver.name}, {solver.points} points{name and ', '}{name}", solver, value
 
 
-def equal(rows: tuple | Mapping[str, tuple], allowed: Bound, *solvers: Callable, of=("normal_force",)) -> Law:
-    """Answers of scenes are those of other scenes on the same grid, or stated numbers by their names."""
+@dataclass(frozen=True)
+class Equal:
+    """Answers of scenes are those of other scenes on the same grid, or stated numbers by their names.
 
-    def examine(size):
-        bound = allowed(size) if callable(allowed) else allowed
-        for what, solver, (scene, known) in asked(size, rows, solvers or BOTH):
+    rows : scene, and the other scene or the numbers; by name where there are several
+    allowed : relative deviation, or a function of a size that gives it
+    of : numbers that are compared with those of another scene
+    """
+
+    rows: tuple | Mapping[str, tuple]
+    allowed: Bound
+    solvers: tuple[Callable, ...]
+    of: tuple[str, ...]
+
+    @property
+    def named(self) -> Mapping[str, tuple]:
+        """Rows by name, an empty one where there is but one row."""
+        return self.rows if isinstance(self.rows, Mapping) else {"": self.rows}
+
+    def __call__(self, size: Size) -> Iterator[Check]:
+        """Checks at a size."""
+        bound = self.allowed(size) if callable(self.allowed) else self.allowed
+        for what, solver, (scene, known) in asked(size, self.rows, self.solvers):
             found = solver.solve(scene)
             if isinstance(known, Scene):
                 other = solver.solve(known)
-                known = {name: getattr(other, name) for name in of}
+                known = {name: getattr(other, name) for name in self.of}
             for name, value in known.items():
                 yield deviation(f"{what}: {name}", getattr(found, name), value, bound)
 
-    return examine
+
+def equal(
+    rows: tuple | Mapping[str, tuple], allowed: Bound, *solvers: Callable, of: tuple[str, ...] = ("normal_force",)
+) -> Equal:
+    """Law that answers of scenes are known, see `Equal`; of both solvers where none is named."""
+    return Equal(rows, allowed, solvers or BOTH, of)
 
 
 def in_contact(scenes: Scene | Mapping[str, Scene], *solvers: Callable) -> Law:

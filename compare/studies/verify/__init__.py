@@ -1,0 +1,1 @@
+"""Scorecard of a code of contact: `crosscheck verify`."""

@@ -1,0 +1,84 @@
+"""Scorecards of MDR, BEM, tamaas and ContactMechanics: writes results/verify.md and .csv.
+
+The adapters of the last two are those of howto/verify.md, and need the extra `peers`. It takes some minutes.
+"""
+
+import importlib
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pandas
+from tables import table
+
+import compare
+from bem3d import BEM
+from compare.report import csvfiles
+from compare.studies.verify.law import SECTIONS
+from mdr1d import MDR
+
+DOCS = Path(__file__).parents[1]
+PAGE = DOCS / "results" / "verify.md"
+VERDICTS = "holds", "fails", "reported"
+HEAD = """# Scorecards
+
+`crosscheck verify` of four codes, [by adapters](../howto/verify.md) of the last two. Written by
+`python docs/measure/verify.py`. Every law that was asked, with its misfit, its bound and where
+that comes from, is in [verify.csv](verify.csv).
+
+"""
+NOTES = """
+A code in 1D is asked other laws than one in 3D. Left out is what a code refuses: here tamaas has planes at rest,
+and ContactMechanics bodies of revolution at rest. Laws see what is wrong by more than the grid: that tamaas 2.9 is
+wrong in its highest wave numbers where the points a side are odd, which comparing single pixels shows, is less.
+
+Work and precision are those of the force on a sphere at a depth, against Hertz; of tamaas no law has a sphere.
+
+"""
+
+
+def models(folder: Path) -> Iterator:
+    """The four models; those of others from the page."""
+    (code,) = re.findall(
+        r"^```python\n(.*?)^```", (DOCS / "howto" / "verify.md").read_text(), re.DOTALL | re.MULTILINE
+    )
+    (folder / "peers.py").write_text(code, encoding="utf-8")
+    sys.path.insert(0, str(folder))
+    peers = importlib.import_module("peers")
+    yield from (MDR(), BEM(), peers.Tamaas(), peers.ContactMechanics())
+
+
+def main() -> None:
+    """Write the page."""
+    counts, failures, steps, laws = [], [], [], []
+    with TemporaryDirectory() as folder:
+        for model in models(Path(folder)):
+            report = compare.verify(model, Path(folder) / model.name, report=False)
+            found = report.findings
+            laws.append(found.assign(model=model.name))
+            for section in SECTIONS:
+                own = found[found["where"] == section]["verdict"]
+                counts.append((model.name, section, *(str((own == each).sum()) for each in VERDICTS)))
+            failed = found[found["verdict"] == "fails"]
+            failures += [(model.name, *row) for row in zip(failed["claim"], failed["sentence"], strict=True)]
+            done = dict(report.page.tables()).get("work-precision")
+            if done is not None:
+                of = done[done["contact"] == "sphere"].itertuples()
+                steps += [
+                    (model.name, str(each.points), f"{each.relative_error:.1e}", f"{each.seconds:.2g}")
+                    for each in of
+                ]
+    text = HEAD + table("code|section|hold|fail|left out", iter(counts)) + "\n"
+    text += "\nNo law fails.\n" if not failures else f"\n{table('code|law that fails|law', iter(failures))}\n"
+    text += NOTES + table("code|points|relative error|processor s", iter(steps)) + "\n"
+    PAGE.write_text(text, encoding="utf-8")
+    columns = ["model", "claim", "where", "verdict", "value", "tolerance", "sentence", "meaning"]
+    asked = pandas.concat(laws)
+    written = csvfiles.text(asked[asked["verdict"] != "reported"][columns])
+    csvfiles.write_text(PAGE.with_suffix(".csv"), written)
+
+
+if __name__ == "__main__":
+    main()
