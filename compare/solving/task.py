@@ -15,6 +15,7 @@ from scene.motion import UNITS
 
 from .outcome import Outcome, Row, row
 
+REFUSED = "refused: "  # before the reason of a model that refuses in its solve
 SCENES = TypeAdapter(tuple[Scene, ...])
 
 
@@ -110,8 +111,8 @@ class SceneTask:
 
         trail : of neighbouring contacts, for a solver that begins where they were
 
-        An empty contact has forces of zero; Refused, and any other SolveError, becomes a row of NaN with its
-        reason; any other exception is a fault of the program and is raised.
+        An empty contact has forces of zero; Refused, NotImplementedError and any other SolveError become a row of
+        NaN with its reason; any other exception is a fault of the program and is raised.
         """
         rows, fields = [], {}
         for scene in self.scenes:
@@ -122,7 +123,10 @@ class SceneTask:
                 depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
                 rows.append(Row(0.0, depth, 0.0, residual=0.0, operator_applications=0.0, seconds=0.0))
                 continue
-            except (Refused, SolveError) as error:
+            except (Refused, NotImplementedError) as error:
+                rows.append(Row(reason=f"{REFUSED}{' '.join(str(error).split()) or type(error).__name__}"))
+                continue
+            except SolveError as error:
                 rows.append(Row(reason=str(error) or type(error).__name__))
                 continue
             if self.keeps_fields and not rows:

@@ -221,7 +221,7 @@ def test_a_model_of_a_few_lines_holds_its_laws_and_leaves_out_what_it_refuses():
     assert found["wave.gap.0.5"].reason == f"{LEFT_OUT}: the model draws no surfaces"
     assert found["order.sphere"].reason.endswith("no field points to refine")
     assert "sphere.length" not in found  # of one dimension
-    told = study.answer(list(found.values()))[0]
+    told = study._answer(list(found.values()))[0]
     assert told.startswith(f"Hertz as a model in 3D: {len(held)} of {len(found)} laws hold, 0 fail")
 
 
@@ -236,7 +236,7 @@ def test_a_solve_without_an_answer_fails_its_law():
     study, found = judged(Lost(), ("sphere.force",))
     assert found["sphere.force"].verdict == "fails"
     assert found["sphere.force"].reason == "no answer: it went astray"
-    assert "sphere.force fails" in study.answer(list(found.values()))[1]
+    assert "sphere.force fails" in study._answer(list(found.values()))[1]
 
 
 def test_laws_have_names_of_their_own_sources_and_sections():

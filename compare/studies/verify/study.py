@@ -10,20 +10,19 @@ from typing import Any
 import xarray
 from pandas import DataFrame
 
-from scene import Program, Refused
+from scene import Program
 from scene.protocol import why_not
 
 from ...models.table import SURFACES, Model, model_of
 from ...report.page import Block, Section, Table, Text
 from ...solving.outcome import Outcome
-from ...solving.task import Batch, SceneTask, Task
+from ...solving.task import REFUSED, Batch, SceneTask, Task
 from ...statistics.finding import FAILS, HOLDS, REPORTED, Claim, Finding
 from ..study import Judgement, Study
 from . import figure, forms, friction, hard, invariances
 from .law import SECTIONS, Answer, Law, Missing, apart, slug
 
 LEFT_OUT = "left out"
-REFUSED = "refused: "  # before the reason of a model that said so in a solve
 SHOWN = 40  # laws on the page
 LONGEST = 200  # letters of a reason
 COLUMNS = ("section", "law", "outcome", "misfit", "bound", "nearness", "reason", "sentence", "source")
@@ -34,18 +33,6 @@ misfit, that must not exceed its bound. Bounds say where they come from: the gri
 the model measures (`points_across_contact`) or has as a setting, and what a result says is left in its conditions
 (`residual`). No grid excuses more than 5 %. A law that the model refuses, or for which it gives no number, is left
 out with the reason; a solve that ends without an answer fails it."""
-
-
-@dataclass(frozen=True)
-class Trial(SceneTask):
-    """Scenes asked of a model that may refuse in its solve: then rows say why."""
-
-    def solve(self, *trail: Any) -> Outcome:
-        """The outcome; of a refusal rows with the reason."""
-        try:
-            return super().solve(*trail)
-        except (Refused, NotImplementedError) as reason:
-            return self.failed(f"{REFUSED}{' '.join(str(reason).split()) or type(reason).__name__}")
 
 
 def every_law() -> tuple[Law, ...]:
@@ -97,9 +84,9 @@ class Verify(Study):
             if reasons:
                 return reasons[0]
         if law.twice:
-            return (Trial(self.model, law.scenes),)
+            return (SceneTask(self.model, law.scenes),)
         pairs = zip(models, law.scenes, strict=True)
-        return tuple(Trial(model, (scene,), work=_work(scene)) for model, scene in pairs)
+        return tuple(SceneTask(model, (scene,), work=_work(scene)) for model, scene in pairs)
 
     def batches(self) -> Sequence[Batch]:
         tasks = [task for tasks in self._asked.values() if not isinstance(tasks, str) for task in tasks]
@@ -162,10 +149,8 @@ class Verify(Study):
     def _answer(self, findings):
         """How many laws hold, fail and are left out, and a sentence for each that fails."""
         count = {stated: sum(each.stated == stated for each in findings) for stated in (HOLDS, FAILS, REPORTED)}
-        told = (
-            f"{self.model.name} as a model in {Model.of(self.model).dimension}: {count[HOLDS]} of {len(findings)}"
-        )
-        told += f" laws hold, {count[FAILS]} fail, {count[REPORTED]} are left out."
+        told = f"{self.model.name} as a model in {Model.of(self.model).dimension}: {count[HOLDS]}"
+        told += f" of {len(findings)} laws hold, {count[FAILS]} fail, {count[REPORTED]} are left out."
         return [told] + [
             f"{each.claim.id} fails: misfit {each.value:.2g}, allowed {each.claim.tolerance:.2g}. "
             f"{each.claim.sentence}. {each.reason}".strip()
