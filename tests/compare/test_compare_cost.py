@@ -5,7 +5,7 @@ from itertools import product
 
 import pytest
 from test_compare_cases import SCENE
-from test_compare_path import RECTANGLE
+from test_compare_path import PARAMETER_GRID
 from test_compare_studyfile import HEAD, SHARED, TABLES
 from typer.testing import CliRunner
 
@@ -47,9 +47,9 @@ class Costly(Study):
 
 
 def test_what_is_counted_is_what_is_built():
-    assert RECTANGLE.cost == replace(Cost.of(RECTANGLE.tasks()), kept=RECTANGLE.cost.kept)
-    assert RECTANGLE.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
-    smooth = replace(RECTANGLE, scene=replace(RECTANGLE.scene, roughness=None))
+    assert PARAMETER_GRID.cost == replace(Cost.of(PARAMETER_GRID.tasks()), kept=PARAMETER_GRID.cost.kept)
+    assert PARAMETER_GRID.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
+    smooth = replace(PARAMETER_GRID, scene=replace(PARAMETER_GRID.scene, roughness=None))
     assert smooth.cost.contacts == 3 * 2 * 2 * 2 == Cost.of(smooth.tasks()).contacts
 
 
