@@ -38,7 +38,6 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.instants import Frames, nearest
 
 R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
 KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
@@ -133,22 +132,6 @@ def test_instants_that_are_not_asked_for_take_no_memory_and_those_that_are_what_
     assert more > 1e6
     # of what is asked for: frames are kept at the end of the march, and its peak may lie elsewhere
     assert 0.3 * more < most(kept) - most(plain) < 1.5 * more
-
-
-def test_instants_are_the_steps_nearest_to_equal_times_and_the_last_is_the_end():
-    times = np.array([0.5, 1.5, 2.5, 3.5])
-    for count, steps in ((4, [0, 1, 2, 3]), (2, [1, 3]), (100, [0, 1, 2, 3]), (0, [])):
-        assert nearest(times, 4.0, count).tolist() == steps
-    assert nearest(np.array([1.0]), 1.0, 7).tolist() == [0]
-
-
-def test_what_is_kept_of_a_step_is_a_copy():
-    frames, values = Frames(np.array([1.0, 2.0]), 2.0, 2), np.zeros(3)
-    frames.keep(time=1.0, values=values)
-    values[:] = 1.0
-    frames.keep(time=2.0, values=values)
-    assert frames.handed_over()["frame_values"].tolist() == [[0, 0, 0], [1, 1, 1]]
-    assert frames.handed_over() == {}
 
 
 def test_a_gif_has_every_instant_for_its_share_of_the_time(tmp_path):
@@ -267,22 +250,6 @@ def test_an_instant_replaces_the_one_before_and_shows_its_pressure_and_its_past(
             assert len(one.get_xdata()) == (found.fields["MDR"]["time"] <= found.times[k]).sum()
 
 
-def test_the_elements_pass_the_indenter_with_the_elastomer():
-    found, phases = film(RUNNING), []
-    pitch = 1e3 * (found.span[1] - found.span[0]) / 48
-    with style.applied():
-        reel = MarchFigure(found)
-        for k in (2, 3):
-            reel.show(k)
-            profile = reel.drawing.get_axes()[2]
-            ends = [path.vertices[0, 0] for rows in profile.collections[:2] for path in rows.get_paths()]
-            phases.append(np.angle(np.mean(np.exp(2j * np.pi * np.array(ends) / pitch))) / (2 * np.pi))
-    passed = 1e3 * np.diff(RUN.path(found.times[2:4]))[0] / pitch
-    # of a distance between elements, which are drawn at the nearest of the 200 nodes of the span
-    assert 0.2 < passed % 1 < 0.8
-    assert (phases[1] - phases[0] - passed + 0.5) % 1 - 0.5 == pytest.approx(0.0, abs=0.1)
-
-
 def test_where_nothing_touches_that_is_said():
     found = film(HARD["lift"])
     with style.applied():
@@ -293,15 +260,6 @@ def test_where_nothing_touches_that_is_said():
         assert said.count("nothing touches here") == 2
         reel.show(0)
         assert "nothing touches here" not in texts(reel.drawing)
-
-
-@pytest.mark.slow
-def test_a_look_of_ones_own_holds_for_every_instant(tmp_path):
-    found = film(RUNNING, 2)
-    with style.chosen(style.Look(sheet="dark_background")):
-        animation.record(found, tmp_path / "dark.gif", 2.0)
-    with Image.open(tmp_path / "dark.gif") as gif:
-        assert gif.convert("RGB").getpixel((0, 0)) == (0, 0, 0)
 
 
 def test_a_steady_scene_is_begun_from_an_undisturbed_elastomer_and_ends_in_its_own_answer():

@@ -277,17 +277,6 @@ def test_a_scheduler_that_cannot_be_reached_is_named_within_seconds(tmp_path):
     assert not len(Store(tmp_path))
 
 
-@pytest.mark.slow
-def test_an_address_without_a_port_is_refused_and_leaves_no_client_that_hangs():
-    code = (
-        "from compare.solving.cluster import _connected\nfrom scene import Refused\n"
-        "try:\n    _connected('nonsense')\nexcept Refused as error:\n    print(error)\n"
-    )
-    asked = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert asked.stdout.startswith("nonsense is no address of a scheduler, as tcp://name:8786: missing port")
-    assert not asked.stderr
-
-
 def test_without_the_library_it_is_said_how_to_get_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(Refused, match=r"pip install mdr-bem-crosscheck\[cluster\]"):

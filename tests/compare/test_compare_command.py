@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from typing import get_args, get_type_hints
 
 import pandas
 import pytest
@@ -19,18 +18,11 @@ from compare import commands
 from compare.cli.app import COMMANDS, app
 from compare.library import ready as library
 from compare.library.ready import ready
-from compare.report import render
-from compare.report.export import FORMS
 from compare.report.plots.journals import JOURNALS
 from compare.solving.docstrings import documented
 from compare.solving.store import Store
 from compare.statistics.finding import COLUMNS
-from compare.studies.claims.catalogue import SIZES, STUDIES
-from compare.studies.schema import KINDS
-from compare.studies.workprecision.study import DIAGRAMS
-from scene import Topography
-from scene.heightfile import UNITS
-from scene.scanned import FILL
+from compare.studies.claims.catalogue import STUDIES
 
 TINY = (
     SCENE
@@ -196,18 +188,6 @@ def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, widt
     assert not list(tmp_path.iterdir())
 
 
-def test_all_lists_name_the_same_studies_and_say_more_where_more_is_asked():
-    (heading,) = library.studies().groups
-    short, listed = (re.sub("[- \\n]+", " ", ask(each).output) for each in ("study", "scenes"))
-    assert short.partition(" `")[0] in listed
-    long = " ".join(ask("study", "-v").output.split())
-    assert long.startswith(f"{heading} Name Title ")
-    for name, each in library.studies().items():
-        assert f"{name} {each.title} {each.about}" in long
-        assert each.about not in short
-    assert " ".join(ready()["hertz"].about.split()) in " ".join(ask("scenes", "-v").output.split())
-
-
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
 def test_help_says_all_that_the_docstrings_say_brackets_included(command):
     told = "".join(ask(command.title, "--help").output.split()).casefold()
@@ -221,11 +201,6 @@ def test_help_says_all_that_the_docstrings_say_brackets_included(command):
     # and the list of commands, the first sentence
     line = next(each for each in ask("--help").output.splitlines() if each.startswith(f"  {command.title} "))
     assert line.split(maxsplit=1)[1] == f"{about.partition('. ')[0].rstrip('.')}."
-
-
-def test_some_help_stands_in_brackets():
-    assert "F_N [N]" in " ".join(ask("mastercurve", "--help").output.split())
-    assert "[s]" in ask("animate", "--help").output
 
 
 def complete(*words):
@@ -248,38 +223,6 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     assert complete("workprecision", "ex") == ["extent"]
     assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
     assert complete("run", "quick-start", "--form") == ["--format"]
-
-
-TOPOGRAPHY = get_type_hints(Topography)
-VALUES = {
-    ("study", "--size"): SIZES,
-    ("run", "--format"): render.FORMATS,
-    ("run", "--figure-format"): render.FORMS,
-    ("redraw", "--journal"): JOURNALS,
-    ("workprecision",): (*DIAGRAMS, "all"),
-    ("topography", "--unit"): UNITS,
-    ("topography", "--missing"): FILL,
-    **{("topography", f"--{name}"): get_args(TOPOGRAPHY[name]) for name in ("level", "repeat", "peaks")},
-    ("export", "--to"): FORMS,
-    ("schema",): KINDS,
-}
-
-
-@pytest.mark.parametrize("words", VALUES, ids=" ".join)
-def test_a_shell_completes_every_value_that_is_allowed(words):
-    assert set(complete(*words, "")) == {str(each) for each in VALUES[words] if each}
-
-
-def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    compared, alone = ask("scenes").output.split(
-        "Scenes that crosscheck run does not compare: crosscheck plan NAME"
-    )
-    assert "\nhertz " in compared
-    assert "\nthin-layer " in alone
-    for name, command in (("quick-start", "run"), ("thin-layer", "plan")):
-        assert f"crosscheck {command} {name}.toml" in ask("new", name).output
-        assert (tmp_path / f"{name}.toml").read_text() == ready()[name].text
 
 
 @pytest.mark.parametrize("kind", ["scene", "study"])

@@ -212,38 +212,6 @@ def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, marke
     study.finish(expected)
 
 
-@pytest.mark.hours
-def test_ten_workers_killed_at_random_moments_cost_what_they_solved_and_nothing_else(tmp_path, marked, expected):
-    draw, kills, studies = random.Random(10), 0, 0
-    while kills < 10:
-        (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies), marked)
-        studies += 1
-        process = study.start()
-        for _ in range(2):
-            due = moment(draw, study)
-            while not due() and process.poll() is None:
-                time.sleep(0.002)
-            workers = [pid for pid in children(process.pid) if b"spawn_main" in command(pid)]
-            if workers and process.poll() is None:
-                os.kill(draw.choice(workers), signal.SIGKILL)
-                kills += 1
-        _, complained = process.communicate(timeout=PATIENCE)
-        assert (process.returncode, complained) == (0, "")
-        assert study.stored() == study.tasks
-        for task in study.tasks:
-            assert exactly(study.store.get(task)) == expected[task]
-        begun = study.begun_of(study.tasks, study.begun())
-        assert (
-            sum(sum(counts) - len(counts) for counts in begun.values()) <= 2 * 2 * 2
-        )  # two ran, twice, of two scenes
-    print(f"{kills} workers killed in {studies} studies of {len(study.tasks)} tasks")
-
-
-def children(process):
-    return map(int, Path(f"/proc/{process}/task/{process}/children").read_text().split())
-
-
 def command(process):
     with suppress(OSError):
         return Path(f"/proc/{process}/cmdline").read_bytes()
@@ -262,13 +230,3 @@ def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, marke
             unstored += study.count() == 0
         study.finish(expected)
     print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
-
-
-@pytest.mark.slow
-def test_what_the_marks_count_are_solves(tmp_path, marked, monkeypatch):
-    study = Killed(tmp_path, marked)
-    monkeypatch.setenv("MARKS", str(study.marks))
-    task = study.tasks[0]
-    for times in (1, 2):
-        task.solve()
-        assert study.begun_of([task], study.begun()) == {task: [times] * len(task.scenes)}

@@ -10,7 +10,7 @@ import compare
 from compare.report.plots import shifted_curves, style
 from compare.solving.vocabulary import entry
 from compare.statistics.eq23 import NO_SHIFT
-from compare.statistics.finding import EXACT, FAILS, HOLDS, REPORTED, UNDECIDED
+from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
 from scene.reading import InvalidInput
@@ -35,34 +35,6 @@ def study(tmp_path, text, name="ball.csv"):
 
 def found(study):
     return {each.claim.id.removeprefix("mastercurve."): each for each in study.judge(study.answers({})).findings}
-
-
-def test_coefficients_that_no_pair_of_bodies_has_are_told():
-    loads, speeds = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
-    friction = 0.3 / (1 + loads / speeds / 10)
-    for factor, told in ((1.0, False), (100.0, True)):
-        notes = MeasuredFriction.of({"mu": factor * friction, "F_N": loads, "v": speeds}).notes
-        assert any("is a force, or another unit, meant?" in each for each in notes) == told
-
-
-def test_shifts_of_a_table_are_found_with_their_intervals(tmp_path):
-    told = found(study(tmp_path, table()))
-    assert (told["horizontal"].verdict, told["vertical"].verdict) == (HOLDS, HOLDS)
-    low, high = told["exponent"].interval
-    assert told["exponent"].value == pytest.approx(-1.5, abs=2 * (high - low))
-    assert high - low < 0.1
-    assert told["unshifted"].value > 0.3
-    assert {each.grid_method for each in told.values()} == {EXACT}
-
-
-def test_a_shift_along_friction_is_measured_beside_that_along_the_load(tmp_path):
-    told = found(study(tmp_path, table(vertical=0.2)))
-    low, high = told["vertical-exponent"].interval
-    assert 0 < low <= 0.2 <= high
-    low, high = told["exponent-beside-vertical"].interval
-    assert low <= -1.5 <= high
-    assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
-    assert told["both"].value < told["horizontal"].interval[0]
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
@@ -111,30 +83,6 @@ def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertic
         told += made.lead is made.collapse.both
     assert held >= 60 * (0.95 - 3 * np.sqrt(0.95 * 0.05 / 60))
     assert told > 48 if vertical else told < 60 * (0.05 + 3 * np.sqrt(0.95 * 0.05 / 60))
-
-
-def test_the_figure_of_both_shifts_has_one_curve_and_both_exponents_of_the_words(tmp_path):
-    made = study(tmp_path, table(vertical=0.1))
-    (plot,) = made.judge(made.answers({})).plots
-    with style.applied():
-        drawing = shifted_curves.figure(again(plot), **plot.options)
-    _, middle, right, _ = drawing.axes
-    assert "shifted both ways" in " ".join(middle.get_title(loc="left").split())
-    points, powers = (plot.tables[name] for name in (shifted_curves.NAME, shifted_curves.POWERS))
-    order = np.argsort(points["shifted_force"].to_numpy())
-    shown = np.log(points[["shifted_force", "shifted_friction"]].to_numpy()[order])
-    # Neighbours on one falling curve, whatever their speed; unshifted along friction they are 7 % apart.
-    assert (np.diff(shown[:, 1])[np.diff(shown[:, 0]) > 0.03] < 0).all()
-    told = found(made)
-    for row, name in (("fitted", "exponent-beside-vertical"), ("along friction", "vertical-exponent")):
-        numbers = powers.set_index("power").loc[row, ["exponent", "exponent_low", "exponent_high"]]
-        assert numbers.tolist() == pytest.approx([told[name].value, *told[name].interval])
-    labels = [each.get_text() for each in right.get_legend().get_texts()]
-    assert [label.split(" ")[0] for label in labels] == ["along", "along"]
-    shifts = plot.tables[shifted_curves.SHIFTS]
-    speeds = np.log(shifts["speed"])
-    for column, planted in (("log_shift", -1.5), ("log_lift", 0.1)):
-        assert np.polyfit(speeds, shifts[column], 1)[0] == pytest.approx(planted, abs=0.05)
 
 
 def test_one_scatter_stands_behind_all_points(tmp_path):
@@ -191,47 +139,6 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     assert np.isnan(told["exponent"].value)
     # which the fit has, and which means nothing
     assert np.isfinite(made.collapse.horizontal.exponent.value)
-
-
-def test_a_heading_says_what_the_columns_are(tmp_path):
-    plain = study(tmp_path, table())
-    named = study(tmp_path, "speed, mu, F_N\n" + table(order=(2, 0, 1)), "named.csv")
-    assert named.data.equals(plain.data)
-
-
-@pytest.mark.parametrize(
-    "heading",
-    [
-        "speed [mm/s], mu [1], F_N [mN]",
-        "v [mm/s] COF F_N [mN]",
-        "v / mm/s; mu / 1; normal force / mN",
-        "v(mm/s)\tµ\tFN (mN)",
-    ],
-)
-def test_a_heading_says_the_units_of_the_columns(tmp_path, heading):
-    plain = study(tmp_path, table()).data
-    rows = (line.split(",") for line in table(order=(2, 0, 1)).splitlines())
-    text = "\n".join(f"{1e3 * float(v)},{mu},{1e3 * float(load)}" for v, mu, load in rows)
-    found_ = study(tmp_path, f"{heading}\n{text}", "named.csv").data
-    for name in plain:
-        np.testing.assert_allclose(found_[name], plain[name], rtol=1e-14)
-
-
-def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
-    for repeats, drawn in ((3, True), (1, False)):
-        made = study(tmp_path, table(repeats))
-        (plot,) = made.judge(made.answers({})).plots
-        points = plot.tables[shifted_curves.NAME]
-        with style.applied():
-            axes = shifted_curves.figure(plot.tables, **plot.options).axes[0]
-        bars = next(each for each in axes.containers if each.has_yerr).lines[2][0].get_segments()
-        ends = np.array([segment[:, 1] for segment in bars])
-        expected = points[["friction_coefficient_low", "friction_coefficient_high"]].to_numpy()
-        assert np.isfinite(expected).all() == drawn
-        if drawn:
-            np.testing.assert_allclose(ends, expected, rtol=1e-12)
-        else:
-            assert np.ptp(ends, axis=1).max() == 0
 
 
 @pytest.mark.parametrize(
@@ -568,30 +475,6 @@ def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     assert ("undecided" in right.get_title(loc="left")) == (findings[0].verdict == FAILS)
     assert findings[0].verdict in middle.get_title(loc="left")
     assert len(plot.caption.split()) <= 60
-
-
-def test_rows_of_the_figure_show_what_is_expected_where_curves_part_and_other_powers():
-    from test_compare_collapse import cubic, friction, knee, smooth
-
-    from compare.statistics import eq23
-    from compare.statistics.collapse import collapse
-
-    rows = []
-    for title, law, power in (("kept", knee, -1.5), ("parted", cubic, -9.0)):
-        fit = collapse(smooth(friction(law, power=power)))
-        collapsed = next(eq23.findings(fit, None, "1D"))
-        holds = pandas.DataFrame({"holds": np.arange(40) % 2 == 0})
-        rows.append(shifted_curves.ShiftedCurves(title, fit, collapsed, -4.0, {"Eq. 22": -1.4}, holds))
-    plot = shifted_curves.plot(rows, "losses/shifted-curves-1")
-    with style.applied():
-        drawing = shifted_curves.figure(again(plot), **plot.options)
-    powers = plot.tables["losses/shifted-curves-1-powers"]
-    assert powers["power"].tolist() == ["fitted", "expected", "Eq. 22", "expected", "Eq. 22"]
-    points = plot.tables["losses/shifted-curves-1"].query("curves == 'parted'")
-    by = (points["speed"] / points["speed"].unique()[2]) ** -4.0
-    np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
-    assert "shifted as expected" in " ".join(drawing.axes[4].get_title(loc="left").split())
-    assert shifted_curves.plot([]) is None
 
 
 def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):

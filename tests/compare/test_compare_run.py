@@ -6,15 +6,13 @@ from math import nan
 
 import numpy as np
 import pytest
-from pandas import DataFrame
 
 import compare
 from bem3d import BEM
 from compare.library.case import Case, Variations
-from compare.library.describe import described, slug
 from compare.report import csvfiles
 from compare.report.export import TABLES
-from compare.report.page import Findings, Plot, Table
+from compare.report.page import Plot
 from compare.report.plots import style
 from compare.report.redraw import FIGURES
 from compare.solving.continuation import Continuation
@@ -35,8 +33,7 @@ from compare.studies.run.curves import (
     predicted_exponent,
     slow_friction,
 )
-from compare.studies.run.figures import force_depth
-from compare.studies.run.study import Run, summary
+from compare.studies.run.study import Run
 from mdr1d import MDR
 from scene import Cone, Elastic, Indent, Kelvin, Program, Prony, Refused, SelfAffine, Slide, Sphere, Stage
 from scene.printable import brief
@@ -257,17 +254,6 @@ def test_points_have_means_deviations_and_intervals():
     assert points.query("solver == 'exact'")["normal_force_mean"].notna().all()
 
 
-def test_cases_stand_side_by_side_in_the_summary():
-    run = Run({"one": CASE, "at rest": replace(CASE, motion=Indent(load=1.0))})
-    answers = run.answers(invented_of(run))
-    table = summary([run._judged(name, answers) for name in run.cases]).set_index("sentence")
-    own = "Friction of the scene as it stands is the same in 1D and 3D"
-    assert table.loc[own, "at rest"] == ""
-    assert table.loc[own, "one"].endswith("fails")
-    force = "The force on the rough body at the same depth is the same in 1D and 3D"
-    assert "fails 2 of 2" in table.loc[force, "one"]
-
-
 @pytest.fixture(scope="module")
 def report(tmp_path_factory):
     small = replace(CASE, title="A small sphere", notes=("Far too few points.",))
@@ -275,28 +261,6 @@ def report(tmp_path_factory):
     outcomes = {task: task.solve() for task in run.batches()[0].tasks}
     answers = run.answers(outcomes)
     return run, answers, run.judge(answers).page(run.title, answers)
-
-
-def test_the_page_of_solved_contacts_has_every_figure_and_number(report):
-    run, answers, page = report
-    plots = {plot.name for plot in page.every(Plot)}
-    friction = {"friction-speed", "friction-load", "collapse", "smooth-limit"}
-    assert plots == {f"small-sphere/{name}" for name in {"contact-maps", "force-depth"} | friction}
-    tables = {table.name: table.frame for table in page.every(Table)}
-    assert set(tables) == {"small-sphere/trust", "small-sphere/points", "small-sphere/times"}
-    shown = [each for block in page.every(Findings) for each in block.findings]
-    places = [
-        [(each.claim.id, each.dimension, each.where) for each in told]
-        for told in (shown, run.judge(answers).findings)
-    ]
-    assert sorted(places[0]) == sorted(places[1])
-    assert len(set(places[0])) == len(shown)
-    assert {each.plot for each in shown} - {""} <= plots
-    slow = next(each for each in shown if each.claim.id == "friction.ratio.smooth-slow")
-    assert slow.value == pytest.approx(2, abs=0.1)
-    assert all("±" not in line for line in page.answer)
-    assert [line[:9] for line in page.answer][-3:] == ["Trust map", "Trust map", "The grid "]
-    assert set(answers["small-sphere/fields/BEM"].dataset["pressure"].dims) == {"y", "x"}
 
 
 def test_figures_are_functions_of_what_their_files_hold(report, tmp_path):
@@ -320,26 +284,6 @@ def _drawn(figure):
     return [
         np.ma.filled(np.ma.asarray(line.get_xydata(), float), nan) for axes in figure.axes for line in axes.lines
     ]
-
-
-def test_the_longest_bar_does_not_set_the_scale_and_is_marked_where_it_is_cut(report):
-    plot = next(each for each in report[2].every(Plot) if each.name.endswith("force-depth"))
-    deviations = DataFrame(
-        {"body": "rough", "solver": "MDR", "depth": [1e-4, 2e-4, 4e-4], "deviation": [-0.1, -0.05, -0.02]}
-    )
-    reach = np.array([9.0, 0.05, 0.04])
-    deviations["deviation_low"], deviations["deviation_high"] = -reach, reach
-    with style.applied():
-        below = force_depth.figure({**plot.tables, force_depth.DEVIATIONS: deviations}).axes[1]
-    low, high = below.get_ylim()
-    assert -20 < low < -10 < 5 < high < 20
-    marks = {line.get_marker(): line.get_xdata().tolist() for line in below.lines if line.get_marker() in "v^"}
-    assert marks == {"v": [pytest.approx(100)], "^": [pytest.approx(100)]}
-    deviations["deviation_low"], deviations["deviation_high"] = -0.2, 0.1
-    with style.applied():
-        below = force_depth.figure({**plot.tables, force_depth.DEVIATIONS: deviations}).axes[1]
-    # A mark without points would count in the layout, at the corner of the figure.
-    assert all(len(line.get_xdata()) for line in below.lines)
 
 
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
@@ -383,21 +327,9 @@ def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_s
     assert not (tmp_path / "out").exists()
 
 
-def test_names_of_files_that_a_command_writes_are_those_of_folders_beside_them():
-    names = ["manifest.json", "report.html", "results.nc", "findings.csv", "a/b", "日本"]
-    assert len(set(Run.of(dict.fromkeys(names, CASE)).folders.values())) == len(names)
-
-
 @pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])
 def test_a_study_of_ones_own_is_written_below_its_folder(tmp_path, place):
     study = type("Mine", (compare.Study,), {"place": place})()
     with pytest.raises(InvalidInput, match=re.escape(place)):
         compare.solve(study, tmp_path / "out")
     assert not list(tmp_path.iterdir())
-
-
-def test_a_scene_is_told_in_words():
-    parts = Sphere(radius=1e-2), Cone(angle=np.pi / 18), Slide(speed=0.1, load=1.0), Indent(depth=1e-4)
-    words = "Sphere, radius 10 mm", "Cone, angle 10°", "Slide at 0.1 m/s under 1 N", "Indent to 100 µm"
-    assert tuple(map(described, parts)) == words
-    assert slug("Größe, 2 Körper") == "groe-2-korper"

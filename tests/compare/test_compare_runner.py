@@ -17,7 +17,6 @@ import pytest
 from pydantic.dataclasses import dataclass
 
 from compare.solving import runner
-from compare.solving.amounts import duration
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import SweepProgress, sweep
 from compare.solving.store import Store
@@ -448,29 +447,6 @@ def test_lines_tell_time_left_failures_and_what_was_reused():
     ]
 
 
-def test_a_sweep_that_has_nothing_to_solve_tells_nothing():
-    console = lines()
-    with SweepBar(console) as told:
-        told.planned([], 5)
-    assert console.file.getvalue() == ""
-
-
-def test_a_bar_tells_the_same_on_a_terminal():
-    console, clock = lines(terminal=True), Clock()
-    tasks = loads(4.0, 2.0)
-    with SweepBar(console, clock=clock) as told:
-        told.planned(tasks, 5)
-        told.started(tasks[0])
-        clock.now = 400.0
-        told.finished(tasks[0], Outcome((Row(reason="too much"),)))
-        told.started(tasks[1])
-        told.bar.refresh()
-    said = console.file.getvalue()
-    for part in ("1/2, 1 failed", "3 min 20 s left", "67 %"):
-        assert part in said
-    assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
-
-
 def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
     console, clock = lines(terminal=True), Clock()
     tasks = loads(4.0, 2.0)
@@ -501,8 +477,3 @@ def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_
         told.finished(tasks[1], Outcome((Row(1.0),)))
         look()
         assert shown[-1] == pytest.approx(100)
-
-
-def test_durations_are_said_as_people_say_them():
-    said = [duration(seconds) for seconds in (None, 0.2, 59.4, 59.6, 3599.0, 3600.0, 90061.0)]
-    assert said == ["?", "0 s", "59 s", "1 min 00 s", "59 min 59 s", "1 h 00 min", "25 h 01 min"]

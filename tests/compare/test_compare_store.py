@@ -23,9 +23,8 @@ from strategies import examples
 from compare.models.exact import Exact
 from compare.solving import store as module
 from compare.solving.outcome import Outcome, Row
-from compare.solving.store import FILE, Store, canonical, code_digest, key, stored_size, write
+from compare.solving.store import FILE, Store, canonical, code_digest, key, write
 from compare.solving.task import SceneTask as Task
-from compare.studies.paper.parameter_studies import ParameterStudies
 from mdr1d import MDR
 from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere
 from scene.vocabulary import MEASURES, NUMBERS
@@ -105,45 +104,6 @@ def test_whatever_an_outcome_holds_comes_back_bit_for_bit(tmp_path_factory, rows
     assert same(store.get(task), outcome)
 
 
-def test_what_is_compared_bit_for_bit_tells_a_bit():
-    other = replace(ROW, normal_force=np.nextafter(1.0, 2.0))
-    assert not same(Outcome((ROW,)), Outcome((other,)))
-    assert not same(Outcome((replace(ROW, depth=0.0),)), Outcome((replace(ROW, depth=-0.0),)))
-
-
-@pytest.mark.parametrize("count", [1, 2, 50, 264])
-def test_every_row_comes_back_with_its_own_measures_settings_and_reason(tmp_path, count):
-    rows = tuple(
-        Row(reason=f"surface {k}: µ, ≤, \n and more " * 9)
-        if k % 7 == 3
-        else replace(ROW, measures={"pixel": k, str(k % 5): 1.0})
-        for k in range(count)
-    )
-    store = Store(tmp_path)
-    store.put(drawn(count), Outcome(rows))
-    assert same(store.get(drawn(count)), Outcome(rows))
-
-
-def test_a_block_of_the_campaign_comes_back(tmp_path):
-    """1320 contacts on 20 profiles, a question of half a megabyte."""
-    (block,) = ParameterStudies(profiles=20).tasks()
-    assert len(canonical(block.question)) > 2**17
-    found = np.random.default_rng(1).random((6, *block.shape))
-    found[2, 7, 5] = np.nan
-    names = ("friction", "depth", "length", "span", "rms_slope", "sweeps")
-    outcome = Outcome((), dict(zip(names, found, strict=True)))
-    store = Store(tmp_path)
-    store.put(block, outcome)
-    assert same(store.get(block), outcome)
-
-
-def test_failures_come_back_as_nan_with_their_reason(tmp_path):
-    Store(tmp_path).put(TASK, Outcome((Row(reason="did not converge"),)))
-    (found,) = Store(tmp_path).get(TASK).rows
-    assert np.isnan(found.normal_force)
-    assert found.reason == "did not converge"
-
-
 def test_fields_come_back_and_are_missed_where_they_are_wanted(tmp_path):
     store = Store(tmp_path)
     store.put(TASK, Outcome((ROW,)))
@@ -194,14 +154,6 @@ def test_damage_costs_the_outcome_that_it_hits_whichever_bit_it_is(tmp_path):
         assert len(found(tmp_path, tasks)) >= 2
     path.write_bytes(whole)
     assert found(tmp_path, tasks) == [0, 1, 2]
-
-
-def test_any_bit_of_a_line_but_its_end_counts(tmp_path):
-    (task, *_), path, whole = three(tmp_path)
-    line = whole.partition(b"\n")[0]
-    for place in range(0, len(line), 7):
-        path.write_bytes(line[:place] + bytes([line[place] ^ 1]) + line[place + 1 :] + b"\n\n")
-        assert found(tmp_path, [task]) == []
 
 
 @pytest.mark.parametrize("cut", [1, 2, 3, 40, 300])
@@ -324,17 +276,6 @@ def test_what_stands_in_the_place_of_the_file_holds_nothing_and_is_named_before_
         Store(tmp_path).put(TASK, Outcome((ROW,)))
 
 
-@pytest.mark.skipif(os.name != "posix", reason="pipes and links")
-@pytest.mark.parametrize("placed", PLACED)
-def test_what_stands_in_the_place_of_fields_counts_as_absent(tmp_path, placed):
-    store = Store(tmp_path)
-    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
-    (path,) = tmp_path.glob("*.npz")
-    path.unlink()
-    placed(path)
-    assert store.get(PICTURE) is None
-
-
 def test_a_folder_that_nobody_may_write_can_be_read(tmp_path):
     tasks, path, _ = three(tmp_path)
     path.chmod(0o444)
@@ -362,13 +303,6 @@ def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):
     assert said == [
         "this folder cannot be locked (No locks available), as on some network drives: run one at a time"
     ]
-
-
-def test_an_outcome_is_small(tmp_path):
-    """Of a small task: less than 2 kB."""
-    assert stored_size(TASK, Outcome((ROW,))) < 1000
-    Store(tmp_path).put(TASK, Outcome((ROW,)))
-    assert Store(tmp_path).path.stat().st_size == stored_size(TASK, Outcome((ROW,))) + 2
 
 
 def test_a_write_that_breaks_off_leaves_the_old_file_and_no_other(tmp_path):
@@ -419,18 +353,6 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tm
         store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3000.0)}))
     assert caught.value.filename.endswith(".npz")
     assert [path.name for path in tmp_path.iterdir()] == [FILE]
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="of POSIX")
-def test_what_is_no_regular_file_is_not_written_over(tmp_path):
-    os.mkfifo(tmp_path / "pipe")
-    (tmp_path / "link").symlink_to("pipe")
-    for name in ("pipe", "link"):
-        with pytest.raises(OSError, match="is no regular file") as caught:
-            write(tmp_path / name, lambda file: file.write(b""))
-        assert caught.value.filename == str(tmp_path / name)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["link", "pipe"]
-    assert (tmp_path / "pipe").is_fifo()
 
 
 def test_a_folder_that_takes_no_file_is_an_error_that_names_the_file(tmp_path):
@@ -538,12 +460,6 @@ def test_the_name_changes_with_everything_that_the_answer_depends_on():
     ]
     assert len({key(task) for task in [TASK, *others]}) == 1 + len(others)
     assert key(replace(TASK, work=7.0)) == key(Task(MDR(points=100), (replace(SCENE),)))
-
-
-def test_the_question_and_the_code_name_a_file_apart(monkeypatch):
-    before = key(TASK)
-    monkeypatch.setattr(module, "_code_digest", lambda _: "other")
-    assert key(TASK) == f"{before.partition('-')[0]}-other"
 
 
 @given(value=st.recursive(FLOATS | st.integers() | st.text() | st.booleans() | st.none(), st.lists))

@@ -7,17 +7,14 @@ import pytest
 import xarray
 
 from bem3d import BEM
-from compare.report.plots import style
 from compare.solving import parameter_grid
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FAILED, FINE, SOLVED
-from compare.statistics import eq23
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
 from compare.studies.claims import catalogue, families
 from compare.studies.claims.claims_depth import loading
 from compare.studies.claims.claims_friction import SLOW
-from compare.studies.claims.figures.tables import plots_of_series
 from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
 from compare.studies.claims.series import ROUGH, SMOOTH, Contacts, Series
@@ -202,35 +199,6 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
     assert all("straight" in reason for reason in straight if reason) or "eq17.level" in expected
 
 
-@pytest.mark.parametrize("power", [0.1, 0.33])
-def test_a_shift_of_friction_itself_leads_with_the_pair_that_was_planted(power):
-    found = judge_series(obeying(lambda load, speed: eq_19(load, speed) * speed**power))
-    for dimension in ("1D", "3D"):
-        named = {each.claim.id: each for each in found.findings if each.dimension == dimension}
-        # curves that were raised are shifted down
-        for name, planted in (
-            ("vertical-exponent", -power),
-            ("exponent", -1.5),
-            ("exponent-beside-vertical", -1.5),
-        ):
-            low, high = named[f"eq23.{name}"].interval
-            assert low <= planted <= high, name
-        low, high = named["eq23.exponent-alone"].interval
-        assert named["eq23.collapse"].verdict == "fails" or not low <= -1.5 <= high
-    told = eq23.answers(found.findings)
-    assert [each.split(": friction is shifted as v^−")[0] for each in told] == ["sphere, 1D", "sphere, 3D"]
-    plots = {each.name: each for each in plots_of_series(found)}
-    points, fits = (plots["sphere/collapse"].tables[name] for name in ("collapse", "collapse-fits"))
-    # shifted both ways the points lie on the curve, as the misfit says
-    assert points["off_curve"].abs().max() < 0.05
-    by = np.log(points["shifted_friction"] / points["friction_coefficient"]).groupby(points["speed"]).mean()
-    assert np.polyfit(np.log(by.index), by, 1)[0] == pytest.approx(-power, abs=0.15)
-    assert fits["misfit"].max() < 0.005
-    with style.applied():
-        assert all(plots[f"sphere/{name}"].figure().axes for name in ("effects", "collapse", "shifts"))
-    assert plots["sphere/shifts"].tables["shifts-fits"]["exponent"].to_numpy() == pytest.approx(-1.5, abs=0.2)
-
-
 @pytest.mark.parametrize("place", [np.s_[0, 2], np.s_[0, 2, :5]])
 def test_a_point_without_answer_leaves_undecided_what_needs_it(whole, judged, place):
     found = judge_series(spoiled(whole, place))
@@ -288,35 +256,6 @@ def test_a_series_of_which_nothing_was_solved_has_no_finding():
     contacts = Contacts(series, parameter_grid.tree(series.grids, outcomes))
     assert judge_series(contacts).findings == ()
     assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
-
-
-def test_speeds_are_named_by_where_they_lie_and_none_is_asked_twice(whole, judged):
-    # all of them; three that lie far below the knee; one
-    for found, names in (
-        (judged, ["slow", "knee", "fast"]),
-        (judge_series(cut(whole, speeds=3)), ["slow"]),
-        (judge_series(cut(whole, speeds=1, values=1)), ["slow"]),
-    ):
-        assert [each.claim.id for each in of(found, "friction.ratio.")][:-1] == [
-            f"friction.ratio.{name}" for name in names
-        ]
-    assert not of(found, "eq17.load-exponent")  # through a single point
-
-
-def test_a_speed_that_only_the_coarse_grid_lacks_leaves_the_prediction_unknown_not_wrong(whole):
-    answers = spoiled(whole, np.s_[0, :0])
-    answers.answers["sphere/rough/BEM"]["friction_force"].values[1, 1] = np.nan
-    (predicted,) = of(judge_series(answers), "eq23.predicted", "3D")
-    assert np.isfinite(predicted.value)
-
-
-def test_every_finding_names_its_series_and_the_plot_that_shows_it(judged):
-    assert {each.where for each in judged.findings} == {"sphere"}
-    plots = {each.claim.id: each.plot for each in judged.findings}
-    assert plots["rest.depth-deep"] == "sphere/depth"
-    assert plots["eq17.load-exponent"] == plots["eq23.collapse"] == "sphere/collapse"
-    assert plots["eq23.exponent"] == "sphere/shifts"
-    assert plots["limit.slow"] == "sphere/levels"
 
 
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
@@ -403,20 +342,6 @@ def test_solved_contacts_tell_the_known_truths(solved):
     assert smooth.value == pytest.approx(2, abs=smooth.grid + 0.02)
     rest = judge_series(cut(solved, speeds=0))
     assert [each.verdict for each in of(rest, "smooth.rest-depth")] == ["holds", "holds"]
-
-
-@pytest.mark.parametrize(
-    ("kinds", "ids", "dimensions"),
-    [
-        (("collapse", "families"), {"eq23"}, {"1D", "3D"}),
-        (("friction",), {"eq14", "eq17", "eq19", "limit"}, {"1D", "3D"}),
-        (("dimensions",), {"pair", "rest"}, {"1D/3D"}),
-    ],
-)
-def test_only_the_kinds_of_claims_that_are_asked_are_judged(kinds, ids, dimensions):
-    found = judge_series(obeying(eq_19, replace(FEW, claims=kinds)))
-    assert {each.claim.id.partition(".")[0] for each in of(found, "")} == ids
-    assert {each.dimension for each in found.findings} == dimensions
 
 
 MANY_TASKS = ("solids", "hurst", "parameters", "regime")

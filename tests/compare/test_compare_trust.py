@@ -5,7 +5,7 @@ from math import exp, log, pi
 
 import numpy as np
 import pytest
-from scipy.stats import binom, norm
+from scipy.stats import binom
 
 import compare
 from bem3d import BEM
@@ -14,12 +14,12 @@ from compare.models.exact import full_contact
 from compare.solving.outcome import Outcome, Row
 from compare.studies.trust import design, scoring, statements, study
 from compare.studies.trust.contact import Contact
-from compare.trustmap import model, shipped, table, verdict
+from compare.trustmap import shipped, table, verdict
 from compare.trustmap.groups import FullContact, SmoothReference
 from compare.trustmap.model import NAMES, NORMAL, Measurements, Predicted, lost
 from compare.trustmap.ratio import QUANTITIES, asked_of, ratio_of
 from compare.trustmap.regions import COVERED
-from compare.trustmap.regression import Process, Scales, _unlikeliness
+from compare.trustmap.regression import Process, Scales
 from compare.trustmap.verdict import Advice, trust
 from mdr1d import MDR
 from mdr1d.surface import amplitudes
@@ -219,12 +219,6 @@ def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, ste
     assert "no advice" in told
 
 
-def test_steep_slopes_are_doubted_before_the_advice():
-    found = trust(replace(SMOOTH, motion=Slide(speed=0.1, load=100.0)))
-    assert [each.name for each in found.doubts] == ["slope of the body at the edge of the contact"]
-    assert found.friction.advice == "multiply"
-
-
 def drawn_scenes(count, seed):
     """Random rough scenes: cones, spheres and powers of all sizes, Kelvin and standard solids, slow and fast."""
     rng = np.random.default_rng(seed)
@@ -338,18 +332,6 @@ def sampled(count, seed=0):
     return inputs, values + 0.01 * rng.standard_normal(count), np.full(count, 1e-4)
 
 
-def test_the_gradient_of_the_likelihood_is_that_of_differences():
-    inputs, values, variances = sampled(20)
-    at = np.log([0.7, 1.5, 2.0, 0.8, 0.3, 0.05])
-    _, gradient = _unlikeliness(at, inputs, values, variances)
-    step = 1e-5
-    for k, found in enumerate(gradient):
-        above, below = (
-            _unlikeliness(at + sign * step * np.eye(6)[k], inputs, values, variances)[0] for sign in (1, -1)
-        )
-        assert found == pytest.approx((above - below) / (2 * step), rel=1e-6, abs=1e-6)
-
-
 def test_a_process_foretells_what_it_never_saw_within_its_own_error():
     process = Process.fitted(*sampled(80))
     inputs, values, _ = sampled(400, seed=1)
@@ -418,16 +400,6 @@ def test_draws_that_failed_are_left_out_and_means_below_zero_have_no_ratio():
     assert ratio_of(Outcome((Row(reason="all broke"),)), "friction").surfaces == 0
 
 
-def test_tables_are_small_and_bring_back_what_was_written(tmp_path):
-    learned = table.read(table.LEARNED)
-    assert table.LEARNED.stat().st_size + table.HELD_OUT.stat().st_size < 500_000
-    again = tmp_path / "again.csv.gz"
-    again.write_bytes(table.written(learned))
-    assert again.read_bytes() == table.LEARNED.read_bytes()
-    for name, values in table.read(again).items():
-        assert np.array_equal(values, learned[name], equal_nan=True), name
-
-
 def test_enough_scenes_were_measured_and_none_held_out_was_learned_from():
     learned, held_out = table.read(table.LEARNED), table.read(table.HELD_OUT)
     assert learned["point"].size > 1500
@@ -449,33 +421,6 @@ def test_every_point_of_the_design_is_a_scene_that_both_can_solve():
         if rough is not None:
             assert design.HEIGHTS[0] <= rough.rms_height / rest.depth * 1.001
             assert rest.radius / rough.shortest <= design.WAVES[1] * 1.001
-
-
-def test_blunt_points_slide_rough_under_a_load_within_their_ranges_on_surfaces_of_their_own():
-    sets = (
-        (design.learned, design.BLUNT, design.TO_LEARN),
-        (design.learned, design.BLUNT_CHECKED, design.TO_HOLD_OUT),
-        (design.held_out, design.BLUNT_HELD_OUT, design.TO_HOLD_OUT),
-    )
-    scenes = []
-    for scene_of, first, (exponents, heights) in sets:
-        found = [scene_of(first + k) for k in range(100)]
-        for scene in found:
-            assert exponents[0] <= scene.indenter.exponent <= exponents[1]
-            assert heights[0] <= scene.roughness.rms_height / elastic_contact(scene).depth <= heights[1]
-            assert (scene.motion.speed, scene.motion.pressed_by) == (design.SPEED, "load")
-            assert verdict.unmeasured(scene) == []
-        scenes += found
-    assert len({scene.roughness.seed // design.SEEDS for scene in scenes}) == len(scenes)
-    assert len({scene.indenter.exponent for scene in scenes}) == len(scenes)
-
-
-def test_a_blunt_scene_is_solved_until_its_depth_is_known_too():
-    rows = [Row(1.0, depth, 0.2) for depth in (1.0, 2.0, 1.5, 0.7, 1.1, 2.2)]
-    friction_alone, both = (Contact(PAPER, 0.05, 8, depth_too=depth_too) for depth_too in (False, True))
-    assert friction_alone._known(rows)
-    assert not both._known(rows)
-    assert friction_alone.question != both.question
 
 
 def test_the_models_are_fitted_to_the_tables_they_come_with():
@@ -549,25 +494,6 @@ def test_the_interval_of_a_count_leaves_a_fortieth_at_either_end(held, tried):
         assert binom.sf(held - 1, tried, low) == pytest.approx(0.025, rel=1e-6)
     if held < tried:
         assert binom.cdf(held, tried, high) == pytest.approx(0.025, rel=1e-6)
-
-
-def test_intervals_widen_in_a_region_whose_errors_are_larger_than_the_process_says_and_in_no_other():
-    rng = np.random.default_rng(2)
-    count = 1500
-    groups = np.zeros((count, len(NAMES)))
-    groups[:, NAMES.index("shape")] = np.where(np.arange(count) % 10, 0.5, 0.25)
-    groups[:, NAMES.index("hurst")] = rng.random(count)
-    blunt = groups[:, NAMES.index("shape")] < 0.5
-    values = 0.05 * rng.standard_normal(count) * np.where(blunt, 3.0, 1.0)
-    # All of it is taken for noise, more or less of it by what lies near in a group that decides nothing.
-    lengths = np.where(np.array(NAMES) == "hurst", 0.003, 1e6)
-    scales = Scales(lengths, 0.01, 1e-9, 0.05)
-    process = Process(groups, values, np.full(count, 1e-8), scales)
-    fitted = model._fitted("force", process, process)
-    wide, plain = fitted.widened(np.full(2, 0.05), groups[[0, 1]])
-    assert wide == pytest.approx(0.15 * norm.ppf((1 + model.HELD_IN_PART) / 2) / NORMAL, rel=0.15)
-    assert wide > 1.5 * plain
-    assert np.sum(fitted.parts > 1) == 1
 
 
 def test_errors_without_the_scatter_of_the_truth_are_those_that_were_made():
