@@ -1,11 +1,9 @@
 """`crosscheck X` is `compare.X`: the same names, arguments and numbers; nothing is printed."""
 
-import inspect
 import itertools
 import json
 from dataclasses import replace
 from html.parser import HTMLParser
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,15 +12,12 @@ from matplotlib.figure import Figure
 
 import compare
 from bem3d import BEM
-from compare import commands
-from compare.cli.app import COMMANDS, PYTHON_ONLY, SHARED
 from compare.library.case import Case, Variations
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
-from compare.studies import pipeline
 from mdr1d import MDR
-from scene import Kelvin, Scene, SelfAffine, Slide, Sphere, markup
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.reading import InvalidInput
 
 SLIDING = Scene(
@@ -82,38 +77,6 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def found(folder):
     return compare.run({"tiny": TINY}, folder, workers=1)
-
-
-def test_every_name_of_the_package_is_there_is_listed_and_hides_no_module():
-    there = {path.stem for path in Path(compare.__file__).parent.iterdir()}
-    for name in compare.__all__:
-        assert getattr(compare, name) is not None
-        assert name in dir(compare)
-        assert name not in there, f"compare.{name} would hide the module of that name"
-    with pytest.raises(AttributeError, match="crosschek"):
-        compare.crosschek  # noqa: B018
-
-
-@pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
-def test_a_command_and_its_function_have_one_name_and_the_same_arguments_and_defaults(command):
-    assert getattr(compare, command.title) is command.function
-    function = inspect.signature(command.function).parameters
-    asked = inspect.signature(command.callback()).parameters
-    own = {each for each in function if each not in PYTHON_ONLY | {"options"}}
-    assert own == set(asked) - set(SHARED) - {"quiet", "verbose", "json"} or not command.solves
-    assert {each: asked[each].default for each in own} == {each: function[each].default for each in own}
-
-
-def test_options_of_all_commands_have_the_names_types_and_defaults_that_solving_has():
-    solve, options = inspect.signature(commands.solve).parameters, commands.Options.__annotations__
-    assert set(options) == {*SHARED, "progress"}
-    assert {name: solve[name].annotation for name in options} == {
-        name: each.__forward_arg__ for name, each in options.items()
-    }
-    defaults = inspect.signature(pipeline.run).parameters
-    assert {name: each.default for name, each in SHARED.items()} == {
-        name: defaults[name].default for name in SHARED
-    }
 
 
 def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd):
@@ -244,8 +207,3 @@ def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
     hostile = replace(result, settings={"points": "<script>"}, measures={"<b>": 1.0})
     assert "<script>" not in hostile._repr_html_()
     assert "<b>" not in hostile._repr_html_()
-
-
-def test_a_long_table_says_how_much_it_leaves_out():
-    assert "and 3 more" in markup.table([(k, k) for k in range(markup.LONGEST + 3)])
-    assert "more" not in markup.table([(k, k) for k in range(markup.LONGEST)])

@@ -13,7 +13,6 @@ from bem3d import BEM
 from compare.cli.app import app
 from compare.library.case import Case
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
-from compare.studies.animate.animation import animate
 from compare.studies.claims.study_file import study_of
 from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
@@ -22,14 +21,6 @@ from compare.studies.study import Study
 from scene import Refused
 from scene.reading import InvalidInput, read
 
-ROUGHNESS = """
-[roughness]
-type = "self-affine"
-hurst = 0.5
-rms_height = "1 um"
-longest = "10 mm"
-shortest = "1 mm"
-"""
 SERIES = '[[series]]\nname = "one"\n'
 
 
@@ -118,23 +109,11 @@ def test_a_range_and_a_list_have_a_bound_that_is_said(change, said):
         study_of(HEAD + SHARED.replace(*change) + TABLES + SERIES, "study.toml")
 
 
-def test_the_series_of_a_file_have_a_bound_that_is_said():
-    many = "".join(SERIES.replace("one", f"s{k}") for k in range(101))
-    with pytest.raises(InvalidInput, match=r"series: .*at most 100"):
-        study_of(HEAD + SHARED + TABLES + many, "study.toml")
-
-
 @pytest.mark.parametrize("workers", [0, -1, 1025, 10**9, True, 1.5])
 def test_so_have_workers(tmp_path, workers):
     with pytest.raises(InvalidInput, match=rf"workers = {workers}: a whole number from 1 to 1024"):
         run(Costly(1, 1.0), tmp_path / "out", workers=workers)
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize(("frames", "seconds"), [(0, 6.0), (10**9, 1e9), (60, 1e300), (60, float("nan"))])
-def test_so_have_frames_and_the_seconds_of_an_animation(tmp_path, frames, seconds):
-    with pytest.raises(Refused, match=r"1 to 10000 frames in at most 3600 seconds"):
-        animate("hertz", tmp_path / "hertz.gif", frames, seconds, tmp_path)
 
 
 def test_so_have_profiles_of_the_paper_and_threads():
