@@ -9,35 +9,15 @@ import numpy as np
 import pytest
 import xarray
 from matplotlib.figure import Figure
+from small_cases import SLIDING, TINY
 
 import compare
 from bem3d import BEM
-from compare.library.case import Case, Variations
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
 from mdr1d import MDR
-from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.reading import InvalidInput
-
-SLIDING = Scene(
-    indenter=Sphere(radius=1e-2),
-    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
-    motion=Slide(speed=0.1, load=1.0),
-    roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
-)
-TINY = Case(
-    title="A <rough> sphere & more",
-    indenter=SLIDING.indenter,
-    elastomer=SLIDING.elastomer,
-    motion=SLIDING.motion,
-    roughness=SLIDING.roughness,
-    study=Variations(
-        speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,), surfaces=2, profiles=2
-    ),
-    bem=BEM(points=32),
-    mdr=MDR(points=500),
-)
 
 
 class Balanced(HTMLParser):

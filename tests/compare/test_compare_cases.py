@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from scene_files import SCENE
 from typer.testing import CliRunner
 
 from compare.cli.app import app
@@ -13,27 +14,6 @@ from compare.studies.run.study import Run
 from scene import Coulomb, Elastic, Indent, Program, Refused, Slide, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
-
-SCENE = """
-[indenter]
-type = "sphere"
-radius = 1e-2
-[elastomer]
-type = "kelvin"
-modulus = 1e6
-relaxation_time = 1e-3
-[motion]
-type = "slide"
-speed = 0.1
-load = 1.0
-[roughness]
-type = "self-affine"
-hurst = 0.2
-rms_height = 1e-6
-longest = 1e-2
-shortest = 1e-3
-seed = 5
-"""
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_compare_runner import Heard, Stand, loads
+from stand_in_solver import Heard, Stand, loads
 
 from compare.solving.cluster import Cluster, differences
 from compare.solving.runner import sweep
@@ -145,7 +145,7 @@ def test_an_interrupt_calls_back_what_has_not_started_and_waits_for_the_rest(clu
 CLIENT = """
 import sys
 from pathlib import Path
-from test_compare_runner import Stand, loads
+from stand_in_solver import Stand, loads
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 

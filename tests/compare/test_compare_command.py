@@ -11,7 +11,7 @@ import time
 
 import pandas
 import pytest
-from test_compare_cases import SCENE
+from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 from compare import commands
@@ -24,22 +24,6 @@ from compare.solving.store import Store
 from compare.statistics.finding import COLUMNS
 from compare.studies.claims.catalogue import STUDIES
 
-TINY = (
-    SCENE
-    + """
-[study]
-speeds = [0.1, 1.0]
-pressing = [0.5, 2.0]
-load_speeds = [0.1]
-depths = [1.0]
-surfaces = 2
-profiles = 2
-[bem]
-points = 32
-[mdr]
-points = 1000
-"""
-)
 # Solvers with a fault.
 FAULTY = """
 from bem3d import BEM
@@ -92,7 +76,7 @@ def finish(process):
 
 @pytest.fixture
 def folder(tmp_path):
-    (tmp_path / "tiny.toml").write_text(TINY)
+    (tmp_path / "tiny.toml").write_text(SCENE + SMALL)
     return tmp_path
 
 

@@ -4,9 +4,8 @@ from dataclasses import replace
 from itertools import product
 
 import pytest
-from test_compare_cases import SCENE
-from test_compare_path import PARAMETER_GRID
-from test_compare_studyfile import HEAD, SHARED, TABLES
+from scene_files import HEAD, SCENE, SHARED, TABLES
+from small_cases import PARAMETER_GRID
 from typer.testing import CliRunner
 
 from bem3d import BEM

@@ -5,7 +5,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from test_compare_cases import SCENE
+from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
@@ -21,19 +21,6 @@ from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
 from scene.plan import Plan
 from scene.reading import made, read
 
-TINY = """
-[study]
-speeds = [0.1, 1.0]
-pressing = [0.5, 2.0]
-load_speeds = [0.1]
-depths = [1.0]
-surfaces = 2
-profiles = 2
-[bem]
-points = 32
-[mdr]
-points = 1000
-"""
 PLANE = """
 [indenter]
 type = "plane"
@@ -67,7 +54,7 @@ def told(path, *options):
 
 
 def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
-    path = written(SCENE + TINY)
+    path = written(SCENE + SMALL)
     report = run(path, tmp_path / "out", workers=1, report=False)
     solved = sum(len(getattr(task, "scenes", (task,))) for task in contacts_of(report.study.grids()))
     assert plans(path).cost == report.study.cost()

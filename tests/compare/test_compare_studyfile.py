@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from scene_files import HEAD, SHARED, TABLES
 
 from compare.studies.claims.catalogue import SIZES, STUDIES
 from compare.studies.claims.series import KINDS
@@ -13,36 +14,6 @@ from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Spher
 from scene.reading import InvalidInput
 
 QUICK = SIZES["quick"]
-HEAD = """
-title = "Mine"
-about = "What I ask."
-"""
-SHARED = """
-speeds = ["50 mm/s", 0.1, 0.2]
-loads = { least = "0.5 N", greatest = 2, count = 4 }
-surfaces = 2
-profiles = 3
-"""
-TABLES = """
-[indenter]
-type = "sphere"
-radius = "10 mm"
-[elastomer]
-type = "kelvin"
-modulus = "1 MPa"
-relaxation_time = "1 ms"
-[roughness]
-type = "self-affine"
-hurst = 0.2
-rms_height = "50 um"
-longest = "10 mm"
-shortest = "2 mm"
-seed = 1
-[bem]
-points = 32
-[mdr]
-points = 400
-"""
 SERIES = """
 [[series]]
 name = "a"
