@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
+from drawn_scenes import CELL, DIP, KELVIN, LIFT, LOAD, ROUGH, SCENES, STANDARD, TAU, A, R
 from PIL import Image, ImageSequence
 
 from bem3d import BEM
@@ -22,31 +23,18 @@ from compare.studies.animate.film import started
 from mdr1d import MDR
 from scene import (
     Coulomb,
-    Cylinder,
-    Elastic,
-    Indent,
-    Kelvin,
     Plane,
     Program,
     Refused,
     Scene,
-    SelfAffine,
     Shear,
     Slide,
     SolveError,
     Sphere,
     Stage,
-    StandardLinearSolid,
 )
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
-ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 RUN = Program(stages=(Stage(duration=2 * TAU, load=LOAD), Stage(duration=4 * TAU, speed=0.2)))
-LIFT = Program(stages=(Stage(duration=TAU, load=LOAD), Stage(duration=TAU, load=0.0), Stage(duration=2 * TAU)))
-DIP = Program(stages=(Stage(duration=TAU, depth=5e-5, speed=0.3), Stage(duration=TAU, depth=0.0, speed=-0.3)))
 LINE, SPACE = MDR(points=200, steps=20), BEM(points=32, steps=20)
 RUNNING = Scene(Sphere(R), KELVIN, RUN, ROUGH)
 
@@ -201,23 +189,12 @@ def test_where_ffmpeg_fails_its_own_words_are_said_and_nothing_is_written(tmp_pa
     assert [path.name for path in tmp_path.iterdir()] == ["ffmpeg"]
 
 
-HARD = {
-    "lift": Scene(Sphere(R), KELVIN, LIFT, ROUGH),
-    "dip": Scene(Sphere(R), STANDARD, DIP),
-    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), CELL),
-    "full": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e7), CELL),
-    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
-    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
-    "elastic": Scene(Sphere(R), Elastic(G), Indent(depth=1e-4)),
-}
-
-
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name == "line" else pytest.mark.slow) for name in HARD]
+    "name", [pytest.param(name, marks=() if name == "line" else pytest.mark.slow) for name in SCENES]
 )
 def test_every_instant_is_drawn_with_units_to_the_same_scales(name):
-    found = film(HARD[name])
-    assert ("MDR" in found.fields) == (not LINE.refusals(HARD[name]))
+    found = film(SCENES[name])
+    assert ("MDR" in found.fields) == (not LINE.refusals(SCENES[name]))
     with style.applied():
         reel = MarchFigure(found)
         limits = set()
@@ -251,7 +228,7 @@ def test_an_instant_replaces_the_one_before_and_shows_its_pressure_and_its_past(
 
 
 def test_where_nothing_touches_that_is_said():
-    found = film(HARD["lift"])
+    found = film(SCENES["lift"])
     with style.applied():
         reel = MarchFigure(found)
         reel.show(3)

@@ -6,6 +6,8 @@ from functools import cache
 import numpy as np
 import pandas
 import pytest
+from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, G, R
+from drawn_scenes import SCENES as DRAWN
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from bem3d import BEM
@@ -14,41 +16,27 @@ from compare.report.views import view
 from mdr1d import MDR
 from scene import (
     WLF,
-    Cylinder,
     Elastic,
     Heating,
     Indent,
-    Kelvin,
     Layer,
-    Plane,
     Program,
     Prony,
     Scene,
-    SelfAffine,
     Slide,
     Sphere,
     Stage,
-    StandardLinearSolid,
 )
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
-ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 LIFT = Program(stages=(Stage(duration=5 * TAU, load=LOAD), Stage(duration=TAU, load=0.0), Stage(duration=TAU)))
 BACK = Program(stages=(Stage(duration=TAU, depth=1e-4, speed=0.5), Stage(duration=TAU, speed=-0.5)))
 SLIDING = Slide(speed=0.1, load=LOAD)
-SCENES = {
+SCENES = {name: DRAWN[name] for name in ("rest", "line", "plane", "full")} | {
     "rough": Scene(Sphere(R), KELVIN, SLIDING, ROUGH),
     "smooth": Scene(Sphere(R), KELVIN, Slide(speed=A / TAU, load=LOAD)),
-    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
     "elastic": Scene(Sphere(R), Elastic(G), SLIDING, ROUGH),
     "prony": Scene(Sphere(R), Prony(G, (G, 2 * G), (TAU, 10 * TAU)), SLIDING),
     "layer": Scene(Sphere(R), KELVIN, SLIDING, layer=Layer(thickness=2e-3)),
-    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
-    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), CELL),
-    "full": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e7), CELL),
     "lifted": Scene(Sphere(R), KELVIN, LIFT),
     "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
     "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),

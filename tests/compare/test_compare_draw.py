@@ -4,6 +4,7 @@ import sys
 from dataclasses import replace
 
 import pytest
+from drawn_scenes import KELVIN, LOAD, TAU, A, R
 from typer.testing import CliRunner
 
 import compare
@@ -21,7 +22,6 @@ from scene import (
     Doubtful,
     Heating,
     Indent,
-    Kelvin,
     Layer,
     Refused,
     SelfAffine,
@@ -31,11 +31,9 @@ from scene import (
 )
 from scene.reading import InvalidInput
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
 REST = Case(
     indenter=Sphere(R),
-    elastomer=Kelvin(G, TAU),
+    elastomer=KELVIN,
     motion=Indent(load=LOAD),
     bem=BEM(points=64),
     mdr=MDR(points=500),

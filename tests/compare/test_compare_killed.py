@@ -12,98 +12,43 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+import marked_study
 import pytest
 
 from compare.solving.store import Store
 
-# A study of solvers that leave a mark when they begin a solve.
-MARKED = """
-import hashlib
-import json
-import os
-from dataclasses import dataclass, replace
-
-from bem3d import BEM
-from compare.solving.parameter_grid import tasks_of
-from compare.studies.claims.catalogue import kelvin
-from compare.studies.claims.series import Series
-from compare.solving.task import SCENES
-from mdr1d import MDR
-
-
-def name(solver, scene):
-    asked = solver.name, solver.points, SCENES.dump_python((scene,), mode="json")
-    return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
-
-
-def mark(solver, scene):
-    file = os.open(os.environ["MARKS"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
-    os.write(file, (name(solver, scene) + "\\n").encode())
-    os.close(file)
-
-
-@dataclass(frozen=True)
-class MarkedMDR(MDR):
-    def solve(self, scene):
-        mark(self, scene)
-        return super().solve(scene)
-
-
-@dataclass(frozen=True)
-class MarkedBEM(BEM):
-    def solve(self, scene, *trail):
-        mark(self, scene)
-        return super().solve(scene, *trail)
-
-
-def series():
-    scene = kelvin("sphere")
-    scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
-    solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
-    return Series("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)
-
-
-def tasks():
-    return tasks_of(series().grids)
-
-
-def names(task):
-    contacts = getattr(task, "contacts", (task,))
-    return [name(each.solver, scene) for each in contacts for scene in each.scenes]
-"""
-STUDY = """
-import marked
-from compare.cli.app import main
-from compare.studies.claims.catalogue import STUDIES, ReadyStudy
-
-if __name__ == "__main__":
-    STUDIES["collapse"] = ReadyStudy("Tiny", "A few contacts.", lambda size: [marked.series()])
-    main()
-"""
 # A machine under load starts processes slowly.
 PATIENCE = 120
+ROOT = Path(__file__).parents[2]
+PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
 
 
 class Killed:
     """A folder with the study, run by the command in a process group of its own."""
 
-    def __init__(self, folder, marked):
-        self.folder, self.marked = folder, marked
-        (folder / "study.py").write_text(STUDY)
-        (folder / "marked.py").write_text(MARKED)
+    def __init__(self, folder):
+        self.folder = folder
         self.marks = folder / "marks"
-        self.tasks = marked.tasks()
+        self.tasks = marked_study.tasks()
         self.store = Store(folder / "crosscheck-study" / "solved")
 
     def start(self):
         return subprocess.Popen(
-            [sys.executable, "study.py", "study", "collapse", "--workers", "2"],
+            [
+                sys.executable,
+                "-c",
+                "import marked_study; marked_study.command()",
+                "study",
+                "collapse",
+                "--workers",
+                "2",
+            ],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
             start_new_session=True,
-            env=os.environ | {"MARKS": str(self.marks), "PYTHONWARNINGS": "error"},
+            env=os.environ | {"MARKS": str(self.marks), "PYTHONWARNINGS": "error", "PYTHONPATH": PATHS},
         )
 
     def count(self):
@@ -120,7 +65,7 @@ class Killed:
         return Counter(self.marks.read_text().split()) if self.marks.exists() else Counter()
 
     def begun_of(self, tasks, begun):
-        return {task: [begun[name] for name in self.marked.names(task)] for task in tasks}
+        return {task: [begun[name] for name in marked_study.names(task)] for task in tasks}
 
     def kill(self, when):
         """Start it, kill all of it at a moment, and see that nothing stored is lost or was solved again.
@@ -170,23 +115,11 @@ def exactly(outcome):
 
 
 @pytest.fixture(scope="module")
-def marked(tmp_path_factory):
-    """The module of the study, as the command imports it."""
-    folder = tmp_path_factory.mktemp("marked")
-    (folder / "marked.py").write_text(MARKED)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(folder))
-        patch.setenv("MARKS", str(folder / "marks"))
-        import marked
-
-        yield marked
-    del sys.modules["marked"]
-
-
-@pytest.fixture(scope="module")
-def expected(marked):
+def expected(tmp_path_factory):
     """Answers of an undisturbed solve of each task."""
-    return {task: exactly(task.solve()) for task in marked.tasks()}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MARKS", str(tmp_path_factory.mktemp("undisturbed") / "marks"))
+        return {task: exactly(task.solve()) for task in marked_study.tasks()}
 
 
 def moment(draw, study):
@@ -206,8 +139,8 @@ def moment(draw, study):
 
 
 @pytest.mark.slow
-def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, marked, expected):
-    study = Killed(tmp_path, marked)
+def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, expected):
+    study = Killed(tmp_path)
     assert study.kill(lambda: study.count() >= 3)
     study.finish(expected)
 
@@ -219,11 +152,11 @@ def command(process):
 
 
 @pytest.mark.hours
-def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, marked, expected):
+def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
     draw, kills, studies, unstored = random.Random(50), 0, 0, 0
     while kills < 50:
         (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies), marked)
+        study = Killed(tmp_path / str(studies))
         studies += 1
         while kills < 50 and study.count() < len(study.tasks):
             kills += study.kill(moment(draw, study))

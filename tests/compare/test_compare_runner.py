@@ -10,7 +10,6 @@ import time
 from concurrent.futures import Future
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -230,7 +229,7 @@ if __name__ == "__main__":
 
 def twin(folder):
     (folder / "twin.py").write_text(TWIN)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])}
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     command = [sys.executable, str(folder / "twin.py"), str(folder)]
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
 
