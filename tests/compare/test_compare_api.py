@@ -135,15 +135,10 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
     ("asked", "message"),
     [
         ({"speed": []}, "speed = .*at least one"),
-        ({"speed": [0.1, 0.1]}, "each once"),
         ({"speed": [-0.1]}, "speed = -0.1"),
-        ({"speed": [0.1], "load": [0.0]}, "load = 0.0"),
         ({"speed": [0.1], "load": [1.0], "depth": [1e-5]}, "load, depth: both"),
         ({"speed": [0.1], "draws": 0}, "draws = 0"),
         ({"speed": [float("nan")]}, "speed = nan"),
-        ({"speed": [True]}, "speed = True"),
-        ({"speed": [10**400]}, "speed = 1000"),
-        ({"speed": None}, "speed = None"),
         ({"speed": itertools.count(1)}, "speed: more than 1,000 values"),
     ],
 )

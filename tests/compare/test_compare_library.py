@@ -108,13 +108,8 @@ def test_every_file_is_valid_by_its_schema(name, validators):
     ("old", "new"),
     [
         ('radius = "10 mm"', 'radus = "10 mm"'),
-        ('radius = "10 mm"', "radius = -1"),
-        ('radius = "10 mm"', 'radius = "wide"'),
-        ('radius = "10 mm"', "radius = true"),
-        ('type = "sphere"\n', ""),
         ('"sphere"', '"spher"'),
         ("hurst = 0.8", "hurst = 2"),
-        ("points = 64", "points = 6.5"),
         ("[mdr]", "[mrd]"),
         ("seed = 1", 'amplitudes = "any"'),
     ],

@@ -145,26 +145,12 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     ("text", "said"),
     [
         ("mu, F_N [mPa], v\n1,2,3\n", "gives F_N in 'mPa'.*that of a force, as N"),
-        ("mu [N], F_N, v\n1,2,3\n", "gives mu in 'N': the unit needed is none"),
         ("mu,F,w\n1,2,3\n", "has no column for F_N, called F_N, FN, load"),
-        ("1 2\n", "line 1: 2 columns without a heading; without a heading, mu, F_N, v are needed"),
         ("0.5,1,3,2\n", "line 1: 4 columns without a heading"),
         ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
-        (f"1,2,3\n1,2,{'9' * 5000}\n", "line 2"),
         ("1,2,3\n1,x,3\n", "line 2, column 2: 'x' is not a number"),
-        ("1,2,3\n1,3,3\n", "1 speeds: 2 to 100 are"),
-        (
-            "".join(f"1,{load},{v}\n" for load in (1, 2) for v in 1.06 ** np.arange(101)),
-            "101 speeds: 2 to 100 are",
-        ),
-        (
-            "".join(f"1,{load},{v}\n" for load in 1.06 ** np.arange(102) for v in 1.06 ** np.arange(50)),
-            "5,100 loads at all speeds: at most",
-        ),
         ("\x1b[31m,F,v\n1,2,3\n", r"the heading \(\\x1b\[31m, F, v\) has no column for F_N"),
         ("1,2,3\n1,3,3\n1,3,4\n", "v = 4 has 1 load: at least 2"),
-        ("", "there is no row of numbers"),
-        ("1,2,3\n1,3,3\n1,3,4\n1,5,4\n", "too few points"),
     ],
 )
 def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
@@ -223,12 +209,7 @@ MU, LOAD, SPEED = COLUMNS
 ALIKE = {
     "CoF,Normal load (N),Sliding velocity (m/s)": (MU, LOAD, SPEED),
     "Time [s];Friction force [mN];Velocity [mm/s];Fz [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
-    "sliding speed / mm/s\tload / kN\tcoefficient of friction": (1e3 * SPEED, LOAD / 1e3, MU),
-    "tangential_force,normal_force,speed,t [s]": (MU * LOAD, LOAD, SPEED, np.arange(96.0)),
-    "Lateral Force (N);Load (N);v (m/s)": (MU * LOAD, LOAD, SPEED),
     "Normalkraft F_N in N;Reibkraft in N;Gleitgeschwindigkeit in mm/s": (LOAD, MU * LOAD, 1e3 * SPEED),
-    "Charge (N);Coefficient de frottement;Vitesse (mm.s-1)": (LOAD, MU, 1e3 * SPEED),
-    "load_mN;mean_cof;speed_mm_s": (1e3 * LOAD, MU, 1e3 * SPEED),
     "T(sec)\tFx(N)\tFz(N)\tVel(mm/s)": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
 }
 
@@ -319,12 +300,8 @@ def test_friction_force_and_coefficient_agree_or_are_refused(tmp_path):
     ("names", "said"),
     [
         ("mu,F_N [N],v [rpm]", "only with the radius of its track"),
-        ("mu,F_N [N],rotational speed [1/min]", "there is rotational speed and no v.*radius"),
-        ("mu,F_N [N],w", "there is no column for v, called v, speed"),
         ("x,F_N [N],v", "there is no column for mu, called mu.*nor for F_T"),
-        ("mu,F_T [mm],v,F_N", "F_T in 'mm'.*a force, as N"),
         ("mu,F_N,v,T", "line 2: T = 4 has no unit, and 4 K is hardly meant: write T .degC."),
-        ("F_T,F_N [mN],v", "gives a unit of 'F_N' and none of 'F_T'"),
         ("mu,F_N,v,load", "'F_N' and 'load' are both F_N: keep one"),
     ],
 )
@@ -428,8 +405,6 @@ def test_where_friction_is_a_power_no_temperature_is_shifted_and_no_exponent_tol
     [
         ({"c1": 8.86}, "c2"),
         ({"c1": 8.86, "c2": 101.6, "reference": "500 degC"}, "the law ends at reference - c2"),
-        ({"c1": -1, "c2": 101.6, "reference": 293.15}, "c1 = -1"),
-        ({"c1": 8.86, "c2": "101.6 N", "reference": 293.15}, "c2 = '101.6 N'"),
         ({"c1": 8.86, "c2": 101.6, "reference": 20}, "is degC meant"),
     ],
 )

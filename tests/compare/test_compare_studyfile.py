@@ -98,28 +98,16 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('title = "Mine"', "", ["title: missing, a valid string"]),
-        ('name = "a"', 'name = "a/b"', ["series.0.name = 'a/b': String should match"]),
         ('name = "b"', 'name = "A"', ["series 'A': has the folder of 'a'"]),
-        ("speeds =", "sppeds =", ["sppeds = ['50 mm/s', 0.1, 0.2]: unknown here; did you mean speeds?"]),
         ('"50 mm/s"', '"50 mm"', ["speeds.0 = '50 mm': Input should be a speed, as 20 mm/s"]),
-        ("0.1, 0.2]", "0.2, 0.1]", ["series.0: speeds = [0.05, 0.2, 0.1]: from the least", "series.1: speeds"]),
         (", 0.1, 0.2]", "]", ["series.0: speeds: at least two", "series.1: speeds: at least two"]),
         ("greatest = 2", "greatest = 0.2", ["loads: greatest = 0.2 must exceed least = 0.5"]),
-        ("count = 4", "count = 1", ["loads.count = 1: Input should be greater than or equal to 2"]),
         ("surfaces = 2", "depths = [1e-4]", ["series.0: loads, depths: both given", "series.1: loads, depths"]),
-        ("surfaces = 2", "rates = [0.1]", ["series.0: speeds, rates: both given", "series.1: speeds, rates"]),
-        ('["collapse"]', '["colapse"]', ["series.1.claims.0 = 'colapse': Input should be 'collapse', "]),
-        ("[bem]\npoints = 32", "[bem]\npoint = 32", ["bem.point = 32: unknown here; did you mean points?"]),
         ("points = 32", "points = 24", ["series.0: bem.points = 24: at least 32", "series.1: bem.points"]),
-        ('"10 deg"', '"10 mm"', ["series.1.indenter.angle = '10 mm': Input should be an angle, as 30 deg"]),
         ('"cone"', '"con"', ["series.1.indenter.type = 'con': one of 'sphere', 'cone', 'power-law'; did you"]),
-        ("hurst = 0.6", "hurts = 0.6", ["series.1.roughness.hurts = 0.6: unknown here; did you mean hurst?"]),
         ("hurst = 0.6", "rms_height = 0", ["series.1.roughness.rms_height = 0: a study asks what roughness does"]),
         (KELVIN, '"elastic"\nmodulus = 1', ["series.0: speeds"]),
-        ("title", 'scene = "paper-spere"\ntitle', ["scene: no scene or study is called 'paper-spere'"]),
         (SERIES, "", ["series: missing, a list"]),
-        (SERIES, "[series]", ["series: Input should be a list"]),
     ],
 )
 def test_a_mistake_is_named_with_its_place(old, new, said):

@@ -32,7 +32,6 @@ from scene import (
     Kelvin,
     KelvinChain,
     Layer,
-    Plane,
     PowerLaw,
     Program,
     Prony,
@@ -175,15 +174,10 @@ def test_what_is_elastic_has_no_friction():
     [
         ({"layer": Layer(thickness=1e-3)}, "layer = Layer"),
         ({"interface": Coulomb(coefficient=0.3)}, "interface = Coulomb"),
-        ({"indenter": Plane(), "motion": Slide(speed=0.1, pressure=1e4)}, "indenter = Plane"),
         ({"motion": Program(stages=(Stage(duration=1.0, load=1.0),))}, "motion = Program"),
         ({"roughness": Wave(amplitude=1e-5, wavelength=1e-3)}, "roughness = Wave"),
-        ({"roughness": replace(ROUGH, shortest=None)}, "roughness.shortest"),
-        ({"roughness": replace(ROUGH, amplitudes="gaussian")}, "roughness.amplitudes"),
         ({"roughness": replace(ROUGH, hurst=0.8, shortest=5e-6)}, "a/λ_s = 2"),
         ({"roughness": replace(ROUGH, rms_height=2e-4)}, "h0/d = "),
-        ({"motion": Slide(speed=1e9, load=1.0)}, "G''(v q_s)/G0 = "),
-        ({"motion": Slide(speed=0.1, load=1e-250)}, ""),
         ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
     ],
 )
@@ -201,10 +195,7 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
     [
         ({"motion": Slide(speed=0.1, load=1e5)}, "slope of the body"),
         ({"indenter": PowerLaw(1e300, 60.0)}, "slope of the body"),
-        ({"motion": Slide(speed=0.1, depth=1e25)}, "slope of the body"),
         ({"roughness": replace(ROUGH, shortest=1e-6)}, "rms slope of the roughness"),
-        ({"roughness": None, "motion": Slide(speed=0.1, load=1e5)}, "slope of the body"),
-        ({"roughness": None, "motion": Slide(speed=0.1, load=1e5), "layer": Layer(thickness=1e-3)}, "slope"),
     ],
 )
 def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, steep):
