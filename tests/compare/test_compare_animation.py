@@ -2,7 +2,6 @@
 
 import os
 import stat
-import tracemalloc
 from dataclasses import fields, replace
 from functools import cache
 from pathlib import Path
@@ -54,10 +53,6 @@ def solved(tmp_path_factory):
     return tmp_path_factory.mktemp("solved")
 
 
-def texts(drawing):
-    return [text.get_text() for axes in drawing.get_axes() for text in axes.texts]
-
-
 @pytest.mark.parametrize("solver", [LINE, SPACE])
 @pytest.mark.parametrize("motion", [RUN, DIP, pytest.param(LIFT, marks=pytest.mark.slow)])
 def test_instants_are_kept_of_the_same_march_to_the_last_digit(solver, motion):
@@ -96,30 +91,6 @@ def test_instants_in_one_dimension_are_the_elements_then():
     np.testing.assert_allclose(kept["frame_displacement"][touching], pressed[touching], rtol=0, atol=1e-18)
     for name in ("x", "profile", "displacement", "contact"):
         np.testing.assert_array_equal(kept[f"frame_{name}"][-1], kept[name])
-
-
-@pytest.mark.parametrize(
-    "solver",
-    [
-        replace(LINE, points=1000),
-        pytest.param(replace(SPACE, points=64, transforms="fftw"), marks=pytest.mark.slow),
-    ],
-)
-def test_instants_that_are_not_asked_for_take_no_memory_and_those_that_are_what_the_plan_says(solver):
-    def most(asked):
-        asked.solve(RUNNING)  # what is loaded once is no part of it
-        tracemalloc.start()
-        try:
-            asked.solve(RUNNING)
-            return tracemalloc.get_traced_memory()[1]
-        finally:
-            tracemalloc.stop()
-
-    plain, kept = solver, replace(solver, frames=40)
-    more = kept.plan(RUNNING).memory - plain.plan(RUNNING).memory
-    assert more > 1e6
-    # of what is asked for: frames are kept at the end of the march, and its peak may lie elsewhere
-    assert 0.3 * more < most(kept) - most(plain) < 1.5 * more
 
 
 def test_a_gif_has_every_instant_for_its_share_of_the_time(tmp_path):
@@ -225,18 +196,6 @@ def test_an_instant_replaces_the_one_before_and_shows_its_pressure_and_its_past(
             assert three.get_xdata()[-1] == pytest.approx(1e3 * found.times[k], rel=0.1)
             assert len(friction.lines) == 2
             assert len(one.get_xdata()) == (found.fields["MDR"]["time"] <= found.times[k]).sum()
-
-
-def test_where_nothing_touches_that_is_said():
-    found = film(SCENES["lift"])
-    with style.applied():
-        reel = MarchFigure(found)
-        reel.show(3)
-        said = texts(reel.drawing)
-        assert "at rest, nothing touches" in said
-        assert said.count("nothing touches here") == 2
-        reel.show(0)
-        assert "nothing touches here" not in texts(reel.drawing)
 
 
 def test_a_steady_scene_is_begun_from_an_undisturbed_elastomer_and_ends_in_its_own_answer():

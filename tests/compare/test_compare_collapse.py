@@ -13,7 +13,6 @@ from compare.statistics.finding import FAILS, HOLDS, UNDECIDED
 from compare.statistics.finding import verdict as decided
 from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
 from compare.statistics.intervals import RmsMisfit
-from compare.statistics.jackknife import Replicates
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)
@@ -186,23 +185,6 @@ def test_every_surface_doubled_changes_no_value_and_narrows_errors():
     assert two.exponent.value == pytest.approx(one.exponent.value, rel=1e-9)
     # (n - 1) / (2 n - 1) of the variance to first order.
     assert two.exponent.error / one.exponent.error == pytest.approx(sqrt(5 / 11), rel=0.05)
-
-
-def test_tables_have_points_shifts_and_their_intervals():
-    given = simulated(np.random.default_rng(4), friction(knee), 8)
-    found, mu = collapse(given), given.friction_force / given.load
-    error = mu.std(axis=2, ddof=1) / sqrt(8) / mu.mean(axis=2)
-    np.testing.assert_allclose([curve.error for curve in found.curves], error, rtol=1e-9)
-    points, shifts = found.points(), found.shifts(found.horizontal)
-    ends = Replicates.first_order(np.log(mu.mean(axis=2)).ravel(), given.deviations()).estimated.interval()
-    np.testing.assert_allclose(
-        np.log([points["friction_coefficient_low"], points["friction_coefficient_high"]]), ends, rtol=1e-9
-    )
-    by = np.repeat(np.exp(shifts["log_shift"]), len(LOADS)).to_numpy()
-    np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
-    expected = found.points(POWER * np.log(SPEEDS))["shifted_force"].to_numpy()
-    np.testing.assert_allclose(expected.reshape(5, -1), LOADS * SPEEDS[:, None] ** POWER, rtol=1e-12)
-    assert (shifts["log_shift_low"] <= shifts["log_shift"]).all()
 
 
 def test_points_and_surfaces_that_failed_are_left_out_and_counted():

@@ -16,13 +16,11 @@ from typer.testing import CliRunner
 
 from compare import commands
 from compare.cli.app import COMMANDS, app
-from compare.library import ready as library
 from compare.library.ready import ready
 from compare.report.plots.journals import JOURNALS
 from compare.solving.docstrings import documented
 from compare.solving.store import Store
 from compare.statistics.finding import COLUMNS
-from compare.studies.claims.catalogue import STUDIES
 
 # Solvers with a fault.
 FAULTY = """
@@ -152,24 +150,6 @@ def test_no_worker_outlives_its_parent(folder, number, status):
 def ask(*arguments):
     """In this process, for what solves nothing."""
     return CliRunner().invoke(app, list(map(str, arguments)))
-
-
-@pytest.mark.parametrize(
-    ("command", "names", "width"),
-    [
-        ("scenes", (*ready(), *library.studies()), 120),
-        ("study", (*STUDIES, "trust", *(name for name, each in ready().items() if each.kind == "study")), 80),
-        ("workprecision", ("models", "surfaces", "mdr", "elastic", "sliding", "marching", "extent", "costs"), 100),
-    ],
-)
-def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, width):
-    monkeypatch.chdir(tmp_path)
-    listed = ask(command)
-    assert listed.exit_code == 0
-    assert max(map(len, listed.output.splitlines())) < width
-    for name in names:
-        assert re.search(rf"^{name} +[A-Z]", listed.output, re.MULTILINE)
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)

@@ -9,17 +9,13 @@ from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
-from bem3d import BEM
 from compare import run
 from compare.cli.app import app
 from compare.report.plots import solid, style
 from compare.solving.parameter_grid import contacts_of
 from compare.studies.plan import plans
-from compare.trustmap.verdict import trust
-from mdr1d import MDR
 from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
 from scene.plan import Plan
-from scene.reading import made, read
 
 PLANE = """
 [indenter]
@@ -62,16 +58,6 @@ def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
     assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
 
 
-def test_the_details_are_both_plans_of_the_solvers(written):
-    path = written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n")
-    answer, short = told(path, "-v"), told(path)
-    assert answer.exit_code == 0
-    case = written(SCENE)
-    scene = read(case, Scene)
-    plans = MDR(points=700).plan(scene), BEM(points=96).plan(scene), trust(scene)
-    assert answer.output == "\n\n".join([short.output.rstrip(), *map(str, plans)]) + "\n"
-
-
 def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
     path = written(PLANE.format(shortest=1e-4))
     answer = told(path, "-v")
@@ -109,31 +95,6 @@ def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
         tracemalloc.stop()
     assert found["BEM"].memory > 2e9
     assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
-
-
-@pytest.mark.parametrize(
-    ("elastomer", "said"),
-    [
-        (
-            {"type": "kelvin", "modulus": 1e6, "relaxation_time": 1e-3, "poisson_ratio": 0.5},
-            "shear G = 1 MPa, Young's E = 3 MPa at rest; infinite at the instant, by a dashpot",
-        ),
-        (
-            {
-                "type": "standard-linear-solid",
-                "rubbery_modulus": 670e3,
-                "glassy_youngs_modulus": 26e6,
-                "relaxation_time": 1e-3,
-            },
-            "shear G = 670 kPa, Young's E = 1.74 MPa at rest; 10 MPa, 26 MPa at the instant",
-        ),
-    ],
-)
-def test_a_plan_says_how_stiff_the_solid_is_at_rest_and_at_the_instant(elastomer, said):
-    stated = {"poisson_ratio": 0.3} | elastomer
-    scene = {"indenter": {"type": "sphere", "radius": 1e-2}, "motion": {"type": "indent", "load": 1.0}}
-    found = plans(made(scene | {"elastomer": stated}, Scene, "scene"))
-    assert f"modulus    {said}" in str(found).splitlines()
 
 
 LAW = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6)

@@ -38,7 +38,6 @@ from mdr1d import MDR
 from scene import Cone, Elastic, Indent, Kelvin, Program, Prony, Refused, SelfAffine, Slide, Sphere, Stage
 from scene.printable import brief
 from scene.reading import InvalidInput
-from scene.scales import elastic_contact
 
 CASE = Case(
     indenter=Sphere(radius=1e-2),
@@ -61,15 +60,6 @@ DEEP = replace(CASE, motion=Slide(speed=0.1, depth=1e-4))
 
 def contacts(case):
     return {name: (each.speeds, each.values) for name, each in curves(case, models_of(case)).items()}
-
-
-def test_every_curve_has_its_contacts():
-    found, depth = contacts(CASE), elastic_contact(CASE.scene).depth
-    assert found[OWN] == ((0.1,), (1.0,))
-    assert found[ROUGH_DEPTH] == found[SMOOTH_DEPTH] == ((0.0,), (0.5 * depth, depth))
-    assert found[SPEED] == ((0.1, 1.0), (1.0,))
-    assert found[LOAD] == ((0.03, 0.1, 0.3), (0.3, 1.0, 3.0, 10.0))
-    assert len(found[SMOOTH_SPEED][0]) == 5
 
 
 REST = {OWN, ROUGH_DEPTH, SMOOTH_DEPTH}

@@ -364,26 +364,6 @@ def lines(terminal=False):
     return Console(file=io.StringIO(), force_terminal=terminal, width=100, highlight=False)
 
 
-def test_lines_tell_time_left_failures_and_what_was_reused():
-    console, clock = lines(), Clock()
-    tasks = loads(4.0, 2.0, 1.0)
-    with SweepBar(console, clock=clock) as told:
-        told.planned(tasks, 5)
-        for task, row in zip(tasks[:2], (Row(1.0), Row(reason="too much")), strict=True):
-            told.started(task)
-            clock.now += 2 * task.work
-            told.finished(task, Outcome((row,)))
-        told.said("a worker ended")
-        told.interrupted()
-    assert console.file.getvalue().splitlines() == [
-        "3 tasks to solve, 5 reused",
-        f"1/3, 6 s left, solved {tasks[0].label}",
-        "a worker ended",
-        "finishing the tasks under way",
-        "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
-    ]
-
-
 def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
     console, clock = lines(terminal=True), Clock()
     tasks = loads(4.0, 2.0)

@@ -234,18 +234,6 @@ def test_a_line_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_pat
     assert Store(tmp_path).get(PICTURE) is None
 
 
-def test_a_line_that_is_too_long_is_passed_over(tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "MOST_LINE", 1000)
-    tasks, path, whole = three(tmp_path)
-    for length in (999, 1000, 1001, 2500, 3000):
-        path.write_bytes(whole[: whole.index(b"\n")] + b"\n" + b"x" * length + b"\n" + whole[whole.index(b"\n") :])
-        assert found(tmp_path, tasks) == [0, 1, 2]
-        path.write_bytes(whole + b"x" * length)
-        Store(tmp_path).put(tasks[2], Outcome((replace(ROW, depth=2.0),)))
-        assert found(tmp_path, tasks) == [0, 1, 2]
-        assert b"x" * 99 not in path.read_bytes()
-
-
 def sparse(path):
     """A file that is too large, of nothing."""
     path.touch()
@@ -350,15 +338,6 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tm
         store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3000.0)}))
     assert caught.value.filename.endswith(".npz")
     assert [path.name for path in tmp_path.iterdir()] == [FILE]
-
-
-def test_a_folder_that_takes_no_file_is_an_error_that_names_the_file(tmp_path):
-    (tmp_path / "solved").touch()
-    with pytest.raises(OSError, match="solved"):
-        Store(tmp_path / "solved").put(TASK, Outcome((ROW,)))
-    with pytest.raises(FileNotFoundError) as caught:
-        write(tmp_path / "absent" / "numbers.csv", lambda file: file.write(b""))
-    assert caught.value.filename == str(tmp_path / "absent" / "numbers.csv")
 
 
 def test_other_code_does_not_answer(tmp_path, monkeypatch):

@@ -192,8 +192,6 @@ def test_a_law_takes_four_rings():
 
 
 CHECKERS = np.indices((8, 8)).sum(axis=0) % 2
-STRIPES = np.indices((8, 8))[0] % 2
-THIN = np.random.default_rng(0).normal(size=(4, 400))
 NO_WAVE = "no wave of the map is shorter than"
 
 
