@@ -91,7 +91,6 @@ def test_the_farthest_is_said_first_and_what_is_missing_is_undecided():
     unknown = dict.fromkeys(("old", "young", "failing"), UNDECIDED)
     assert verdicts == {"less": FAILS, "more": FAILS, "same": HOLDS} | unknown
     answer = study.answer(findings)
-    assert answer[0].startswith("1 of 6 quantities lie within their tolerances")
     assert answer[1] == "the more: moved by 7.2 tolerances, from 1.985702939 to 2."
     assert answer[2].startswith("the less: moved by 3 tolerances")
     told = "\n".join(answer[3:])
@@ -100,7 +99,6 @@ def test_the_farthest_is_said_first_and_what_is_missing_is_undecided():
     assert "the young: not in the baseline: 2." in told
     assert study.failed(findings)
     assert not study.failed([each for each in findings if each.verdict == HOLDS])
-    assert "0.001: a test" in str(study.setting[-1])
 
 
 @pytest.mark.parametrize(("value", "stored"), [(nan, {"force": 2.0}), (inf, {})])

@@ -305,8 +305,8 @@ def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
         Run.of("quick-strat")
 
 
-SHARED = [("a!", "a?"), ("A", "a"), ("é", "e"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b"), ("", ".")]
-TAKEN = [SOLVED, FIGURES, TABLES, "Solved!", "con", "NUL", "com1", "x" * 5000, 3]
+SHARED = [("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")]
+TAKEN = [SOLVED, FIGURES, TABLES, "NUL", "x" * 5000, 3]
 
 
 @pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])

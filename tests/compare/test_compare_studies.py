@@ -50,7 +50,6 @@ def judged(whole):
 
 def test_answers_that_obey_the_law_are_said_to_in_both_dimensionalities_by_the_same_claims(judged):
     one, three = verdicts(judged, "1D"), verdicts(judged, "3D")
-    assert len(one) == 16
     assert set(one.values()) == {"holds"}, one
     assert three == one | {DRAG: "fails"}
 
