@@ -7,11 +7,8 @@ import numpy as np
 import pytest
 from matplotlib.contour import QuadContourSet
 from pandas import DataFrame
-from pandas.testing import assert_frame_equal
 
-from compare.report import csvfiles
 from compare.report.plots import style
-from compare.report.plots.rendering import picture
 from compare.studies.trust import figure as regime_map
 from compare.studies.trust.map import ABOUT, FAMILY, regime_table
 from compare.trustmap.verdict import WIDE, trust
@@ -144,12 +141,3 @@ def test_what_is_to_be_solved_in_3d_is_hatched():
     assert axes.get_legend().get_texts()[0].get_text() == "solve in 3D"
     known.loc[pressure < 0.5, ["ratio", "ratio_low", "ratio_high"]] = nan
     assert hatched(drawn(known)[0]).x1 == pytest.approx(0.5, rel=0.05)
-
-
-def test_the_figure_redrawn_from_its_files_is_equal(table, tmp_path):
-    plot = regime_map.plot(table, ABOUT, WIDE)
-    for name, frame in plot.files.items():
-        csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
-    read = {name: csvfiles.read(tmp_path / f"{name}.csv") for name in plot.files}
-    assert_frame_equal(read[regime_map.NAME], table, check_exact=True)
-    assert picture(replace(plot, tables=read)) == picture(plot)

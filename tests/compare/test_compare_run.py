@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import replace
-from math import nan
 
 import numpy as np
 import pytest
@@ -10,9 +9,7 @@ import pytest
 import compare
 from bem3d import BEM
 from compare.library.case import Case, Variations
-from compare.report import csvfiles
 from compare.report.export import TABLES
-from compare.report.page import Plot
 from compare.report.plots import style
 from compare.report.redraw import FIGURES
 from compare.solving.continuation import Continuation
@@ -251,29 +248,6 @@ def report(tmp_path_factory):
     outcomes = {task: task.solve() for task in run.batches()[0].tasks}
     answers = run.answers(outcomes)
     return run, answers, run.judge(answers).page(run.title, answers)
-
-
-def test_figures_are_functions_of_what_their_files_hold(report, tmp_path):
-    drawn = {"force-depth", "friction-load"}
-    plots = [each for each in report[2].every(Plot) if each.name.removeprefix("small-sphere/") in drawn]
-    assert len(plots) == len(drawn)
-    for plot in plots:
-        assert len(plot.caption.split()) <= 60
-        read = {}
-        for name, frame in plot.tables.items():
-            csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
-            read[name] = csvfiles.read(tmp_path / f"{name}.csv")
-        with style.applied():
-            numbers = [_drawn(each.figure()) for each in (plot, replace(plot, tables=read))]
-        assert numbers[0]
-        for one, other in zip(*numbers, strict=True):
-            np.testing.assert_allclose(one, other, rtol=1e-12)
-
-
-def _drawn(figure):
-    return [
-        np.ma.filled(np.ma.asarray(line.get_xydata(), float), nan) for axes in figure.axes for line in axes.lines
-    ]
 
 
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])

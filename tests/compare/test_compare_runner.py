@@ -292,21 +292,6 @@ def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
     assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
 
 
-@pytest.mark.usefixtures("here")
-def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path):
-    class Impatient(Heard):
-        def finished(self, task, outcome):
-            super().finished(task, outcome)
-            raise KeyboardInterrupt
-
-    heard = Impatient()
-    with pytest.raises(KeyboardInterrupt):
-        sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
-    assert heard.heard[1:] == [("started", 3.0), ("finished", 3.0)]
-    again = sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1)
-    assert (again.solved, again.reused) == (2, 1)
-
-
 def test_an_empty_contact_is_an_answer_with_forces_of_zero():
     class Floats:
         def solve(self, scene):

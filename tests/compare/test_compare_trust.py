@@ -126,29 +126,29 @@ def test_heights_that_grow_together_and_units_change_nothing():
             assert astuple(worth)[:5] == pytest.approx(astuple(getattr(expected, name))[:5], rel=1e-4)
 
 
-def test_equal_solids_stated_otherwise_are_worth_the_same():
-    standard = StandardLinearSolid(1e6, 1e7, 1e-3)
-    instantaneous, compliances, times = standard.retardation()
-    same = (
-        Prony(1e6, (9e6,), (1e-3,)),
-        KelvinChain(instantaneous, tuple(compliances.tolist()), tuple(times.tolist())),
-    )
-    expected = trust(replace(PAPER, elastomer=standard))
-    for solid in same:
-        found = trust(replace(PAPER, elastomer=solid))
-        assert found.friction.ratio == pytest.approx(expected.friction.ratio, rel=1e-6)
+STANDARD = StandardLinearSolid(1e6, 1e7, 1e-3)
+INSTANTANEOUS, COMPLIANCES, TIMES = STANDARD.retardation()
+WARMER = WLF(c1=17.4, c2=51.6, reference=300.0, temperature=305.0)
 
 
-def test_a_solid_at_another_temperature_is_the_shifted_one():
-    shift = WLF(c1=17.4, c2=51.6, reference=300.0, temperature=305.0)
-    time = KELVIN.relaxation_time * shift.shift
-    shifted = replace(PAPER, elastomer=Kelvin(1e6, time))
-    found = trust(replace(PAPER, temperature=shift))
-    assert found.friction.ratio == pytest.approx(trust(shifted).friction.ratio, rel=1e-6)
-
-
-def test_the_seed_decides_nothing():
-    assert trust(replace(PAPER, roughness=replace(ROUGH, seed=77))) == trust(PAPER)
+@pytest.mark.parametrize(
+    ("scene", "equal", "within"),
+    [
+        ({"elastomer": STANDARD}, {"elastomer": Prony(1e6, (9e6,), (1e-3,))}, 1e-6),
+        (
+            {"elastomer": STANDARD},
+            {"elastomer": KelvinChain(INSTANTANEOUS, tuple(COMPLIANCES.tolist()), tuple(TIMES.tolist()))},
+            1e-6,
+        ),
+        ({"temperature": WARMER}, {"elastomer": Kelvin(1e6, KELVIN.relaxation_time * WARMER.shift)}, 1e-6),
+        ({}, {"roughness": replace(ROUGH, seed=77)}, 1e-12),
+        ({"motion": Slide(speed=1e-6, load=1.0)}, {"motion": Slide(speed=1e-12, load=1.0)}, 1e-3),
+    ],
+    ids=["series", "chain", "temperature", "seed", "slower than slow"],
+)
+def test_equal_scenes_are_worth_the_same(scene, equal, within):
+    one, other = (trust(replace(PAPER, **changed)).friction for changed in (scene, equal))
+    assert one.ratio == pytest.approx(other.ratio, rel=within)
 
 
 @pytest.mark.parametrize("height", [1e-9, 1e-300])
@@ -156,11 +156,6 @@ def test_roughness_of_hardly_any_height_is_that_of_the_smooth_body(height):
     found, smooth = trust(replace(PAPER, roughness=replace(ROUGH, rms_height=height))), trust(SMOOTH)
     assert found.friction.ratio == pytest.approx(smooth.friction.ratio, rel=0.03)
     assert found.depth.ratio == pytest.approx(smooth.depth.ratio, rel=0.01)
-
-
-def test_slower_than_slow_changes_nothing():
-    one, other = (trust(slid(PAPER, speed)).friction for speed in (1e-6, 1e-12))
-    assert one.ratio == pytest.approx(other.ratio, rel=1e-3)
 
 
 def test_what_is_elastic_has_no_friction():
