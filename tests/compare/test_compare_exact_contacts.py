@@ -1,7 +1,7 @@
 """Closed forms of contacts against their own definitions: integrals, limits, and the figures of others."""
 
 from itertools import pairwise
-from math import inf, nan, pi, sqrt
+from math import inf, pi, sqrt
 
 import numpy as np
 import pytest

@@ -66,17 +66,6 @@ def test_many_surfaces_are_left_out_in_groups_equal_or_not_without_bias(surfaces
     assert np.mean(squares) * surfaces == pytest.approx(1.0, abs=3 * sqrt(2 / 19 / DRAWS))
 
 
-def test_the_order_of_the_surfaces_does_not_matter():
-    sample = scattered(np.random.default_rng(3), 8)
-    turned = Columns(sample.values[:, ::-1])
-    for one, other in zip(
-        resample(ratio, sample)["ratio"].estimated.interval(),
-        resample(ratio, turned)["ratio"].estimated.interval(),
-        strict=True,
-    ):
-        assert one == pytest.approx(other, rel=1e-12)
-
-
 def test_one_surface_gives_a_value_and_no_error():
     found = resample(ratio, scattered(np.random.default_rng(4), 1))["ratio"]
     assert np.isfinite(found.estimated.value)

@@ -60,16 +60,6 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
         assert not any("is shifted as" in each for each in [first, *others])
 
 
-@pytest.mark.parametrize("vertical", [0.0, 0.1])
-def test_of_straight_curves_no_shift_is_the_answer(tmp_path, vertical):
-    made = study(tmp_path, table(vertical=vertical, law=lambda x: x**-0.4))
-    told = found(made)
-    assert "straight parallel lines" in told["vertical-exponent"].reason
-    assert np.isnan(told["vertical-exponent"].value)
-    assert told["vertical"].verdict == UNDECIDED
-    assert not any("is shifted as" in each for each in made.judge(made.answers({})).answer)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("vertical", [0.0, 0.05])
 def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertical):
@@ -104,20 +94,6 @@ def test_single_measurements_leave_the_verdict_open(tmp_path):
     assert 0 < told["horizontal"].value < 0.03
     assert told["exponent"].value == pytest.approx(-1.5, abs=0.1)
     assert np.isnan(told["exponent"].interval).all()
-
-
-def test_curves_pulled_apart_claim_no_exponent(tmp_path):
-    # Loads that span a factor of 3 and shifts of a factor of 100: no two curves share a stretch.
-    rows = [
-        f"{(1 + load * v**-6.6) ** -0.5 * scatter},{load},{v}"
-        for v in (1, 2, 4)
-        for load in np.geomspace(1, 3, 6)
-        for scatter in (0.9999, 1.0001)
-    ]
-    told = found(study(tmp_path, "\n".join(rows)))
-    assert told["horizontal"].verdict != HOLDS
-    assert np.isnan(told["exponent"].value)
-    assert "overlap" in told["exponent"].reason
 
 
 def bent():
@@ -372,14 +348,6 @@ def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent(tmp_path):
     assert "temperatures together" in wrong["exponent"].reason
     # Whether the curves are one does not depend on the speed that they have.
     assert wrong["horizontal"].value == pytest.approx(told["horizontal"].value, abs=1e-3)
-
-
-def test_where_friction_is_a_power_no_temperature_is_shifted_and_no_exponent_told(tmp_path):
-    told = found(study(tmp_path, warmed(law=lambda x: (3 * x) ** -0.6)))
-    assert told["temperatures"].verdict == UNDECIDED
-    for name in ("exponent", "c1", "c2", "activation-energy"):
-        assert np.isnan(told[name].value)
-        assert "cannot be told from one along friction" in told[name].reason
 
 
 @pytest.mark.parametrize(

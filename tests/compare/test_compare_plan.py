@@ -15,7 +15,6 @@ from compare.report.plots import solid, style
 from compare.solving.parameter_grid import contacts_of
 from compare.studies.plan import plans
 from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
-from scene.plan import Plan
 
 PLANE = """
 [indenter]
@@ -58,30 +57,32 @@ def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
     assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
 
 
-def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
-    path = written(PLANE.format(shortest=1e-4))
-    answer = told(path, "-v")
-    assert answer.exit_code == 0
-    assert "MDR cannot solve this scene: indenter = Plane: it is no body of revolution" in answer.output
-    assert "\nBEM, 128 points a side" in answer.output
-    assert isinstance(plans(path)["BEM"], Plan)
-    refused = next(line for line in told(path).output.splitlines() if line.startswith("refused"))
-    assert "MDR cannot solve this scene: indenter = Plane" in refused
+HEAD = SCENE.partition("[motion]")[0]
+PROGRAM = (
+    HEAD
+    + '[motion]\ntype = "program"\nstages = [{{duration = 1.0, load = 1.0}}, {{duration = {0}, speed = 1.0}}]\n'
+)
 
 
-def test_where_all_refuse_the_status_says_so(written):
-    answer = told(written(PLANE.format(shortest=1e-6)))
-    assert answer.exit_code == 2
-    assert "MDR cannot solve this scene" in answer.output
-    assert "BEM cannot solve this scene: roughness.shortest = 1e-06 m is less than two pixels" in answer.output
-
-
-def test_a_program_of_too_many_steps_is_told_and_not_planned(written):
-    head, _ = SCENE.split("[motion]", 1)
-    stages = '[motion]\ntype = "program"\nstages = [{duration = 1.0, load = 1.0}, {duration = 1e9, speed = 1.0}]\n'
-    answer = told(written(head + stages))
-    assert answer.exit_code == 2
-    assert "would not get through this scene" in answer.output
+@pytest.mark.parametrize(
+    ("text", "status", "said"),
+    [
+        (PLANE.format(shortest=1e-4), 0, ["MDR cannot solve this scene: indenter = Plane", "left out"]),
+        (
+            PLANE.format(shortest=1e-6),
+            2,
+            ["MDR cannot solve this scene", "BEM cannot solve this scene: roughness."],
+        ),
+        (PROGRAM.format(1e-3), 0, ["alone      motion = Program: crosscheck compares bodies"]),
+        (PROGRAM.format(1e9), 2, ["would not get through this scene"]),
+    ],
+    ids=["refused by one", "refused by both", "not compared", "too many steps"],
+)
+def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, said):
+    answer = told(written(text))
+    assert answer.exit_code == status
+    for each in said:
+        assert each in answer.output
 
 
 def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
@@ -164,13 +165,6 @@ def test_the_values_that_a_refusal_names_work(tmp_path, name):
     accepted = plans(fine_map(tmp_path, **{name: value}))
     assert accepted.feasible
     assert not isinstance(accepted.cost, str)
-
-
-def test_a_plan_says_why_a_scene_is_not_compared(written):
-    head, _ = SCENE.split("[motion]", 1)
-    answer = told(written(f'{head}[motion]\ntype = "program"\nstages = [{{duration = 1.0, load = 1.0}}]\n'))
-    assert answer.exit_code == 0
-    assert "alone      motion = Program: crosscheck compares bodies that are pressed in" in answer.output
 
 
 def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in_python(written):

@@ -170,27 +170,6 @@ def test_known_answers_are_found():
     assert shifted["reason"].str.contains("straight parallel lines").all()
 
 
-def test_a_shift_of_friction_itself_leads_the_answer_and_the_figure_shows_both():
-    def bent(load, speed):
-        x = np.log(load) - 1.5 * np.log(speed)
-        return np.exp(-0.3 * x - 0.03 * x**2) * speed**-0.1
-
-    run, answers, found = judged(scatter=1e-3, law=bent)
-    shifted = found.loc["eq23.vertical-exponent", "a case"]
-    assert (shifted["verdict"] == "fails").all()
-    assert shifted["value"].tolist() == pytest.approx([0.1, 0.1], abs=1e-3)
-    assert ((shifted["low"] <= 0.1 + 1e-6) & (shifted["high"] >= 0.1 - 1e-6)).all()
-    assert found.loc["eq23.exponent", "a case"]["value"].tolist() == pytest.approx([-1.5, -1.5], abs=1e-2)
-    first, second, *others = run.judge(answers).answer
-    assert first.startswith("a case, 1D: friction is shifted as v^0.1")
-    assert second.startswith("a case, 3D: friction is shifted as v^0.1")
-    assert not any("no shift along friction" in each for each in others)
-    (plot,) = (each for each in run.judge(answers).plots if "collapse" in each.name)
-    assert plot.alternative == "1D: both shifts; 3D: both shifts"
-    straight, *_ = judged()
-    assert not any("is shifted as" in each for each in straight.judge(_[0]).answer)
-
-
 def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
     _, _, found = judged(halved=0.02)
     own = found.loc["friction.ratio.own", "a case"]

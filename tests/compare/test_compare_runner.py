@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from pydantic.dataclasses import dataclass
+from rich.console import Console
 from stand_in_solver import SCENE, Heard, Stand, loads
 
 from compare.solving import runner
@@ -333,49 +334,25 @@ def test_a_task_keeps_the_fields_of_its_first_scene_only():
     assert Task(Stand(), scenes).solve().fields == {}
 
 
-class Clock:
-    """Seconds that pass when they are told to."""
-
-    def __init__(self):
-        self.now = 0.0
-
-    def __call__(self):
-        return self.now
-
-
-def lines(terminal=False):
-    from rich.console import Console
-
-    return Console(file=io.StringIO(), force_terminal=terminal, width=100, highlight=False)
-
-
 def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
-    console, clock = lines(terminal=True), Clock()
-    tasks = loads(4.0, 2.0)
-    shown = []
+    console = Console(file=io.StringIO(), force_terminal=True, width=100)
+    tasks, now, shown = loads(4.0, 2.0), 0.0, []
 
     def look():
         told.bar.refresh()
         shown.append(told.bar.tasks[0].percentage)
 
-    with SweepBar(console, clock=clock) as told:
+    with SweepBar(console, clock=lambda: now) as told:
         told.planned(tasks, 0)
-        told.started(tasks[0])
-        look()
-        for _ in range(20):
-            clock.now += 1.0
+        for task in tasks:
+            told.started(task)
+            for _ in range(20):
+                now += 1.0
+                look()
+            assert shown[-1] < (100 if task is tasks[-1] else 100 * 4 / 6)
+            told.finished(task, Outcome((Row(1.0),)))
             look()
-        assert shown[0] == 0
-        assert shown[1] > 1
-        assert all(earlier < later for earlier, later in pairwise(shown))
-        assert shown[-1] < 100 * 4 / 6
-        told.finished(tasks[0], Outcome((Row(1.0),)))
-        look()
-        assert shown[-1] == pytest.approx(100 * 4 / 6)
-        told.started(tasks[1])
-        clock.now += 10.0
-        look()
-        assert 100 * 4 / 6 < shown[-1] < 100
-        told.finished(tasks[1], Outcome((Row(1.0),)))
-        look()
-        assert shown[-1] == pytest.approx(100)
+    assert shown[0] > 1
+    assert all(earlier < later for earlier, later in pairwise(shown))
+    assert shown[20] == pytest.approx(100 * 4 / 6)
+    assert shown[-1] == pytest.approx(100)

@@ -95,7 +95,7 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
     three = verdicts(found, "3D")
     assert three | expected == three
     if expected.get("eq17.level") == "fails":
-        assert {each.verdict for each in of(found, "friction.ratio.")} == {"fails"}
+        assert {each.verdict for each in of(found, "friction.ratio.") if each.draws} == {"fails"}
         assert {name for name, verdict in three.items() if verdict == "fails"} == {*LEVELS, DRAG}
     straight = [each.reason for each in of(found, "eq23", "3D") if each.verdict == "undecided"]
     assert all("straight" in reason for reason in straight if reason) or "eq17.level" in expected
