@@ -122,11 +122,7 @@ def invented_of(run, **how):
     return {each: invented(each, **how) for task in run.batches()[0].tasks for each in contacts_on(task)}
 
 
-def power_law(load, speed):
-    return 0.1 * speed**-0.1 * load**-0.2
-
-
-def invented(task, halved=0.0, scatter=0.0, broken=(), law=power_law):
+def invented(task, halved=0.0, scatter=0.0, broken=()):
     """Rows of a contact. halved : error of a coarse 3D grid; scatter : between surfaces of 3D; broken : seeds."""
     rows, name = [], task.solver.name
     coarse = name == "BEM" and task.solver.points < CASE.bem.points
@@ -138,7 +134,7 @@ def invented(task, halved=0.0, scatter=0.0, broken=(), law=power_law):
         motion = scene.motion
         load = motion.load if motion.load is not None else motion.depth * 1e4
         load *= FORCE if name == "MDR" and motion.load is None else 1.0
-        friction = law(load, motion.speed or 1.0) * load * (FRICTION if name == "MDR" else 1.0)
+        friction = 0.1 * (motion.speed or 1.0) ** -0.1 * load**0.8 * (FRICTION if name == "MDR" else 1.0)
         friction *= (1 + halved * coarse) * (1 + scatter * (-1) ** seed * (name == "BEM"))
         measures = {"friction_by_traction": 1.02 * friction, "friction_by_loss": friction} if name == "BEM" else {}
         rows.append(Row(load, 1e-4, friction, 0.0, 1.0, 2.0, measures | {"rms_slope": 0.01}))
