@@ -109,21 +109,6 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert (status, said, complained) == (0, "", "")
 
 
-def test_a_users_table_is_shifted(folder):
-    rows = [
-        f"{(load * speed**-1.5 + 1) ** -0.5},{load},{speed}" for speed in (1, 2, 4) for load in (1, 2, 3, 4, 5)
-    ]
-    (folder / "ball.csv").write_text("\n".join(rows))
-    status, said, complained = finish(start(folder, "mastercurve", "ball.csv"))
-    assert (status, complained) == (0, "")
-    assert "undecided" in said  # single measurements have no scatter
-    assert list((folder / "mastercurve").glob("*.png"))
-    (folder / "ball.csv").write_text("1 2\n")
-    status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
-    assert status == 2
-    assert "ball.csv, line 1: 2 columns" in complained
-
-
 @pytest.mark.slow
 def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(folder):
     (folder / "faulty.py").write_text(FAULTY)

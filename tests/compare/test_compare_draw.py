@@ -80,19 +80,6 @@ def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before
     assert float(surface["x"].max()) > 2 * A
 
 
-@pytest.mark.parametrize("name", ["rest", "fast", "rough", "line"])
-def test_every_picture_states_its_units_and_how_much_heights_are_enlarged(drawn, name):
-    (drawing,) = drawn[name].figures.values()
-    panels = drawing.get_axes()
-    for axes in panels:
-        for label in (axes.get_xlabel(), axes.get_ylabel()):
-            assert not label or label.endswith("]"), label
-    titles = [axes.get_title(loc="left") for axes in panels]
-    assert sum("heights ×" in title for title in titles) == (1 if name == "line" else 2)
-    words = [text.get_text() for axes in panels for text in axes.texts]
-    assert ("indenter slides" in words) == (name != "rest")
-
-
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
     folder = drawn["rough"].output
     again = compare.redraw(folder, output=tmp_path)

@@ -19,7 +19,7 @@ from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
 from compare.studies.claims.series import SMOOTH, Contacts, Series
 from compare.studies.claims.study import ClaimStudy
-from mdr1d import MDR, equations
+from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 
@@ -260,14 +260,3 @@ def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     assert {task.solver.name for task in tasks} == {"MDR", "BEM"}
     grids = [grids for each in study.grids().values() for grids in each.grids.values()]
     assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)
-
-
-def test_the_slowest_and_the_fastest_speed_lie_on_both_sides_of_the_knee():
-    for shape in catalogue.SHAPES:
-        scene = catalogue.kelvin(shape)
-        slope = scene.roughness.rms_slope(scene.roughness.q_max(0.0))
-        c, n = scene.indenter.mdr_coefficient, scene.indenter.exponent
-        ends = ((catalogue.LOADS[1], catalogue.SPEEDS[0]), (catalogue.LOADS[0], catalogue.SPEEDS[1]))
-        slow, fast = (equations.similarity_variable(load, 1e6, 1e-3, v, slope, c, n) for load, v in ends)
-        assert slow < 0.01
-        assert fast > 5
