@@ -5,12 +5,10 @@ import json
 import os
 import re
 import signal
-import subprocess
-import sys
-import time
 
 import pandas
 import pytest
+from processes import finish, start, wait_for
 from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
@@ -37,39 +35,6 @@ BEM.solve = MDR.solve = solve
 if __name__ == "__main__":
     main()
 """
-# A machine under load starts processes slowly.
-PATIENCE = 120
-
-
-def heed_signals():
-    """Whoever runs the tests in the background ignores interrupts, and what is started inherits that."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, signal.SIG_DFL)
-
-
-def wait_for(condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert condition()
-
-
-def start(folder, *arguments, program=("-m", "compare")):
-    return subprocess.Popen(
-        [sys.executable, *program, *arguments],
-        cwd=folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=heed_signals,
-        env=os.environ | {"PYTHONWARNINGS": "error"},
-    )
-
-
-def finish(process):
-    said, complained = process.communicate(timeout=PATIENCE)
-    return process.returncode, said, complained
 
 
 @pytest.fixture
