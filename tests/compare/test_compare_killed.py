@@ -4,21 +4,17 @@ import json
 import os
 import random
 import signal
-import subprocess
-import sys
 import time
 from collections import Counter
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
 import marked_study
 import pytest
+from processes import PATIENCE, finish, start
 
 from compare.solving.store import Store
 
-# A machine under load starts processes slowly.
-PATIENCE = 120
 ROOT = Path(__file__).parents[2]
 PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
 
@@ -33,23 +29,9 @@ class Killed:
         self.store = Store(folder / "crosscheck-study" / "solved")
 
     def start(self):
-        return subprocess.Popen(
-            [
-                sys.executable,
-                "-c",
-                "import marked_study; marked_study.command()",
-                "study",
-                "collapse",
-                "--workers",
-                "2",
-            ],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-            env=os.environ | {"MARKS": str(self.marks), "PYTHONWARNINGS": "error", "PYTHONPATH": PATHS},
-        )
+        program = ("-c", "import marked_study; marked_study.command()")
+        environment = {"MARKS": str(self.marks), "PYTHONPATH": PATHS}
+        return start(self.folder, "study", "collapse", "--workers", "2", program=program, **environment)
 
     def count(self):
         return len(self.store)
@@ -89,8 +71,8 @@ class Killed:
     def finish(self, expected):
         """Run it to its end, and compare with undisturbed answers."""
         before, begun = self.stored(), self.begun()
-        said, complained = (process := self.start()).communicate(timeout=PATIENCE)
-        assert (process.returncode, complained) == (0, "")
+        status, said, complained = finish(self.start())
+        assert (status, complained) == (0, "")
         solved = self.stored()
         assert solved == self.tasks
         assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
@@ -143,12 +125,6 @@ def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, expec
     study = Killed(tmp_path)
     assert study.kill(lambda: study.count() >= 3)
     study.finish(expected)
-
-
-def command(process):
-    with suppress(OSError):
-        return Path(f"/proc/{process}/cmdline").read_bytes()
-    return b""
 
 
 @pytest.mark.hours

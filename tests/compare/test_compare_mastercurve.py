@@ -15,15 +15,15 @@ from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
 from scene.reading import InvalidInput
 
 
-def table(repeats=3, seed=4, order=(0, 1, 2), vertical=0.0, noise=0.01, law=lambda x: (1 + 3e-4 * x) ** -0.6):
+def table(repeats=3, seed=4, vertical=0.0, noise=0.01):
     """Rows of friction on one curve shifted by v^-1.5 along the load, and along friction, with 1 % of scatter."""
     rng = np.random.default_rng(seed)
     rows = []
     for speed in np.geomspace(3e-3, 2e-2, 4):
         for load in np.geomspace(1.0, 100.0, 8):
-            friction = law(load * speed**-1.5) * speed**-vertical
+            friction = (1 + 3e-4 * load * speed**-1.5) ** -0.6 * speed**-vertical
             for scatter in 1 + noise * rng.normal(size=repeats):
-                rows.append(",".join(str((friction * scatter, load, speed)[i]) for i in order))
+                rows.append(f"{friction * scatter},{load},{speed}")
     return "\n".join(rows)
 
 
@@ -299,7 +299,7 @@ def test_one_temperature_is_told_and_changes_nothing(tmp_path):
     assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
 
 
-def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
+def warmed(c1=8.86, c2=101.6, seed=2):
     """Friction at three temperatures, on one curve of load and of the speed that WLF at 20 degC shifts."""
     rng, rows = np.random.default_rng(seed), ["T [degC],v [mm/s],F_N,F_T [N]"]
     for celsius in (12, 20, 28):
@@ -308,7 +308,7 @@ def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
             for load in np.geomspace(1, 30, 4):
                 for noise, *jitter in rng.normal(size=(2, 3)):
                     v, f = (each * (1 + 0.003 * off) for each, off in zip((speed, load), jitter, strict=True))
-                    mu = law(f * (by * v / 30) ** -0.5) * (1 + 0.02 * noise)
+                    mu = (1 + 3 * f * (by * v / 30) ** -0.5) ** -0.6 * (1 + 0.02 * noise)
                     rows.append(f"{celsius},{v},{f},{mu * f}")
     return "\n".join(rows)
 
