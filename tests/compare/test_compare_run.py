@@ -216,15 +216,6 @@ def test_points_have_means_deviations_and_intervals():
     assert points.query("solver == 'exact'")["normal_force_mean"].notna().all()
 
 
-@pytest.fixture(scope="module")
-def report(tmp_path_factory):
-    small = replace(CASE, title="A small sphere", notes=("Far too few points.",))
-    run = Run.of({"Small sphere": small})
-    outcomes = {task: task.solve() for task in run.batches()[0].tasks}
-    answers = run.answers(outcomes)
-    return run, answers, run.judge(answers).page(run.title, answers)
-
-
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
 def test_one_value_of_everything_is_drawn_without_a_warning(motion):
     one = Variations(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
