@@ -376,7 +376,7 @@ def test_draws_that_failed_are_left_out_and_means_below_zero_have_no_ratio():
     assert ratio_of(Outcome((Row(reason="all broke"),)), "friction").surfaces == 0
 
 
-def test_enough_scenes_were_measured_and_none_held_out_was_learned_from():
+def test_no_scene_held_out_was_learned_from():
     learned, held_out = table.read(table.LEARNED), table.read(table.HELD_OUT)
     ours = {tuple(row) for row in table.groups(learned)}
     assert not ours & {tuple(row) for row in table.groups(held_out)}
