@@ -307,7 +307,7 @@ class Alone:
         self._product = product
 
     @property
-    def applications(self) -> int:
+    def operator_applications(self) -> int:
         return self._product.operator_applications
 
     def __call__(self, planes):

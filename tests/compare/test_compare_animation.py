@@ -2,7 +2,6 @@
 
 import os
 import stat
-import tracemalloc
 from dataclasses import fields, replace
 from functools import cache
 from pathlib import Path
@@ -10,6 +9,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
+from drawn_scenes import CELL, DIP, KELVIN, LIFT, LOAD, ROUGH, SCENES, STANDARD, TAU, A, R
 from PIL import Image, ImageSequence
 
 from bem3d import BEM
@@ -22,32 +22,18 @@ from compare.studies.animate.film import started
 from mdr1d import MDR
 from scene import (
     Coulomb,
-    Cylinder,
-    Elastic,
-    Indent,
-    Kelvin,
     Plane,
     Program,
     Refused,
     Scene,
-    SelfAffine,
     Shear,
     Slide,
     SolveError,
     Sphere,
     Stage,
-    StandardLinearSolid,
 )
-from scene.instants import Frames, nearest
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
-ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 RUN = Program(stages=(Stage(duration=2 * TAU, load=LOAD), Stage(duration=4 * TAU, speed=0.2)))
-LIFT = Program(stages=(Stage(duration=TAU, load=LOAD), Stage(duration=TAU, load=0.0), Stage(duration=2 * TAU)))
-DIP = Program(stages=(Stage(duration=TAU, depth=5e-5, speed=0.3), Stage(duration=TAU, depth=0.0, speed=-0.3)))
 LINE, SPACE = MDR(points=200, steps=20), BEM(points=32, steps=20)
 RUNNING = Scene(Sphere(R), KELVIN, RUN, ROUGH)
 
@@ -65,10 +51,6 @@ def case(scene=RUNNING, line=LINE, space=SPACE):
 @pytest.fixture
 def solved(tmp_path_factory):
     return tmp_path_factory.mktemp("solved")
-
-
-def texts(drawing):
-    return [text.get_text() for axes in drawing.get_axes() for text in axes.texts]
 
 
 @pytest.mark.parametrize("solver", [LINE, SPACE])
@@ -109,46 +91,6 @@ def test_instants_in_one_dimension_are_the_elements_then():
     np.testing.assert_allclose(kept["frame_displacement"][touching], pressed[touching], rtol=0, atol=1e-18)
     for name in ("x", "profile", "displacement", "contact"):
         np.testing.assert_array_equal(kept[f"frame_{name}"][-1], kept[name])
-
-
-@pytest.mark.parametrize(
-    "solver",
-    [
-        replace(LINE, points=1000),
-        pytest.param(replace(SPACE, points=64, transforms="fftw"), marks=pytest.mark.slow),
-    ],
-)
-def test_instants_that_are_not_asked_for_take_no_memory_and_those_that_are_what_the_plan_says(solver):
-    def most(asked):
-        asked.solve(RUNNING)  # what is loaded once is no part of it
-        tracemalloc.start()
-        try:
-            asked.solve(RUNNING)
-            return tracemalloc.get_traced_memory()[1]
-        finally:
-            tracemalloc.stop()
-
-    plain, kept = solver, replace(solver, frames=40)
-    more = kept.plan(RUNNING).memory - plain.plan(RUNNING).memory
-    assert more > 1e6
-    # of what is asked for: frames are kept at the end of the march, and its peak may lie elsewhere
-    assert 0.3 * more < most(kept) - most(plain) < 1.5 * more
-
-
-def test_instants_are_the_steps_nearest_to_equal_times_and_the_last_is_the_end():
-    times = np.array([0.5, 1.5, 2.5, 3.5])
-    for count, steps in ((4, [0, 1, 2, 3]), (2, [1, 3]), (100, [0, 1, 2, 3]), (0, [])):
-        assert nearest(times, 4.0, count).tolist() == steps
-    assert nearest(np.array([1.0]), 1.0, 7).tolist() == [0]
-
-
-def test_what_is_kept_of_a_step_is_a_copy():
-    frames, values = Frames(np.array([1.0, 2.0]), 2.0, 2), np.zeros(3)
-    frames.keep(time=1.0, values=values)
-    values[:] = 1.0
-    frames.keep(time=2.0, values=values)
-    assert frames.handed_over()["frame_values"].tolist() == [[0, 0, 0], [1, 1, 1]]
-    assert frames.handed_over() == {}
 
 
 def test_a_gif_has_every_instant_for_its_share_of_the_time(tmp_path):
@@ -218,23 +160,12 @@ def test_where_ffmpeg_fails_its_own_words_are_said_and_nothing_is_written(tmp_pa
     assert [path.name for path in tmp_path.iterdir()] == ["ffmpeg"]
 
 
-HARD = {
-    "lift": Scene(Sphere(R), KELVIN, LIFT, ROUGH),
-    "dip": Scene(Sphere(R), STANDARD, DIP),
-    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), CELL),
-    "full": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e7), CELL),
-    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
-    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
-    "elastic": Scene(Sphere(R), Elastic(G), Indent(depth=1e-4)),
-}
-
-
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name == "line" else pytest.mark.slow) for name in HARD]
+    "name", [pytest.param(name, marks=() if name == "line" else pytest.mark.slow) for name in SCENES]
 )
 def test_every_instant_is_drawn_with_units_to_the_same_scales(name):
-    found = film(HARD[name])
-    assert ("MDR" in found.fields) == (not LINE.refusals(HARD[name]))
+    found = film(SCENES[name])
+    assert ("MDR" in found.fields) == (not LINE.refusals(SCENES[name]))
     with style.applied():
         reel = MarchFigure(found)
         limits = set()
@@ -265,43 +196,6 @@ def test_an_instant_replaces_the_one_before_and_shows_its_pressure_and_its_past(
             assert three.get_xdata()[-1] == pytest.approx(1e3 * found.times[k], rel=0.1)
             assert len(friction.lines) == 2
             assert len(one.get_xdata()) == (found.fields["MDR"]["time"] <= found.times[k]).sum()
-
-
-def test_the_elements_pass_the_indenter_with_the_elastomer():
-    found, phases = film(RUNNING), []
-    pitch = 1e3 * (found.span[1] - found.span[0]) / 48
-    with style.applied():
-        reel = MarchFigure(found)
-        for k in (2, 3):
-            reel.show(k)
-            profile = reel.drawing.get_axes()[2]
-            ends = [path.vertices[0, 0] for rows in profile.collections[:2] for path in rows.get_paths()]
-            phases.append(np.angle(np.mean(np.exp(2j * np.pi * np.array(ends) / pitch))) / (2 * np.pi))
-    passed = 1e3 * np.diff(RUN.path(found.times[2:4]))[0] / pitch
-    # of a distance between elements, which are drawn at the nearest of the 200 nodes of the span
-    assert 0.2 < passed % 1 < 0.8
-    assert (phases[1] - phases[0] - passed + 0.5) % 1 - 0.5 == pytest.approx(0.0, abs=0.1)
-
-
-def test_where_nothing_touches_that_is_said():
-    found = film(HARD["lift"])
-    with style.applied():
-        reel = MarchFigure(found)
-        reel.show(3)
-        said = texts(reel.drawing)
-        assert "at rest, nothing touches" in said
-        assert said.count("nothing touches here") == 2
-        reel.show(0)
-        assert "nothing touches here" not in texts(reel.drawing)
-
-
-@pytest.mark.slow
-def test_a_look_of_ones_own_holds_for_every_instant(tmp_path):
-    found = film(RUNNING, 2)
-    with style.chosen(style.Look(sheet="dark_background")):
-        animation.record(found, tmp_path / "dark.gif", 2.0)
-    with Image.open(tmp_path / "dark.gif") as gif:
-        assert gif.convert("RGB").getpixel((0, 0)) == (0, 0, 0)
 
 
 def test_a_steady_scene_is_begun_from_an_undisturbed_elastomer_and_ends_in_its_own_answer():

@@ -9,12 +9,10 @@ import xarray
 
 from compare.statistics import eq23
 from compare.statistics.collapse import PARALLEL, PARTED, UNSCATTERED, collapse
-from compare.statistics.commoncurve import LEAST_OVERLAP, Fit, bounds, near
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED
 from compare.statistics.finding import verdict as decided
 from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
 from compare.statistics.intervals import RmsMisfit
-from compare.statistics.jackknife import Replicates
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)
@@ -80,18 +78,6 @@ def verdicts(found, power=POWER):
     findings = eq23.findings(found, None, "1D", shifts=power * np.log(SPEEDS), exponent=power)
     named = {each.claim.id.removeprefix("eq23."): each.verdict for each in findings}
     return [named[name] for name in ("collapse", "vertical", "predicted")]
-
-
-def test_a_finding_names_the_plot_that_shows_it():
-    found = collapse(smooth(friction(knee, vertical=0.2)))
-    given = {"shifts": POWER * np.log(SPEEDS), "exponent": POWER, "plots": ("curves", "shifts")}
-    named = {each.claim.id.removeprefix("eq23."): each.plot for each in eq23.findings(found, None, "1D", **given)}
-    drawn = {
-        "curves": {"collapse", "predicted", "unshifted"},
-        "shifts": {"vertical", "exponent", "vertical-alone", "both"}
-        | {"exponent-alone", "exponent-beside-vertical", "vertical-exponent"},
-    }
-    assert {plot: {name for name in named if named[name] == plot} for plot in drawn} == drawn
 
 
 def numbers(found):
@@ -160,43 +146,6 @@ def test_curves_that_share_no_stretch_can_fail_but_not_hold():
     assert next(eq23.findings(replace(large, horizontal=unsure), None, "1D")).reason == PARTED
 
 
-def test_neighbours_keep_the_least_overlap_whatever_the_misfit():
-    first, *others = smooth(friction(cubic, vertical=0.5, power=-9.0)).curves
-    short = replace(first, log_load=first.log_load[:5], log_friction=first.log_friction[:5])
-    curves = [short, *others]
-    fit = Fit(curves, 4)
-    steps = near(fit, -9.0 * np.diff(np.log(SPEEDS)))
-    for step, left, right in zip(steps, curves[:-1], curves[1:], strict=True):
-        a, b = left.log_load, right.log_load + step
-        shared = (min(a.max(), b.max()) - max(a.min(), b.min())) / min(np.ptp(a), np.ptp(b))
-        assert shared >= LEAST_OVERLAP * (1 - 1e-9)
-    assert np.all(np.diff(bounds(curves), axis=0) > 0)
-    least = (short.log_load.max() - short.log_load.min()) * LEAST_OVERLAP
-    assert bounds(curves)[1][0] == pytest.approx(short.log_load.max() - others[0].log_load.min() - least)
-
-
-def test_slopes_of_the_misfits_are_those_of_differences_outside_the_polynomials():
-    for lifted in (False, True):
-        fit = Fit(measured(np.random.default_rng(7), friction(knee), 0.03).curves, 4, lifted)
-        at, step = np.array([0.4, -0.7, 1.1, 0.2]), 1e-5
-        differences = np.transpose(
-            [(fit.residuals(at + by) - fit.residuals(at - by)) / (2 * step) for by in step * np.eye(at.size)]
-        )
-        basis, slopes = fit.common(at).orthonormal, fit.jacobian(at)
-        # Central differences of this step, to rounding.
-        outside = differences - basis @ (basis.T @ differences)
-        np.testing.assert_allclose(slopes, outside, atol=1e-7 * np.abs(slopes).max())
-        np.testing.assert_allclose(slopes.T @ fit.residuals(at), differences.T @ fit.residuals(at), rtol=1e-6)
-
-
-def test_scatter_that_is_small_frees_the_curve_and_large_scatter_does_not():
-    rng = np.random.default_rng(1)
-    assert collapse(simulated(rng, friction(knee), 10, scatter=0.01, own=0.001)).degree > 4
-    assert collapse(simulated(rng, friction(knee), 3, scatter=0.2, own=0.05)).degree == 4
-    assert collapse(measured(rng, friction(knee), 1e-4)).degree > 4
-    assert collapse(measured(rng, friction(knee), 0.1)).degree == 4
-
-
 def test_units_of_load_friction_and_speed_and_the_order_of_surfaces_change_nothing():
     given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
     speeds, load, force = given.speeds, given.load, given.friction_force
@@ -229,14 +178,6 @@ def test_the_scatter_of_loads_along_a_curve_is_no_deviation_from_it():
     assert np.abs(given.deviations()).max() > 1e-7
 
 
-def test_the_mean_of_measured_points_has_their_error_over_the_root_of_their_number():
-    given = measured(np.random.default_rng(6), friction(knee), 0.01, dof=7)
-    found = given.resampled(lambda part: {"": np.mean([curve.log_friction for curve in part.curves])})[
-        ""
-    ].estimated
-    assert (found.error, found.dof) == (pytest.approx(0.01 / sqrt(40), rel=1e-9), 7)
-
-
 def test_every_surface_doubled_changes_no_value_and_narrows_errors():
     given = simulated(np.random.default_rng(3), friction(cubic), 6)
     twice = replace(given, load=np.tile(given.load, 2), friction_force=np.tile(given.friction_force, 2))
@@ -244,23 +185,6 @@ def test_every_surface_doubled_changes_no_value_and_narrows_errors():
     assert two.exponent.value == pytest.approx(one.exponent.value, rel=1e-9)
     # (n - 1) / (2 n - 1) of the variance to first order.
     assert two.exponent.error / one.exponent.error == pytest.approx(sqrt(5 / 11), rel=0.05)
-
-
-def test_tables_have_points_shifts_and_their_intervals():
-    given = simulated(np.random.default_rng(4), friction(knee), 8)
-    found, mu = collapse(given), given.friction_force / given.load
-    error = mu.std(axis=2, ddof=1) / sqrt(8) / mu.mean(axis=2)
-    np.testing.assert_allclose([curve.error for curve in found.curves], error, rtol=1e-9)
-    points, shifts = found.points(), found.shifts(found.horizontal)
-    ends = Replicates.first_order(np.log(mu.mean(axis=2)).ravel(), given.deviations()).estimated.interval()
-    np.testing.assert_allclose(
-        np.log([points["friction_coefficient_low"], points["friction_coefficient_high"]]), ends, rtol=1e-9
-    )
-    by = np.repeat(np.exp(shifts["log_shift"]), len(LOADS)).to_numpy()
-    np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
-    expected = found.points(POWER * np.log(SPEEDS))["shifted_force"].to_numpy()
-    np.testing.assert_allclose(expected.reshape(5, -1), LOADS * SPEEDS[:, None] ** POWER, rtol=1e-12)
-    assert (shifts["log_shift_low"] <= shifts["log_shift"]).all()
 
 
 def test_points_and_surfaces_that_failed_are_left_out_and_counted():
@@ -397,18 +321,3 @@ def test_wrong_laws_are_rejected(draw, repeats):
 def test_noise_never_makes_a_claim_hold(draw, repeats, bend):
     # What chi square calls a collapse, as the misfit is within the scatter, says nothing at 5 %.
     assert rates(draw, repeats, cubic, seed=4, bend=bend)["holds"] <= 0.05
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("law", [cubic, knee])
-@pytest.mark.parametrize(
-    "draw",
-    [
-        *(on_surfaces(n, scatter) for n in (3, 10) for scatter in (0.05, 0.2)),
-        *(pytest.param(by_points(*asked), marks=pytest.mark.hours) for asked in ((0.01, 6), (0.05, 50))),
-    ],
-)
-def test_the_right_law_is_kept_in_hundreds_of_repeats(draw, law):
-    found = rates(draw, 500, law, seed=5)
-    assert min(found[name] for name in ("misfit", "exponent", "predicted")) >= least(500), found
-    assert found["fails"] <= 1 - least(500)

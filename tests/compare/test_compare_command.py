@@ -5,49 +5,21 @@ import json
 import os
 import re
 import signal
-import subprocess
-import sys
-import time
-from typing import get_args, get_type_hints
 
 import pandas
 import pytest
-from test_compare_cases import SCENE
+from processes import finish, start, wait_for
+from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 from compare import commands
 from compare.cli.app import COMMANDS, app
-from compare.library import ready as library
 from compare.library.ready import ready
-from compare.report import render
-from compare.report.export import FORMS
 from compare.report.plots.journals import JOURNALS
 from compare.solving.docstrings import documented
 from compare.solving.store import Store
 from compare.statistics.finding import COLUMNS
-from compare.studies.claims.catalogue import SIZES, STUDIES
-from compare.studies.schema import KINDS
-from compare.studies.workprecision.study import DIAGRAMS
-from scene import Topography
-from scene.heightfile import UNITS
-from scene.scanned import FILL
 
-TINY = (
-    SCENE
-    + """
-[study]
-speeds = [0.1, 1.0]
-pressing = [0.5, 2.0]
-load_speeds = [0.1]
-depths = [1.0]
-surfaces = 2
-profiles = 2
-[bem]
-points = 32
-[mdr]
-points = 1000
-"""
-)
 # Solvers with a fault.
 FAULTY = """
 from bem3d import BEM
@@ -63,44 +35,11 @@ BEM.solve = MDR.solve = solve
 if __name__ == "__main__":
     main()
 """
-# A machine under load starts processes slowly.
-PATIENCE = 120
-
-
-def heed_signals():
-    """Whoever runs the tests in the background ignores interrupts, and what is started inherits that."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, signal.SIG_DFL)
-
-
-def wait_for(condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < deadline:
-        time.sleep(0.02)
-    assert condition()
-
-
-def start(folder, *arguments, program=("-m", "compare")):
-    return subprocess.Popen(
-        [sys.executable, *program, *arguments],
-        cwd=folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=heed_signals,
-        env=os.environ | {"PYTHONWARNINGS": "error"},
-    )
-
-
-def finish(process):
-    said, complained = process.communicate(timeout=PATIENCE)
-    return process.returncode, said, complained
 
 
 @pytest.fixture
 def folder(tmp_path):
-    (tmp_path / "tiny.toml").write_text(TINY)
+    (tmp_path / "tiny.toml").write_text(SCENE + SMALL)
     return tmp_path
 
 
@@ -135,21 +74,6 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert (status, said, complained) == (0, "", "")
 
 
-def test_a_users_table_is_shifted(folder):
-    rows = [
-        f"{(load * speed**-1.5 + 1) ** -0.5},{load},{speed}" for speed in (1, 2, 4) for load in (1, 2, 3, 4, 5)
-    ]
-    (folder / "ball.csv").write_text("\n".join(rows))
-    status, said, complained = finish(start(folder, "mastercurve", "ball.csv"))
-    assert (status, complained) == (0, "")
-    assert "undecided" in said  # single measurements have no scatter
-    assert list((folder / "mastercurve").glob("*.png"))
-    (folder / "ball.csv").write_text("1 2\n")
-    status, _, complained = finish(start(folder, "mastercurve", "ball.csv"))
-    assert status == 2
-    assert "ball.csv, line 1: 2 columns" in complained
-
-
 @pytest.mark.slow
 def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(folder):
     (folder / "faulty.py").write_text(FAULTY)
@@ -178,36 +102,6 @@ def ask(*arguments):
     return CliRunner().invoke(app, list(map(str, arguments)))
 
 
-@pytest.mark.parametrize(
-    ("command", "names", "width"),
-    [
-        ("scenes", (*ready(), *library.studies()), 120),
-        ("study", (*STUDIES, "trust", *(name for name, each in ready().items() if each.kind == "study")), 80),
-        ("workprecision", tuple(DIAGRAMS), 100),
-    ],
-)
-def test_what_can_be_named_is_listed(tmp_path, monkeypatch, command, names, width):
-    monkeypatch.chdir(tmp_path)
-    listed = ask(command)
-    assert listed.exit_code == 0
-    assert max(map(len, listed.output.splitlines())) < width
-    for name in names:
-        assert re.search(rf"^{name} +[A-Z]", listed.output, re.MULTILINE)
-    assert not list(tmp_path.iterdir())
-
-
-def test_all_lists_name_the_same_studies_and_say_more_where_more_is_asked():
-    (heading,) = library.studies().groups
-    short, listed = (re.sub("[- \\n]+", " ", ask(each).output) for each in ("study", "scenes"))
-    assert short.partition(" `")[0] in listed
-    long = " ".join(ask("study", "-v").output.split())
-    assert long.startswith(f"{heading} Name Title ")
-    for name, each in library.studies().items():
-        assert f"{name} {each.title} {each.about}" in long
-        assert each.about not in short
-    assert " ".join(ready()["hertz"].about.split()) in " ".join(ask("scenes", "-v").output.split())
-
-
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: each.title)
 def test_help_says_all_that_the_docstrings_say_brackets_included(command):
     told = "".join(ask(command.title, "--help").output.split()).casefold()
@@ -221,11 +115,6 @@ def test_help_says_all_that_the_docstrings_say_brackets_included(command):
     # and the list of commands, the first sentence
     line = next(each for each in ask("--help").output.splitlines() if each.startswith(f"  {command.title} "))
     assert line.split(maxsplit=1)[1] == f"{about.partition('. ')[0].rstrip('.')}."
-
-
-def test_some_help_stands_in_brackets():
-    assert "F_N [N]" in " ".join(ask("mastercurve", "--help").output.split())
-    assert "[s]" in ask("animate", "--help").output
 
 
 def complete(*words):
@@ -250,38 +139,6 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     assert complete("run", "quick-start", "--form") == ["--format"]
 
 
-TOPOGRAPHY = get_type_hints(Topography)
-VALUES = {
-    ("study", "--size"): SIZES,
-    ("run", "--format"): render.FORMATS,
-    ("run", "--figure-format"): render.FORMS,
-    ("redraw", "--journal"): JOURNALS,
-    ("workprecision",): (*DIAGRAMS, "all"),
-    ("topography", "--unit"): UNITS,
-    ("topography", "--missing"): FILL,
-    **{("topography", f"--{name}"): get_args(TOPOGRAPHY[name]) for name in ("level", "repeat", "peaks")},
-    ("export", "--to"): FORMS,
-    ("schema",): KINDS,
-}
-
-
-@pytest.mark.parametrize("words", VALUES, ids=" ".join)
-def test_a_shell_completes_every_value_that_is_allowed(words):
-    assert set(complete(*words, "")) == {str(each) for each in VALUES[words] if each}
-
-
-def test_ready_scenes_are_listed_by_the_command_that_takes_them_and_copied_as_they_are(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    compared, alone = ask("scenes").output.split(
-        "Scenes that crosscheck run does not compare: crosscheck plan NAME"
-    )
-    assert "\nhertz " in compared
-    assert "\nthin-layer " in alone
-    for name, command in (("quick-start", "run"), ("thin-layer", "plan")):
-        assert f"crosscheck {command} {name}.toml" in ask("new", name).output
-        assert (tmp_path / f"{name}.toml").read_text() == ready()[name].text
-
-
 @pytest.mark.parametrize("kind", ["scene", "study"])
 def test_the_schema_is_printed_or_written(tmp_path, kind):
     printed = ask("schema", kind)
@@ -296,34 +153,17 @@ MISTAKES = {
     "run zzzzzz": "zzzzzz: no such file, and no ready scene\n",
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
     "run study.toml": "is a study, and no scene: crosscheck study study.toml",
-    "run .": "is a folder, and no scene",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
-    "run mine.tml": "no such file, and no ready scene; did you mean mine.toml?",
     "run quick-start --format word": "format = word: allowed are html, markdown",
-    "run quick-start --figure-format png,jpg": "figure_format = jpg: allowed are ",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
-    "plan quick-strat": "did you mean quick-start?",
     "study colapse": "NAME = colapse: allowed are collapse, ",
     "study collapse --size big": "size = big: allowed are quick, ",
-    "study collapse --output mine.toml": "crosscheck: --output mine.toml: ",
     "study mine.toml": "mine.toml: ",
-    "study hertz": "is a ready scene, and no study: crosscheck run hertz",
-    "study thin-layer": "is a ready scene, and no study: crosscheck plan thin-layer",
-    "study scene.toml": "is a scene, and no study: crosscheck run scene.toml",
     "workprecision model": "NAME = model: allowed are models, ",
-    "workprecision models --size large": "size = large: allowed are quick, standard, full",
-    "stability --size small": "size = small: allowed are quick, standard, full",
-    "new quick-strat": "did you mean quick-start?",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
-    "schema scenes": "KIND = scenes: allowed are scene, study",
     "redraw nowhere": "nowhere: no such folder",
     "redraw .": "no manifest.json here",
     "export . --to word": "to = word: allowed are csv, latex",
-    "export nowhere": "nowhere",
-    "mastercurve nowhere.csv": "nowhere.csv",
-    "topography nowhere.npy": "nowhere.npy",
-    "regress --baseline nowhere.toml": "nowhere.toml",
-    "animate nowhere.toml": "nowhere.toml",
     "animate quick-start --output film.avi": "film.avi",
 }
 

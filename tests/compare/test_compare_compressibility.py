@@ -15,13 +15,10 @@ from compare.studies.claims.series import Contacts, Series
 from mdr1d import MDR
 from scene import (
     Cone,
-    CrossedWaves,
-    Cylinder,
     Elastic,
     Indent,
     Kelvin,
     KelvinChain,
-    Plane,
     Program,
     Prony,
     Scene,
@@ -169,23 +166,3 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
     wanted, found = ruled(0.5), ruled(0.0)
     for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):
         np.testing.assert_allclose(getattr(found, name), getattr(wanted, name), rtol=1e-9, err_msg=name)
-
-
-@ratios
-@pytest.mark.parametrize(
-    ("indenter", "motion", "rough"),
-    [
-        (Plane(), Slide(speed=0.5, pressure=2e4), CrossedWaves(amplitude=2e-6, wavelength=1e-3)),
-        (Cylinder(radius=RADIUS), Slide(speed=0.5, line_load=50.0), None),
-    ],
-    ids=["plane", "cylinder"],
-)
-def test_planes_and_lines_see_the_plane_strain_modulus_alone(indenter, motion, rough, nu):
-    solver, scene = BEM(points=32), Scene(indenter, SOLIDS["standard"](G, 0.5), motion, rough)
-    compare(solver.solve(softened(scene, nu, (1 - nu) / 0.5)), solved(solver, scene), 1e-7)
-
-
-@solvers
-def test_a_compressible_solid_is_not_an_incompressible_one_of_the_same_shear_modulus(solver):
-    scene = Scene(SPHERE, SOLIDS["standard"](G, 0.5), Slide(speed=0.5, load=0.1))
-    assert abs(solver.solve(softened(scene, 0.3)).depth / solved(solver, scene).depth - 1) > 0.1

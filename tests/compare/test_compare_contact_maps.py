@@ -6,52 +6,37 @@ from functools import cache
 import numpy as np
 import pandas
 import pytest
+from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, G, R
+from drawn_scenes import SCENES as DRAWN
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from bem3d import BEM
 from compare.report.plots import contact_maps, style
-from compare.report.plots.journals import JOURNALS
-from compare.report.plots.prefixes import prefixed
 from compare.report.views import view
 from mdr1d import MDR
 from scene import (
     WLF,
-    Cylinder,
     Elastic,
     Heating,
     Indent,
-    Kelvin,
     Layer,
-    Plane,
-    PowerLaw,
     Program,
     Prony,
     Scene,
-    SelfAffine,
     Slide,
     Sphere,
     Stage,
-    StandardLinearSolid,
 )
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
-ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 LIFT = Program(stages=(Stage(duration=5 * TAU, load=LOAD), Stage(duration=TAU, load=0.0), Stage(duration=TAU)))
 BACK = Program(stages=(Stage(duration=TAU, depth=1e-4, speed=0.5), Stage(duration=TAU, speed=-0.5)))
 SLIDING = Slide(speed=0.1, load=LOAD)
-SCENES = {
+SCENES = {name: DRAWN[name] for name in ("rest", "line", "plane", "full")} | {
     "rough": Scene(Sphere(R), KELVIN, SLIDING, ROUGH),
     "smooth": Scene(Sphere(R), KELVIN, Slide(speed=A / TAU, load=LOAD)),
-    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
     "elastic": Scene(Sphere(R), Elastic(G), SLIDING, ROUGH),
     "prony": Scene(Sphere(R), Prony(G, (G, 2 * G), (TAU, 10 * TAU)), SLIDING),
     "layer": Scene(Sphere(R), KELVIN, SLIDING, layer=Layer(thickness=2e-3)),
-    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
-    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), CELL),
-    "full": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e7), CELL),
     "lifted": Scene(Sphere(R), KELVIN, LIFT),
     "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
     "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),
@@ -110,24 +95,6 @@ def test_every_contact_has_a_picture_with_units_and_words_and_its_data(name):
     assert all(len(table) for name, table in plot.tables.items() if name != contact_maps.PRESSURE)
 
 
-@pytest.mark.parametrize("journal", ["aip", pytest.param("elsevier", marks=pytest.mark.slow)])  # narrow and wide
-@pytest.mark.parametrize("name", ["line", pytest.param("smooth", marks=pytest.mark.slow)])
-def test_nothing_written_is_smaller_than_a_journal_allows_or_leaves_the_figure(name, journal):
-    found = seen(name)
-    with style.applied(style.Look(JOURNALS[journal])):
-        drawing = contact_maps.plot(found).figure()
-        drawing.draw_without_rendering()
-        assert drawing.get_figwidth() == JOURNALS[journal].double
-        page = drawing.bbox.padded(1.0)
-        for axes in drawing.get_axes():
-            texts = [axes._left_title, axes.xaxis.label, axes.yaxis.label, *axes.texts]
-            for text in (text for text in texts if text.get_text()):
-                assert text.get_fontsize() >= JOURNALS[journal].least
-                box = text.get_window_extent()
-                assert page.contains(box.x0, box.y0), text
-                assert page.contains(box.x1, box.y1), text
-
-
 def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
     found, drawing = seen("rough"), picture("rough")
     pressure, gap, contact = (axes_of(drawing, f"3D: {what}") for what in ("pressure", "gap", "real contact"))
@@ -140,33 +107,6 @@ def test_maps_are_the_pressure_and_the_gap_of_the_answer_to_one_scale():
     (circle,) = pressure.lines
     assert np.hypot(*circle.get_data()) == pytest.approx(1e3 * A, rel=1e-9)
     assert "← indenter slides" in [text.get_text() for text in pressure.texts]
-
-
-def test_colours_tell_gaps_near_the_contact_however_high_the_indenter_is_aside():
-    blunt = Scene(PowerLaw(coefficient=1e-4 / A**100, exponent=100), KELVIN, Indent(depth=1e-4))
-    found = view(blunt, SPACE, {"BEM": SPACE.solve(blunt).fields})
-    assert found.space.gap.max() > 1e6 * 1e-4  # in r^100
-    bar = axes_of(drawn(found), "3D: gap").images[0]
-    assert bar.norm.vmax == pytest.approx(1e3 * contact_maps.OPEN * 1e-4, rel=1e-3)  # in mm
-    assert bar.colorbar.extend == "max"
-
-
-def test_what_is_drawn_lies_beside_the_figure():
-    drawing, sheets = picture("rough"), contact_maps.plot(seen("rough")).tables
-    pressed = sheets["contact-maps-pressure"]
-    image = axes_of(drawing, "3D: pressure").images[0].get_array()
-    np.testing.assert_allclose(np.sort(1e-6 * pressed["pressure"]), np.sort(image.compressed()), rtol=1e-12)
-    gap = np.asarray(axes_of(drawing, "3D: gap").images[0].get_array())
-    surface = sheets["contact-maps-surface"].sort_values(["y", "x"])
-    np.testing.assert_allclose(1e6 * np.maximum(surface["gap"], 0), gap.ravel(), atol=1e-9)
-    for name, title in (("section-3d", "3D: section"), ("section-1d", "1D")):
-        columns = sheets[f"contact-maps-{name}"]
-        # the undeformed level, the surface and its contact
-        _, surface, bold = axes_of(drawing, title).lines
-        x, y = surface.get_data()
-        held = np.isin(np.round(1e-3 * x, 12), np.round(columns["x"], 12))
-        np.testing.assert_allclose(1e-6 * y[held], columns["surface"], rtol=0, atol=1e-15)
-        assert np.isfinite(bold.get_ydata()[held]).sum() == columns["touching"].sum() > 0
 
 
 def test_the_wake_is_seen_behind_a_contact_that_slides_and_none_at_rest():
@@ -195,11 +135,6 @@ def test_in_one_dimension_the_wake_behind_the_grid_recovers_as_it_does_on_it():
     np.testing.assert_allclose(near, far, rtol=0, atol=1e-3 * np.ptp(wide.line.surface))
 
 
-def test_of_several_times_nothing_is_made_up_behind_the_grid():
-    found = seen("prony")
-    assert len(found.line.x) == len(answered("prony")["MDR"]["x"])
-
-
 def test_bodies_touch_where_contact_is_bold_and_nowhere_overlap():
     for name in ("rough", "smooth", "layer", "line", "plane", "back"):
         found = seen(name)
@@ -209,18 +144,6 @@ def test_bodies_touch_where_contact_is_bold_and_nowhere_overlap():
             # residual of the contact, and in a program what the depth moves within half a step
             np.testing.assert_allclose(gap[section.touching], 0, atol=1e-4 * deepest)
             assert np.nanmin(gap) > -1e-4 * deepest
-
-
-def test_of_one_pixel_in_contact_a_point_is_drawn():
-    found = seen("rough")
-    pressure = np.zeros_like(found.space.pressure)
-    row = int(np.argmin(np.abs(found.space.around.y)))
-    pressure[row, 30] = 1e5
-    one = replace(found, line=None, space=replace(found.space, pressure=pressure))
-    axes = axes_of(drawn(one), "3D: section")
-    bold = axes.lines[-1]
-    assert np.isfinite(bold.get_ydata()).sum() == 1
-    assert bold.get_marker() == "."
 
 
 def test_full_contact_has_no_gap_of_rounding():
@@ -261,12 +184,3 @@ def rendered(drawing):
     canvas = FigureCanvasAgg(drawing)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())
-
-
-@pytest.mark.parametrize(
-    ("values", "factor", "unit"),
-    [([1.5e-3], 1e3, "mm"), ([-2e-4, 1e-5], 1e6, "µm"), ([1e6], 1e-6, "Mm"), ([0.0], 1, "m"), ([1e-40], 1, "m")],
-)
-def test_values_read_well_in_their_unit(values, factor, unit):
-    found = prefixed([*values, np.nan], "m")
-    assert found == (pytest.approx(factor), unit)

@@ -4,16 +4,14 @@ from dataclasses import replace
 from itertools import product
 
 import pytest
-from test_compare_cases import SCENE
-from test_compare_path import RECTANGLE
-from test_compare_studyfile import HEAD, SHARED, TABLES
+from scene_files import HEAD, SCENE, SHARED, TABLES
+from small_cases import PARAMETER_GRID
 from typer.testing import CliRunner
 
 from bem3d import BEM
 from compare.cli.app import app
 from compare.library.case import Case
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
-from compare.studies.animate.animation import animate
 from compare.studies.claims.study_file import study_of
 from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
@@ -22,14 +20,6 @@ from compare.studies.study import Study
 from scene import Refused
 from scene.reading import InvalidInput, read
 
-ROUGHNESS = """
-[roughness]
-type = "self-affine"
-hurst = 0.5
-rms_height = "1 um"
-longest = "10 mm"
-shortest = "1 mm"
-"""
 SERIES = '[[series]]\nname = "one"\n'
 
 
@@ -47,9 +37,9 @@ class Costly(Study):
 
 
 def test_what_is_counted_is_what_is_built():
-    assert RECTANGLE.cost == replace(Cost.of(RECTANGLE.tasks()), kept=RECTANGLE.cost.kept)
-    assert RECTANGLE.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
-    smooth = replace(RECTANGLE, scene=replace(RECTANGLE.scene, roughness=None))
+    assert PARAMETER_GRID.cost == replace(Cost.of(PARAMETER_GRID.tasks()), kept=PARAMETER_GRID.cost.kept)
+    assert PARAMETER_GRID.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
+    smooth = replace(PARAMETER_GRID, scene=replace(PARAMETER_GRID.scene, roughness=None))
     assert smooth.cost.contacts == 3 * 2 * 2 * 2 == Cost.of(smooth.tasks()).contacts
 
 
@@ -92,7 +82,7 @@ def test_the_command_says_the_cost_first_and_takes_the_yes(tmp_path, monkeypatch
     assert [each.name for each in tmp_path.iterdir()] == ["scene.toml"]
 
 
-COUNTS = 10_001, 10**9, 10**30
+COUNTS = 10_001, 10**30
 
 
 @pytest.mark.parametrize(("name", "count"), [*product(("surfaces", "profiles"), (0, *COUNTS))])
@@ -118,23 +108,11 @@ def test_a_range_and_a_list_have_a_bound_that_is_said(change, said):
         study_of(HEAD + SHARED.replace(*change) + TABLES + SERIES, "study.toml")
 
 
-def test_the_series_of_a_file_have_a_bound_that_is_said():
-    many = "".join(SERIES.replace("one", f"s{k}") for k in range(101))
-    with pytest.raises(InvalidInput, match=r"series: .*at most 100"):
-        study_of(HEAD + SHARED + TABLES + many, "study.toml")
-
-
-@pytest.mark.parametrize("workers", [0, -1, 1025, 10**9, True, 1.5])
+@pytest.mark.parametrize("workers", [0, 1025, True, 1.5])
 def test_so_have_workers(tmp_path, workers):
     with pytest.raises(InvalidInput, match=rf"workers = {workers}: a whole number from 1 to 1024"):
         run(Costly(1, 1.0), tmp_path / "out", workers=workers)
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize(("frames", "seconds"), [(0, 6.0), (10**9, 1e9), (60, 1e300), (60, float("nan"))])
-def test_so_have_frames_and_the_seconds_of_an_animation(tmp_path, frames, seconds):
-    with pytest.raises(Refused, match=r"1 to 10000 frames in at most 3600 seconds"):
-        animate("hertz", tmp_path / "hertz.gif", frames, seconds, tmp_path)
 
 
 def test_so_have_profiles_of_the_paper_and_threads():

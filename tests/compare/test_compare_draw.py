@@ -3,8 +3,8 @@
 import sys
 from dataclasses import replace
 
-import numpy as np
 import pytest
+from drawn_scenes import KELVIN, LOAD, TAU, A, R
 from typer.testing import CliRunner
 
 import compare
@@ -12,9 +12,8 @@ from bem3d import BEM
 from compare.cli.app import app
 from compare.library.case import Case
 from compare.report import vtk
-from compare.report.plots import style
 from compare.studies.draw import figure as draw
-from compare.studies.draw import interactive, relief
+from compare.studies.draw import interactive
 from compare.studies.draw.study import APART
 from mdr1d import MDR
 from scene import (
@@ -23,7 +22,6 @@ from scene import (
     Doubtful,
     Heating,
     Indent,
-    Kelvin,
     Layer,
     Refused,
     SelfAffine,
@@ -33,11 +31,9 @@ from scene import (
 )
 from scene.reading import InvalidInput
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
 REST = Case(
     indenter=Sphere(R),
-    elastomer=Kelvin(G, TAU),
+    elastomer=KELVIN,
     motion=Indent(load=LOAD),
     bem=BEM(points=64),
     mdr=MDR(points=500),
@@ -84,49 +80,11 @@ def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before
     assert float(surface["x"].max()) > 2 * A
 
 
-@pytest.mark.parametrize("name", ["rest", "fast", "rough", "line"])
-def test_every_picture_states_its_units_and_how_much_heights_are_enlarged(drawn, name):
-    (drawing,) = drawn[name].figures.values()
-    panels = drawing.get_axes()
-    for axes in panels:
-        for label in (axes.get_xlabel(), axes.get_ylabel()):
-            assert not label or label.endswith("]"), label
-    titles = [axes.get_title(loc="left") for axes in panels]
-    assert sum("heights ×" in title for title in titles) == (1 if name == "line" else 2)
-    words = [text.get_text() for axes in panels for text in axes.texts]
-    assert ("indenter slides" in words) == (name != "rest")
-
-
-def test_an_arrow_points_where_the_indenter_slides(drawn):
-    (drawing,) = drawn["fast"].figures.values()
-    arrow = next(text for axes in drawing.get_axes() for text in axes.texts if text.get_text() == "")
-    assert arrow.xy[0] < arrow.xyann[0]  # the elastomer flows along +x
-
-
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
     folder = drawn["rough"].output
     again = compare.redraw(folder, output=tmp_path)
     png = next(path for path in again if path.suffix == ".png")
     assert png.read_bytes() == (folder / "draw.png").read_bytes()
-
-
-def test_heights_are_enlarged_to_a_round_number_that_leaves_them_a_part_of_the_picture():
-    assert relief.exaggeration(1.0, 0.5, 0.01) == 20
-    assert relief.exaggeration(1.0, 0.5, relief.TALL) == 1
-    assert relief.exaggeration(1.0, 0.5, 0.0) == 1
-
-
-def test_what_is_near_covers_what_is_far():
-    """Faces are drawn in the order of their distance, row by row and within each row."""
-    camera, ends = relief.Camera(), np.array([0.0, 1.0])
-    with style.applied():
-        axes = style.canvas("double", 2).subplots()
-        relief.block(axes, ends, ends, np.zeros((2, 2)), np.zeros((2, 2)), 1.0, camera)
-    near_y, near_x = (camera.place(*at, 0.0)[1] for at in ((0.0, -1.0), (1.0, 0.0)))
-    corners = axes.collections[0].get_coordinates()
-    assert near_y < 0 > near_x  # lower in the picture is nearer
-    assert corners[0, 0, 1] > corners[1, 0, 1]
-    assert corners[0, 0, 1] > corners[0, 1, 1]
 
 
 def test_a_layer_has_no_springs_and_that_is_said(tmp_path):

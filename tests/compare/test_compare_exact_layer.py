@@ -80,15 +80,6 @@ def test_a_contact_is_found_by_its_depth_and_by_its_load(shape, slenderness):
         assert found.load == pytest.approx(known.load, rel=ROUNDING)
 
 
-def test_more_nodes_change_nothing(monkeypatch):
-    stated = Layer(thickness=1e-3 / 20)
-    usual = reference.of_radius(SPHERE, stated, MODULUS, 0.5, 1e-3)
-    monkeypatch.setattr(reference, "NODES", 24)
-    finer = reference.of_radius(SPHERE, stated, MODULUS, 0.5, 1e-3)
-    assert usual.load == pytest.approx(finer.load, rel=ROUNDING)
-    assert usual.depth == pytest.approx(finer.depth, rel=ROUNDING)
-
-
 def test_a_film_under_a_sphere_holds_the_volume_that_it_displaces():
     """Under p ~ (a^2 - r^2)^2 the displaced volume is nothing: int (d - z) dA = 0."""
     film = reference.on_film(SPHERE, Layer(thickness=1e-5), MODULUS, 1e-6)
@@ -100,10 +91,7 @@ def test_a_film_under_a_sphere_holds_the_volume_that_it_displaces():
     ("asked", "message"),
     [
         (lambda layer: reference.of_radius(SPHERE, layer, MODULUS, 0.5, 1.0), "at most 100 thicknesses"),
-        (lambda layer: reference.of_radius(SPHERE, layer, MODULUS, 0.5, 0.0), "above zero"),
-        (lambda layer: reference.of_depth(SPHERE, layer, MODULUS, 0.5, 1.0), "more than 100 thicknesses"),
         (lambda layer: reference.of_load(SPHERE, layer, MODULUS, 0.5, 1e12), "more than 100 thicknesses"),
-        (lambda layer: reference.of_load(SPHERE, layer, MODULUS, 0.5, -1.0), "load = -1"),
     ],
 )
 def test_what_is_not_known_is_named(asked, message):

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from compare.statistics.finding import (
-    COLUMNS,
     FAILS,
     HOLDS,
     REPORTED,
@@ -16,7 +15,6 @@ from compare.statistics.finding import (
     Claim,
     Finding,
     sentences,
-    table,
     verdict,
 )
 
@@ -65,11 +63,6 @@ def test_the_grid_widens_the_interval_of_the_scatter():
 def test_a_law_states_its_verdict_and_a_number_without_a_claim_is_reported():
     assert Finding(FRICTION, 1.0, stated=FAILS).verdict == FAILS
     assert Finding(Claim("time", "Time to 1 %"), 3.0).verdict == REPORTED
-
-
-def test_every_table_has_the_same_columns():
-    assert list(table([]).columns) == list(table([found()]).columns) == list(COLUMNS)
-    assert table([found()]).loc[0, ["claim", "verdict"]].tolist() == ["friction.ratio", HOLDS]
 
 
 def test_the_answer_has_every_finding_those_that_contradict_included():

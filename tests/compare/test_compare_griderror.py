@@ -22,15 +22,6 @@ def answers(three, one=(1e-5, 2e-5)):
     return xarray.DataTree.from_dict({"/contacts/BEM": dataset(three), "/contacts/MDR": dataset(one)})
 
 
-def test_a_small_error_is_said_last_with_its_median_and_that_of_coarse_grids_not_at_all():
-    told = griderror.told(answers([0.01, 0.02, np.nan, 0.03]), ["the answer"])
-    assert told == [
-        "the answer",
-        "The grid leaves at most 3 % in 3D (2 % in the median), 0.002 % in 1D (0.0015 % in the median) of "
-        "friction uncertain (bounds of 95 %).",
-    ]
-
-
 def test_an_error_above_a_tenth_is_said_first_and_how_often():
     told = griderror.told(answers([0.01, 0.11, 0.23]), ["the answer"])
     assert told[1:] == ["the answer"]

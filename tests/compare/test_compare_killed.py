@@ -4,107 +4,34 @@ import json
 import os
 import random
 import signal
-import subprocess
-import sys
 import time
 from collections import Counter
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+import marked_study
 import pytest
+from processes import PATIENCE, finish, start
 
 from compare.solving.store import Store
 
-# A study of solvers that leave a mark when they begin a solve.
-MARKED = """
-import hashlib
-import json
-import os
-from dataclasses import dataclass, replace
-
-from bem3d import BEM
-from compare.solving.parameter_grid import tasks_of
-from compare.studies.claims.catalogue import kelvin
-from compare.studies.claims.series import Series
-from compare.solving.task import SCENES
-from mdr1d import MDR
-
-
-def name(solver, scene):
-    asked = solver.name, solver.points, SCENES.dump_python((scene,), mode="json")
-    return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
-
-
-def mark(solver, scene):
-    file = os.open(os.environ["MARKS"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
-    os.write(file, (name(solver, scene) + "\\n").encode())
-    os.close(file)
-
-
-@dataclass(frozen=True)
-class MarkedMDR(MDR):
-    def solve(self, scene):
-        mark(self, scene)
-        return super().solve(scene)
-
-
-@dataclass(frozen=True)
-class MarkedBEM(BEM):
-    def solve(self, scene, *trail):
-        mark(self, scene)
-        return super().solve(scene, *trail)
-
-
-def series():
-    scene = kelvin("sphere")
-    scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
-    solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
-    return Series("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)
-
-
-def tasks():
-    return tasks_of(series().grids)
-
-
-def names(task):
-    contacts = getattr(task, "contacts", (task,))
-    return [name(each.solver, scene) for each in contacts for scene in each.scenes]
-"""
-STUDY = """
-import marked
-from compare.cli.app import main
-from compare.studies.claims.catalogue import STUDIES, ReadyStudy
-
-if __name__ == "__main__":
-    STUDIES["collapse"] = ReadyStudy("Tiny", "A few contacts.", lambda size: [marked.series()])
-    main()
-"""
-# A machine under load starts processes slowly.
-PATIENCE = 120
+ROOT = Path(__file__).parents[2]
+PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
 
 
 class Killed:
     """A folder with the study, run by the command in a process group of its own."""
 
-    def __init__(self, folder, marked):
-        self.folder, self.marked = folder, marked
-        (folder / "study.py").write_text(STUDY)
-        (folder / "marked.py").write_text(MARKED)
+    def __init__(self, folder):
+        self.folder = folder
         self.marks = folder / "marks"
-        self.tasks = marked.tasks()
+        self.tasks = marked_study.tasks()
         self.store = Store(folder / "crosscheck-study" / "solved")
 
     def start(self):
-        return subprocess.Popen(
-            [sys.executable, "study.py", "study", "collapse", "--workers", "2"],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-            env=os.environ | {"MARKS": str(self.marks), "PYTHONWARNINGS": "error"},
-        )
+        program = ("-c", "import marked_study; marked_study.command()")
+        environment = {"MARKS": str(self.marks), "PYTHONPATH": PATHS}
+        return start(self.folder, "study", "collapse", "--workers", "2", program=program, **environment)
 
     def count(self):
         return len(self.store)
@@ -120,7 +47,7 @@ class Killed:
         return Counter(self.marks.read_text().split()) if self.marks.exists() else Counter()
 
     def begun_of(self, tasks, begun):
-        return {task: [begun[name] for name in self.marked.names(task)] for task in tasks}
+        return {task: [begun[name] for name in marked_study.names(task)] for task in tasks}
 
     def kill(self, when):
         """Start it, kill all of it at a moment, and see that nothing stored is lost or was solved again.
@@ -144,8 +71,8 @@ class Killed:
     def finish(self, expected):
         """Run it to its end, and compare with undisturbed answers."""
         before, begun = self.stored(), self.begun()
-        said, complained = (process := self.start()).communicate(timeout=PATIENCE)
-        assert (process.returncode, complained) == (0, "")
+        status, said, complained = finish(self.start())
+        assert (status, complained) == (0, "")
         solved = self.stored()
         assert solved == self.tasks
         assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
@@ -170,23 +97,11 @@ def exactly(outcome):
 
 
 @pytest.fixture(scope="module")
-def marked(tmp_path_factory):
-    """The module of the study, as the command imports it."""
-    folder = tmp_path_factory.mktemp("marked")
-    (folder / "marked.py").write_text(MARKED)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(folder))
-        patch.setenv("MARKS", str(folder / "marks"))
-        import marked
-
-        yield marked
-    del sys.modules["marked"]
-
-
-@pytest.fixture(scope="module")
-def expected(marked):
+def expected(tmp_path_factory):
     """Answers of an undisturbed solve of each task."""
-    return {task: exactly(task.solve()) for task in marked.tasks()}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MARKS", str(tmp_path_factory.mktemp("undisturbed") / "marks"))
+        return {task: exactly(task.solve()) for task in marked_study.tasks()}
 
 
 def moment(draw, study):
@@ -206,69 +121,21 @@ def moment(draw, study):
 
 
 @pytest.mark.slow
-def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, marked, expected):
-    study = Killed(tmp_path, marked)
+def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, expected):
+    study = Killed(tmp_path)
     assert study.kill(lambda: study.count() >= 3)
     study.finish(expected)
 
 
 @pytest.mark.hours
-def test_ten_workers_killed_at_random_moments_cost_what_they_solved_and_nothing_else(tmp_path, marked, expected):
-    draw, kills, studies = random.Random(10), 0, 0
-    while kills < 10:
-        (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies), marked)
-        studies += 1
-        process = study.start()
-        for _ in range(2):
-            due = moment(draw, study)
-            while not due() and process.poll() is None:
-                time.sleep(0.002)
-            workers = [pid for pid in children(process.pid) if b"spawn_main" in command(pid)]
-            if workers and process.poll() is None:
-                os.kill(draw.choice(workers), signal.SIGKILL)
-                kills += 1
-        _, complained = process.communicate(timeout=PATIENCE)
-        assert (process.returncode, complained) == (0, "")
-        assert study.stored() == study.tasks
-        for task in study.tasks:
-            assert exactly(study.store.get(task)) == expected[task]
-        begun = study.begun_of(study.tasks, study.begun())
-        assert (
-            sum(sum(counts) - len(counts) for counts in begun.values()) <= 2 * 2 * 2
-        )  # two ran, twice, of two scenes
-    print(f"{kills} workers killed in {studies} studies of {len(study.tasks)} tasks")
-
-
-def children(process):
-    return map(int, Path(f"/proc/{process}/task/{process}/children").read_text().split())
-
-
-def command(process):
-    with suppress(OSError):
-        return Path(f"/proc/{process}/cmdline").read_bytes()
-    return b""
-
-
-@pytest.mark.hours
-def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, marked, expected):
+def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
     draw, kills, studies, unstored = random.Random(50), 0, 0, 0
     while kills < 50:
         (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies), marked)
+        study = Killed(tmp_path / str(studies))
         studies += 1
         while kills < 50 and study.count() < len(study.tasks):
             kills += study.kill(moment(draw, study))
             unstored += study.count() == 0
         study.finish(expected)
     print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
-
-
-@pytest.mark.slow
-def test_what_the_marks_count_are_solves(tmp_path, marked, monkeypatch):
-    study = Killed(tmp_path, marked)
-    monkeypatch.setenv("MARKS", str(study.marks))
-    task = study.tasks[0]
-    for times in (1, 2):
-        task.solve()
-        assert study.begun_of([task], study.begun()) == {task: [times] * len(task.scenes)}

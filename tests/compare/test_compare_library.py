@@ -16,7 +16,6 @@ from compare.studies.claims.study_file import study_of
 from compare.studies.plan import plans
 from compare.studies.schema import DIALECT, schema
 from scene import Prony, Refused, Scene
-from scene.quantities import unit_of
 from scene.reading import InvalidInput, made, read
 
 SCENES = [name for name, each in ready().items() if each.kind == "scene"]
@@ -28,16 +27,6 @@ ONE_SOLVER = {"line-contact", "rough-plane", "thin-layer"}
 
 def written(name, tmp_path):
     return write(name, tmp_path / f"{name}.toml")
-
-
-def test_there_is_enough_to_begin_with():
-    assert len(SCENES) >= 12
-    assert len(STUDIES) >= 2
-    assert {"quick-start", "paper-sphere", "paper-cone"} <= set(SCENES)
-    for each in ready().values():
-        assert each.title
-        assert each.about.endswith(".")
-        assert each.text.startswith("# ")
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -56,18 +45,6 @@ def test_every_scene_is_read_and_planned(name, tmp_path):
     assert {solver for solver, plan in found.items() if isinstance(plan, str)} == (
         {"MDR"} if name in ONE_SOLVER else set()
     )
-
-
-def test_the_command_that_is_named_for_a_file_is_one_that_takes_it():
-    assert {name for name, each in ready().items() if each.command == "plan"} == FROM_PYTHON
-    assert {name for name, each in ready().items() if each.command == "study"} == set(STUDIES)
-    assert {each.command for each in ready().values()} == {"run", "plan", "study"}
-
-
-def test_those_that_are_not_compared_say_how_they_are_solved():
-    for name in FROM_PYTHON:
-        assert f'read("{name}.toml", Scene)' in find(name).text
-        assert "crosscheck plan" in find(name).text
 
 
 @pytest.mark.parametrize("name", STUDIES)
@@ -131,13 +108,8 @@ def test_every_file_is_valid_by_its_schema(name, validators):
     ("old", "new"),
     [
         ('radius = "10 mm"', 'radus = "10 mm"'),
-        ('radius = "10 mm"', "radius = -1"),
-        ('radius = "10 mm"', 'radius = "wide"'),
-        ('radius = "10 mm"', "radius = true"),
-        ('type = "sphere"\n', ""),
         ('"sphere"', '"spher"'),
         ("hurst = 0.8", "hurst = 2"),
-        ("points = 64", "points = 6.5"),
         ("[mdr]", "[mrd]"),
         ("seed = 1", 'amplitudes = "any"'),
     ],
@@ -150,30 +122,6 @@ def test_what_a_file_may_not_say_is_no_valid_file_by_the_schema_either(old, new,
     with pytest.raises(InvalidInput):
         read(path, Case)
     assert not validators["scene"].is_valid(tomllib.loads(path.read_text(encoding="utf-8")))
-
-
-def test_a_schema_says_what_the_docstrings_say():
-    parts = schema("scene")["$defs"]
-    radius = parts["Sphere"]["properties"]["radius"]
-    assert "paraboloid" in parts["Sphere"]["description"]
-    assert "as 5 mm or 0.005 (in m)" in radius["description"]
-    assert radius["anyOf"][0] == {"type": "number", "exclusiveMinimum": 0}
-    shortest = parts["SelfAffine"]["properties"]["shortest"]["description"]
-    assert "q_max = 2 pi / shortest" in shortest
-    assert "a length" in shortest
-    assert parts["Layer"]["properties"]["base"]["enum"] == ["bonded", "frictionless"]
-    assert parts["Sphere"]["required"] == ["type", "radius"]
-
-
-def test_every_number_with_a_unit_says_it_in_the_schema():
-    from scene import Fractional, Prony, SelfAffine, Slide
-
-    parts = schema("scene")["$defs"]
-    for cls in (Fractional, Prony, SelfAffine, Slide):
-        for name in cls.__dataclass_fields__:
-            if unit := unit_of(cls, name):
-                node = parts[cls.__name__]["properties"][name]
-                assert f"(in {unit})" in str(node), (cls, name)
 
 
 # The page about them
@@ -205,11 +153,6 @@ def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch
     if "indenter" not in stated and "gap" in stated.get("motion", {}):
         content["indenter"] = {"type": "plane"}
     assert made(content, Case, "scenes.md").scene
-
-
-def test_the_page_about_scenes_names_every_ready_one():
-    text = (Path(__file__).parents[2] / "docs" / "reference" / "scenes.md").read_text(encoding="utf-8")
-    assert not [name for name in SCENES if f"`{name}`" not in text]
 
 
 def test_a_folder_of_an_earlier_run_does_not_hide_the_ready_scene_it_was_made_from(tmp_path, monkeypatch):

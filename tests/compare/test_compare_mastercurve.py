@@ -8,23 +8,22 @@ import pytest
 
 import compare
 from compare.report.plots import shifted_curves, style
-from compare.solving.vocabulary import entry
 from compare.statistics.eq23 import NO_SHIFT
-from compare.statistics.finding import EXACT, FAILS, HOLDS, REPORTED, UNDECIDED
+from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
 from scene.reading import InvalidInput
 
 
-def table(repeats=3, seed=4, order=(0, 1, 2), vertical=0.0, noise=0.01, law=lambda x: (1 + 3e-4 * x) ** -0.6):
+def table(repeats=3, seed=4, vertical=0.0, noise=0.01):
     """Rows of friction on one curve shifted by v^-1.5 along the load, and along friction, with 1 % of scatter."""
     rng = np.random.default_rng(seed)
     rows = []
     for speed in np.geomspace(3e-3, 2e-2, 4):
         for load in np.geomspace(1.0, 100.0, 8):
-            friction = law(load * speed**-1.5) * speed**-vertical
+            friction = (1 + 3e-4 * load * speed**-1.5) ** -0.6 * speed**-vertical
             for scatter in 1 + noise * rng.normal(size=repeats):
-                rows.append(",".join(str((friction * scatter, load, speed)[i]) for i in order))
+                rows.append(f"{friction * scatter},{load},{speed}")
     return "\n".join(rows)
 
 
@@ -35,34 +34,6 @@ def study(tmp_path, text, name="ball.csv"):
 
 def found(study):
     return {each.claim.id.removeprefix("mastercurve."): each for each in study.judge(study.answers({})).findings}
-
-
-def test_coefficients_that_no_pair_of_bodies_has_are_told():
-    loads, speeds = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
-    friction = 0.3 / (1 + loads / speeds / 10)
-    for factor, told in ((1.0, False), (100.0, True)):
-        notes = MeasuredFriction.of({"mu": factor * friction, "F_N": loads, "v": speeds}).notes
-        assert any("is a force, or another unit, meant?" in each for each in notes) == told
-
-
-def test_shifts_of_a_table_are_found_with_their_intervals(tmp_path):
-    told = found(study(tmp_path, table()))
-    assert (told["horizontal"].verdict, told["vertical"].verdict) == (HOLDS, HOLDS)
-    low, high = told["exponent"].interval
-    assert told["exponent"].value == pytest.approx(-1.5, abs=2 * (high - low))
-    assert high - low < 0.1
-    assert told["unshifted"].value > 0.3
-    assert {each.grid_method for each in told.values()} == {EXACT}
-
-
-def test_a_shift_along_friction_is_measured_beside_that_along_the_load(tmp_path):
-    told = found(study(tmp_path, table(vertical=0.2)))
-    low, high = told["vertical-exponent"].interval
-    assert 0 < low <= 0.2 <= high
-    low, high = told["exponent-beside-vertical"].interval
-    assert low <= -1.5 <= high
-    assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
-    assert told["both"].value < told["horizontal"].interval[0]
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
@@ -89,16 +60,6 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
         assert not any("is shifted as" in each for each in [first, *others])
 
 
-@pytest.mark.parametrize("vertical", [0.0, 0.1])
-def test_of_straight_curves_no_shift_is_the_answer(tmp_path, vertical):
-    made = study(tmp_path, table(vertical=vertical, law=lambda x: x**-0.4))
-    told = found(made)
-    assert "straight parallel lines" in told["vertical-exponent"].reason
-    assert np.isnan(told["vertical-exponent"].value)
-    assert told["vertical"].verdict == UNDECIDED
-    assert not any("is shifted as" in each for each in made.judge(made.answers({})).answer)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("vertical", [0.0, 0.05])
 def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertical):
@@ -111,30 +72,6 @@ def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertic
         told += made.lead is made.collapse.both
     assert held >= 60 * (0.95 - 3 * np.sqrt(0.95 * 0.05 / 60))
     assert told > 48 if vertical else told < 60 * (0.05 + 3 * np.sqrt(0.95 * 0.05 / 60))
-
-
-def test_the_figure_of_both_shifts_has_one_curve_and_both_exponents_of_the_words(tmp_path):
-    made = study(tmp_path, table(vertical=0.1))
-    (plot,) = made.judge(made.answers({})).plots
-    with style.applied():
-        drawing = shifted_curves.figure(again(plot), **plot.options)
-    _, middle, right, _ = drawing.axes
-    assert "shifted both ways" in " ".join(middle.get_title(loc="left").split())
-    points, powers = (plot.tables[name] for name in (shifted_curves.NAME, shifted_curves.POWERS))
-    order = np.argsort(points["shifted_force"].to_numpy())
-    shown = np.log(points[["shifted_force", "shifted_friction"]].to_numpy()[order])
-    # Neighbours on one falling curve, whatever their speed; unshifted along friction they are 7 % apart.
-    assert (np.diff(shown[:, 1])[np.diff(shown[:, 0]) > 0.03] < 0).all()
-    told = found(made)
-    for row, name in (("fitted", "exponent-beside-vertical"), ("along friction", "vertical-exponent")):
-        numbers = powers.set_index("power").loc[row, ["exponent", "exponent_low", "exponent_high"]]
-        assert numbers.tolist() == pytest.approx([told[name].value, *told[name].interval])
-    labels = [each.get_text() for each in right.get_legend().get_texts()]
-    assert [label.split(" ")[0] for label in labels] == ["along", "along"]
-    shifts = plot.tables[shifted_curves.SHIFTS]
-    speeds = np.log(shifts["speed"])
-    for column, planted in (("log_shift", -1.5), ("log_lift", 0.1)):
-        assert np.polyfit(speeds, shifts[column], 1)[0] == pytest.approx(planted, abs=0.05)
 
 
 def test_one_scatter_stands_behind_all_points(tmp_path):
@@ -159,20 +96,6 @@ def test_single_measurements_leave_the_verdict_open(tmp_path):
     assert np.isnan(told["exponent"].interval).all()
 
 
-def test_curves_pulled_apart_claim_no_exponent(tmp_path):
-    # Loads that span a factor of 3 and shifts of a factor of 100: no two curves share a stretch.
-    rows = [
-        f"{(1 + load * v**-6.6) ** -0.5 * scatter},{load},{v}"
-        for v in (1, 2, 4)
-        for load in np.geomspace(1, 3, 6)
-        for scatter in (0.9999, 1.0001)
-    ]
-    told = found(study(tmp_path, "\n".join(rows)))
-    assert told["horizontal"].verdict != HOLDS
-    assert np.isnan(told["exponent"].value)
-    assert "overlap" in told["exponent"].reason
-
-
 def bent():
     """Each speed bends in its own way, and measurements hardly scatter: no shift helps."""
     return "\n".join(
@@ -193,71 +116,16 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     assert np.isfinite(made.collapse.horizontal.exponent.value)
 
 
-def test_a_heading_says_what_the_columns_are(tmp_path):
-    plain = study(tmp_path, table())
-    named = study(tmp_path, "speed, mu, F_N\n" + table(order=(2, 0, 1)), "named.csv")
-    assert named.data.equals(plain.data)
-
-
-@pytest.mark.parametrize(
-    "heading",
-    [
-        "speed [mm/s], mu [1], F_N [mN]",
-        "v [mm/s] COF F_N [mN]",
-        "v / mm/s; mu / 1; normal force / mN",
-        "v(mm/s)\tµ\tFN (mN)",
-    ],
-)
-def test_a_heading_says_the_units_of_the_columns(tmp_path, heading):
-    plain = study(tmp_path, table()).data
-    rows = (line.split(",") for line in table(order=(2, 0, 1)).splitlines())
-    text = "\n".join(f"{1e3 * float(v)},{mu},{1e3 * float(load)}" for v, mu, load in rows)
-    found_ = study(tmp_path, f"{heading}\n{text}", "named.csv").data
-    for name in plain:
-        np.testing.assert_allclose(found_[name], plain[name], rtol=1e-14)
-
-
-def test_repeats_draw_bars_that_are_their_intervals(tmp_path):
-    for repeats, drawn in ((3, True), (1, False)):
-        made = study(tmp_path, table(repeats))
-        (plot,) = made.judge(made.answers({})).plots
-        points = plot.tables[shifted_curves.NAME]
-        with style.applied():
-            axes = shifted_curves.figure(plot.tables, **plot.options).axes[0]
-        bars = next(each for each in axes.containers if each.has_yerr).lines[2][0].get_segments()
-        ends = np.array([segment[:, 1] for segment in bars])
-        expected = points[["friction_coefficient_low", "friction_coefficient_high"]].to_numpy()
-        assert np.isfinite(expected).all() == drawn
-        if drawn:
-            np.testing.assert_allclose(ends, expected, rtol=1e-12)
-        else:
-            assert np.ptp(ends, axis=1).max() == 0
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
         ("mu, F_N [mPa], v\n1,2,3\n", "gives F_N in 'mPa'.*that of a force, as N"),
-        ("mu [N], F_N, v\n1,2,3\n", "gives mu in 'N': the unit needed is none"),
         ("mu,F,w\n1,2,3\n", "has no column for F_N, called F_N, FN, load"),
-        ("1 2\n", "line 1: 2 columns without a heading; without a heading, mu, F_N, v are needed"),
         ("0.5,1,3,2\n", "line 1: 4 columns without a heading"),
         ("1,2,3\n1,2,-3\n", "line 2: v = -3 must be finite and greater than 0"),
-        (f"1,2,3\n1,2,{'9' * 5000}\n", "line 2"),
         ("1,2,3\n1,x,3\n", "line 2, column 2: 'x' is not a number"),
-        ("1,2,3\n1,3,3\n", "1 speeds: 2 to 100 are"),
-        (
-            "".join(f"1,{load},{v}\n" for load in (1, 2) for v in 1.06 ** np.arange(101)),
-            "101 speeds: 2 to 100 are",
-        ),
-        (
-            "".join(f"1,{load},{v}\n" for load in 1.06 ** np.arange(102) for v in 1.06 ** np.arange(50)),
-            "5,100 loads at all speeds: at most",
-        ),
         ("\x1b[31m,F,v\n1,2,3\n", r"the heading \(\\x1b\[31m, F, v\) has no column for F_N"),
         ("1,2,3\n1,3,3\n1,3,4\n", "v = 4 has 1 load: at least 2"),
-        ("", "there is no row of numbers"),
-        ("1,2,3\n1,3,3\n1,3,4\n1,5,4\n", "too few points"),
     ],
 )
 def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
@@ -316,12 +184,7 @@ MU, LOAD, SPEED = COLUMNS
 ALIKE = {
     "CoF,Normal load (N),Sliding velocity (m/s)": (MU, LOAD, SPEED),
     "Time [s];Friction force [mN];Velocity [mm/s];Fz [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
-    "sliding speed / mm/s\tload / kN\tcoefficient of friction": (1e3 * SPEED, LOAD / 1e3, MU),
-    "tangential_force,normal_force,speed,t [s]": (MU * LOAD, LOAD, SPEED, np.arange(96.0)),
-    "Lateral Force (N);Load (N);v (m/s)": (MU * LOAD, LOAD, SPEED),
     "Normalkraft F_N in N;Reibkraft in N;Gleitgeschwindigkeit in mm/s": (LOAD, MU * LOAD, 1e3 * SPEED),
-    "Charge (N);Coefficient de frottement;Vitesse (mm.s-1)": (LOAD, MU, 1e3 * SPEED),
-    "load_mN;mean_cof;speed_mm_s": (1e3 * LOAD, MU, 1e3 * SPEED),
     "T(sec)\tFx(N)\tFz(N)\tVel(mm/s)": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
 }
 
@@ -370,18 +233,10 @@ def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
             "speed": ("row", SPEED, {"units": "m/s"}),
         }
     )
-    loads, speeds = np.unique(LOAD), np.unique(SPEED)
-    grid = xarray.DataArray(
-        MU.reshape(4, 8, 3),
-        dims=("speed", "load", "repeat"),
-        coords={"speed": ("speed", 1e3 * speeds, {"units": "mm/s"}), "load": loads},
-    )
     for given in (
         frame,
         labelled,
         {"mu": MU, "F_N": unit.Quantity(1e3 * LOAD, "mN"), "v": SPEED},
-        {"F_T": MU * LOAD, "load": LOAD.tolist(), "v": unit.Quantity(100 * SPEED, "cm/s")},
-        xarray.Dataset({"mu": grid}),
     ):
         read = MeasuredFriction.of(given)
         for name, numbers in plain.data.items():
@@ -389,7 +244,6 @@ def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
         assert read.source == f"a {type(given).__name__} from Python, 96 rows"
     made = Mastercurve.of(frame)
     assert made.inputs["table"] == "a DataFrame from Python, 96 rows"
-    assert made.title == "Friction of DataFrame on one curve"
     assert made.collapse.horizontal.exponent.value == pytest.approx(
         study(tmp_path, table()).collapse.horizontal.exponent.value, rel=1e-10
     )
@@ -412,12 +266,8 @@ def test_friction_force_and_coefficient_agree_or_are_refused(tmp_path):
     ("names", "said"),
     [
         ("mu,F_N [N],v [rpm]", "only with the radius of its track"),
-        ("mu,F_N [N],rotational speed [1/min]", "there is rotational speed and no v.*radius"),
-        ("mu,F_N [N],w", "there is no column for v, called v, speed"),
         ("x,F_N [N],v", "there is no column for mu, called mu.*nor for F_T"),
-        ("mu,F_T [mm],v,F_N", "F_T in 'mm'.*a force, as N"),
         ("mu,F_N,v,T", "line 2: T = 4 has no unit, and 4 K is hardly meant: write T .degC."),
-        ("F_T,F_N [mN],v", "gives a unit of 'F_N' and none of 'F_T'"),
         ("mu,F_N,v,load", "'F_N' and 'load' are both F_N: keep one"),
     ],
 )
@@ -449,7 +299,7 @@ def test_one_temperature_is_told_and_changes_nothing(tmp_path):
     assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
 
 
-def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
+def warmed(c1=8.86, c2=101.6, seed=2):
     """Friction at three temperatures, on one curve of load and of the speed that WLF at 20 degC shifts."""
     rng, rows = np.random.default_rng(seed), ["T [degC],v [mm/s],F_N,F_T [N]"]
     for celsius in (12, 20, 28):
@@ -458,7 +308,7 @@ def warmed(c1=8.86, c2=101.6, seed=2, law=lambda x: (1 + 3 * x) ** -0.6):
             for load in np.geomspace(1, 30, 4):
                 for noise, *jitter in rng.normal(size=(2, 3)):
                     v, f = (each * (1 + 0.003 * off) for each, off in zip((speed, load), jitter, strict=True))
-                    mu = law(f * (by * v / 30) ** -0.5) * (1 + 0.02 * noise)
+                    mu = (1 + 3 * f * (by * v / 30) ** -0.5) ** -0.6 * (1 + 0.02 * noise)
                     rows.append(f"{celsius},{v},{f},{mu * f}")
     return "\n".join(rows)
 
@@ -476,20 +326,12 @@ def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
     assert first.startswith("Shifts along the load")
     points, shifts = made.judge(None).plots
     assert set(points.tables["shifted-curves"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
-    with style.applied():
-        drawing = shifted_curves.figure(again(points), **points.options)
-        shifted = shifts.draw(again(shifts))
-    drawing.canvas.draw()
-    shifted.canvas.draw()
     own = shifts.tables["temperature-shifts"]
     np.testing.assert_allclose(
         np.log(own["reduced_speed"] / own["speed"]),
         own["temperature"].map(dict(zip(made.shifts.temperatures, made.shifts.shifts.value, strict=True))),
         atol=1e-12,
     )
-    for block in made.judge(None).blocks:
-        for name in getattr(block, "frame", pandas.DataFrame()).columns:
-            assert entry(name) is not None
 
 
 def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent(tmp_path):
@@ -508,21 +350,11 @@ def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent(tmp_path):
     assert wrong["horizontal"].value == pytest.approx(told["horizontal"].value, abs=1e-3)
 
 
-def test_where_friction_is_a_power_no_temperature_is_shifted_and_no_exponent_told(tmp_path):
-    told = found(study(tmp_path, warmed(law=lambda x: (3 * x) ** -0.6)))
-    assert told["temperatures"].verdict == UNDECIDED
-    for name in ("exponent", "c1", "c2", "activation-energy"):
-        assert np.isnan(told[name].value)
-        assert "cannot be told from one along friction" in told[name].reason
-
-
 @pytest.mark.parametrize(
     ("stated", "said"),
     [
         ({"c1": 8.86}, "c2"),
         ({"c1": 8.86, "c2": 101.6, "reference": "500 degC"}, "the law ends at reference - c2"),
-        ({"c1": -1, "c2": 101.6, "reference": 293.15}, "c1 = -1"),
-        ({"c1": 8.86, "c2": "101.6 N", "reference": 293.15}, "c2 = '101.6 N'"),
         ({"c1": 8.86, "c2": 101.6, "reference": 20}, "is degC meant"),
     ],
 )
@@ -568,30 +400,6 @@ def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     assert ("undecided" in right.get_title(loc="left")) == (findings[0].verdict == FAILS)
     assert findings[0].verdict in middle.get_title(loc="left")
     assert len(plot.caption.split()) <= 60
-
-
-def test_rows_of_the_figure_show_what_is_expected_where_curves_part_and_other_powers():
-    from test_compare_collapse import cubic, friction, knee, smooth
-
-    from compare.statistics import eq23
-    from compare.statistics.collapse import collapse
-
-    rows = []
-    for title, law, power in (("kept", knee, -1.5), ("parted", cubic, -9.0)):
-        fit = collapse(smooth(friction(law, power=power)))
-        collapsed = next(eq23.findings(fit, None, "1D"))
-        holds = pandas.DataFrame({"holds": np.arange(40) % 2 == 0})
-        rows.append(shifted_curves.ShiftedCurves(title, fit, collapsed, -4.0, {"Eq. 22": -1.4}, holds))
-    plot = shifted_curves.plot(rows, "losses/shifted-curves-1")
-    with style.applied():
-        drawing = shifted_curves.figure(again(plot), **plot.options)
-    powers = plot.tables["losses/shifted-curves-1-powers"]
-    assert powers["power"].tolist() == ["fitted", "expected", "Eq. 22", "expected", "Eq. 22"]
-    points = plot.tables["losses/shifted-curves-1"].query("curves == 'parted'")
-    by = (points["speed"] / points["speed"].unique()[2]) ** -4.0
-    np.testing.assert_allclose(points["shifted_force"], points["normal_force"] * by, rtol=1e-12)
-    assert "shifted as expected" in " ".join(drawing.axes[4].get_title(loc="left").split())
-    assert shifted_curves.plot([]) is None
 
 
 def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):

@@ -5,35 +5,17 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from test_compare_cases import SCENE
+from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
-from bem3d import BEM
 from compare import run
 from compare.cli.app import app
 from compare.report.plots import solid, style
 from compare.solving.parameter_grid import contacts_of
 from compare.studies.plan import plans
-from compare.trustmap.verdict import trust
-from mdr1d import MDR
 from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
-from scene.plan import Plan
-from scene.reading import made, read
 
-TINY = """
-[study]
-speeds = [0.1, 1.0]
-pressing = [0.5, 2.0]
-load_speeds = [0.1]
-depths = [1.0]
-surfaces = 2
-profiles = 2
-[bem]
-points = 32
-[mdr]
-points = 1000
-"""
 PLANE = """
 [indenter]
 type = "plane"
@@ -66,23 +48,8 @@ def told(path, *options):
     return CliRunner().invoke(app, ["plan", str(path), *options])
 
 
-def test_a_plan_is_six_lines(written):
-    answer = told(written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n"))
-    assert answer.exit_code == 0
-    lines = answer.output.splitlines()
-    assert [each[:9].rstrip() for each in lines] == [
-        "contacts",
-        "time",
-        "memory",
-        "simulated",
-        "left out",
-        "modulus",
-    ]
-    assert max(map(len, lines)) <= 100
-
-
 def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
-    path = written(SCENE + TINY)
+    path = written(SCENE + SMALL)
     report = run(path, tmp_path / "out", workers=1, report=False)
     solved = sum(len(getattr(task, "scenes", (task,))) for task in contacts_of(report.study.grids()))
     assert plans(path).cost == report.study.cost()
@@ -90,46 +57,32 @@ def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
     assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
 
 
-def test_the_details_are_both_plans_of_the_solvers(written):
-    path = written(SCENE + "[bem]\npoints = 96\n[mdr]\npoints = 700\n")
-    answer, short = told(path, "-v"), told(path)
-    assert answer.exit_code == 0
-    case = written(SCENE)
-    scene = read(case, Scene)
-    plans = MDR(points=700).plan(scene), BEM(points=96).plan(scene), trust(scene)
-    assert answer.output == "\n\n".join([short.output.rstrip(), *map(str, plans)]) + "\n"
+HEAD = SCENE.partition("[motion]")[0]
+PROGRAM = (
+    HEAD
+    + '[motion]\ntype = "program"\nstages = [{{duration = 1.0, load = 1.0}}, {{duration = {0}, speed = 1.0}}]\n'
+)
 
 
-def test_where_one_solver_refuses_its_reasons_stand_beside_the_plan_of_the_other(written):
-    path = written(PLANE.format(shortest=1e-4))
-    answer = told(path, "-v")
-    assert answer.exit_code == 0
-    assert "MDR cannot solve this scene: indenter = Plane: it is no body of revolution" in answer.output
-    assert "\nBEM, 128 points a side" in answer.output
-    assert isinstance(plans(path)["BEM"], Plan)
-    refused = next(line for line in told(path).output.splitlines() if line.startswith("refused"))
-    assert "MDR cannot solve this scene: indenter = Plane" in refused
-
-
-def test_where_all_refuse_the_status_says_so(written):
-    answer = told(written(PLANE.format(shortest=1e-6)))
-    assert answer.exit_code == 2
-    assert "MDR cannot solve this scene" in answer.output
-    assert "BEM cannot solve this scene: roughness.shortest = 1e-06 m is less than two pixels" in answer.output
-
-
-def test_a_program_of_too_many_steps_is_told_and_not_planned(written):
-    head, _ = SCENE.split("[motion]", 1)
-    stages = '[motion]\ntype = "program"\nstages = [{duration = 1.0, load = 1.0}, {duration = 1e9, speed = 1.0}]\n'
-    answer = told(written(head + stages))
-    assert answer.exit_code == 2
-    assert "would not get through this scene" in answer.output
-
-
-def test_a_mistake_in_the_file_is_named(written):
-    answer = told(written(SCENE.replace("load", "lode")))
-    assert answer.exit_code == 2
-    assert "motion.lode" in answer.output
+@pytest.mark.parametrize(
+    ("text", "status", "said"),
+    [
+        (PLANE.format(shortest=1e-4), 0, ["MDR cannot solve this scene: indenter = Plane", "left out"]),
+        (
+            PLANE.format(shortest=1e-6),
+            2,
+            ["MDR cannot solve this scene", "BEM cannot solve this scene: roughness."],
+        ),
+        (PROGRAM.format(1e-3), 0, ["alone      motion = Program: crosscheck compares bodies"]),
+        (PROGRAM.format(1e9), 2, ["would not get through this scene"]),
+    ],
+    ids=["refused by one", "refused by both", "not compared", "too many steps"],
+)
+def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, said):
+    answer = told(written(text))
+    assert answer.exit_code == status
+    for each in said:
+        assert each in answer.output
 
 
 def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
@@ -145,33 +98,6 @@ def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
     assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
 
 
-@pytest.mark.parametrize(
-    ("elastomer", "said"),
-    [
-        (
-            {"type": "kelvin", "modulus": 1e6, "relaxation_time": 1e-3, "poisson_ratio": 0.5},
-            "shear G = 1 MPa, Young's E = 3 MPa at rest; infinite at the instant, by a dashpot",
-        ),
-        (
-            {
-                "type": "standard-linear-solid",
-                "rubbery_modulus": 670e3,
-                "glassy_youngs_modulus": 26e6,
-                "relaxation_time": 1e-3,
-            },
-            "shear G = 670 kPa, Young's E = 1.74 MPa at rest; 10 MPa, 26 MPa at the instant",
-        ),
-        ({"type": "elastic", "modulus": 1e9}, "shear G = 1 GPa, Young's E = 2.6 GPa at rest and at the instant"),
-    ],
-)
-def test_a_plan_says_how_stiff_the_solid_is_at_rest_and_at_the_instant(elastomer, said):
-    stated = {"poisson_ratio": 0.3} | elastomer
-    scene = {"indenter": {"type": "sphere", "radius": 1e-2}, "motion": {"type": "indent", "load": 1.0}}
-    found = plans(made(scene | {"elastomer": stated}, Scene, "scene"))
-    assert f"modulus    {said}" in str(found).splitlines()
-
-
-TIME = np.geomspace(1e-5, 1e1, 30)
 LAW = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6)
 SERIES = Prony(1e6, (1e6, 3e6), (1e-1, 1e-3))
 
@@ -198,28 +124,12 @@ def test_measured_moduli_are_drawn_as_points_on_their_fit_at_the_temperature_of_
     assert "at 310 K" in drawn.caption
 
 
-@pytest.mark.parametrize("name", ["G(t)", "J(t)"])
-def test_relaxation_and_creep_are_drawn_beside_the_moduli(name):
-    law = SERIES.relaxation_modulus(TIME) if name == "G(t)" else SERIES.creep_compliance(TIME)
-    _, (_, axes, _) = moduli_drawn({"t": TIME, name: law})
-    (points,) = (line for line in axes.lines if line.get_label() == "measured")
-    np.testing.assert_allclose(points.get_xdata(), TIME * LAW.shift)
-    assert axes.get_ylabel().endswith("[MPa]" if name == "G(t)" else "[1/MPa]")
-
-
 @pytest.mark.parametrize("form", ["png", "pdf", "svg"])
 def test_a_plan_draws_the_solid_into_a_file(written, tmp_path, form):
     path = tmp_path / f"solid.{form}"
     answer = told(written(SCENE), "--figure", str(path))
     assert answer.exit_code == 0
     assert path.stat().st_size > 1000
-
-
-def test_a_figure_of_another_form_is_refused(written, tmp_path):
-    answer = told(written(SCENE), "--figure", str(tmp_path / "solid.jpg"))
-    assert answer.exit_code == 2
-    assert "a file that ends in .png, .pdf, .svg" in answer.output
-    assert not (tmp_path / "solid.jpg").exists()
 
 
 def fine_map(folder, **stated):
@@ -255,13 +165,6 @@ def test_the_values_that_a_refusal_names_work(tmp_path, name):
     accepted = plans(fine_map(tmp_path, **{name: value}))
     assert accepted.feasible
     assert not isinstance(accepted.cost, str)
-
-
-def test_a_plan_says_why_a_scene_is_not_compared(written):
-    head, _ = SCENE.split("[motion]", 1)
-    answer = told(written(f'{head}[motion]\ntype = "program"\nstages = [{{duration = 1.0, load = 1.0}}]\n'))
-    assert answer.exit_code == 0
-    assert "alone      motion = Program: crosscheck compares bodies that are pressed in" in answer.output
 
 
 def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in_python(written):

@@ -134,19 +134,3 @@ def test_a_measure_that_is_missing_is_an_error_and_one_that_is_unknown_stays_so(
     unknown = ratios(SCENE, AREA | {"rms_slope": nan})
     assert np.isnan(unknown["pressure_over_slope"])
     assert "p/(E* h')" not in words(unknown)
-
-
-def test_words_are_the_ranges_of_what_is_known_to_two_digits():
-    loads, speeds = (0.5, 2.0, 8.0), (0.0, 0.05, 0.2)
-    points = [
-        ratios(replace(SCENE, motion=Slide(speed=v, load=f)), AREA | {"contact_area": share * 1e-7})
-        for f, v, share in zip(loads, speeds, (0.5, nan, 2.0), strict=True)
-    ]
-    together = {name: [point[name] for point in points] for name in points[0]}
-    assert words(together) == (
-        "d/h0 38 to 240, a q_s 19 to 49, 2a/L 0.31 to 0.78, macro/rough slope 0.71 to 1.8, rms slope 0.1, "
-        "p/(E* h') 0.26 to 0.66, v tau/a 0 to 0.064, v tau q_s 0 to 3.1, contact 0.66 to 1 %"
-    )
-    at_rest = ratios(replace(SCENE, motion=Indent(load=2.0)), AREA)
-    assert "v tau" not in words(at_rest)
-    assert "rms slope 0.1," in words(at_rest)

@@ -1,26 +1,20 @@
 """Regime map: its table says what `trust` says of each scene, and its figure shows the table."""
 
 from dataclasses import replace
-from math import inf, log, nan
-from pathlib import Path
+from math import inf, nan
 
 import numpy as np
 import pytest
 from matplotlib.contour import QuadContourSet
 from pandas import DataFrame
-from pandas.testing import assert_frame_equal
 
-from compare.report import csvfiles
 from compare.report.plots import style
-from compare.report.plots.rendering import picture
-from compare.solving import vocabulary
 from compare.studies.trust import figure as regime_map
 from compare.studies.trust.map import ABOUT, FAMILY, regime_table
 from compare.trustmap.verdict import WIDE, trust
 from scene import Layer
 from scene.scales import elastic_contact
 
-SAMPLE = Path(__file__).parent / "plots" / "regime_map-figure" / "regime-map.csv"
 # The first is off the map; at the last the rms height is below all that were measured, as flat as the limit.
 PRESSURES, MEMORIES = (0.06, 0.3, 1.0, 30.0, 300.0), (0.01, 3.0, 1000.0)
 # What the map may miss of the smooth body on roughness pressed flat, of one: its own errors beside the data.
@@ -128,19 +122,6 @@ def test_lines_go_on_in_the_strip():
         assert points[0, 1] == pytest.approx(level**2, rel=0.05)
 
 
-def test_a_limit_that_is_merely_reached_has_no_line():
-    grazing, passing = (of_law(lambda p, m, most=most: min(p, most)) for most in (2.05, 2.2))
-    assert 2.0 not in lines(drawn(grazing)[0])
-    assert 2.0 in lines(drawn(passing)[0])
-
-
-def test_lines_below_one_are_dashed():
-    axes, _ = drawn(of_law(lambda p, m: min(p, 20.0) ** 0.5))
-    found = contours(axes)
-    for level, (_, dashes) in zip(found.levels, found.get_linestyle(), strict=True):
-        assert (dashes is not None) == (level < -ROUNDING)
-
-
 def test_what_is_to_be_solved_in_3d_is_hatched():
     """Where the interval is wide, where nothing is known, and nowhere else."""
 
@@ -160,32 +141,3 @@ def test_what_is_to_be_solved_in_3d_is_hatched():
     assert axes.get_legend().get_texts()[0].get_text() == "solve in 3D"
     known.loc[pressure < 0.5, ["ratio", "ratio_low", "ratio_high"]] = nan
     assert hatched(drawn(known)[0]).x1 == pytest.approx(0.5, rel=0.05)
-
-
-def test_no_label_is_cut_by_the_frame():
-    axes, _ = drawn(csvfiles.read(SAMPLE))
-    inside = axes.get_window_extent()
-    assert axes.texts
-    for text in axes.texts:
-        box = text.get_window_extent()
-        assert inside.x0 <= box.x0 <= box.x1 <= inside.x1
-        assert inside.y0 <= box.y0 <= box.y1 <= inside.y1
-
-
-def test_the_figure_redrawn_from_its_files_is_equal(table, tmp_path):
-    plot = regime_map.plot(table, ABOUT, WIDE)
-    for name, frame in plot.files.items():
-        csvfiles.write_text(tmp_path / f"{name}.csv", csvfiles.text(frame))
-    read = {name: csvfiles.read(tmp_path / f"{name}.csv") for name in plot.files}
-    assert_frame_equal(read[regime_map.NAME], table, check_exact=True)
-    assert picture(replace(plot, tables=read)) == picture(plot)
-
-
-def test_the_plot_says_what_it_shows(table):
-    plot = regime_map.plot(table, ABOUT, WIDE, "sphere/")
-    assert plot.name == "sphere/regime-map"
-    assert len(plot.caption.split()) <= 60
-    assert "±15 %" in plot.caption
-    assert all(vocabulary.entry(name) for name in table)
-    assert f"to {table['ratio'].max():.2g}" in plot.alternative
-    assert log(smooth(table)["ratio"].max() / 2) == pytest.approx(0, abs=1e-2)

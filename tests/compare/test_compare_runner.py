@@ -10,84 +10,21 @@ import time
 from concurrent.futures import Future
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
 from pydantic.dataclasses import dataclass
+from rich.console import Console
+from stand_in_solver import SCENE, Heard, Stand, loads
 
 from compare.solving import runner
-from compare.solving.amounts import duration
 from compare.solving.outcome import Outcome, Row
-from compare.solving.runner import SweepProgress, sweep
+from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from compare.solving.terminal import SweepBar
 from compare.solving.workers import ONE_THREAD, STILLBORN, Processes, answered
-from scene import EmptyContact, Indent, Kelvin, Result, Scene, SolveError, Sphere
-
-SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
-
-
-@dataclass(frozen=True)
-class Stand:
-    """Answers at once, leaving a mark; gives up above a load, breaks above a higher one, dies above the highest.
-
-    dies : how often a worker dies of it; it answers then
-    """
-
-    gives_up_above: float = 100.0
-    breaks_above: float = 1000.0
-    dies_above: float = 10000.0
-    dies: int = 99
-    marks: str = ""
-    seconds: float = 0.0
-    name: str = "stand"
-
-    def refusals(self, scene):
-        return []
-
-    def solve(self, scene):
-        load = scene.motion.load
-        time.sleep(self.seconds)
-        if self.marks:
-            Path(self.marks, f"{load:g}-{time.monotonic_ns()}-{os.getpid()}").touch()
-        if load > self.dies_above and len(list(Path(self.marks).glob(f"{load:g}-*"))) <= self.dies:
-            os.kill(os.getpid(), signal.SIGKILL)
-        if load > self.dies_above:
-            load = self.gives_up_above
-        if load > self.breaks_above:
-            raise ZeroDivisionError("a fault in the solver")
-        if load > self.gives_up_above:
-            raise SolveError(f"{load:g} N is too much; press less")
-        threads = {name: float(os.environ.get(name, "nan")) for name in ONE_THREAD}
-        measures = threads | {"process": float(os.getpid())}
-        return Result(scene, self.name, {}, load, 1e-4 * load, 0.0, 0.0, 1.0, 0.25, measures, {"x": [load]})
-
-
-def loads(*values, solver=None):
-    return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
-
-
-class Heard(SweepProgress):
-    def __init__(self):
-        self.said_lines = []
-        self.heard = []
-
-    def planned(self, tasks, reused):
-        self.heard.append(("planned", [task.work for task in tasks], reused))
-
-    def started(self, task):
-        self.heard.append(("started", task.work))
-
-    def finished(self, task, outcome):
-        self.heard.append(("finished", task.work))
-
-    def said(self, line):
-        self.said_lines.append(line)
-
-    def interrupted(self):
-        self.heard.append(("interrupted", None))
+from scene import EmptyContact, Indent
 
 
 class Here:
@@ -279,7 +216,7 @@ def test_a_fresh_process_solves_each_task_where_that_is_asked_for(tmp_path):
 TWIN = """
 import sys
 from pathlib import Path
-from test_compare_runner import Stand, loads
+from stand_in_solver import Stand, loads
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 
@@ -293,7 +230,7 @@ if __name__ == "__main__":
 
 def twin(folder):
     (folder / "twin.py").write_text(TWIN)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])}
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     command = [sys.executable, str(folder / "twin.py"), str(folder)]
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
 
@@ -356,21 +293,6 @@ def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
     assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
 
 
-@pytest.mark.usefixtures("here")
-def test_an_interrupt_stores_what_is_under_way_and_starts_nothing_more(tmp_path):
-    class Impatient(Heard):
-        def finished(self, task, outcome):
-            super().finished(task, outcome)
-            raise KeyboardInterrupt
-
-    heard = Impatient()
-    with pytest.raises(KeyboardInterrupt):
-        sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
-    assert heard.heard[1:] == [("started", 3.0), ("finished", 3.0)]
-    again = sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1)
-    assert (again.solved, again.reused) == (2, 1)
-
-
 def test_an_empty_contact_is_an_answer_with_forces_of_zero():
     class Floats:
         def solve(self, scene):
@@ -412,97 +334,25 @@ def test_a_task_keeps_the_fields_of_its_first_scene_only():
     assert Task(Stand(), scenes).solve().fields == {}
 
 
-class Clock:
-    """Seconds that pass when they are told to."""
-
-    def __init__(self):
-        self.now = 0.0
-
-    def __call__(self):
-        return self.now
-
-
-def lines(terminal=False):
-    from rich.console import Console
-
-    return Console(file=io.StringIO(), force_terminal=terminal, width=100, highlight=False)
-
-
-def test_lines_tell_time_left_failures_and_what_was_reused():
-    console, clock = lines(), Clock()
-    tasks = loads(4.0, 2.0, 1.0)
-    with SweepBar(console, clock=clock) as told:
-        told.planned(tasks, 5)
-        for task, row in zip(tasks[:2], (Row(1.0), Row(reason="too much")), strict=True):
-            told.started(task)
-            clock.now += 2 * task.work
-            told.finished(task, Outcome((row,)))
-        told.said("a worker ended")
-        told.interrupted()
-    assert console.file.getvalue().splitlines() == [
-        "3 tasks to solve, 5 reused",
-        f"1/3, 6 s left, solved {tasks[0].label}",
-        "a worker ended",
-        "finishing the tasks under way",
-        "2 of 3 tasks solved, 5 reused, 1 failed, 12 s",
-    ]
-
-
-def test_a_sweep_that_has_nothing_to_solve_tells_nothing():
-    console = lines()
-    with SweepBar(console) as told:
-        told.planned([], 5)
-    assert console.file.getvalue() == ""
-
-
-def test_a_bar_tells_the_same_on_a_terminal():
-    console, clock = lines(terminal=True), Clock()
-    tasks = loads(4.0, 2.0)
-    with SweepBar(console, clock=clock) as told:
-        told.planned(tasks, 5)
-        told.started(tasks[0])
-        clock.now = 400.0
-        told.finished(tasks[0], Outcome((Row(reason="too much"),)))
-        told.started(tasks[1])
-        told.bar.refresh()
-    said = console.file.getvalue()
-    for part in ("1/2, 1 failed", "3 min 20 s left", "67 %"):
-        assert part in said
-    assert "1 of 2 tasks solved, 5 reused, 1 failed, 6 min 40 s" in said
-
-
 def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
-    console, clock = lines(terminal=True), Clock()
-    tasks = loads(4.0, 2.0)
-    shown = []
+    console = Console(file=io.StringIO(), force_terminal=True, width=100)
+    tasks, now, shown = loads(4.0, 2.0), 0.0, []
 
     def look():
         told.bar.refresh()
         shown.append(told.bar.tasks[0].percentage)
 
-    with SweepBar(console, clock=clock) as told:
+    with SweepBar(console, clock=lambda: now) as told:
         told.planned(tasks, 0)
-        told.started(tasks[0])
-        look()
-        for _ in range(20):
-            clock.now += 1.0
+        for task in tasks:
+            told.started(task)
+            for _ in range(20):
+                now += 1.0
+                look()
+            assert shown[-1] < (100 if task is tasks[-1] else 100 * 4 / 6)
+            told.finished(task, Outcome((Row(1.0),)))
             look()
-        assert shown[0] == 0
-        assert shown[1] > 1
-        assert all(earlier < later for earlier, later in pairwise(shown))
-        assert shown[-1] < 100 * 4 / 6
-        told.finished(tasks[0], Outcome((Row(1.0),)))
-        look()
-        assert shown[-1] == pytest.approx(100 * 4 / 6)
-        told.started(tasks[1])
-        clock.now += 10.0
-        look()
-        assert 100 * 4 / 6 < shown[-1] < 100
-        told.finished(tasks[1], Outcome((Row(1.0),)))
-        look()
-        assert shown[-1] == pytest.approx(100)
-
-
-def test_durations_are_said_as_people_say_them():
-    said = [duration(seconds) for seconds in (None, 0.2, 59.4, 59.6, 3599.0, 3600.0, 90061.0)]
-    assert said == ["?", "0 s", "59 s", "1 min 00 s", "59 min 59 s", "1 h 00 min", "25 h 01 min"]
+    assert shown[0] > 1
+    assert all(earlier < later for earlier, later in pairwise(shown))
+    assert shown[20] == pytest.approx(100 * 4 / 6)
+    assert shown[-1] == pytest.approx(100)

@@ -44,17 +44,9 @@ STEPS = [
     ("import compare; dir(compare)", "compare", HEAVY | {"compare.cli.app", "compare.commands"}),
     ("from compare.library.ready import ready; assert ready()", "compare.library.ready", HEAVY),
     ("command('--help')", "typer", HEAVY),
-    ("command('--version')", "typer", HEAVY),
-    ("command('run', '--help')", "typer", HEAVY - {"pydantic"}),
     ("command('scenes')", "compare.library.ready", LISTED),
-    ("command('new', 'quick-start', 'mine.toml')", "compare.library.ready", LISTED),
     (
         "command('plan', 'scene.toml')",
-        "bem3d",
-        PLANNED | {"compare.solving.runner", "compare.solving.store", "compare.studies.pipeline"},
-    ),
-    (
-        "command('trust', 'scene.toml')",
         "bem3d",
         PLANNED | {"compare.solving.runner", "compare.solving.store", "compare.studies.pipeline"},
     ),

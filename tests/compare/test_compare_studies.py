@@ -4,128 +4,28 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray
+from invented_answers import FEW, SERIES, SLOPE, cut, eq_19, obeying, other, spoiled
 
 from bem3d import BEM
-from compare.report.plots import style
 from compare.solving import parameter_grid
 from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import COARSE, FAILED, FINE, SOLVED
-from compare.statistics import eq23
+from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
 from compare.studies.claims import catalogue, families
 from compare.studies.claims.claims_depth import loading
 from compare.studies.claims.claims_friction import SLOW
-from compare.studies.claims.figures.tables import plots_of_series
 from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
-from compare.studies.claims.series import ROUGH, SMOOTH, Contacts, Series
+from compare.studies.claims.series import SMOOTH, Contacts, Series
 from compare.studies.claims.study import ClaimStudy
-from mdr1d import MDR, equations
+from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 
-SURFACES = 8
-SERIES = Series(
-    name="sphere",
-    title="Rough sphere",
-    scene=catalogue.kelvin("sphere"),
-    speeds=tuple(float(v) for v in np.geomspace(2e-3, 4.0, 10)),
-    values=tuple(float(f) for f in np.geomspace(0.05, 50, 8)),
-    surfaces=SURFACES,
-    profiles=SURFACES,
-    bem=BEM(points=64),
-    mdr=MDR(points=500),
-)
-# Ends and middle of the speeds and loads: enough for families and powers.
-FEW = replace(SERIES, speeds=SERIES.speeds[::3], values=SERIES.values[::3])
-SLOPE = 0.2
 # Friction that grows as a length is none that is the same over every part of an area.
 DRAG = "eq17.friction-per-contact"
 HALF = "fewer than half of the surfaces"
-
-
-def obeying(law, series=SERIES, scatter=0.02, grid=0.0, seed=1, level=1.0, slope=SLOPE):
-    """Answers with a friction law(load, speed) on every surface but for scatter common to all points of a surface.
-
-    grid : relative error of the coarse grid; level : of three dimensions over one
-    """
-    random, parts = np.random.default_rng(seed), {}
-    loads = np.array(series.values)[:, None]
-    speeds = np.array((1e-300, *series.speeds))[:, None, None]
-    logs = np.log10(np.maximum(speeds, 1e-3)) / 2
-    length = 1e-4 * loads ** (1 / (series.scene.indenter.exponent + 1))  # as the nominal contact
-    for solver, contact in (("MDR", "contact_length"), ("BEM", "contact_area")):
-        draws = series.draws[solver]
-        tilts = scatter * random.standard_normal((3, draws))
-        alone = scatter / 4 * random.standard_normal((speeds.size, loads.size, draws))
-        drawn = np.exp(tilts[0] + tilts[1] * logs + tilts[2] * np.log10(loads) / 2 + alone)
-        drawn = drawn * (level if solver == "BEM" else 1.0)
-        for body, factor in ((ROUGH, drawn), (SMOOTH, np.ones((speeds.size, loads.size, 1)))):
-            off = np.array([1.0, 1 + grid])[:, None, None, None]
-            mu = law(loads, speeds) * factor * off
-            force = np.broadcast_to(loads, mu.shape)
-            slow = law(loads, 1e-9) / 1e-9 * factor[:1] / 1e-3
-            columns = {
-                "normal_force": force,
-                "friction_force": mu * force,
-                "depth_reached": loads ** (2 / 3) * 1e-4 * factor,
-                "rms_slope": slope,
-                "pixel": 1e-5,
-                contact: length if solver == "MDR" else length**2,
-                "curvature_by_pressure": slow,
-                "rms_slope_contact": np.sqrt(slow * loads / 4e6 / length),
-                "residual": 0.0,
-                "seconds": 1.0,
-            }
-            dims = ["grid", "speed", series.prescribed, "seed"]
-            columns |= {"status": np.array(SOLVED, object), "reason": np.array("", object)}
-            variables = {name: (dims, np.broadcast_to(each, mu.shape).copy()) for name, each in columns.items()}
-            places = {"grid": [FINE, COARSE], "speed": [0.0, *series.speeds], "points": ("grid", [64, 32])}
-            dataset = xarray.Dataset(variables, places | {series.prescribed: list(series.values)})
-            dataset = dataset if body == ROUGH else dataset.isel(seed=0, drop=True)
-            parts[f"/{series.name}/{body}/{solver}"] = dataset
-    return Contacts(series, xarray.DataTree.from_dict(parts))
-
-
-def eq_19(load, speed, alpha=equations.ALPHA, slope=SLOPE):
-    """The law of the paper for SERIES."""
-    body = SERIES.scene.indenter
-    xi = equations.similarity_variable(load, 1e6, 1e-3, speed, slope, body.mdr_coefficient, body.exponent)
-    return equations.plateau(slope) * equations.interpolation(xi, alpha)
-
-
-def spoiled(contacts, place, solver="BEM", body=ROUGH, reason="no"):
-    """Answers of which some solves of the fine grid failed; place : of (speeds, values, draws) that slide."""
-    answers = contacts.answers.copy(deep=True)
-    dataset = answers[f"{contacts.series.name}/{body}/{solver}"].to_dataset()
-    for name, each in dataset.data_vars.items():
-        value = {"status": FAILED, "reason": reason}.get(name, np.nan)
-        each.values[0, 1:][place] = value
-    answers[f"{contacts.series.name}/{body}/{solver}"] = xarray.DataTree(dataset)
-    return Contacts(contacts.series, answers)
-
-
-def cut(contacts, speeds=None, values=None, surfaces=None):
-    """Answers at fewer speeds, loads or surfaces, the first ones."""
-    series, parts = contacts.series, {}
-    kept = {"speed": slice(None if speeds is None else speeds + 1), series.prescribed: slice(values)}
-    for (solver, body), dataset in contacts.datasets.items():
-        draws = {"seed": slice(surfaces)} if body == ROUGH else {}
-        parts[f"/{series.name}/{body}/{solver}"] = dataset.isel(kept | draws)
-    count = surfaces or series.surfaces
-    few = {"speeds": series.speeds[:speeds], "values": series.values[:values]}
-    few |= {"surfaces": count, "profiles": count}
-    return Contacts(replace(series, **few), xarray.DataTree.from_dict(parts))
-
-
-def other(contacts, name, **roughness):
-    """The same answers as those of another series, of another roughness."""
-    series = contacts.series
-    rough = replace(series.scene.roughness, **roughness)
-    answers = xarray.DataTree.from_dict({f"/{name}": contacts.answers[series.name]})
-    return Contacts(replace(series, name=name, scene=replace(series.scene, roughness=rough)), answers)
 
 
 def of(judged, name, dimension=None):
@@ -150,7 +50,6 @@ def judged(whole):
 
 def test_answers_that_obey_the_law_are_said_to_in_both_dimensionalities_by_the_same_claims(judged):
     one, three = verdicts(judged, "1D"), verdicts(judged, "3D")
-    assert len(one) == 16
     assert set(one.values()) == {"holds"}, one
     assert three == one | {DRAG: "fails"}
 
@@ -196,39 +95,10 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
     three = verdicts(found, "3D")
     assert three | expected == three
     if expected.get("eq17.level") == "fails":
-        assert {each.verdict for each in of(found, "friction.ratio.")} == {"fails"}
+        assert {each.verdict for each in of(found, "friction.ratio.") if each.draws} == {"fails"}
         assert {name for name, verdict in three.items() if verdict == "fails"} == {*LEVELS, DRAG}
     straight = [each.reason for each in of(found, "eq23", "3D") if each.verdict == "undecided"]
     assert all("straight" in reason for reason in straight if reason) or "eq17.level" in expected
-
-
-@pytest.mark.parametrize("power", [0.1, 0.33])
-def test_a_shift_of_friction_itself_leads_with_the_pair_that_was_planted(power):
-    found = judge_series(obeying(lambda load, speed: eq_19(load, speed) * speed**power))
-    for dimension in ("1D", "3D"):
-        named = {each.claim.id: each for each in found.findings if each.dimension == dimension}
-        # curves that were raised are shifted down
-        for name, planted in (
-            ("vertical-exponent", -power),
-            ("exponent", -1.5),
-            ("exponent-beside-vertical", -1.5),
-        ):
-            low, high = named[f"eq23.{name}"].interval
-            assert low <= planted <= high, name
-        low, high = named["eq23.exponent-alone"].interval
-        assert named["eq23.collapse"].verdict == "fails" or not low <= -1.5 <= high
-    told = eq23.answers(found.findings)
-    assert [each.split(": friction is shifted as v^−")[0] for each in told] == ["sphere, 1D", "sphere, 3D"]
-    plots = {each.name: each for each in plots_of_series(found)}
-    points, fits = (plots["sphere/collapse"].tables[name] for name in ("collapse", "collapse-fits"))
-    # shifted both ways the points lie on the curve, as the misfit says
-    assert points["off_curve"].abs().max() < 0.05
-    by = np.log(points["shifted_friction"] / points["friction_coefficient"]).groupby(points["speed"]).mean()
-    assert np.polyfit(np.log(by.index), by, 1)[0] == pytest.approx(-power, abs=0.15)
-    assert fits["misfit"].max() < 0.005
-    with style.applied():
-        assert all(plots[f"sphere/{name}"].figure().axes for name in ("effects", "collapse", "shifts"))
-    assert plots["sphere/shifts"].tables["shifts-fits"]["exponent"].to_numpy() == pytest.approx(-1.5, abs=0.2)
 
 
 @pytest.mark.parametrize("place", [np.s_[0, 2], np.s_[0, 2, :5]])
@@ -288,35 +158,6 @@ def test_a_series_of_which_nothing_was_solved_has_no_finding():
     contacts = Contacts(series, parameter_grid.tree(series.grids, outcomes))
     assert judge_series(contacts).findings == ()
     assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
-
-
-def test_speeds_are_named_by_where_they_lie_and_none_is_asked_twice(whole, judged):
-    # all of them; three that lie far below the knee; one
-    for found, names in (
-        (judged, ["slow", "knee", "fast"]),
-        (judge_series(cut(whole, speeds=3)), ["slow"]),
-        (judge_series(cut(whole, speeds=1, values=1)), ["slow"]),
-    ):
-        assert [each.claim.id for each in of(found, "friction.ratio.")][:-1] == [
-            f"friction.ratio.{name}" for name in names
-        ]
-    assert not of(found, "eq17.load-exponent")  # through a single point
-
-
-def test_a_speed_that_only_the_coarse_grid_lacks_leaves_the_prediction_unknown_not_wrong(whole):
-    answers = spoiled(whole, np.s_[0, :0])
-    answers.answers["sphere/rough/BEM"]["friction_force"].values[1, 1] = np.nan
-    (predicted,) = of(judge_series(answers), "eq23.predicted", "3D")
-    assert np.isfinite(predicted.value)
-
-
-def test_every_finding_names_its_series_and_the_plot_that_shows_it(judged):
-    assert {each.where for each in judged.findings} == {"sphere"}
-    plots = {each.claim.id: each.plot for each in judged.findings}
-    assert plots["rest.depth-deep"] == "sphere/depth"
-    assert plots["eq17.load-exponent"] == plots["eq23.collapse"] == "sphere/collapse"
-    assert plots["eq23.exponent"] == "sphere/shifts"
-    assert plots["limit.slow"] == "sphere/levels"
 
 
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
@@ -405,20 +246,6 @@ def test_solved_contacts_tell_the_known_truths(solved):
     assert [each.verdict for each in of(rest, "smooth.rest-depth")] == ["holds", "holds"]
 
 
-@pytest.mark.parametrize(
-    ("kinds", "ids", "dimensions"),
-    [
-        (("collapse", "families"), {"eq23"}, {"1D", "3D"}),
-        (("friction",), {"eq14", "eq17", "eq19", "limit"}, {"1D", "3D"}),
-        (("dimensions",), {"pair", "rest"}, {"1D/3D"}),
-    ],
-)
-def test_only_the_kinds_of_claims_that_are_asked_are_judged(kinds, ids, dimensions):
-    found = judge_series(obeying(eq_19, replace(FEW, claims=kinds)))
-    assert {each.claim.id.partition(".")[0] for each in of(found, "")} == ids
-    assert {each.dimension for each in found.findings} == dimensions
-
-
 MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 
 
@@ -433,14 +260,3 @@ def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     assert {task.solver.name for task in tasks} == {"MDR", "BEM"}
     grids = [grids for each in study.grids().values() for grids in each.grids.values()]
     assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)
-
-
-def test_the_slowest_and_the_fastest_speed_lie_on_both_sides_of_the_knee():
-    for shape in catalogue.SHAPES:
-        scene = catalogue.kelvin(shape)
-        slope = scene.roughness.rms_slope(scene.roughness.q_max(0.0))
-        c, n = scene.indenter.mdr_coefficient, scene.indenter.exponent
-        ends = ((catalogue.LOADS[1], catalogue.SPEEDS[0]), (catalogue.LOADS[0], catalogue.SPEEDS[1]))
-        slow, fast = (equations.similarity_variable(load, 1e6, 1e-3, v, slope, c, n) for load, v in ends)
-        assert slow < 0.01
-        assert fast > 5

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray
-from test_compare_studies import FEW, SERIES, cut, eq_19, obeying, other, spoiled
+from invented_answers import FEW, SERIES, cut, eq_19, obeying, other, spoiled
 
 from compare.report import csvfiles
 from compare.report.page import Findings, Plot, Section, Table

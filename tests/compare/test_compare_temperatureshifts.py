@@ -1,7 +1,7 @@
 """Repeats within a tolerance, and shifts from temperature to temperature: what was planted is found."""
 
 from dataclasses import replace
-from itertools import groupby, pairwise
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -96,20 +96,6 @@ def test_a_sweep_without_gaps_is_never_chained():
     np.testing.assert_allclose([each.friction * each.load**0.3 for each in points.points], 1, rtol=1e-6)
 
 
-def test_at_a_tolerance_of_nil_points_are_equal_loads_and_speeds():
-    friction, load, speed, _ = measured(jitter=0.0, kelvins=KELVINS[2:3])
-    load[::7] *= 1 + 1e-9
-    rows = sorted(zip(speed.tolist(), load.tolist(), friction.tolist(), strict=True))
-    plain = [(key, [row[2] for row in own]) for key, own in groupby(rows, key=lambda row: row[:2])]
-    points = pooled(friction, load, speed, None, 0.0)
-    assert [(each.speed, each.load) for each in points.points] == [key for key, _ in plain]
-    np.testing.assert_allclose(
-        [each.friction for each in points.points], [np.mean(own) for _, own in plain], rtol=1e-15
-    )
-    left = sum(float(np.sum(np.square(np.array(own) / np.mean(own) - 1))) for _, own in plain)
-    assert points.scatter == pytest.approx(np.sqrt(left / points.dof), rel=1e-13)
-
-
 @pytest.mark.parametrize("law", [knee, bent])
 def test_shifts_that_were_planted_are_found_within_their_errors(law):
     told = shifts(*measured(law))
@@ -125,20 +111,6 @@ def test_shifts_that_were_planted_are_found_within_their_errors(law):
 def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():
     told = shifts(*measured(bent, noise=0.0, jitter=0.0))
     np.testing.assert_allclose(told.shifts.value, wlf(KELVINS), atol=1e-8)
-
-
-def test_levers_are_what_a_point_moves_the_shifts_by():
-    points = pooled(*measured(bent, noise=0.005), TOLERANCE)
-    each = isotherms(points)
-    told = found(each, points.loads, points.dof)
-    moved = each[1].log_friction.copy()
-    moved[7] += 1e-5
-    other = found((each[0], replace(each[1], log_friction=moved), *each[2:]), points.loads, points.dof)
-    place = each[0].log_speed.size + 7
-    # Gauss-Newton leaves out the curvature of what is missed.
-    np.testing.assert_allclose(
-        (other.shifts.value - told.shifts.value) / 1e-5, told.levers[:, place], rtol=0.1, atol=2e-3
-    )
 
 
 def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():

@@ -32,21 +32,3 @@ def test_a_tutorial_runs_from_its_first_cell_to_its_last(tmp_path, monkeypatch, 
     for number, cell in enumerate(cells(name)):
         exec(compile(cell, f"{name}, cell {number}", "exec"), known)
     assert "compare" in known
-
-
-@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.md")), ids=lambda path: path.stem)
-def test_every_tutorial_is_listed_and_has_cells_that_are_found(path):
-    text = path.read_text(encoding="utf-8")
-    assert len(cells(path.stem)) == text.count("```{code-cell}")
-    if path.stem != "index":
-        assert path.stem in (FOLDER / "index.md").read_text(encoding="utf-8")
-        assert "assert " in text
-
-
-def test_friction_of_a_scene_of_ones_own_takes_at_most_eight_lines():
-    _, question, plot, *_ = cells("sweep")
-    lines = [line for line in (question + plot).splitlines() if line]
-    assert len(lines) <= 8
-    assert "compare.sweep(" in question
-    assert "to_dataframe()" in question
-    assert "friction_plot(" in plot

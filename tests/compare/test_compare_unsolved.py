@@ -3,7 +3,6 @@
 import json
 
 import pytest
-from test_compare_api import TINY
 from typer.testing import CliRunner
 
 import compare
@@ -12,7 +11,6 @@ from compare.cli.app import app
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import SceneTask
 from compare.solving.unsolved import Unsolved
-from compare.studies.run.study import Run
 from scene import Doubtful, Indent, Kelvin, Scene, Sphere
 
 SOLVED, EMPTY = Row(1.0, 1.0, 0.0), Row(0.0, 1.0, 0.0)
@@ -59,14 +57,6 @@ def test_reasons_that_differ_by_numbers_alone_are_one_and_what_broke_is_not_coun
         f"2 of them: {WHY.format(3)}",
         "1 of them: another: press less",
     )
-
-
-def test_a_run_names_its_own_contacts(tmp_path):
-    run = Run.of(TINY)
-    assert {(each.solver, each.scenes[0]) for each in run.own} == {
-        (TINY.mdr, TINY.scene),
-        (TINY.bem, TINY.scene),
-    }
 
 
 # Its friction is not told by so few points, which only the solve shows.

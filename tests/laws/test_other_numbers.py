@@ -87,7 +87,7 @@ SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 ROUGH = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-3, shortest=1e-4, rolloff=5e-4, seed=2)
 WARM = (300.0, 300.0, 300.0, 300.0)
 TABLE = Table(FREQUENCY, STORAGE, LOSS, temperature=WARM)
-RECTANGLE = compare.ParameterGrid(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
+PARAMETER_GRID = compare.ParameterGrid(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
 # Valid objects, in which each field that takes a number has one.
 OBJECTS = [
     WLF(temperature=310.0, reference=300.0, c1=8.0, c2=100.0),
@@ -128,7 +128,7 @@ OBJECTS = [
         speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0, 2.0), surfaces=2, profiles=3
     ),
     compare.CorrectedMDR(profiles=3),
-    RECTANGLE,
+    PARAMETER_GRID,
     compare.Claim("a", "A", expected=1.0, tolerance=0.1),
     compare.Finding(compare.Claim("a", "A"), value=1.0, scatter=(0.5, 1.5), grid=0.1),
     compare.Quantity("a", "A", "depth", compare.SceneTask(MDR(), (SLIDING,)), 2.0, 0.1, "", ""),
@@ -520,7 +520,7 @@ def test_what_depends_on_others_takes_their_unit(quantity):
 @pytest.mark.parametrize("wrong", [True, 1.5, "many", 1j])
 def test_counts_of_functions_are_whole_numbers(wrong, tmp_path):
     with pytest.raises(ValueError, match="draws"):
-        replace(RECTANGLE, draws={"BEM": wrong})
+        replace(PARAMETER_GRID, draws={"BEM": wrong})
     with pytest.raises(ValueError, match="workers"):
         compare.run(SLIDING, tmp_path, workers=wrong)
     with pytest.raises(ValueError, match="frames"):

@@ -1,0 +1,43 @@
+"""The command in a process of its own, as a person starts it."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+# A machine under load starts processes slowly [s].
+PATIENCE = 120
+
+
+def heed_signals():
+    """Whoever runs the tests in the background ignores interrupts, and what is started inherits that."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def start(folder, *arguments, program=("-m", "compare"), **environment):
+    """A process in a group of its own, in which warnings are errors."""
+    return subprocess.Popen(
+        [sys.executable, *program, *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=heed_signals,
+        env=os.environ | {"PYTHONWARNINGS": "error"} | environment,
+    )
+
+
+def finish(process):
+    """Status, what was said and what was complained of."""
+    said, complained = process.communicate(timeout=PATIENCE)
+    return process.returncode, said, complained
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert condition()

@@ -1,0 +1,35 @@
+"""Scenes, cases and grids of parameters small enough to be solved in a test."""
+
+from bem3d import BEM
+from compare.library.case import Case, Variations
+from compare.solving.parameter_grid import ParameterGrid, on_two_grids
+from mdr1d import MDR
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+
+SLIDING = Scene(
+    indenter=Sphere(radius=1e-2),
+    elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
+    motion=Slide(speed=0.1, load=1.0),
+    roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
+)
+TINY = Case(
+    title="A <rough> sphere & more",
+    indenter=SLIDING.indenter,
+    elastomer=SLIDING.elastomer,
+    motion=SLIDING.motion,
+    roughness=SLIDING.roughness,
+    study=Variations(
+        speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,), surfaces=2, profiles=2
+    ),
+    bem=BEM(points=32),
+    mdr=MDR(points=500),
+)
+
+WAVY = SelfAffine(hurst=0.5, rms_height=1e-5, longest=2e-3, shortest=5e-4, seed=3)
+PARAMETER_GRID = ParameterGrid(
+    scene=Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.5), WAVY),
+    speeds=(0.1, 0.0, 0.2),
+    values=(0.5, 1.0),
+    grids=on_two_grids(MDR(points=200), BEM(points=64)),
+    draws={"MDR": 3, "BEM": 2},
+)
